@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry points: check the arguments, call in, turn outcomes into statuses.
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "batch/edge.h"
+#include "batch/rig.h"
+#include "batch/solve.h"
+#include "batch/status.h"
+#include "batch/streams.h"
+#include "core/arm.h"
+#include "simd/dispatch.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+static_assert(flag::reached == SWIVEL_REACHED && flag::clamped_far == SWIVEL_CLAMPED_FAR &&
+              flag::clamped_near == SWIVEL_CLAMPED_NEAR && flag::swivel_undefined == SWIVEL_SWIVEL_UNDEFINED &&
+              flag::bad_input == SWIVEL_BAD_INPUT);
+
+namespace {
+
+constexpr std::uint32_t kAllFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
+constexpr std::uint64_t kMostLimbs = 1u << 31;
+constexpr std::size_t kArenaAlignment = 64;
+
+swivel_status check(const swivel_crowd_def* def)
+{
+    if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
+    if (def->size != sizeof(swivel_crowd_def))
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has size %zu, this library's has %zu; start from swivel_default_crowd_def()",
+                    def->size, sizeof(swivel_crowd_def));
+    if (def->features & ~kAllFeatures)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
+    if ((def->features & SWIVEL_POLE_DIRECTION) && !(def->features & SWIVEL_WORLD))
+        return fail(SWIVEL_INVALID_ARGUMENT, "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both");
+    if (def->group_count == 0 || !def->groups)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
+    if (!def->allocate != !def->release)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
+    std::uint64_t limb_count = 0;
+    for (std::uint32_t g = 0; g < def->group_count; ++g) {
+        if (def->groups[g].limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+        limb_count += std::uint64_t{def->groups[g].limb_count} + SWIVEL_LANES;
+    }
+    if (limb_count > kMostLimbs) return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs; use several crowds");
+    return SWIVEL_OK;
+}
+
+// A range of limbs of a group, and the field it is about.
+swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+    if (group >= crowd->group_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u does not exist; this crowd has %u", group, crowd->group_count);
+    const std::uint32_t has = crowd->groups[group].limb_count;
+    if (first > has || limb_count > has - first)
+        return fail(SWIVEL_INVALID_ARGUMENT, "limbs %u to %llu are not all in group %u, which has %u", first,
+                    static_cast<unsigned long long>(first) + limb_count, group, has);
+    return SWIVEL_OK;
+}
+
+swivel_status check_stride(const void* data, std::size_t stride, std::size_t value_bytes, bool may_repeat)
+{
+    if (!data) return fail(SWIVEL_INVALID_ARGUMENT, "data is null");
+    if (stride < value_bytes && !(may_repeat && stride == 0))
+        return fail(SWIVEL_INVALID_ARGUMENT, "stride %zu is smaller than a value, %zu bytes", stride, value_bytes);
+    return SWIVEL_OK;
+}
+
+swivel_status check_field(const swivel_crowd& crowd, swivel_field field)
+{
+    if (field_row_count(crowd.features, field) != 0) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "field %d is not part of this crowd; see the features it was created with", static_cast<int>(field));
+}
+
+RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
+{
+    const bool input = is_input(field);
+    return {input ? crowd.input : crowd.results,
+            input ? crowd.input_row_count : crowd.result_row_count,
+            field_first_row(crowd.features, field),
+            field_row_count(crowd.features, field),
+            std::size_t{crowd.groups[group].first_block} * SWIVEL_LANES + first,
+            limb_count};
+}
+
+// The kernels to solve with, or null with the reason in last_error().
+const Isa* usable_isa()
+{
+    const Isa* isa = current_isa();
+    if (!isa) fail(SWIVEL_UNKNOWN_ISA, "SWIVEL_FORCE_ISA=%s names no instruction set that this build has and this CPU runs; unset it", std::getenv("SWIVEL_FORCE_ISA"));
+    return isa;
+}
+
+void store(const swivel_out& out, std::size_t n, const Vector<double>& v)
+{
+    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, v.c, sizeof v.c);
+}
+void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
+{
+    const double xyzw[4] = {q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>()};
+    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
+}
+
+}  // namespace
+
+uint32_t swivel_version(void) { return SWIVEL_VERSION; }
+
+const char* swivel_status_text(swivel_status status)
+{
+    switch (status) {
+    case SWIVEL_OK: return "done";
+    case SWIVEL_INVALID_ARGUMENT: return "invalid argument";
+    case SWIVEL_OUT_OF_MEMORY: return "out of memory";
+    case SWIVEL_UNKNOWN_ISA: return "unknown instruction set";
+    case SWIVEL_ISA_UNAVAILABLE: return "instruction set not available on this CPU";
+    }
+    return "unknown status";
+}
+
+const char* swivel_last_error(void) { return last_error(); }
+
+swivel_crowd_def swivel_default_crowd_def(void)
+{
+    swivel_crowd_def def{};
+    def.size = sizeof def;
+    return def;
+}
+
+size_t swivel_crowd_bytes(const swivel_crowd_def* def) { return check(def) == SWIVEL_OK ? crowd_bytes(*def) : 0; }
+
+swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_crowd_create: crowd is null");
+    *crowd = nullptr;
+    if (const swivel_status status = check(def); status != SWIVEL_OK) return status;
+    const size_t bytes = crowd_bytes(*def);
+    void (*release)(void*, size_t, void*) = def->release;
+    void* arena = nullptr;
+    if (def->memory) {
+        if (reinterpret_cast<std::uintptr_t>(def->memory) % kArenaAlignment != 0)
+            return fail(SWIVEL_INVALID_ARGUMENT, "the caller's memory is not aligned to %zu bytes", kArenaAlignment);
+        if (def->memory_bytes < bytes)
+            return fail(SWIVEL_OUT_OF_MEMORY, "the caller's memory has %zu bytes, the crowd needs %zu", def->memory_bytes, bytes);
+        arena = def->memory;
+        release = nullptr;
+    } else if (def->allocate) {
+        arena = def->allocate(bytes, kArenaAlignment, def->user);
+    } else {
+        arena = std::aligned_alloc(kArenaAlignment, bytes);
+        release = [](void* memory, size_t, void*) { std::free(memory); };
+    }
+    if (!arena) return fail(SWIVEL_OUT_OF_MEMORY, "no memory for a crowd of %zu bytes", bytes);
+    *crowd = place_crowd(*def, arena);
+    (*crowd)->release = release;
+    (*crowd)->user = def->user;
+    return SWIVEL_OK;
+}
+
+void swivel_crowd_destroy(swivel_crowd* crowd)
+{
+    if (crowd && crowd->release) crowd->release(crowd->arena, crowd->arena_bytes, crowd->user);
+}
+
+swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, float lengths[2])
+{
+    if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
+    return bind(*chain, *binding, lengths);
+}
+
+uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd->block_count; }
+uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group)
+{
+    return crowd->groups[group].first_block * SWIVEL_LANES;
+}
+uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group) { return crowd->groups[group].limb_count; }
+uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field)
+{
+    return field_first_row(crowd->features, field);
+}
+uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field)
+{
+    return field_row_count(crowd->features, field);
+}
+swivel_rows swivel_input_rows(swivel_crowd* crowd) { return {crowd->input, crowd->block_count, crowd->input_row_count}; }
+swivel_rows swivel_result_rows(swivel_crowd* crowd) { return {crowd->results, crowd->block_count, crowd->result_row_count}; }
+
+swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
+                           swivel_in values)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (!is_input(field)) return fail(SWIVEL_INVALID_ARGUMENT, "field %d is a result; swivel_write takes input fields", static_cast<int>(field));
+    if (const swivel_status status = check_field(*crowd, field); status != SWIVEL_OK) return status;
+    const RowSpan rows = span_of(*crowd, field, group, first, limb_count);
+    if (const swivel_status status = check_stride(values.data, values.stride, rows.component_count * sizeof(float), true); status != SWIVEL_OK) return status;
+    copy_in(rows, values);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
+                          swivel_out values)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_field(*crowd, field); status != SWIVEL_OK) return status;
+    const RowSpan rows = span_of(*crowd, field, group, first, limb_count);
+    if (const swivel_status status = check_stride(values.data, values.stride, rows.component_count * sizeof(float), false); status != SWIVEL_OK) return status;
+    copy_out(rows, values);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_solve(swivel_crowd* crowd)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve: crowd is null");
+    const Isa* isa = usable_isa();
+    if (!isa) return SWIVEL_UNKNOWN_ISA;
+    solve_all(*crowd, *isa->kernels);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: crowd is null");
+    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: this crowd has %u blocks", crowd->block_count);
+    const Isa* isa = usable_isa();
+    if (!isa) return SWIVEL_UNKNOWN_ISA;
+    solve_blocks(*crowd, *isa->kernels, first_block, block_count);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count, swivel_out elbow,
+                             swivel_out wrist, swivel_out hand)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (hand.data && !(crowd->features & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
+    for (const auto& [out, bytes] : {std::pair{elbow, 3 * sizeof(double)}, {wrist, 3 * sizeof(double)}, {hand, 4 * sizeof(double)}})
+        if (out.data)
+            if (const swivel_status status = check_stride(out.data, out.stride, bytes, false); status != SWIVEL_OK) return status;
+    const Group& of = crowd->groups[group];
+    for (uint32_t n = 0; n < limb_count; ++n) {
+        const LimbPose pose = forward(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
+        store(elbow, n, pose.elbow);
+        store(wrist, n, pose.wrist);
+        store(hand, n, pose.hand);
+    }
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                               swivel_out distance)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_stride(distance.data, distance.stride, sizeof(double), false); status != SWIVEL_OK) return status;
+    const Group& of = crowd->groups[group];
+    for (uint32_t n = 0; n < limb_count; ++n) {
+        const double value = residual(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
+        std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
+    }
+    return SWIVEL_OK;
+}
+
+const char* swivel_isa_name(void)
+{
+    const Isa* isa = usable_isa();
+    return isa ? isa->name : nullptr;
+}
+
+swivel_status swivel_use_isa(const char* name)
+{
+    const Isa* isa = name ? find_isa(name) : nullptr;
+    if (!isa) return fail(SWIVEL_UNKNOWN_ISA, "no instruction set '%s' in this build; swivel_isa_at() lists them", name ? name : "");
+    if (!isa->can_run()) return fail(SWIVEL_ISA_UNAVAILABLE, "this CPU or operating system does not run '%s'", name);
+    use_isa(*isa);
+    return SWIVEL_OK;
+}
+
+const char* swivel_isa_at(uint32_t index)
+{
+    const Isa* isa = isa_at(index);
+    return isa ? isa->name : nullptr;
+}
+
+int swivel_isa_runs(const char* name)
+{
+    const Isa* isa = name ? find_isa(name) : nullptr;
+    return isa && isa->can_run();
+}

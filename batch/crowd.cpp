@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "batch/crowd.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "simd/rows.h"
+
+namespace swivel {
+
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+
+std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
+
+struct Layout {
+    std::uint32_t block_count;
+    std::size_t groups, input, results, end;  // byte offsets in the arena
+
+    explicit Layout(const swivel_crowd_def& def) : block_count(0)
+    {
+        for (std::uint32_t g = 0; g < def.group_count; ++g) block_count += blocks_of(def.groups[g]);
+        const std::size_t row_bytes = std::size_t{block_count} * SWIVEL_LANES * sizeof(float);
+        groups = aligned(sizeof(swivel_crowd));
+        input = groups + aligned(def.group_count * sizeof(Group));
+        results = input + row_bytes * input_row_count(def.features);
+        end = results + row_bytes * result_row_count(def.features);
+    }
+};
+
+void fill_field(const swivel_crowd& crowd, swivel_field field, std::initializer_list<float> values)
+{
+    const std::uint32_t first = field_first_row(crowd.features, field);
+    if (field_row_count(crowd.features, field) == 0) return;
+    for (std::uint32_t block = 0; block < crowd.block_count; ++block) {
+        float* row = crowd.input + row_offset(std::size_t{block} * SWIVEL_LANES, crowd.input_row_count, first);
+        for (const float value : values) row = std::fill_n(row, std::size_t{SWIVEL_LANES}, value);
+    }
+}
+
+}  // namespace
+
+std::size_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
+
+swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
+{
+    const Layout layout(def);
+    char* const base = static_cast<char*>(arena);
+    std::memset(base, 0, layout.end);
+    Group* const groups = reinterpret_cast<Group*>(base + layout.groups);
+    std::uint32_t first_block = 0;
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        const std::uint32_t block_count = blocks_of(def.groups[g]);
+        new (groups + g) Group{first_block, block_count, def.groups[g].limb_count, def.groups[g].binding};
+        first_block += block_count;
+    }
+
+    swivel_crowd* const crowd = new (base) swivel_crowd{
+        def.features, def.group_count, layout.block_count, input_row_count(def.features), result_row_count(def.features),
+        groups, reinterpret_cast<float*>(base + layout.input), reinterpret_cast<float*>(base + layout.results),
+        arena, layout.end, nullptr, nullptr};
+
+    fill_field(*crowd, SWIVEL_TARGET, {0, 0, 2});
+    fill_field(*crowd, SWIVEL_POLE, {0, -1, 0});
+    fill_field(*crowd, SWIVEL_LENGTHS, {1, 1});
+    fill_field(*crowd, SWIVEL_PARENT_ROTATION, {0, 0, 0, 1});
+    fill_field(*crowd, SWIVEL_PARENT_SCALE, {1});
+    fill_field(*crowd, SWIVEL_HAND, {0, 0, 0, 1});
+    return crowd;
+}
+
+}  // namespace swivel

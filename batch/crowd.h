@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// A crowd in memory: one arena, laid out at creation as the crowd itself, its groups, its input rows, its result rows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "batch/swivel.h"
+
+namespace swivel {
+
+struct Group {
+    std::uint32_t first_block, block_count, limb_count;
+    swivel_binding binding;
+};
+
+}  // namespace swivel
+
+struct swivel_crowd {
+    std::uint32_t features;
+    std::uint32_t group_count, block_count;
+    std::uint32_t input_row_count, result_row_count;
+    swivel::Group* groups;
+    float *input, *results;
+    void* arena;
+    std::size_t arena_bytes;
+    void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
+    void* user;
+};
+
+namespace swivel {
+
+// Bytes of the arena. The def must be valid.
+std::size_t crowd_bytes(const swivel_crowd_def& def);
+// Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long, and sets all inputs to rest.
+swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena);
+
+}  // namespace swivel

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "batch/edge.h"
+
+#include <bit>
+#include <cmath>
+
+#include "simd/rows.h"
+
+namespace swivel {
+
+namespace {
+
+struct Reader {
+    const swivel_crowd& crowd;
+    std::size_t limb;
+
+    double operator()(swivel_field field, std::uint32_t component) const { return lane(field, component); }
+    float lane(swivel_field field, std::uint32_t component) const
+    {
+        const float* rows = is_input(field) ? crowd.input : crowd.results;
+        const std::uint32_t row_count = is_input(field) ? crowd.input_row_count : crowd.result_row_count;
+        return rows[row_offset(limb, row_count, field_first_row(crowd.features, field) + component)];
+    }
+    Vector<double> vector_of(swivel_field f) const { return vector((*this)(f, 0), (*this)(f, 1), (*this)(f, 2)); }
+    Rotor<double> rotor_of(swivel_field f) const
+    {
+        return normalise(rotor((*this)(f, 0), (*this)(f, 1), (*this)(f, 2), (*this)(f, 3)));
+    }
+};
+
+Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0], q[1], q[2], q[3])); }
+
+}  // namespace
+
+LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb)
+{
+    const Reader read{crowd, limb};
+    const bool world = crowd.features & SWIVEL_WORLD, joints = crowd.features & SWIVEL_JOINTS;
+    const Rotor<double> one = rotor(0.0, 0.0, 0.0, 1.0);
+
+    const Vector<double> shoulder = world ? read.vector_of(SWIVEL_PARENT_POSITION) : vector(0.0, 0.0, 0.0);
+    const Rotor<double> parent = world ? read.rotor_of(SWIVEL_PARENT_ROTATION) : one;
+    const double scale = world ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
+    // Without a world the arm frame itself is the space of the targets, so the parent joint is seen from it.
+    const Rotor<double> base = joints && !world ? ~rotor_of(group.binding.parent_from_arm) : parent;
+
+    const Rotor<double> upper_from_arm = joints ? rotor_of(group.binding.upper_from_arm) : one;
+    const Rotor<double> fore_from_arm = joints ? rotor_of(group.binding.fore_from_arm) : one;
+    const Rotor<double> elbow = joints ? read.rotor_of(SWIVEL_ELBOW)
+                                       : normalise(rotor(-read(SWIVEL_ELBOW, 1), 0.0, 0.0, read(SWIVEL_ELBOW, 0)));
+
+    const Rotor<double> upper_w = base * read.rotor_of(SWIVEL_SHOULDER);
+    const Rotor<double> fore_w = upper_w * elbow;
+    const Vector<double> e3 = vector(0.0, 0.0, 1.0);
+    const Vector<double> elbow_w = shoulder + (scale * read(SWIVEL_LENGTHS, 0)) * sandwich(upper_w * upper_from_arm, e3);
+    const Vector<double> wrist_w = elbow_w + (scale * read(SWIVEL_LENGTHS, 1)) * sandwich(fore_w * fore_from_arm, e3);
+    const Rotor<double> hand_w = crowd.features & SWIVEL_WITH_HAND ? fore_w * read.rotor_of(SWIVEL_WRIST) : fore_w;
+    return {elbow_w, wrist_w, hand_w};
+}
+
+double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
+{
+    const Reader read{crowd, limb};
+    if (std::bit_cast<std::uint32_t>(read.lane(SWIVEL_FLAGS, 0)) & SWIVEL_BAD_INPUT) return 0;
+    const double scale = crowd.features & SWIVEL_WORLD ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
+    const double length = scale * (read(SWIVEL_LENGTHS, 0) + read(SWIVEL_LENGTHS, 1));
+    if (!(length > 0)) return 0;
+    return std::sqrt(len2(forward(crowd, group, limb).wrist - read.vector_of(SWIVEL_TARGET))) / length;
+}
+
+}  // namespace swivel

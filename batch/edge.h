@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+//
+// What needs no lanes: forward kinematics of a solved limb and how far it is from its target, in double.
+#pragma once
+
+#include "batch/crowd.h"
+#include "core/space.h"
+
+namespace swivel {
+
+struct LimbPose {
+    Vector<double> elbow, wrist;  // in the space of the targets
+    Rotor<double> hand;           // identity relative to the forearm without SWIVEL_WITH_HAND
+};
+
+LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb);
+
+// |wrist - target| / (scale * (upper + fore)); 0 for a limb of no length or with bad input.
+double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb);
+
+}  // namespace swivel

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "batch/rig.h"
+
+#include <cmath>
+
+#include "batch/status.h"
+#include "core/solve_arm.h"
+
+namespace swivel {
+
+namespace {
+
+Vector<double> vector_of(const float (&v)[3]) { return vector<double>(v[0], v[1], v[2]); }
+Rotor<double> rotor_of(const float (&q)[4]) { return rotor<double>(q[0], q[1], q[2], q[3]); }
+
+bool is_usable(const Rotor<double>& q) { return len2(q) >= 1e-18 && len2(q) <= 1e18; }
+bool is_usable_bone(const Vector<double>& v) { return len2(v) >= kTiny2 && len2(v) <= kHuge2; }
+
+void store(const Rotor<double>& q, float (&to)[4])
+{
+    const Rotor<double> unit = hemisphere(normalise(q));
+    to[0] = static_cast<float>(unit.at<kI>());
+    to[1] = static_cast<float>(unit.at<kJ>());
+    to[2] = static_cast<float>(unit.at<kK>());
+    to[3] = static_cast<float>(unit.at<kScalar>());
+}
+
+// The rotor from the arm frame to a joint's own frame: e3 to the joint's bone, e1 to the hinge's part orthogonal to it.
+Rotor<double> align(const Vector<double>& bone, const Vector<double>& hinge)
+{
+    const Vector<double> axis = normalise(bone);
+    return frame_rotor(axis, normalise(hinge - scalar_product(hinge, axis) * axis));
+}
+
+bool is_along(const Vector<double>& a, const Vector<double>& b)
+{
+    return !(len2(cross(a, b)) > 1e-6 * len2(a) * len2(b));  // sin 1e-3, as for poles
+}
+
+}  // namespace
+
+swivel_status bind(const swivel_chain& chain, swivel_binding& binding, float* lengths)
+{
+    const Rotor<double> shoulder = rotor_of(chain.shoulder_rotation), elbow = rotor_of(chain.elbow_rotation),
+                        wrist = rotor_of(chain.wrist_rotation);
+    if (!is_usable(shoulder) || !is_usable(elbow) || !is_usable(wrist))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: a rest rotation is zero or not finite; give quaternions x, y, z, w");
+    const Vector<double> upper = vector_of(chain.elbow_offset), fore = vector_of(chain.wrist_offset);
+    if (!is_usable_bone(upper) || !is_usable_bone(fore))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the %s has no direction; offsets must have a length in 1e-15..1e15",
+                    is_usable_bone(upper) ? "forearm" : "upper arm");
+
+    const Rotor<double> elbow_unit = normalise(elbow);
+    const Vector<double> fore_s = sandwich(elbow_unit, fore);  // in the shoulder joint's frame
+    Vector<double> hinge = vector_of(chain.hinge);
+    if (!(len2(hinge) <= kHuge2)) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the hinge is not finite; give an axis or zeros");
+    if (len2(hinge) < kTiny2) {
+        if (is_along(upper, fore_s))
+            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the rest pose is straight, so it does not show the hinge; give one");
+        hinge = cross(fore_s, upper);
+    }
+    if (is_along(hinge, upper) || is_along(hinge, fore_s))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the hinge lies along the %s; give the axis the elbow turns about",
+                    is_along(hinge, upper) ? "upper arm" : "forearm");
+
+    const Rotor<double> upper_from_arm = align(upper, hinge);
+    const Rotor<double> fore_from_arm = align(fore, sandwich(~elbow_unit, hinge));
+    store(shoulder * upper_from_arm, binding.parent_from_arm);
+    store(upper_from_arm, binding.upper_from_arm);
+    store(fore_from_arm, binding.fore_from_arm);
+    store(shoulder, binding.shoulder_rest);
+    store(elbow, binding.elbow_rest);
+    store(wrist, binding.wrist_rest);
+    if (lengths) {
+        lengths[0] = static_cast<float>(std::sqrt(len2(upper)));
+        lengths[1] = static_cast<float>(std::sqrt(len2(fore)));
+    }
+    return SWIVEL_OK;
+}
+
+}  // namespace swivel

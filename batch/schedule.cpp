@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+//
+// Cuts a crowd's blocks into chunks and runs them on oneTBB. The only file that knows oneTBB.
+#include "batch/solve.h"
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#endif
+
+namespace swivel {
+
+void solve_all(const swivel_crowd& crowd, const Kernels& kernels)
+{
+#ifdef SWIVEL_WITH_TBB
+    // Rows of about a quarter of a small L2 cache: some ten microseconds of work, ten times what handing it over costs.
+    constexpr std::size_t kChunkBytes = 128 * 1024;
+    const std::size_t block_bytes = (crowd.input_row_count + crowd.result_row_count) * SWIVEL_LANES * sizeof(float);
+    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes);
+    if (crowd.block_count > chunk) {
+        using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+        oneapi::tbb::parallel_for(Range(0, crowd.block_count, chunk), [&](const Range& blocks) {
+            solve_blocks(crowd, kernels, blocks.begin(), blocks.end() - blocks.begin());
+        });
+        return;
+    }
+#endif
+    solve_blocks(crowd, kernels, 0, crowd.block_count);
+}
+
+}  // namespace swivel

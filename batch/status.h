@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// How a C entry point fails: a status for the program, one line for the person.
+#pragma once
+
+#include "batch/swivel.h"
+
+namespace swivel {
+
+// Formats the line that swivel_last_error() gives on this thread, and returns status. Longer lines are cut at 255 characters.
+[[gnu::format(printf, 2, 3)]] swivel_status fail(swivel_status status, const char* format, ...);
+
+// The line; empty before the first failure.
+const char* last_error();
+
+}  // namespace swivel

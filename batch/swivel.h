@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+//
+// swivel: the arms of crowds. Wrist targets and elbow poles go in, joint rotations come out: batched, free of
+// trigonometry, with the same bits on every CPU. This header is the whole binary interface; swivel.hpp wraps it for C++.
+//
+// Everything here is experimental until release 1.0 keeps it.
+//
+// CONVENTIONS. Lengths are in the caller's unit. Quaternions are Hamilton's, stored x, y, z, w; a*b applies b first.
+// The arm frame has the shoulder at its origin; at rest both bones lie along +z (e3), the hinge is +x (e1), and flexion
+// carries the forearm towards +y (e2). The elbow lies on the pole's side of the line from shoulder to wrist.
+//
+// LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
+// results -> swivel_crowd_destroy(). After creation no call that takes a crowd allocates memory.
+//
+// LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned to 64.
+// Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups: limbs that
+// share one binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end are padding.
+//
+// INPUT ROWS, in this order             rows  present with          meaning
+//   SWIVEL_TARGET                       3     always                wrist position: arm frame, or world with WORLD
+//   SWIVEL_POLE                         3     always                pole point, or a direction with POLE_DIRECTION
+//   SWIVEL_LENGTHS                      2     always                upper arm, forearm (before the parent's scale)
+//   SWIVEL_PARENT_POSITION              3     WORLD                 where the shoulder is, in the world
+//   SWIVEL_PARENT_ROTATION              4     WORLD                 rotation of the shoulder's parent joint, in the world
+//   SWIVEL_PARENT_SCALE                 1     WORLD                 uniform scale of the parent, > 0
+//   SWIVEL_HAND                         4     HAND                  wanted hand orientation: arm frame, or world
+// RESULT ROWS, in this order
+//   SWIVEL_SHOULDER                     4     always                arm frame rotation, or local rotation with JOINTS
+//   SWIVEL_ELBOW                        2     without JOINTS        cos and sin of half the flexion, both >= 0
+//                                       4     JOINTS                local rotation of the elbow joint
+//   SWIVEL_WRIST                        4     HAND                  hand relative to forearm, or local rotation with JOINTS
+//   SWIVEL_FLAGS                        1     always                SWIVEL_REACHED... below, as uint32_t
+//
+// VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
+// length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
+// A limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit.
+//
+// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not zero
+// is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
+//
+// ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
+// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks() on
+// ranges that do not overlap.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(SWIVEL_SHARED) && defined(__GNUC__)
+#define SWIVEL_API __attribute__((visibility("default")))
+#else
+#define SWIVEL_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SWIVEL_VERSION_MAJOR 0
+#define SWIVEL_VERSION_MINOR 1
+#define SWIVEL_VERSION_PATCH 0
+#define SWIVEL_VERSION (SWIVEL_VERSION_MAJOR * 10000 + SWIVEL_VERSION_MINOR * 100 + SWIVEL_VERSION_PATCH)
+
+enum { SWIVEL_LANES = 16 };  // limbs in a block
+
+typedef enum swivel_status {
+    SWIVEL_OK = 0,
+    SWIVEL_INVALID_ARGUMENT = 1,  // an argument breaks its contract
+    SWIVEL_OUT_OF_MEMORY = 2,     // the allocator returned null, or the caller's memory is too small
+    SWIVEL_UNKNOWN_ISA = 3,       // no instruction set of that name was built in
+    SWIVEL_ISA_UNAVAILABLE = 4,   // it was built in, but this CPU or operating system cannot run it
+} swivel_status;
+
+// What the flag word of a limb says. Hard poses are results, not errors.
+typedef enum swivel_flag {
+    SWIVEL_REACHED = 1u << 0,           // the wrist is at the target
+    SWIVEL_CLAMPED_FAR = 1u << 3,       // target out of reach: the wrist is at the nearest reachable point, arm straight
+    SWIVEL_CLAMPED_NEAR = 1u << 4,      // target too near: the wrist is at the nearest reachable point, arm folded
+    SWIVEL_SWIVEL_UNDEFINED = 1u << 5,  // pole along the target within sin 1e-3, of no length, or target on the shoulder
+    SWIVEL_BAD_INPUT = 1u << 30,        // see VALID INPUT; the limb has its rest pose
+    // bits 1, 2 (softened, stretched) and 6 to 29 (limits, continuity) are kept for later releases and are 0
+} swivel_flag;
+
+// What a crowd takes and gives; fixed at creation. Whatever is off costs neither memory nor time.
+typedef enum swivel_feature {
+    SWIVEL_WORLD = 1u << 0,           // targets, poles and hands are in the world; each limb has a parent frame
+    SWIVEL_JOINTS = 1u << 1,          // results are the skeleton's own local rotations, through the group's binding
+    SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
+    SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
+} swivel_feature;
+
+typedef enum swivel_field {
+    SWIVEL_TARGET,
+    SWIVEL_POLE,
+    SWIVEL_LENGTHS,
+    SWIVEL_PARENT_POSITION,
+    SWIVEL_PARENT_ROTATION,
+    SWIVEL_PARENT_SCALE,
+    SWIVEL_HAND,
+    SWIVEL_SHOULDER,
+    SWIVEL_ELBOW,
+    SWIVEL_WRIST,
+    SWIVEL_FLAGS,
+    SWIVEL_FIELD_COUNT
+} swivel_field;
+
+// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w. Made by swivel_bind().
+typedef struct swivel_binding {
+    float parent_from_arm[4];  // arm frame to the shoulder's parent joint
+    float upper_from_arm[4];   // arm frame, bones and hinge at rest, to the shoulder joint's own frame
+    float fore_from_arm[4];    // the same, to the elbow joint's own frame
+    float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations a limb with bad input gets
+} swivel_binding;
+
+// A shoulder, elbow and wrist joint at rest, as a skeleton stores them.
+typedef struct swivel_chain {
+    float shoulder_rotation[4];  // rest rotation of the shoulder joint relative to its parent joint
+    float elbow_rotation[4];     // rest rotation of the elbow joint relative to the shoulder joint
+    float wrist_rotation[4];     // rest rotation of the wrist joint relative to the elbow joint
+    float elbow_offset[3];       // elbow's place in the shoulder joint's frame
+    float wrist_offset[3];       // wrist's place in the elbow joint's frame
+    float hinge[3];              // elbow axis in the shoulder joint's frame: flexion turns the forearm about -hinge. Zero:
+                                 // taken from the rest pose, which then must be bent by more than sin 1e-3
+} swivel_chain;
+
+typedef struct swivel_group_def {
+    uint32_t limb_count;     // 1 or more
+    swivel_binding binding;  // used with SWIVEL_JOINTS, otherwise ignored
+} swivel_group_def;
+
+typedef struct swivel_crowd_def {
+    size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
+    uint32_t features;               // swivel_feature bits
+    uint32_t group_count;            // 1 or more
+    const swivel_group_def* groups;  // group_count of them; copied
+    // Memory, first that is set: the caller's (64-byte aligned, swivel_crowd_bytes() long, the caller frees it after
+    // destroy), the caller's callbacks (64-byte aligned results), the C library.
+    void* memory;
+    size_t memory_bytes;
+    void* (*allocate)(size_t bytes, size_t alignment, void* user);
+    void (*release)(void* memory, size_t bytes, void* user);
+    void* user;
+} swivel_crowd_def;
+
+typedef struct swivel_crowd swivel_crowd;
+
+typedef struct swivel_in {
+    const void* data;
+    size_t stride;  // bytes from one limb's value to the next; 0: one value for all limbs. Any alignment.
+} swivel_in;
+
+typedef struct swivel_out {
+    void* data;
+    size_t stride;  // bytes; at least the value's size. Any alignment.
+} swivel_out;
+
+typedef struct swivel_rows {
+    float* base;  // borrowed from the crowd, valid until it is destroyed
+    uint32_t block_count;
+    uint32_t row_count;
+} swivel_rows;
+
+// The version the library was built as: compare with SWIVEL_VERSION. Any thread.
+SWIVEL_API uint32_t swivel_version(void);
+// What a status means, in a few words. Any thread.
+SWIVEL_API const char* swivel_status_text(swivel_status status);
+// One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
+SWIVEL_API const char* swivel_last_error(void);
+
+// One group must still be given; no features; the C library's memory.
+SWIVEL_API swivel_crowd_def swivel_default_crowd_def(void);
+// Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
+SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
+// Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity; results as zeros.
+// Allocates once. On failure *crowd is null.
+SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
+// Frees what create allocated. Null is allowed.
+SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
+
+// The alignments of a limb from its rest pose, and its two bone lengths (lengths may be null). Fails with
+// SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a hinge along the upper arm or forearm,
+// or a straight rest pose without a hinge. To bend the limb the other way, negate the hinge. Any thread; no allocation.
+SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, float lengths[2]);
+
+// The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. Any thread.
+SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
+SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
+SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
+// First row of a field in its blocks, and its number of rows: 0 if this crowd does not have the field.
+SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field);
+SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field);
+
+// Direct access to rows: the fast way in and out. Padding lanes may hold anything and stay as they are.
+SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
+SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
+
+// Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data: consecutive floats for
+// each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any. Costs about as
+// much as a solve; rows are the fast way.
+SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                                      uint32_t limb_count, swivel_in values);
+SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                                     uint32_t limb_count, swivel_out values);
+
+// Solves every limb, on the calling thread's oneTBB arena if built with it.
+SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
+// Solves a range of blocks on the calling thread; blocks outside are neither read nor written. Never allocates, never uses
+// oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of the
+// caller is restored.
+SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
+
+// Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or 4
+// (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
+SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                        swivel_out elbow, swivel_out wrist, swivel_out hand);
+// How far the wrist of each limb is from its target: one double, in arm lengths (upper + fore, scaled). 0 for a limb of
+// no length or with bad input.
+SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
+                                          uint32_t limb_count, swivel_out distance);
+
+// The instruction set in use; chosen on first need: the environment's SWIVEL_FORCE_ISA, else the best this CPU runs. Null, with
+// swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails the same way. Any thread.
+SWIVEL_API const char* swivel_isa_name(void);
+// Changes it for the whole process, from the next solve on. Any thread.
+SWIVEL_API swivel_status swivel_use_isa(const char* name);
+// The built-in instruction sets, best first; null past the last.
+SWIVEL_API const char* swivel_isa_at(uint32_t index);
+// 1 if this CPU and operating system run it, else 0 (also for unknown names).
+SWIVEL_API int swivel_isa_runs(const char* name);
+
+// One line of a self-check: an error measured over many arms against its limit.
+typedef struct swivel_check {
+    const char* name;      // what is compared, e.g. "float wrist"
+    const char* set;       // over which arms, e.g. "reach 5-98 %"
+    uint64_t arm_count;
+    double max, rms;       // in arm lengths, or as the name says
+    double max_limit, rms_limit;  // 0: not limited
+} swivel_check;
+
+// Checks the formulas against each other: the lecture's steps against the dense oracle, production in float against its
+// target through forward kinematics, on arm_count random arms in each of five reach bands, ratios 1:1 to 1000:1. Calls
+// report once for each check, and for hard poses. *passed becomes 1 if every limit was kept, else 0. Takes about
+// a microsecond an arm on one thread; allocates nothing. The same seed gives the same arms everywhere.
+SWIVEL_API swivel_status swivel_verify(uint64_t arm_count, uint64_t seed,
+                                       void (*report)(const swivel_check* check, void* user), void* user, int* passed);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// C++ on top of swivel.h: a crowd that frees itself, ranges instead of pointers and strides, exceptions instead of
+// statuses. Header only; adds no behaviour. Contracts, units and layouts are swivel.h's.
+#pragma once
+
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "swivel.h"
+
+namespace swivel {
+
+// A failed call: its status, and swivel_last_error() as the text.
+struct Error : std::runtime_error {
+    explicit Error(swivel_status failed) : std::runtime_error(swivel_last_error()), status(failed) {}
+    swivel_status status;
+};
+
+inline void check(swivel_status status)
+{
+    if (status != SWIVEL_OK) throw Error(status);
+}
+
+// A limb's alignments and bone lengths from its rest pose: swivel_bind().
+struct BoundLimb {
+    swivel_binding binding;
+    float lengths[2];
+};
+inline BoundLimb bind(const swivel_chain& chain)
+{
+    BoundLimb limb;
+    check(swivel_bind(&chain, &limb.binding, limb.lengths));
+    return limb;
+}
+
+// Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group on,
+// each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by size.
+class Crowd {
+public:
+    Crowd(std::uint32_t features, std::span<const swivel_group_def> groups)
+    {
+        swivel_crowd_def def = swivel_default_crowd_def();
+        def.features = features;
+        def.group_count = static_cast<std::uint32_t>(groups.size());
+        def.groups = groups.data();
+        check(swivel_crowd_create(&def, &crowd_));
+    }
+    explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
+    Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
+    Crowd& operator=(Crowd&& other) noexcept
+    {
+        std::swap(crowd_, other.crowd_);
+        return *this;
+    }
+    ~Crowd() { swivel_crowd_destroy(crowd_); }
+
+    swivel_crowd* get() const { return crowd_; }
+
+    template <std::ranges::contiguous_range R>
+    void write(swivel_field field, std::uint32_t group, const R& values, std::uint32_t first = 0)
+    {
+        check(swivel_write(crowd_, field, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
+    }
+    // The same value for every limb of the group.
+    template <class Value>
+    void write_all(swivel_field field, std::uint32_t group, const Value& value)
+    {
+        check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
+    }
+    template <std::ranges::contiguous_range R>
+    void read(swivel_field field, std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    {
+        check(swivel_read(crowd_, field, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
+    }
+
+    void solve() { check(swivel_solve(crowd_)); }
+    void solve_blocks(std::uint32_t first, std::uint32_t count) { check(swivel_solve_blocks(crowd_, first, count)); }
+
+    template <std::ranges::contiguous_range R>
+    void elbows(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    {
+        check(swivel_forward(crowd_, group, first, count(values), {std::ranges::data(values), value_bytes<R>}, {}, {}));
+    }
+    template <std::ranges::contiguous_range R>
+    void wrists(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    {
+        check(swivel_forward(crowd_, group, first, count(values), {}, {std::ranges::data(values), value_bytes<R>}, {}));
+    }
+    template <std::ranges::contiguous_range R>
+    void hands(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    {
+        check(swivel_forward(crowd_, group, first, count(values), {}, {}, {std::ranges::data(values), value_bytes<R>}));
+    }
+    template <std::ranges::contiguous_range R>
+    void residuals(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    {
+        check(swivel_residuals(crowd_, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
+    }
+
+private:
+    template <class R>
+    static constexpr std::size_t value_bytes = sizeof(std::ranges::range_value_t<R>);
+    template <class R>
+    static std::uint32_t count(const R& values)
+    {
+        return static_cast<std::uint32_t>(std::ranges::size(values));
+    }
+
+    swivel_crowd* crowd_ = nullptr;
+};
+
+}  // namespace swivel

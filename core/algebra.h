@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+//
+// The conformal geometric algebra G(4,1) at compile time. A multivector's type says which blades it has; a product's type
+// and its terms follow from its factors' types, so S1 ^ S2 ^ plane costs its own multiplications and nothing else.
+//
+// Basis: e1 e2 e3, e0 (origin), einf (infinity) with e0^2 = einf^2 = 0, e0.einf = -1. Blades are ordered e1 e2 e3 einf e0,
+// except that the Euclidean bivectors are the lecture's imaginary units i = e3^e2, j = e1^e3, k = e2^e1 themselves.
+// This is the only file with component arithmetic.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "core/num.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A basis blade: the set of its basis vectors, one bit each. A BladeSet: bit b is set when blade b is present.
+using Blade = unsigned;
+using BladeSet = std::uint32_t;
+
+inline constexpr Blade kScalar = 0, kE1 = 1, kE2 = 2, kE3 = 4, kEinf = 8, kE0 = 16;
+inline constexpr Blade kI = kE3 | kE2, kJ = kE1 | kE3, kK = kE2 | kE1;
+inline constexpr Blade kEuclid = kE1 | kE2 | kE3, kPseudoscalar = 31;
+
+template <class... B>
+constexpr BladeSet blades(B... blade)
+{
+    return ((BladeSet{1} << blade) | ...);
+}
+
+constexpr int grade(Blade b) { return std::popcount(b); }
+
+constexpr BladeSet blades_of_grade(BladeSet set, int wanted)
+{
+    BladeSet part = 0;
+    for (Blade b = 0; b < 32; ++b)
+        if ((set >> b & 1u) && grade(b) == wanted) part |= BladeSet{1} << b;
+    return part;
+}
+
+namespace table {  // products of basis blades, worked out by the compiler
+
+// Sign of bringing the basis vectors of a, then b, into ascending order.
+constexpr int order_sign(Blade a, Blade b)
+{
+    int swaps = 0;
+    for (Blade rest = a >> 1; rest != 0; rest >>= 1) swaps += std::popcount(rest & b);
+    return swaps % 2 == 0 ? 1 : -1;
+}
+
+// i = e3^e2 and k = e2^e1 run against the ascending order, alone and as a factor of a larger blade.
+constexpr int orientation(Blade b)
+{
+    const Blade euclid = b & kEuclid;
+    return euclid == kI || euclid == kK ? -1 : 1;
+}
+
+// Coefficient of the null part `out` in the product of the null parts a and b, all made of einf and e0 alone, with
+// E = einf^e0: einf e0 = E - 1, e0 einf = -E - 1, E einf = -einf, einf E = einf, E e0 = e0, e0 E = -e0, E E = 1.
+constexpr int null_coefficient(Blade a, Blade b, Blade out)
+{
+    const Blade big = kEinf | kE0;
+    if (a == kScalar) return out == b ? 1 : 0;
+    if (b == kScalar) return out == a ? 1 : 0;
+    if (a == big && b == big) return out == kScalar ? 1 : 0;
+    if (a == big) return out == b ? (b == kE0 ? 1 : -1) : 0;
+    if (b == big) return out == a ? (a == kE0 ? -1 : 1) : 0;
+    if (a == b) return 0;
+    if (out == kScalar) return -1;
+    return out == big ? (a == kEinf ? 1 : -1) : 0;
+}
+
+// Coefficient of blade `out` in the geometric product of the blades a and b: -1, 0 or 1.
+constexpr int geometric(Blade a, Blade b, Blade out)
+{
+    const Blade euclid_a = a & kEuclid, euclid_b = b & kEuclid, null_a = a & ~kEuclid, null_b = b & ~kEuclid;
+    if ((euclid_a ^ euclid_b) != (out & kEuclid)) return 0;
+    const int past = grade(null_a) * grade(euclid_b) % 2 == 0 ? 1 : -1;  // b's Euclidean part moves left past a's null part
+    return past * order_sign(euclid_a, euclid_b) * null_coefficient(null_a, null_b, out & ~kEuclid) * orientation(a) *
+           orientation(b) * orientation(out);
+}
+
+enum class Product { geometric, outer, inner };
+
+constexpr int coefficient(Product kind, Blade a, Blade b, Blade out)
+{
+    const int r = grade(a), s = grade(b);
+    if (kind == Product::outer && grade(out) != r + s) return 0;
+    if (kind == Product::inner && grade(out) != (r > s ? r - s : s - r)) return 0;
+    return geometric(a, b, out);
+}
+
+constexpr BladeSet product_blades(Product kind, BladeSet a, BladeSet b)
+{
+    BladeSet set = 0;
+    for (Blade x = 0; x < 32; ++x)
+        for (Blade y = 0; y < 32; ++y)
+            if ((a >> x & 1u) && (b >> y & 1u))
+                for (Blade out = 0; out < 32; ++out)
+                    if (coefficient(kind, x, y, out) != 0) set |= BladeSet{1} << out;
+    return set;
+}
+
+struct Term {
+    Blade a, b;
+    int sign;
+};
+struct Terms {
+    Term term[64];
+    std::size_t count;
+};
+
+// The products of components that add up to component `out`.
+constexpr Terms terms(Product kind, BladeSet a, BladeSet b, Blade out)
+{
+    Terms list{};
+    for (Blade x = 0; x < 32; ++x)
+        for (Blade y = 0; y < 32; ++y)
+            if ((a >> x & 1u) && (b >> y & 1u))
+                if (const int sign = coefficient(kind, x, y, out); sign != 0) list.term[list.count++] = {x, y, sign};
+    return list;
+}
+
+constexpr Blade nth_blade(BladeSet set, std::size_t n)
+{
+    for (; n > 0; --n) set &= set - 1;
+    return static_cast<Blade>(std::countr_zero(set));
+}
+
+}  // namespace table
+
+// A multivector with exactly the blades of set S, its components in ascending order of blade.
+template <class T, BladeSet S>
+struct Mv {
+    static_assert(S != 0, "this product is zero for every value");
+    static constexpr BladeSet set = S;
+    static constexpr std::size_t count = std::popcount(S);
+    T c[count];
+
+    template <Blade B>
+    static constexpr std::size_t index()
+    {
+        static_assert((S >> B & 1u) != 0, "this multivector does not have that blade");
+        return std::popcount(S & ((BladeSet{1} << B) - 1u));
+    }
+    template <Blade B>
+    SWIVEL_INLINE constexpr const T& at() const { return c[index<B>()]; }
+    template <Blade B>
+    SWIVEL_INLINE constexpr T& at() { return c[index<B>()]; }
+};
+
+// The multivector whose component for each blade B of S is make.operator()<B>().
+template <class T, BladeSet S, class Make>
+constexpr Mv<T, S> for_each_blade(Make make)
+{
+    return [&]<std::size_t... N>(std::index_sequence<N...>) {
+        return Mv<T, S>{{make.template operator()<table::nth_blade(S, N)>()...}};
+    }(std::make_index_sequence<Mv<T, S>::count>{});
+}
+
+// A basis blade with coefficient 1.
+template <class T, Blade B>
+constexpr Mv<T, blades(B)> unit()
+{
+    return {{T(1)}};
+}
+
+// The chosen blades of a multivector, all of which it must have; and all its blades of one grade.
+template <BladeSet Part, class T, BladeSet S>
+constexpr Mv<T, Part> part(const Mv<T, S>& m)
+{
+    return for_each_blade<T, Part>([&]<Blade B>() { return m.template at<B>(); });
+}
+template <int Grade, class T, BladeSet S>
+constexpr auto grade_part(const Mv<T, S>& m)
+{
+    return part<blades_of_grade(S, Grade)>(m);
+}
+
+template <class T, BladeSet S>
+constexpr Mv<T, S> operator-(const Mv<T, S>& m)
+{
+    return for_each_blade<T, S>([&]<Blade B>() { return -m.template at<B>(); });
+}
+template <class T, BladeSet A, BladeSet B>
+constexpr Mv<T, A | B> operator+(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return for_each_blade<T, A | B>([&]<Blade N>() {
+        if constexpr ((A & B) >> N & 1u) return a.template at<N>() + b.template at<N>();
+        else if constexpr (A >> N & 1u) return a.template at<N>();
+        else return b.template at<N>();
+    });
+}
+template <class T, BladeSet A, BladeSet B>
+constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return for_each_blade<T, A | B>([&]<Blade N>() {
+        if constexpr ((A & B) >> N & 1u) return a.template at<N>() - b.template at<N>();
+        else if constexpr (A >> N & 1u) return a.template at<N>();
+        else return -b.template at<N>();
+    });
+}
+
+template <class T, BladeSet S>
+constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
+{
+    return for_each_blade<T, S>([&]<Blade B>() { return scalar * m.template at<B>(); });
+}
+
+template <table::Product Kind, class T, BladeSet A, BladeSet B>
+constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return for_each_blade<T, table::product_blades(Kind, A, B)>([&]<Blade Out>() {
+        constexpr table::Terms terms = table::terms(Kind, A, B, Out);
+        const auto term = [&]<std::size_t N>() { return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>(); };
+        return [&]<std::size_t... N>(std::index_sequence<N...>) {
+            T sum = terms.term[0].sign > 0 ? term.template operator()<0>() : -term.template operator()<0>();
+            ((sum = terms.term[N + 1].sign > 0 ? sum + term.template operator()<N + 1>()
+                                               : sum - term.template operator()<N + 1>()),
+             ...);
+            return sum;
+        }(std::make_index_sequence<terms.count - 1>{});
+    });
+}
+// Geometric product.
+template <class T, BladeSet A, BladeSet B>
+constexpr auto operator*(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return product<table::Product::geometric>(a, b);
+}
+// Outer product.
+template <class T, BladeSet A, BladeSet B>
+constexpr auto operator^(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return product<table::Product::outer>(a, b);
+}
+// Inner product: of blades of grades r and s, the part of grade |r - s| of the geometric product.
+template <class T, BladeSet A, BladeSet B>
+constexpr auto dot(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return product<table::Product::inner>(a, b);
+}
+// The scalar product <ab>, as a number.
+template <class T, BladeSet A, BladeSet B>
+constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    constexpr BladeSet scalar = blades(kScalar);
+    return part<scalar>(product<table::Product::geometric>(a, b)).c[0];
+}
+
+// Reverse: the order of each blade's vectors turned round.
+template <class T, BladeSet S>
+constexpr Mv<T, S> operator~(const Mv<T, S>& m)
+{
+    return for_each_blade<T, S>([&]<Blade B>() {
+        if constexpr (grade(B) % 4 < 2) return m.template at<B>();
+        else return -m.template at<B>();
+    });
+}
+
+// The geometric product m * B with a basis blade that contains einf and e0 both or neither: components change places
+// and signs, nothing is multiplied.
+template <Blade B, class T, BladeSet S>
+constexpr auto times_blade(const Mv<T, S>& m)
+{
+    constexpr table::Product kind = table::Product::geometric;
+    return for_each_blade<T, table::product_blades(kind, S, blades(B))>([&]<Blade Out>() {
+        constexpr table::Terms terms = table::terms(kind, S, blades(B), Out);
+        static_assert(terms.count == 1);
+        if constexpr (terms.term[0].sign > 0) return m.template at<terms.term[0].a>();
+        else return -m.template at<terms.term[0].a>();
+    });
+}
+
+// dual(A) = A I^-1, where I = e1^e2^e3^einf^e0 and I^-1 = -I.
+template <class T, BladeSet S>
+constexpr auto dual(const Mv<T, S>& m)
+{
+    return -times_blade<kPseudoscalar>(m);
+}
+
+// Component by component, a where the mask holds, b elsewhere.
+template <class T, BladeSet S>
+constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
+{
+    return for_each_blade<T, S>([&]<Blade B>() { return select(mask, a.template at<B>(), b.template at<B>()); });
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

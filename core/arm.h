@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// What goes into an arm and what comes out of it, in the arm frame: the shoulder at the origin; at rest both bones along
+// +e3 and the hinge along e1; flexion carries the forearm towards +e2.
+#pragma once
+
+#include "core/conformal.h"
+
+namespace swivel {
+
+// The flag word's bits; batch/swivel.h publishes the same values.
+namespace flag {
+inline constexpr std::uint32_t reached = 1u << 0;
+inline constexpr std::uint32_t clamped_far = 1u << 3;
+inline constexpr std::uint32_t clamped_near = 1u << 4;
+inline constexpr std::uint32_t swivel_undefined = 1u << 5;
+inline constexpr std::uint32_t bad_input = 1u << 30;
+}  // namespace flag
+
+inline namespace SWIVEL_ISA {
+
+// Vectors are no longer than 1/kTiny; a shorter one than kTiny counts as zero, for its square would leave the normal floats.
+inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
+
+template <class T>
+struct ArmGoal {
+    Vector<T> wrist;  // target, relative to the shoulder
+    Vector<T> pole;   // the elbow's side of the axis; only its direction counts
+    T upper, fore;    // bone lengths
+};
+
+template <class T>
+struct ArmPose {
+    Rotor<T> shoulder;     // carries e3 to the upper arm and e1 to the swivel plane's normal
+    T cos_half, sin_half;  // of the flexion; both >= 0
+    Bits<T> flags;
+    Mask<T> valid;  // false: bad input, the arm is at rest
+};
+
+// The elbow's rotor: flexion turns the forearm about -e1.
+template <class T>
+constexpr Mv<T, blades(kScalar, kI)> elbow_rotor(const ArmPose<T>& pose)
+{
+    return pose.cos_half * unit<T, kScalar>() - pose.sin_half * unit<T, kI>();
+}
+
+// A straight arm in its rest pose: solving it gives the identity. It takes the place of bad input.
+template <class T>
+constexpr ArmGoal<T> rest_goal()
+{
+    return {vector(T(0), T(0), T(2)), vector(T(0), T(-1), T(0)), T(1), T(1)};
+}
+
+template <class T>
+constexpr Mask<T> is_length(const T& x)
+{
+    return ((x >= T(kTiny)) & (x <= T(kHuge))) | (x == T(0));
+}
+
+// Forward kinematics, for rotors of unit length: elbow = q_s L1 e3 ~q_s, wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s.
+template <class T>
+constexpr Vector<T> elbow_of(const ArmPose<T>& pose, const T& upper)
+{
+    return sandwich(pose.shoulder, vector(T(0), T(0), upper));
+}
+template <class T>
+constexpr Vector<T> wrist_of(const ArmPose<T>& pose, const T& upper, const T& fore)
+{
+    const auto q_e = elbow_rotor(pose);
+    const auto forearm = part<blades(kE2, kE3)>(q_e * (fore * unit<T, kE3>()) * ~q_e);
+    return sandwich(pose.shoulder, vector(T(0), forearm.template at<kE2>(), upper + forearm.template at<kE3>()));
+}
+
+}  // namespace SWIVEL_ISA
+}  // namespace swivel

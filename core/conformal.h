@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// The shapes of conformal geometric algebra as multivectors, how to make them and how to read them.
+//
+// Conventions, fixed here and nowhere else: a point is P = x + x^2/2 einf + e0, a sphere P - r^2/2 einf, a plane
+// n + d einf. A quaternion w + xi + yj + zk is the rotor with i = e3^e2, j = e1^e3, k = e2^e1; it turns o into Q o ~Q, by
+// the right hand, and a*b applies b first. So it is the ordinary Hamilton quaternion.
+// Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019), eqs. 3.9-3.23.
+#pragma once
+
+#include "core/algebra.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+using Vector = Mv<T, blades(kE1, kE2, kE3)>;
+template <class T>
+using Plane = Mv<T, blades(kE1, kE2, kE3, kEinf)>;
+template <class T>
+using Point = Mv<T, blades(kE1, kE2, kE3, kEinf, kE0)>;
+template <class T>
+using Sphere = Point<T>;
+template <class T>
+using Rotor = Mv<T, blades(kScalar, kI, kJ, kK)>;
+// A line through the origin: v1 i + v2 j + v3 k along the direction (v1, v2, v3).
+template <class T>
+using CentralLine = Mv<T, blades(kI, kJ, kK)>;
+
+template <class T>
+constexpr Vector<T> vector(const T& x, const T& y, const T& z)
+{
+    return {{x, y, z}};
+}
+// The quaternion w + xi + yj + zk.
+template <class T>
+constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const T& w)
+{
+    Rotor<T> q;
+    q.template at<kI>() = x;
+    q.template at<kJ>() = y;
+    q.template at<kK>() = z;
+    q.template at<kScalar>() = w;
+    return q;
+}
+
+template <class T>
+constexpr Point<T> point(const Vector<T>& x)
+{
+    return x + (T(0.5) * dot(x, x)).c[0] * unit<T, kEinf>() + unit<T, kE0>();
+}
+template <class T>
+constexpr Sphere<T> sphere(const Point<T>& centre, const T& radius)
+{
+    return centre - (T(0.5) * radius * radius) * unit<T, kEinf>();
+}
+
+// Squared length, and a multivector of Euclidean blades divided by its length.
+template <class T, BladeSet S>
+constexpr T len2(const Mv<T, S>& m)
+{
+    return scalar_product(m, ~m);
+}
+template <class T, BladeSet S>
+constexpr Mv<T, S> normalise(const Mv<T, S>& m)
+{
+    return (T(1) / sqrt(len2(m))) * m;
+}
+
+// The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf.
+template <class T, BladeSet A, BladeSet B>
+constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return dual((unit<T, kE0>() ^ b ^ a) ^ unit<T, kEinf>());
+}
+
+// The line through the origin along v: the dual of e0 ^ v ^ einf (eqs. 3.10-3.12). As a unit vector's rotor it turns by pi
+// about that line (eq. 3.23).
+template <class T>
+constexpr CentralLine<T> central_line(const Vector<T>& v)
+{
+    return dual(unit<T, kE0>() ^ v ^ unit<T, kEinf>());
+}
+
+// Q v ~Q for a rotor of any length, divided by nothing: the result is |Q|^2 times as long as v (eq. 3.21).
+template <class T>
+constexpr Vector<T> sandwich(const Rotor<T>& q, const Vector<T>& v)
+{
+    return grade_part<1>(q * v * ~q);
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+//
+// Names the namespace that every formula lives in, so that the same source compiled for two instruction sets gives
+// differently named functions, and the two attributes that keep calls out of kernel loops.
+#pragma once
+
+#ifndef SWIVEL_ISA
+#define SWIVEL_ISA base
+#endif
+
+#define SWIVEL_INLINE [[gnu::always_inline]] inline
+#define SWIVEL_FLATTEN [[gnu::flatten]]

@@ -1,0 +1,48 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+//
+// The oracle: the five steps of D. Hildenbrand, "Inverse Kinematics of a Virtual Character" (TU Darmstadt, 2019), to
+// the letter, in double, on 32-coefficient multivectors. Slow, obviously right, and sharing no code with the solvers
+// that are checked against it. Degenerate poses are the caller's job: see ReferenceArm.
+
+namespace swivel {
+
+// A goal in the arm's frame: shoulder at the origin; at rest both bones lie along +e3, the hinge is e1, and flexion
+// carries the forearm towards +e2. Lengths and coordinates share one unit, any. The pose must not be singular:
+//   the wrist is reachable, and not at the shoulder;
+//   the pole is not along the wrist's line;
+//   the arm is neither straight nor folded;
+//   the upper arm is not along +e3 or -e3, where p_ze and p_e have no middle line.
+// The lecture's formulas lose digits towards these, and for a twist angle t near 0 or pi: there the error grows as
+// 1e-16 / sin(t), up to 1e-8. A pose outside gives inaccurate values or NaN, nothing worse.
+struct ReferenceArm {
+    double wrist[3];
+    double pole[3];    // the elbow lies on this point's side of the wrist's line
+    double upper, fore;
+};
+
+// The answer. Rotors are unit quaternions in x, y, z, w order; their overall sign is the formulas' own.
+struct ReferencePose {
+    double elbow[3];
+    double cos_flexion;          // c4, cosine of the angle between the bones
+    double elbow_rotor[4];       // q_e, about the hinge
+    double middle_rotor[4];      // q12, by pi about the middle line: e3 to the upper arm
+    double twist_rotor[4];       // q3, about e3: puts the forearm into the swivel plane
+    double shoulder_rotor[4];    // q_s = q12 q3: e3 to the upper arm, e1 to the swivel plane's normal
+};
+
+// Rotations that put the wrist on its target. Allocates nothing; threads may call it together; about 0.1 ms.
+ReferencePose solve_reference(const ReferenceArm& arm);
+
+// The same with the swivel plane given by its normal, p_w x pole up to length.
+//   wrist: target, as in ReferenceArm
+//   normal: orthogonal to wrist, any length but 0
+//   upper, fore: bone lengths
+ReferencePose solve_reference_for_normal(const double wrist[3], const double normal[3], double upper, double fore);
+
+// Forward kinematics: where the pose's shoulder and elbow rotors put the wrist.
+//   upper, fore: bone lengths
+//   out: 3 coordinates in the arm's frame, outside `pose`
+void wrist_of(const ReferencePose& pose, double upper, double fore, double out[3]);
+
+}    // namespace swivel

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "simd/dispatch.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+
+namespace swivel {
+
+// One table for each build of kernels.cpp, each in the namespace of its instruction set.
+inline namespace scalar { extern const Kernels kernels; }
+inline namespace sse2 { extern const Kernels kernels; }
+inline namespace avx2 { extern const Kernels kernels; }
+inline namespace avx512 { extern const Kernels kernels; }
+inline namespace neon64 { extern const Kernels kernels; }
+
+namespace {
+
+constexpr auto always = [] { return true; };
+
+const Isa isas[] = {
+#ifdef SWIVEL_HAS_avx512
+    {"avx512",
+     [] {
+         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+                __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                __builtin_cpu_supports("avx512vl");
+     },
+     &avx512::kernels},
+#endif
+#ifdef SWIVEL_HAS_avx2
+    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, &avx2::kernels},
+#endif
+#ifdef SWIVEL_HAS_sse2
+    {"sse2", always, &sse2::kernels},
+#endif
+#ifdef SWIVEL_HAS_neon64
+    {"neon64", always, &neon64::kernels},
+#endif
+    {"scalar", always, &scalar::kernels},
+};
+
+std::atomic<const Isa*> chosen{nullptr};
+
+const Isa* choose()
+{
+    if (const char* forced = std::getenv("SWIVEL_FORCE_ISA"); forced && *forced) {
+        const Isa* isa = find_isa(forced);
+        return isa && isa->can_run() ? isa : nullptr;
+    }
+    for (const Isa& isa : isas)
+        if (isa.can_run()) return &isa;
+    return nullptr;  // not reached: scalar always runs
+}
+
+}  // namespace
+
+const Isa* isa_at(std::uint32_t index)
+{
+    return index < sizeof isas / sizeof isas[0] ? &isas[index] : nullptr;
+}
+
+const Isa* find_isa(const char* name)
+{
+    for (const Isa& isa : isas)
+        if (std::strcmp(isa.name, name) == 0) return &isa;
+    return nullptr;
+}
+
+const Isa* current_isa()
+{
+    const Isa* isa = chosen.load(std::memory_order_acquire);
+    if (isa) return isa;
+    isa = choose();
+    const Isa* none = nullptr;  // a use_isa() that came first wins
+    return isa && !chosen.compare_exchange_strong(none, isa, std::memory_order_acq_rel) ? none : isa;
+}
+
+void use_isa(const Isa& isa) { chosen.store(&isa, std::memory_order_release); }
+
+}  // namespace swivel

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// Which kernels to run: asks the CPU once, lets the environment or the caller override by name.
+#pragma once
+
+#include "simd/kernels.h"
+
+namespace swivel {
+
+struct Isa {
+    const char* name;
+    bool (*can_run)();
+    const Kernels* kernels;
+};
+
+// The built-in instruction sets, best first; null past the last.
+const Isa* isa_at(std::uint32_t index);
+// By name; null if there is none.
+const Isa* find_isa(const char* name);
+
+// The one in use. Chosen on first call: SWIVEL_FORCE_ISA, else the first that can run. Null if SWIVEL_FORCE_ISA cannot be used.
+const Isa* current_isa();
+void use_isa(const Isa& isa);
+
+}  // namespace swivel

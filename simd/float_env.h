@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// Sets the floating-point environment that the bits of a result depend on (round to nearest, denormals kept, exceptions
+// masked) for as long as it lives, then puts the caller's back, sticky flags included.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+namespace swivel {
+
+class FloatEnv {
+public:
+#if defined(__x86_64__)
+    FloatEnv() : saved_(_mm_getcsr()) { _mm_setcsr(0x1f80); }  // the reset value: all exceptions masked, no flags
+    ~FloatEnv() { _mm_setcsr(saved_); }
+#elif defined(__aarch64__)
+    FloatEnv()
+    {
+        asm volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(saved_), "=r"(saved_flags_));
+        asm volatile("msr fpcr, xzr");
+    }
+    ~FloatEnv() { asm volatile("msr fpcr, %0\n\tmsr fpsr, %1" : : "r"(saved_), "r"(saved_flags_)); }
+#else
+#error "swivel: this CPU family has no floating-point environment code yet (simd/float_env.h)"
+#endif
+    FloatEnv(const FloatEnv&) = delete;
+    FloatEnv& operator=(const FloatEnv&) = delete;
+
+private:
+#if defined(__aarch64__)
+    std::uint64_t saved_, saved_flags_;
+#else
+    std::uint32_t saved_;
+#endif
+};
+
+}  // namespace swivel

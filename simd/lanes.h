@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+//
+// Lanes<Arch, Registers>: a few xsimd batches of floats worked on side by side, with core/num.h's list of operations, so
+// that every formula runs on it unchanged. The only file that names xsimd, and where its operations are made equal: unary
+// minus flips the sign bit, lo and hi are selects, NEON's root and quotient are the exact instructions.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include <xsimd/xsimd.hpp>
+
+#include "core/num.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class Arch, int Registers>
+struct Lanes {
+    using Batch = xsimd::batch<float, Arch>;
+    static constexpr std::size_t width = Batch::size, count = width * Registers;
+    Batch r[Registers];
+
+    Lanes() = default;
+    explicit Lanes(double x)
+    {
+        for (Batch& b : r) b = Batch(static_cast<float>(x));
+    }
+};
+
+template <class Arch, int Registers>
+struct LanesMask {
+    typename xsimd::batch<float, Arch>::batch_bool_type r[Registers];
+};
+// 32-bit words, kept in registers of floats: they are only selected, or-ed and stored, which leaves bits as they are.
+template <class Arch, int Registers>
+struct LanesBits {
+    xsimd::batch<float, Arch> r[Registers];
+};
+
+template <class Arch, int Registers>
+struct NumberTraits<Lanes<Arch, Registers>> {
+    using Mask = LanesMask<Arch, Registers>;
+    using Bits = LanesBits<Arch, Registers>;
+};
+
+// {f(0), f(1), ...}: one result for each register.
+template <class Out, class F>
+SWIVEL_INLINE Out each_register(F f)
+{
+    return [&]<std::size_t... N>(std::index_sequence<N...>) {
+        Out out;
+        ((out.r[N] = f(N)), ...);
+        return out;
+    }(std::make_index_sequence<std::extent_v<decltype(Out::r)>>{});
+}
+
+#define SWIVEL_LANES_BINARY(op, Out)                                                                  \
+    template <class A, int R>                                                                         \
+    SWIVEL_INLINE Out<A, R> operator op(const Lanes<A, R>& a, const Lanes<A, R>& b)                   \
+    {                                                                                                 \
+        return each_register<Out<A, R>>([&](std::size_t n) { return a.r[n] op b.r[n]; });             \
+    }
+SWIVEL_LANES_BINARY(+, Lanes)
+SWIVEL_LANES_BINARY(-, Lanes)
+SWIVEL_LANES_BINARY(*, Lanes)
+SWIVEL_LANES_BINARY(<, LanesMask)
+SWIVEL_LANES_BINARY(<=, LanesMask)
+SWIVEL_LANES_BINARY(>, LanesMask)
+SWIVEL_LANES_BINARY(>=, LanesMask)
+SWIVEL_LANES_BINARY(==, LanesMask)
+#undef SWIVEL_LANES_BINARY
+
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> operator/(const Lanes<A, R>& a, const Lanes<A, R>& b)
+{
+#ifdef __aarch64__  // xsimd divides by an estimate there
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return xsimd::batch<float, A>(vdivq_f32(a.r[n], b.r[n])); });
+#else
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return a.r[n] / b.r[n]; });
+#endif
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> sqrt(const Lanes<A, R>& a)
+{
+#ifdef __aarch64__
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return xsimd::batch<float, A>(vsqrtq_f32(a.r[n])); });
+#else
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return xsimd::sqrt(a.r[n]); });
+#endif
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> operator-(const Lanes<A, R>& a)
+{
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return a.r[n] ^ xsimd::batch<float, A>(-0.0f); });
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> abs(const Lanes<A, R>& a)
+{
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return xsimd::abs(a.r[n]); });
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> copysign(const Lanes<A, R>& a, const Lanes<A, R>& sign)
+{
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return xsimd::copysign(a.r[n], sign.r[n]); });
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> flip_sign(const Lanes<A, R>& a, const Lanes<A, R>& sign)
+{
+    using Batch = xsimd::batch<float, A>;
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return a.r[n] ^ (sign.r[n] & Batch(-0.0f)); });
+}
+
+template <class A, int R>
+SWIVEL_INLINE LanesMask<A, R> operator&(const LanesMask<A, R>& a, const LanesMask<A, R>& b)
+{
+    return each_register<LanesMask<A, R>>([&](std::size_t n) { return a.r[n] & b.r[n]; });
+}
+template <class A, int R>
+SWIVEL_INLINE LanesMask<A, R> operator|(const LanesMask<A, R>& a, const LanesMask<A, R>& b)
+{
+    return each_register<LanesMask<A, R>>([&](std::size_t n) { return a.r[n] | b.r[n]; });
+}
+template <class A, int R>
+SWIVEL_INLINE LanesMask<A, R> operator!(const LanesMask<A, R>& a)
+{
+    return each_register<LanesMask<A, R>>([&](std::size_t n) { return !a.r[n]; });
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> select(const LanesMask<A, R>& mask, const Lanes<A, R>& a, const Lanes<A, R>& b)
+{
+    return each_register<Lanes<A, R>>([&](std::size_t n) { return xsimd::select(mask.r[n], a.r[n], b.r[n]); });
+}
+
+template <class A, int R>
+SWIVEL_INLINE LanesBits<A, R> operator|(const LanesBits<A, R>& a, const LanesBits<A, R>& b)
+{
+    return each_register<LanesBits<A, R>>([&](std::size_t n) { return a.r[n] | b.r[n]; });
+}
+template <class A, int R>
+SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint32_t bits)
+{
+    using Batch = xsimd::batch<float, A>;
+    const Batch word(std::bit_cast<float>(bits)), none(0.0f);
+    return each_register<LanesBits<A, R>>([&](std::size_t n) { return xsimd::select(mask.r[n], word, none); });
+}
+
+// How many lanes a number has, and moving them in and out of rows. address(lane) gives the place of a lane; the lanes of
+// one register lie side by side there, aligned to the register.
+template <class T>
+inline constexpr std::size_t lane_count = 1;
+template <class A, int R>
+inline constexpr std::size_t lane_count<Lanes<A, R>> = Lanes<A, R>::count;
+
+template <class T, class Address>
+    requires std::is_same_v<T, float>
+SWIVEL_INLINE float load_lanes(Address address)
+{
+    return *address(0);
+}
+template <class T, class Address>
+    requires(lane_count<T> > 1)
+SWIVEL_INLINE T load_lanes(Address address)
+{
+    return each_register<T>([&](std::size_t n) { return T::Batch::load_aligned(address(n * T::width)); });
+}
+template <class Address>
+SWIVEL_INLINE void store_lanes(Address address, float x)
+{
+    *address(0) = x;
+}
+template <class Address>
+SWIVEL_INLINE void store_lanes(Address address, std::uint32_t bits)
+{
+    *address(0) = std::bit_cast<float>(bits);
+}
+template <class Address, template <class, int> class L, class A, int R>
+SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x)
+{
+    for (std::size_t n = 0; n < R; ++n) x.r[n].store_aligned(address(n * Lanes<A, R>::width));
+}
+
+// The number type of a kernel built for Arch: lanes, or plain float for the scalar build.
+template <class Arch, int Registers>
+struct KernelNumber {
+    using type = Lanes<Arch, Registers>;
+};
+template <int Registers>
+struct KernelNumber<float, Registers> {
+    using type = float;
+};
+
+}  // namespace swivel::inline SWIVEL_ISA
