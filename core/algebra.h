@@ -154,50 +154,50 @@ struct Mv {
 
 // The multivector whose component for each blade B of S is make.operator()<B>().
 template <class T, BladeSet S, class Make>
-constexpr Mv<T, S> for_each_blade(Make make)
+SWIVEL_INLINE constexpr Mv<T, S> for_each_blade(Make make)
 {
-    return [&]<std::size_t... N>(std::index_sequence<N...>) {
+    return [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA {
         return Mv<T, S>{{make.template operator()<table::nth_blade(S, N)>()...}};
     }(std::make_index_sequence<Mv<T, S>::count>{});
 }
 
 // A basis blade with coefficient 1.
 template <class T, Blade B>
-constexpr Mv<T, blades(B)> unit()
+SWIVEL_INLINE constexpr Mv<T, blades(B)> unit()
 {
     return {{T(1)}};
 }
 
 // The chosen blades of a multivector, all of which it must have; and all its blades of one grade.
 template <BladeSet Part, class T, BladeSet S>
-constexpr Mv<T, Part> part(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr Mv<T, Part> part(const Mv<T, S>& m)
 {
-    return for_each_blade<T, Part>([&]<Blade B>() { return m.template at<B>(); });
+    return for_each_blade<T, Part>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return m.template at<B>(); });
 }
 template <int Grade, class T, BladeSet S>
-constexpr auto grade_part(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr auto grade_part(const Mv<T, S>& m)
 {
     return part<blades_of_grade(S, Grade)>(m);
 }
 
 template <class T, BladeSet S>
-constexpr Mv<T, S> operator-(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr Mv<T, S> operator-(const Mv<T, S>& m)
 {
-    return for_each_blade<T, S>([&]<Blade B>() { return -m.template at<B>(); });
+    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return -m.template at<B>(); });
 }
 template <class T, BladeSet A, BladeSet B>
-constexpr Mv<T, A | B> operator+(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr Mv<T, A | B> operator+(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, A | B>([&]<Blade N>() {
+    return for_each_blade<T, A | B>([&]<Blade N>() SWIVEL_INLINE_LAMBDA {
         if constexpr ((A & B) >> N & 1u) return a.template at<N>() + b.template at<N>();
         else if constexpr (A >> N & 1u) return a.template at<N>();
         else return b.template at<N>();
     });
 }
 template <class T, BladeSet A, BladeSet B>
-constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, A | B>([&]<Blade N>() {
+    return for_each_blade<T, A | B>([&]<Blade N>() SWIVEL_INLINE_LAMBDA {
         if constexpr ((A & B) >> N & 1u) return a.template at<N>() - b.template at<N>();
         else if constexpr (A >> N & 1u) return a.template at<N>();
         else return -b.template at<N>();
@@ -205,18 +205,18 @@ constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
 }
 
 template <class T, BladeSet S>
-constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
+SWIVEL_INLINE constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
 {
-    return for_each_blade<T, S>([&]<Blade B>() { return scalar * m.template at<B>(); });
+    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return scalar * m.template at<B>(); });
 }
 
 template <table::Product Kind, class T, BladeSet A, BladeSet B>
-constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, table::product_blades(Kind, A, B)>([&]<Blade Out>() {
+    return for_each_blade<T, table::product_blades(Kind, A, B)>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
         constexpr table::Terms terms = table::terms(Kind, A, B, Out);
-        const auto term = [&]<std::size_t N>() { return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>(); };
-        return [&]<std::size_t... N>(std::index_sequence<N...>) {
+        const auto term = [&]<std::size_t N>() SWIVEL_INLINE_LAMBDA { return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>(); };
+        return [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA {
             T sum = terms.term[0].sign > 0 ? term.template operator()<0>() : -term.template operator()<0>();
             ((sum = terms.term[N + 1].sign > 0 ? sum + term.template operator()<N + 1>()
                                                : sum - term.template operator()<N + 1>()),
@@ -227,25 +227,25 @@ constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
 }
 // Geometric product.
 template <class T, BladeSet A, BladeSet B>
-constexpr auto operator*(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr auto operator*(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product<table::Product::geometric>(a, b);
 }
 // Outer product.
 template <class T, BladeSet A, BladeSet B>
-constexpr auto operator^(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr auto operator^(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product<table::Product::outer>(a, b);
 }
 // Inner product: of blades of grades r and s, the part of grade |r - s| of the geometric product.
 template <class T, BladeSet A, BladeSet B>
-constexpr auto dot(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr auto dot(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return product<table::Product::inner>(a, b);
 }
 // The scalar product <ab>, as a number.
 template <class T, BladeSet A, BladeSet B>
-constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     constexpr BladeSet scalar = blades(kScalar);
     return part<scalar>(product<table::Product::geometric>(a, b)).c[0];
@@ -253,9 +253,9 @@ constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
 
 // Reverse: the order of each blade's vectors turned round.
 template <class T, BladeSet S>
-constexpr Mv<T, S> operator~(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr Mv<T, S> operator~(const Mv<T, S>& m)
 {
-    return for_each_blade<T, S>([&]<Blade B>() {
+    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA {
         if constexpr (grade(B) % 4 < 2) return m.template at<B>();
         else return -m.template at<B>();
     });
@@ -264,10 +264,10 @@ constexpr Mv<T, S> operator~(const Mv<T, S>& m)
 // The geometric product m * B with a basis blade that contains einf and e0 both or neither: components change places
 // and signs, nothing is multiplied.
 template <Blade B, class T, BladeSet S>
-constexpr auto times_blade(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr auto times_blade(const Mv<T, S>& m)
 {
     constexpr table::Product kind = table::Product::geometric;
-    return for_each_blade<T, table::product_blades(kind, S, blades(B))>([&]<Blade Out>() {
+    return for_each_blade<T, table::product_blades(kind, S, blades(B))>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
         constexpr table::Terms terms = table::terms(kind, S, blades(B), Out);
         static_assert(terms.count == 1);
         if constexpr (terms.term[0].sign > 0) return m.template at<terms.term[0].a>();
@@ -277,16 +277,16 @@ constexpr auto times_blade(const Mv<T, S>& m)
 
 // dual(A) = A I^-1, where I = e1^e2^e3^einf^e0 and I^-1 = -I.
 template <class T, BladeSet S>
-constexpr auto dual(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr auto dual(const Mv<T, S>& m)
 {
     return -times_blade<kPseudoscalar>(m);
 }
 
 // Component by component, a where the mask holds, b elsewhere.
 template <class T, BladeSet S>
-constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
+SWIVEL_INLINE constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
 {
-    return for_each_blade<T, S>([&]<Blade B>() { return select(mask, a.template at<B>(), b.template at<B>()); });
+    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return select(mask, a.template at<B>(), b.template at<B>()); });
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -39,32 +39,32 @@ struct ArmPose {
 
 // The elbow's rotor: flexion turns the forearm about -e1.
 template <class T>
-constexpr Mv<T, blades(kScalar, kI)> elbow_rotor(const ArmPose<T>& pose)
+SWIVEL_INLINE constexpr Mv<T, blades(kScalar, kI)> elbow_rotor(const ArmPose<T>& pose)
 {
     return pose.cos_half * unit<T, kScalar>() - pose.sin_half * unit<T, kI>();
 }
 
 // A straight arm in its rest pose: solving it gives the identity. It takes the place of bad input.
 template <class T>
-constexpr ArmGoal<T> rest_goal()
+SWIVEL_INLINE constexpr ArmGoal<T> rest_goal()
 {
     return {vector(T(0), T(0), T(2)), vector(T(0), T(-1), T(0)), T(1), T(1)};
 }
 
 template <class T>
-constexpr Mask<T> is_length(const T& x)
+SWIVEL_INLINE constexpr Mask<T> is_length(const T& x)
 {
     return ((x >= T(kTiny)) & (x <= T(kHuge))) | (x == T(0));
 }
 
 // Forward kinematics, for rotors of unit length: elbow = q_s L1 e3 ~q_s, wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s.
 template <class T>
-constexpr Vector<T> elbow_of(const ArmPose<T>& pose, const T& upper)
+SWIVEL_INLINE constexpr Vector<T> elbow_of(const ArmPose<T>& pose, const T& upper)
 {
     return sandwich(pose.shoulder, vector(T(0), T(0), upper));
 }
 template <class T>
-constexpr Vector<T> wrist_of(const ArmPose<T>& pose, const T& upper, const T& fore)
+SWIVEL_INLINE constexpr Vector<T> wrist_of(const ArmPose<T>& pose, const T& upper, const T& fore)
 {
     const auto q_e = elbow_rotor(pose);
     const auto forearm = part<blades(kE2, kE3)>(q_e * (fore * unit<T, kE3>()) * ~q_e);

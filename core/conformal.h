@@ -27,13 +27,13 @@ template <class T>
 using CentralLine = Mv<T, blades(kI, kJ, kK)>;
 
 template <class T>
-constexpr Vector<T> vector(const T& x, const T& y, const T& z)
+SWIVEL_INLINE constexpr Vector<T> vector(const T& x, const T& y, const T& z)
 {
     return {{x, y, z}};
 }
 // The quaternion w + xi + yj + zk.
 template <class T>
-constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const T& w)
+SWIVEL_INLINE constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const T& w)
 {
     Rotor<T> q;
     q.template at<kI>() = x;
@@ -44,31 +44,31 @@ constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const T& w)
 }
 
 template <class T>
-constexpr Point<T> point(const Vector<T>& x)
+SWIVEL_INLINE constexpr Point<T> point(const Vector<T>& x)
 {
     return x + (T(0.5) * dot(x, x)).c[0] * unit<T, kEinf>() + unit<T, kE0>();
 }
 template <class T>
-constexpr Sphere<T> sphere(const Point<T>& centre, const T& radius)
+SWIVEL_INLINE constexpr Sphere<T> sphere(const Point<T>& centre, const T& radius)
 {
     return centre - (T(0.5) * radius * radius) * unit<T, kEinf>();
 }
 
 // Squared length, and a multivector of Euclidean blades divided by its length.
 template <class T, BladeSet S>
-constexpr T len2(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr T len2(const Mv<T, S>& m)
 {
     return scalar_product(m, ~m);
 }
 template <class T, BladeSet S>
-constexpr Mv<T, S> normalise(const Mv<T, S>& m)
+SWIVEL_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
 {
     return (T(1) / sqrt(len2(m))) * m;
 }
 
 // The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf.
 template <class T, BladeSet A, BladeSet B>
-constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
+SWIVEL_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return dual((unit<T, kE0>() ^ b ^ a) ^ unit<T, kEinf>());
 }
@@ -76,14 +76,14 @@ constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
 // The line through the origin along v: the dual of e0 ^ v ^ einf (eqs. 3.10-3.12). As a unit vector's rotor it turns by pi
 // about that line (eq. 3.23).
 template <class T>
-constexpr CentralLine<T> central_line(const Vector<T>& v)
+SWIVEL_INLINE constexpr CentralLine<T> central_line(const Vector<T>& v)
 {
     return dual(unit<T, kE0>() ^ v ^ unit<T, kEinf>());
 }
 
 // Q v ~Q for a rotor of any length, divided by nothing: the result is |Q|^2 times as long as v (eq. 3.21).
 template <class T>
-constexpr Vector<T> sandwich(const Rotor<T>& q, const Vector<T>& v)
+SWIVEL_INLINE constexpr Vector<T> sandwich(const Rotor<T>& q, const Vector<T>& v)
 {
     return grade_part<1>(q * v * ~q);
 }

@@ -23,7 +23,7 @@ struct PipelinePose {
 // One of the two points of a point pair PP: (PP* +- sqrt(PP*.PP*)) / (einf.PP*), brought to weight -einf.P = 1. Dividing by a
 // vector is multiplying by it and dividing by its square, which the weight takes in.
 template <class T, BladeSet S>
-constexpr Vector<T> pair_point(const Mv<T, S>& pp, const T& side)
+SWIVEL_INLINE constexpr Vector<T> pair_point(const Mv<T, S>& pp, const T& side)
 {
     const auto pp_dual = dual(pp);
     const T root = sqrt(scalar_product(pp_dual, pp_dual));
@@ -34,7 +34,7 @@ constexpr Vector<T> pair_point(const Mv<T, S>& pp, const T& side)
 // wrist: relative to the shoulder. normal: the swivel plane's, of unit length; the elbow is on the side of normal x wrist.
 // upper, fore: bone lengths, > 0.
 template <class T>
-constexpr PipelinePose<T> solve_pipeline(const Vector<T>& wrist, const Vector<T>& normal, const T& upper, const T& fore)
+SWIVEL_INLINE constexpr PipelinePose<T> solve_pipeline(const Vector<T>& wrist, const Vector<T>& normal, const T& upper, const T& fore)
 {
     const auto e0 = unit<T, kE0>();
     const auto einf = unit<T, kEinf>();

@@ -18,7 +18,7 @@ struct Reach {
 };
 
 template <class T>
-constexpr Reach<T> clamp_reach(const T& wanted, const T& upper, const T& fore)
+SWIVEL_INLINE constexpr Reach<T> clamp_reach(const T& wanted, const T& upper, const T& fore)
 {
     const T far = upper + fore;
     const T near = abs(upper - fore);
@@ -35,7 +35,7 @@ struct ArmTriangle {
 // distance: within the shell. From a + b = 4 L1 L2 and P + M = 4 d L1:
 //   cos^2(flexion/2) = a / (a+b),   sin^2(flexion/2) = b / (a+b),   cos(lift) = (P-M) / (P+M),   sin(lift) = 2 sqrt(ab) / (P+M).
 template <class T>
-constexpr ArmTriangle<T> arm_triangle(const T& distance, const T& upper, const T& fore)
+SWIVEL_INLINE constexpr ArmTriangle<T> arm_triangle(const T& distance, const T& upper, const T& fore)
 {
     const T far = upper + fore, diff = upper - fore, near = abs(diff);
     const T shorter = far - distance, longer = far + distance;

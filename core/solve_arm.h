@@ -16,7 +16,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 // The rotor that carries e3 to the unit vector bone and e1 to normal, a unit vector orthogonal to it.
 template <class T>
-constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector<T>& normal)
+SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector<T>& normal)
 {
     // The upper arm near -e3 has no middle line to e3: turn by pi about e1 first and start from -e3 instead.
     const Mask<T> turned = bone.template at<kE3>() < T(0);
@@ -45,7 +45,7 @@ constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector<T>& normal)
 
 // good: false where the caller already knows the input to be bad.
 template <class T>
-constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask<T>& good)
+SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask<T>& good)
 {
     const ArmGoal<T> rest = rest_goal<T>();
     const T asked_wrist2 = len2(asked.wrist), asked_pole2 = len2(asked.pole);
@@ -80,12 +80,12 @@ constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask<T>& good)
 
 // One of the two quaternions of a rotation: w >= 0, and at w = 0 the first of x, y, z that is not zero is positive.
 template <class T>
-constexpr Rotor<T> hemisphere(const Rotor<T>& q)
+SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
 {
     const T zero = T(0);
     const T &x = q.template at<kI>(), &y = q.template at<kJ>(), &z = q.template at<kK>(), &w = q.template at<kScalar>();
     const T leading = select(w == zero, select(x == zero, select(y == zero, z, y), x), w);
-    return for_each_blade<T, Rotor<T>::set>([&]<Blade B>() { return flip_sign(q.template at<B>(), leading); });
+    return for_each_blade<T, Rotor<T>::set>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -17,7 +17,7 @@ struct SwivelPlane {
 
 // u: unit vector from shoulder to wrist. pole2: the pole's squared length.
 template <class T>
-constexpr SwivelPlane<T> swivel_plane(const Vector<T>& u, const Vector<T>& pole, const T& pole2)
+SWIVEL_INLINE constexpr SwivelPlane<T> swivel_plane(const Vector<T>& u, const Vector<T>& pole, const T& pole2)
 {
     const Vector<T> across = cross(u, pole);
     const T across2 = len2(across);

@@ -22,7 +22,7 @@ struct Rows {
     SWIVEL_INLINE T load(swivel_field field, std::uint32_t component) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
-        return load_lanes<T>([&](std::size_t lane) { return run.input + row_offset(limb + lane, input_row_count(Features), row); });
+        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return run.input + row_offset(limb + lane, input_row_count(Features), row); });
     }
     SWIVEL_INLINE Vector<T> load_vector(swivel_field field) const
     {
@@ -36,7 +36,7 @@ struct Rows {
     SWIVEL_INLINE void store(swivel_field field, std::uint32_t component, const Value& value) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
-        store_lanes([&](std::size_t lane) { return run.results + row_offset(limb + lane, result_row_count(Features), row); }, value);
+        store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return run.results + row_offset(limb + lane, result_row_count(Features), row); }, value);
     }
     SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& either) const
     {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// `swivel info`: what this machine is and what the library was built with.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "swivel/swivel.hpp"
+#include "tools/swivel/commands.h"
+
+namespace swivel::tools {
+
+namespace {
+
+std::string cpu_model()
+{
+    std::ifstream cpuinfo("/proc/cpuinfo");
+    for (std::string line; std::getline(cpuinfo, line);)
+        if (line.starts_with("model name"))
+            if (const std::size_t colon = line.find(':'); colon + 2 < line.size()) return line.substr(colon + 2);
+    return "unknown";
+}
+
+nlohmann::ordered_json describe()
+{
+    const char* isa = swivel_isa_name();
+    if (!isa) throw Error(SWIVEL_UNKNOWN_ISA);
+    nlohmann::ordered_json out;
+    const std::uint32_t version = swivel_version();
+    out["swivel"] = fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);
+    out["cpu"] = cpu_model();
+    out["cores"] = std::thread::hardware_concurrency();
+    out["isa"] = isa;
+    for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n) out["built"][name] = swivel_isa_runs(name) ? "runs here" : "does not run here";
+    out["compiler"] = SWIVEL_COMPILER;
+    out["build_type"] = SWIVEL_BUILD_TYPE;
+    out["flags"] = SWIVEL_FLAGS_TEXT;
+#ifdef SWIVEL_WITH_TBB
+    out["threads"] = "oneTBB";
+#else
+    out["threads"] = "none";
+#endif
+    return out;
+}
+
+void print_info(bool as_json)
+{
+    const nlohmann::ordered_json info = describe();
+    if (as_json) {
+        fmt::print("{}\n", info.dump(2));
+        return;
+    }
+    for (const auto& [key, value] : info.items())
+        if (!value.is_object()) fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    for (const auto& [name, state] : info["built"].items()) fmt::print("{:<12} {}, {}\n", "built for", name, state.get<std::string>());
+}
+
+}  // namespace
+
+void add_info(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("info", "CPU, instruction set in use, version, build");
+    auto as_json = std::make_shared<bool>(false);
+    command->add_flag("--json", *as_json, "Print JSON");
+    command->callback([as_json] { print_info(*as_json); });
+}
+
+}  // namespace swivel::tools

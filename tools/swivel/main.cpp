@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// The swivel command: reads the command line, runs one subcommand, turns what went wrong into one line and an exit code
+// (0 done, 1 failed, 2 bad usage).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "tools/formats/error.h"
+#include "tools/swivel/commands.h"
+#include "swivel/swivel.hpp"
+
+namespace {
+
+int fail(int code, std::string line)
+{
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    fmt::print(stderr, "swivel: {}\n", line);
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace swivel::tools;
+    CLI::App app{"Solves the arms of crowds: wrist targets in, joint rotations out, the same bits on every CPU."};
+    app.name("swivel");
+    app.set_version_flag("--version", fmt::format("swivel {}.{}.{}", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH));
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 1 failed, 2 bad usage. SWIVEL_FORCE_ISA=NAME forces an instruction set (swivel info).");
+    add_demo(app);
+    add_solve(app);
+    add_verify(app);
+    add_info(app);
+    try {
+        app.parse(argc, argv);
+        return 0;
+    } catch (const CLI::Success& done) {  // --help, --version
+        return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+        return fail(2, fmt::format("{}; see swivel --help", error.what()));
+    } catch (const CommandError& error) {
+        return fail(error.exit_code, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(1, "out of memory; try fewer --characters");
+    } catch (const std::exception& error) {
+        return fail(1, error.what());
+    }
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Threads of the command: oneTBB where the library was built with it, otherwise one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#endif
+
+namespace swivel::tools {
+
+// Calls work(begin, end) for pieces of 0 ... count-1, on several threads at once.
+template <class Work>
+void for_ranges(std::uint32_t count, Work work)
+{
+#ifdef SWIVEL_WITH_TBB
+    using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+    oneapi::tbb::parallel_for(Range(0, count, 256), [&](const Range& range) { work(range.begin(), range.end()); });
+#else
+    if (count > 0) work(std::uint32_t{0}, count);
+#endif
+}
+
+// At most this many threads solve while it lives; 0: as many as the machine has.
+class ThreadLimit {
+public:
+    explicit ThreadLimit([[maybe_unused]] unsigned most)
+    {
+#ifdef SWIVEL_WITH_TBB
+        if (most > 0) control_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, most);
+#endif
+    }
+
+private:
+#ifdef SWIVEL_WITH_TBB
+    std::optional<oneapi::tbb::global_control> control_;
+#endif
+};
+
+inline unsigned thread_count()
+{
+#ifdef SWIVEL_WITH_TBB
+    using Control = oneapi::tbb::global_control;
+    const auto most = static_cast<unsigned>(Control::active_value(Control::max_allowed_parallelism));
+    const auto has = static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
+    return most < has ? most : has;
+#else
+    return 1;
+#endif
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// What a run measured, as lines for people or as JSON for machines.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "tools/swivel/statistics.h"
+
+namespace swivel::tools {
+
+// Throughput, instruction set, threads, errors, flags: on stdout.
+void print_statistics(const Statistics& statistics);
+nlohmann::ordered_json json_of(const Statistics& statistics);
+
+}  // namespace swivel::tools

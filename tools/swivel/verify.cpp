@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//
+// `swivel verify`: every formula against the others, and the same bits from every instruction set, thread count and chunk
+// size of this machine.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "swivel/swivel.hpp"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/golden_crowd.h"
+#include "tools/swivel/parallel.h"
+#include "tools/swivel/progress.h"
+
+namespace swivel::tools {
+
+namespace {
+
+struct Options {
+    std::uint64_t arms = 1'000'000, seed = 1;
+    bool json = false;
+};
+
+struct Digest {
+    std::string isa, how;
+    std::uint64_t hash;
+};
+
+constexpr std::uint32_t kDigestLimbs = 1000;
+
+void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
+{
+    const std::uint32_t blocks = swivel_block_count(crowd.get());
+    for (std::uint32_t first = 0; first < blocks; first += chunk) crowd.solve_blocks(first, std::min(chunk, blocks - first));
+}
+
+// The golden crowd on one instruction set, every way there is to run it.
+void add_digests(const char* isa, std::vector<Digest>& digests)
+{
+    for (const unsigned threads : {1u, 2u}) {
+        const ThreadLimit limit(threads);
+        // 100 times the limbs: enough blocks that oneTBB shares them out.
+        const auto many = golden_digest(100 * kDigestLimbs, [](Crowd& crowd) { crowd.solve(); });
+        digests.push_back({isa, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"), many});
+    }
+    for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u, 1u << 20}) {
+        const auto hash = golden_digest(100 * kDigestLimbs, [chunk](Crowd& crowd) { solve_in_chunks(crowd, chunk); });
+        digests.push_back({isa, chunk == 1u << 20 ? "one chunk" : fmt::format("chunks of {}", chunk), hash});
+    }
+}
+
+std::vector<Digest> all_digests()
+{
+    const std::string in_use = swivel_isa_name();
+    std::vector<const char*> isas;
+    for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n)
+        if (swivel_isa_runs(name)) isas.push_back(name);
+    std::vector<Digest> digests;
+    Progress progress("instruction sets", isas.size());
+    for (std::size_t n = 0; n < isas.size(); ++n) {
+        progress.show(n);
+        check(swivel_use_isa(isas[n]));
+        add_digests(isas[n], digests);
+    }
+    check(swivel_use_isa(in_use.c_str()));
+    return digests;
+}
+
+bool is_within(const swivel_check& c) { return c.max <= c.max_limit && (c.rms_limit == 0 || c.rms <= c.rms_limit); }
+
+void print_check(const swivel_check* c, void*)
+{
+    const std::string rms_limit = c->rms_limit > 0 ? fmt::format(" <= {:.1e}", c->rms_limit) : "";
+    fmt::print("{:<46} {:<18} {:>8}  max {:.2e} <= {:.0e}  rms {:.2e}{:<11}{}\n", c->name, c->set, c->arm_count, c->max, c->max_limit, c->rms, rms_limit,
+               is_within(*c) ? "" : "  FAILED");
+}
+
+void append_check(const swivel_check* c, void* list)
+{
+    static_cast<nlohmann::ordered_json*>(list)->push_back({{"name", c->name}, {"set", c->set}, {"arms", c->arm_count}, {"max", c->max}, {"rms", c->rms},
+                                                           {"max_limit", c->max_limit}, {"rms_limit", c->rms_limit}, {"passed", is_within(*c)}});
+}
+
+void run(const Options& options)
+{
+    if (!swivel_isa_name()) throw Error(SWIVEL_UNKNOWN_ISA);
+    nlohmann::ordered_json checks = nlohmann::ordered_json::array();
+    int passed = 0;
+    check(swivel_verify(options.arms, options.seed, options.json ? append_check : print_check, &checks, &passed));
+
+    const std::vector<Digest> digests = all_digests();
+    bool equal = true;
+    for (const Digest& digest : digests) equal = equal && digest.hash == digests[0].hash;
+    if (options.json) {
+        nlohmann::ordered_json out{{"checks", checks}, {"equal_digests", equal}, {"passed", passed && equal}};
+        for (const Digest& d : digests) out["digests"].push_back({{"isa", d.isa}, {"how", d.how}, {"digest", fmt::format("{:016x}", d.hash)}});
+        fmt::print("{}\n", out.dump(2));
+    } else {
+        for (const Digest& d : digests)
+            fmt::print("digest  {:<8} {:<12} {:016x}{}\n", d.isa, d.how, d.hash, d.hash == digests[0].hash ? "" : "  DIFFERS");
+        fmt::print("{}\n", passed && equal ? "all checks passed, all digests equal" : "FAILED");
+    }
+    if (!passed) throw CommandError(1, "verify: a check is over its limit; the lines marked FAILED say which");
+    if (!equal) throw CommandError(1, "verify: instruction sets or chunks gave different bits; the lines marked DIFFERS say which");
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("verify", "Check oracle, double, float and every instruction set against each other");
+    auto options = std::make_shared<Options>();
+    command->add_option("--arms", options->arms, "Random arms in each reach band")->capture_default_str()->check(CLI::PositiveNumber);
+    command->add_option("--seed", options->seed, "Seed of the random arms")->capture_default_str();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace swivel::tools
