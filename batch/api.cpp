@@ -30,19 +30,22 @@ swivel_status check(const swivel_crowd_def* def)
 {
     if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
     if (def->size != sizeof(swivel_crowd_def))
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has size %zu, this library's has %zu; start from swivel_default_crowd_def()",
-                    def->size, sizeof(swivel_crowd_def));
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "crowd def has size %zu, this library's has %zu; start from swivel_default_crowd_def()", def->size,
+                    sizeof(swivel_crowd_def));
     if (def->features & ~kAllFeatures)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
     if ((def->features & SWIVEL_POLE_DIRECTION) && !(def->features & SWIVEL_WORLD))
-        return fail(SWIVEL_INVALID_ARGUMENT, "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both");
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both");
     if (def->group_count == 0 || !def->groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def->allocate != !def->release)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
     std::uint64_t limb_count = 0;
     for (std::uint32_t g = 0; g < def->group_count; ++g) {
-        if (def->groups[g].limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+        if (def->groups[g].limb_count == 0)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
         limb_count += std::uint64_t{def->groups[g].limb_count} + SWIVEL_LANES;
     }
     if (limb_count > kMostLimbs) return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs; use several crowds");
@@ -73,10 +76,12 @@ swivel_status check_stride(const void* data, std::size_t stride, std::size_t val
 swivel_status check_field(const swivel_crowd& crowd, swivel_field field)
 {
     if (field_row_count(crowd.features, field) != 0) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "field %d is not part of this crowd; see the features it was created with", static_cast<int>(field));
+    return fail(SWIVEL_INVALID_ARGUMENT, "field %d is not part of this crowd; see the features it was created with",
+                static_cast<int>(field));
 }
 
-RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
+RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t first,
+                std::uint32_t limb_count)
 {
     const bool input = is_input(field);
     return {input ? crowd.input : crowd.results,
@@ -91,7 +96,10 @@ RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t gro
 const Isa* usable_isa()
 {
     const Isa* isa = current_isa();
-    if (!isa) fail(SWIVEL_UNKNOWN_ISA, "SWIVEL_FORCE_ISA=%s names no instruction set that this build has and this CPU runs; unset it", std::getenv("SWIVEL_FORCE_ISA"));
+    if (!isa)
+        fail(SWIVEL_UNKNOWN_ISA,
+             "SWIVEL_FORCE_ISA=%s names no instruction set that this build has and this CPU runs; unset it",
+             std::getenv("SWIVEL_FORCE_ISA"));
     return isa;
 }
 
@@ -112,11 +120,16 @@ uint32_t swivel_version(void) { return SWIVEL_VERSION; }
 const char* swivel_status_text(swivel_status status)
 {
     switch (status) {
-    case SWIVEL_OK: return "done";
-    case SWIVEL_INVALID_ARGUMENT: return "invalid argument";
-    case SWIVEL_OUT_OF_MEMORY: return "out of memory";
-    case SWIVEL_UNKNOWN_ISA: return "unknown instruction set";
-    case SWIVEL_ISA_UNAVAILABLE: return "instruction set not available on this CPU";
+        case SWIVEL_OK:
+            return "done";
+        case SWIVEL_INVALID_ARGUMENT:
+            return "invalid argument";
+        case SWIVEL_OUT_OF_MEMORY:
+            return "out of memory";
+        case SWIVEL_UNKNOWN_ISA:
+            return "unknown instruction set";
+        case SWIVEL_ISA_UNAVAILABLE:
+            return "instruction set not available on this CPU";
     }
     return "unknown status";
 }
@@ -144,7 +157,8 @@ swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** cr
         if (reinterpret_cast<std::uintptr_t>(def->memory) % kArenaAlignment != 0)
             return fail(SWIVEL_INVALID_ARGUMENT, "the caller's memory is not aligned to %zu bytes", kArenaAlignment);
         if (def->memory_bytes < bytes)
-            return fail(SWIVEL_OUT_OF_MEMORY, "the caller's memory has %zu bytes, the crowd needs %zu", def->memory_bytes, bytes);
+            return fail(SWIVEL_OUT_OF_MEMORY, "the caller's memory has %zu bytes, the crowd needs %zu",
+                        def->memory_bytes, bytes);
         arena = def->memory;
         release = nullptr;
     } else if (def->allocate) {
@@ -185,28 +199,42 @@ uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field)
 {
     return field_row_count(crowd->features, field);
 }
-swivel_rows swivel_input_rows(swivel_crowd* crowd) { return {crowd->input, crowd->block_count, crowd->input_row_count}; }
-swivel_rows swivel_result_rows(swivel_crowd* crowd) { return {crowd->results, crowd->block_count, crowd->result_row_count}; }
+swivel_rows swivel_input_rows(swivel_crowd* crowd)
+{
+    return {crowd->input, crowd->block_count, crowd->input_row_count};
+}
+swivel_rows swivel_result_rows(swivel_crowd* crowd)
+{
+    return {crowd->results, crowd->block_count, crowd->result_row_count};
+}
 
 swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
                            swivel_in values)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (!is_input(field)) return fail(SWIVEL_INVALID_ARGUMENT, "field %d is a result; swivel_write takes input fields", static_cast<int>(field));
+    if (!is_input(field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "field %d is a result; swivel_write takes input fields",
+                    static_cast<int>(field));
     if (const swivel_status status = check_field(*crowd, field); status != SWIVEL_OK) return status;
     const RowSpan rows = span_of(*crowd, field, group, first, limb_count);
-    if (const swivel_status status = check_stride(values.data, values.stride, rows.component_count * sizeof(float), true); status != SWIVEL_OK) return status;
+    if (const swivel_status status =
+            check_stride(values.data, values.stride, rows.component_count * sizeof(float), true);
+        status != SWIVEL_OK)
+        return status;
     copy_in(rows, values);
     return SWIVEL_OK;
 }
 
-swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
-                          swivel_out values)
+swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                          uint32_t limb_count, swivel_out values)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
     if (const swivel_status status = check_field(*crowd, field); status != SWIVEL_OK) return status;
     const RowSpan rows = span_of(*crowd, field, group, first, limb_count);
-    if (const swivel_status status = check_stride(values.data, values.stride, rows.component_count * sizeof(float), false); status != SWIVEL_OK) return status;
+    if (const swivel_status status =
+            check_stride(values.data, values.stride, rows.component_count * sizeof(float), false);
+        status != SWIVEL_OK)
+        return status;
     copy_out(rows, values);
     return SWIVEL_OK;
 }
@@ -231,15 +259,18 @@ swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uin
     return SWIVEL_OK;
 }
 
-swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count, swivel_out elbow,
-                             swivel_out wrist, swivel_out hand)
+swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                             swivel_out elbow, swivel_out wrist, swivel_out hand)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->features & SWIVEL_WITH_HAND))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
-    for (const auto& [out, bytes] : {std::pair{elbow, 3 * sizeof(double)}, {wrist, 3 * sizeof(double)}, {hand, 4 * sizeof(double)}})
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
+    for (const auto& [out, bytes] :
+         {std::pair{elbow, 3 * sizeof(double)}, {wrist, 3 * sizeof(double)}, {hand, 4 * sizeof(double)}})
         if (out.data)
-            if (const swivel_status status = check_stride(out.data, out.stride, bytes, false); status != SWIVEL_OK) return status;
+            if (const swivel_status status = check_stride(out.data, out.stride, bytes, false); status != SWIVEL_OK)
+                return status;
     const Group& of = crowd->groups[group];
     for (uint32_t n = 0; n < limb_count; ++n) {
         const LimbPose pose = forward(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
@@ -254,7 +285,9 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
                                swivel_out distance)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_stride(distance.data, distance.stride, sizeof(double), false); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_stride(distance.data, distance.stride, sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
     const Group& of = crowd->groups[group];
     for (uint32_t n = 0; n < limb_count; ++n) {
         const double value = residual(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
@@ -272,7 +305,9 @@ const char* swivel_isa_name(void)
 swivel_status swivel_use_isa(const char* name)
 {
     const Isa* isa = name ? find_isa(name) : nullptr;
-    if (!isa) return fail(SWIVEL_UNKNOWN_ISA, "no instruction set '%s' in this build; swivel_isa_at() lists them", name ? name : "");
+    if (!isa)
+        return fail(SWIVEL_UNKNOWN_ISA, "no instruction set '%s' in this build; swivel_isa_at() lists them",
+                    name ? name : "");
     if (!isa->can_run()) return fail(SWIVEL_ISA_UNAVAILABLE, "this CPU or operating system does not run '%s'", name);
     use_isa(*isa);
     return SWIVEL_OK;

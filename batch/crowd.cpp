@@ -59,10 +59,18 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
         first_block += block_count;
     }
 
-    swivel_crowd* const crowd = new (base) swivel_crowd{
-        def.features, def.group_count, layout.block_count, input_row_count(def.features), result_row_count(def.features),
-        groups, reinterpret_cast<float*>(base + layout.input), reinterpret_cast<float*>(base + layout.results),
-        arena, layout.end, nullptr, nullptr};
+    swivel_crowd* const crowd = new (base) swivel_crowd{def.features,
+                                                        def.group_count,
+                                                        layout.block_count,
+                                                        input_row_count(def.features),
+                                                        result_row_count(def.features),
+                                                        groups,
+                                                        reinterpret_cast<float*>(base + layout.input),
+                                                        reinterpret_cast<float*>(base + layout.results),
+                                                        arena,
+                                                        layout.end,
+                                                        nullptr,
+                                                        nullptr};
 
     fill_field(*crowd, SWIVEL_TARGET, {0, 0, 2});
     fill_field(*crowd, SWIVEL_POLE, {0, -1, 0});

@@ -52,7 +52,8 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
     const Rotor<double> upper_w = base * read.rotor_of(SWIVEL_SHOULDER);
     const Rotor<double> fore_w = upper_w * elbow;
     const Vector<double> e3 = vector(0.0, 0.0, 1.0);
-    const Vector<double> elbow_w = shoulder + (scale * read(SWIVEL_LENGTHS, 0)) * sandwich(upper_w * upper_from_arm, e3);
+    const Vector<double> elbow_w =
+        shoulder + (scale * read(SWIVEL_LENGTHS, 0)) * sandwich(upper_w * upper_from_arm, e3);
     const Vector<double> wrist_w = elbow_w + (scale * read(SWIVEL_LENGTHS, 1)) * sandwich(fore_w * fore_from_arm, e3);
     const Rotor<double> hand_w = crowd.features & SWIVEL_WITH_HAND ? fore_w * read.rotor_of(SWIVEL_WRIST) : fore_w;
     return {elbow_w, wrist_w, hand_w};

@@ -44,23 +44,28 @@ swivel_status bind(const swivel_chain& chain, swivel_binding& binding, float* le
     const Rotor<double> shoulder = rotor_of(chain.shoulder_rotation), elbow = rotor_of(chain.elbow_rotation),
                         wrist = rotor_of(chain.wrist_rotation);
     if (!is_usable(shoulder) || !is_usable(elbow) || !is_usable(wrist))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: a rest rotation is zero or not finite; give quaternions x, y, z, w");
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: a rest rotation is zero or not finite; give quaternions x, y, z, w");
     const Vector<double> upper = vector_of(chain.elbow_offset), fore = vector_of(chain.wrist_offset);
     if (!is_usable_bone(upper) || !is_usable_bone(fore))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the %s has no direction; offsets must have a length in 1e-15..1e15",
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: the %s has no direction; offsets must have a length in 1e-15..1e15",
                     is_usable_bone(upper) ? "forearm" : "upper arm");
 
     const Rotor<double> elbow_unit = normalise(elbow);
     const Vector<double> fore_s = sandwich(elbow_unit, fore);  // in the shoulder joint's frame
     Vector<double> hinge = vector_of(chain.hinge);
-    if (!(len2(hinge) <= kHuge2)) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the hinge is not finite; give an axis or zeros");
+    if (!(len2(hinge) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the hinge is not finite; give an axis or zeros");
     if (len2(hinge) < kTiny2) {
         if (is_along(upper, fore_s))
-            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the rest pose is straight, so it does not show the hinge; give one");
+            return fail(SWIVEL_INVALID_ARGUMENT,
+                        "swivel_bind: the rest pose is straight, so it does not show the hinge; give one");
         hinge = cross(fore_s, upper);
     }
     if (is_along(hinge, upper) || is_along(hinge, fore_s))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the hinge lies along the %s; give the axis the elbow turns about",
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: the hinge lies along the %s; give the axis the elbow turns about",
                     is_along(hinge, upper) ? "upper arm" : "forearm");
 
     const Rotor<double> upper_from_arm = align(upper, hinge);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// From a skeleton's limb at rest to its binding: bone lengths, bone axes, hinge, and the constant rotors between arm frame and joints.
+// From a skeleton's limb at rest to its binding: bone lengths, bone axes, hinge, and the constant rotors between arm
+// frame and joints.
 #pragma once
 
 #include "batch/swivel.h"

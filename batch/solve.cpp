@@ -24,7 +24,8 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, std::uint32_t fir
 
 }  // namespace
 
-void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block, std::uint32_t block_count)
+void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
+                  std::uint32_t block_count)
 {
     const FloatEnv env;
     const auto solve = kernels.solve[crowd.features & kFormulaFeatures];

@@ -8,8 +8,8 @@
 namespace swivel {
 
 struct RowSpan {
-    float* base;                        // input or result rows of the crowd
-    std::uint32_t row_count;            // of a block
+    float* base;                               // input or result rows of the crowd
+    std::uint32_t row_count;                   // of a block
     std::uint32_t first_row, component_count;  // the field
     std::size_t first_limb, limb_count;
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // swivel: the arms of crowds. Wrist targets and elbow poles go in, joint rotations come out: batched, free of
-// trigonometry, with the same bits on every CPU. This header is the whole binary interface; swivel.hpp wraps it for C++.
+// trigonometry, with the same bits on every CPU. This header is the whole binary interface; swivel.hpp wraps it for
+// C++.
 //
 // Everything here is experimental until release 1.0 keeps it.
 //
@@ -12,35 +13,36 @@
 // LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
 // results -> swivel_crowd_destroy(). After creation no call that takes a crowd allocates memory.
 //
-// LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned to 64.
-// Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups: limbs that
-// share one binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end are padding.
+// LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
+// to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
+// limbs that share one binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end
+// are padding.
 //
 // INPUT ROWS, in this order             rows  present with          meaning
 //   SWIVEL_TARGET                       3     always                wrist position: arm frame, or world with WORLD
 //   SWIVEL_POLE                         3     always                pole point, or a direction with POLE_DIRECTION
 //   SWIVEL_LENGTHS                      2     always                upper arm, forearm (before the parent's scale)
 //   SWIVEL_PARENT_POSITION              3     WORLD                 where the shoulder is, in the world
-//   SWIVEL_PARENT_ROTATION              4     WORLD                 rotation of the shoulder's parent joint, in the world
-//   SWIVEL_PARENT_SCALE                 1     WORLD                 uniform scale of the parent, > 0
-//   SWIVEL_HAND                         4     HAND                  wanted hand orientation: arm frame, or world
+//   SWIVEL_PARENT_ROTATION              4     WORLD                 rotation of the shoulder's parent joint, in the
+//   world SWIVEL_PARENT_SCALE                 1     WORLD                 uniform scale of the parent, > 0 SWIVEL_HAND
+//   4     HAND                  wanted hand orientation: arm frame, or world
 // RESULT ROWS, in this order
 //   SWIVEL_SHOULDER                     4     always                arm frame rotation, or local rotation with JOINTS
 //   SWIVEL_ELBOW                        2     without JOINTS        cos and sin of half the flexion, both >= 0
 //                                       4     JOINTS                local rotation of the elbow joint
-//   SWIVEL_WRIST                        4     HAND                  hand relative to forearm, or local rotation with JOINTS
-//   SWIVEL_FLAGS                        1     always                SWIVEL_REACHED... below, as uint32_t
+//   SWIVEL_WRIST                        4     HAND                  hand relative to forearm, or local rotation with
+//   JOINTS SWIVEL_FLAGS                        1     always                SWIVEL_REACHED... below, as uint32_t
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
 // A limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit.
 //
-// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not zero
-// is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
+// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not
+// zero is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
-// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks() on
-// ranges that do not overlap.
+// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks()
+// on ranges that do not overlap.
 #pragma once
 
 #include <stddef.h>
@@ -73,11 +75,12 @@ typedef enum swivel_status {
 
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
-    SWIVEL_REACHED = 1u << 0,           // the wrist is at the target
-    SWIVEL_CLAMPED_FAR = 1u << 3,       // target out of reach: the wrist is at the nearest reachable point, arm straight
-    SWIVEL_CLAMPED_NEAR = 1u << 4,      // target too near: the wrist is at the nearest reachable point, arm folded
-    SWIVEL_SWIVEL_UNDEFINED = 1u << 5,  // pole along the target within sin 1e-3, of no length, or target on the shoulder
-    SWIVEL_BAD_INPUT = 1u << 30,        // see VALID INPUT; the limb has its rest pose
+    SWIVEL_REACHED = 1u << 0,       // the wrist is at the target
+    SWIVEL_CLAMPED_FAR = 1u << 3,   // target out of reach: the wrist is at the nearest reachable point, arm straight
+    SWIVEL_CLAMPED_NEAR = 1u << 4,  // target too near: the wrist is at the nearest reachable point, arm folded
+    SWIVEL_SWIVEL_UNDEFINED =
+        1u << 5,                  // pole along the target within sin 1e-3, of no length, or target on the shoulder
+    SWIVEL_BAD_INPUT = 1u << 30,  // see VALID INPUT; the limb has its rest pose
     // bits 1, 2 (softened, stretched) and 6 to 29 (limits, continuity) are kept for later releases and are 0
 } swivel_flag;
 
@@ -104,7 +107,8 @@ typedef enum swivel_field {
     SWIVEL_FIELD_COUNT
 } swivel_field;
 
-// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w. Made by swivel_bind().
+// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w. Made by
+// swivel_bind().
 typedef struct swivel_binding {
     float parent_from_arm[4];  // arm frame to the shoulder's parent joint
     float upper_from_arm[4];   // arm frame, bones and hinge at rest, to the shoulder joint's own frame
@@ -119,8 +123,8 @@ typedef struct swivel_chain {
     float wrist_rotation[4];     // rest rotation of the wrist joint relative to the elbow joint
     float elbow_offset[3];       // elbow's place in the shoulder joint's frame
     float wrist_offset[3];       // wrist's place in the elbow joint's frame
-    float hinge[3];              // elbow axis in the shoulder joint's frame: flexion turns the forearm about -hinge. Zero:
-                                 // taken from the rest pose, which then must be bent by more than sin 1e-3
+    float hinge[3];  // elbow axis in the shoulder joint's frame: flexion turns the forearm about -hinge. Zero:
+                     // taken from the rest pose, which then must be bent by more than sin 1e-3
 } swivel_chain;
 
 typedef struct swivel_group_def {
@@ -171,15 +175,16 @@ SWIVEL_API const char* swivel_last_error(void);
 SWIVEL_API swivel_crowd_def swivel_default_crowd_def(void);
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity; results as zeros.
-// Allocates once. On failure *crowd is null.
+// Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity; results as
+// zeros. Allocates once. On failure *crowd is null.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
 // The alignments of a limb from its rest pose, and its two bone lengths (lengths may be null). Fails with
-// SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a hinge along the upper arm or forearm,
-// or a straight rest pose without a hinge. To bend the limb the other way, negate the hinge. Any thread; no allocation.
+// SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a hinge along the upper arm or
+// forearm, or a straight rest pose without a hinge. To bend the limb the other way, negate the hinge. Any thread; no
+// allocation.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, float lengths[2]);
 
 // The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. Any thread.
@@ -195,8 +200,8 @@ SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
 
 // Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data: consecutive floats for
-// each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any. Costs about as
-// much as a solve; rows are the fast way.
+// each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any.
+// Costs about as much as a solve; rows are the fast way.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
@@ -204,13 +209,13 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 
 // Solves every limb, on the calling thread's oneTBB arena if built with it.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
-// Solves a range of blocks on the calling thread; blocks outside are neither read nor written. Never allocates, never uses
-// oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of the
-// caller is restored.
+// Solves a range of blocks on the calling thread; blocks outside are neither read nor written. Never allocates, never
+// uses oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of
+// the caller is restored.
 SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
 
-// Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or 4
-// (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
+// Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or
+// 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far the wrist of each limb is from its target: one double, in arm lengths (upper + fore, scaled). 0 for a limb of
@@ -218,8 +223,9 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
-// The instruction set in use; chosen on first need: the environment's SWIVEL_FORCE_ISA, else the best this CPU runs. Null, with
-// swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails the same way. Any thread.
+// The instruction set in use; chosen on first need: the environment's SWIVEL_FORCE_ISA, else the best this CPU runs.
+// Null, with swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails the same
+// way. Any thread.
 SWIVEL_API const char* swivel_isa_name(void);
 // Changes it for the whole process, from the next solve on. Any thread.
 SWIVEL_API swivel_status swivel_use_isa(const char* name);
@@ -230,10 +236,10 @@ SWIVEL_API int swivel_isa_runs(const char* name);
 
 // One line of a self-check: an error measured over many arms against its limit.
 typedef struct swivel_check {
-    const char* name;      // what is compared, e.g. "float wrist"
-    const char* set;       // over which arms, e.g. "reach 5-98 %"
+    const char* name;  // what is compared, e.g. "float wrist"
+    const char* set;   // over which arms, e.g. "reach 5-98 %"
     uint64_t arm_count;
-    double max, rms;       // in arm lengths, or as the name says
+    double max, rms;              // in arm lengths, or as the name says
     double max_limit, rms_limit;  // 0: not limited
 } swivel_check;
 

@@ -37,8 +37,9 @@ inline BoundLimb bind(const swivel_chain& chain)
     return limb;
 }
 
-// Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group on,
-// each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by size.
+// Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group
+// on, each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by
+// size.
 class Crowd {
 public:
     Crowd(std::uint32_t features, std::span<const swivel_group_def> groups)

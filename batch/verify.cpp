@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // swivel_verify(): the formulas against each other, each comparison on its own so that a failure names its cause. The
-// lecture's steps in double against the dense oracle, the production formula in double against the lecture's steps, and in
-// float against its own target through forward kinematics in double.
+// lecture's steps in double against the dense oracle, the production formula in double against the lecture's steps, and
+// in float against its own target through forward kinematics in double.
 #include <algorithm>
 #include <cmath>
 
@@ -82,8 +82,8 @@ Rotor<double> to_double(const Rotor<float>& q)
     return rotor<double>(q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>());
 }
 
-// An arm of any ratio of bones up to most_ratio to 1, either way round, its wrist in the band, its pole at least 1e-3 off
-// the line (half of them closer than 0.1). The numbers are floats, so they are exact in both precisions.
+// An arm of any ratio of bones up to most_ratio to 1, either way round, its wrist in the band, its pole at least 1e-3
+// off the line (half of them closer than 0.1). The numbers are floats, so they are exact in both precisions.
 ArmGoal<float> random_arm(Random& random, const Band& band, double most_ratio)
 {
     const double shorter = 1 / random.between(1, most_ratio);
@@ -123,7 +123,8 @@ struct FloatErrors {
         wrist.add(std::sqrt(len2(wrist_of(exact, upper, fore) - reachable(goal))) / (upper + fore));
 
         // How far the hinge is from the swivel plane's normal, times the sine that the normal's digits are lost by.
-        const Vector<double> line = normalise(convert<double>(goal.wrist)), pole = normalise(convert<double>(goal.pole));
+        const Vector<double> line = normalise(convert<double>(goal.wrist)),
+                             pole = normalise(convert<double>(goal.pole));
         const Vector<double> normal = cross(line, pole), hinge = sandwich(exact.shoulder, vector(1.0, 0.0, 0.0));
         plane.add(std::sqrt(len2(normal - std::sqrt(len2(normal)) * hinge)));
     }
@@ -194,14 +195,17 @@ void verify_hard(Report& report)
                 for (const float upper : bones)
                     for (const float fore : bones)
                         for (const float side : {-1.0f, 0.0f, 1e-3f, 1.0f}) {
-                            const ArmGoal<float> goal{vector(x * 0.5f, y * 0.5f, z * 0.5f), vector(x * 0.5f, side, z * 0.5f), upper, fore};
+                            const ArmGoal<float> goal{vector(x * 0.5f, y * 0.5f, z * 0.5f),
+                                                      vector(x * 0.5f, side, z * 0.5f), upper, fore};
                             const ArmPose<float> pose = solve_arm(goal, true);
                             const Rotor<double> q = to_double(pose.shoulder);
                             const double halves = std::hypot(double{pose.cos_half}, double{pose.sin_half});
                             length.add(std::max(std::fabs(std::sqrt(len2(q)) - 1), std::fabs(halves - 1)));
                             if (len2(convert<double>(goal.wrist)) < kTiny2 || !(upper + fore > 0)) continue;
-                            const ArmPose<double> exact{normalise(q), pose.cos_half / halves, pose.sin_half / halves, 0, true};
-                            const Vector<double> missed = wrist_of(exact, double{upper}, double{fore}) - reachable(goal);
+                            const ArmPose<double> exact{normalise(q), pose.cos_half / halves, pose.sin_half / halves, 0,
+                                                        true};
+                            const Vector<double> missed =
+                                wrist_of(exact, double{upper}, double{fore}) - reachable(goal);
                             wrist.add(std::sqrt(len2(missed)) / (double{upper} + fore));
                         }
     report("production<float>, wrist to target", "hard poses", wrist, 1e-6, 0);
@@ -212,8 +216,8 @@ void verify_hard(Report& report)
 
 }  // namespace swivel
 
-swivel_status swivel_verify(uint64_t arm_count, uint64_t seed, void (*report)(const swivel_check* check, void* user), void* user,
-                            int* passed)
+swivel_status swivel_verify(uint64_t arm_count, uint64_t seed, void (*report)(const swivel_check* check, void* user),
+                            void* user, int* passed)
 {
     using namespace swivel;
     if (!passed) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_verify: passed is null");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The conformal geometric algebra G(4,1) at compile time. A multivector's type says which blades it has; a product's type
-// and its terms follow from its factors' types, so S1 ^ S2 ^ plane costs its own multiplications and nothing else.
+// The conformal geometric algebra G(4,1) at compile time. A multivector's type says which blades it has; a product's
+// type and its terms follow from its factors' types, so S1 ^ S2 ^ plane costs its own multiplications and nothing else.
 //
-// Basis: e1 e2 e3, e0 (origin), einf (infinity) with e0^2 = einf^2 = 0, e0.einf = -1. Blades are ordered e1 e2 e3 einf e0,
-// except that the Euclidean bivectors are the lecture's imaginary units i = e3^e2, j = e1^e3, k = e2^e1 themselves.
+// Basis: e1 e2 e3, e0 (origin), einf (infinity) with e0^2 = einf^2 = 0, e0.einf = -1. Blades are ordered e1 e2 e3 einf
+// e0, except that the Euclidean bivectors are the lecture's imaginary units i = e3^e2, j = e1^e3, k = e2^e1 themselves.
 // This is the only file with component arithmetic.
 #pragma once
 
@@ -78,7 +78,8 @@ constexpr int geometric(Blade a, Blade b, Blade out)
 {
     const Blade euclid_a = a & kEuclid, euclid_b = b & kEuclid, null_a = a & ~kEuclid, null_b = b & ~kEuclid;
     if ((euclid_a ^ euclid_b) != (out & kEuclid)) return 0;
-    const int past = grade(null_a) * grade(euclid_b) % 2 == 0 ? 1 : -1;  // b's Euclidean part moves left past a's null part
+    const int past =
+        grade(null_a) * grade(euclid_b) % 2 == 0 ? 1 : -1;  // b's Euclidean part moves left past a's null part
     return past * order_sign(euclid_a, euclid_b) * null_coefficient(null_a, null_b, out & ~kEuclid) * orientation(a) *
            orientation(b) * orientation(out);
 }
@@ -147,18 +148,26 @@ struct Mv {
         return std::popcount(S & ((BladeSet{1} << B) - 1u));
     }
     template <Blade B>
-    SWIVEL_INLINE constexpr const T& at() const { return c[index<B>()]; }
+    SWIVEL_INLINE constexpr const T& at() const
+    {
+        return c[index<B>()];
+    }
     template <Blade B>
-    SWIVEL_INLINE constexpr T& at() { return c[index<B>()]; }
+    SWIVEL_INLINE constexpr T& at()
+    {
+        return c[index<B>()];
+    }
 };
 
 // The multivector whose component for each blade B of S is make.operator()<B>().
 template <class T, BladeSet S, class Make>
 SWIVEL_INLINE constexpr Mv<T, S> for_each_blade(Make make)
 {
-    return [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA {
+    const auto gather = [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA
+    {
         return Mv<T, S>{{make.template operator()<table::nth_blade(S, N)>()...}};
-    }(std::make_index_sequence<Mv<T, S>::count>{});
+    };
+    return gather(std::make_index_sequence<Mv<T, S>::count>{});
 }
 
 // A basis blade with coefficient 1.
@@ -189,18 +198,24 @@ template <class T, BladeSet A, BladeSet B>
 SWIVEL_INLINE constexpr Mv<T, A | B> operator+(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return for_each_blade<T, A | B>([&]<Blade N>() SWIVEL_INLINE_LAMBDA {
-        if constexpr ((A & B) >> N & 1u) return a.template at<N>() + b.template at<N>();
-        else if constexpr (A >> N & 1u) return a.template at<N>();
-        else return b.template at<N>();
+        if constexpr ((A & B) >> N & 1u)
+            return a.template at<N>() + b.template at<N>();
+        else if constexpr (A >> N & 1u)
+            return a.template at<N>();
+        else
+            return b.template at<N>();
     });
 }
 template <class T, BladeSet A, BladeSet B>
 SWIVEL_INLINE constexpr Mv<T, A | B> operator-(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return for_each_blade<T, A | B>([&]<Blade N>() SWIVEL_INLINE_LAMBDA {
-        if constexpr ((A & B) >> N & 1u) return a.template at<N>() - b.template at<N>();
-        else if constexpr (A >> N & 1u) return a.template at<N>();
-        else return -b.template at<N>();
+        if constexpr ((A & B) >> N & 1u)
+            return a.template at<N>() - b.template at<N>();
+        else if constexpr (A >> N & 1u)
+            return a.template at<N>();
+        else
+            return -b.template at<N>();
     });
 }
 
@@ -215,14 +230,18 @@ SWIVEL_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
     return for_each_blade<T, table::product_blades(Kind, A, B)>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
         constexpr table::Terms terms = table::terms(Kind, A, B, Out);
-        const auto term = [&]<std::size_t N>() SWIVEL_INLINE_LAMBDA { return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>(); };
-        return [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA {
+        const auto term = [&]<std::size_t N>() SWIVEL_INLINE_LAMBDA {
+            return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>();
+        };
+        const auto add_up = [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA
+        {
             T sum = terms.term[0].sign > 0 ? term.template operator()<0>() : -term.template operator()<0>();
             ((sum = terms.term[N + 1].sign > 0 ? sum + term.template operator()<N + 1>()
                                                : sum - term.template operator()<N + 1>()),
              ...);
             return sum;
-        }(std::make_index_sequence<terms.count - 1>{});
+        };
+        return add_up(std::make_index_sequence<terms.count - 1>{});
     });
 }
 // Geometric product.
@@ -256,8 +275,10 @@ template <class T, BladeSet S>
 SWIVEL_INLINE constexpr Mv<T, S> operator~(const Mv<T, S>& m)
 {
     return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA {
-        if constexpr (grade(B) % 4 < 2) return m.template at<B>();
-        else return -m.template at<B>();
+        if constexpr (grade(B) % 4 < 2)
+            return m.template at<B>();
+        else
+            return -m.template at<B>();
     });
 }
 
@@ -270,8 +291,10 @@ SWIVEL_INLINE constexpr auto times_blade(const Mv<T, S>& m)
     return for_each_blade<T, table::product_blades(kind, S, blades(B))>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
         constexpr table::Terms terms = table::terms(kind, S, blades(B), Out);
         static_assert(terms.count == 1);
-        if constexpr (terms.term[0].sign > 0) return m.template at<terms.term[0].a>();
-        else return -m.template at<terms.term[0].a>();
+        if constexpr (terms.term[0].sign > 0)
+            return m.template at<terms.term[0].a>();
+        else
+            return -m.template at<terms.term[0].a>();
     });
 }
 
@@ -286,7 +309,8 @@ SWIVEL_INLINE constexpr auto dual(const Mv<T, S>& m)
 template <class T, BladeSet S>
 SWIVEL_INLINE constexpr Mv<T, S> select(const Mask<T>& mask, const Mv<T, S>& a, const Mv<T, S>& b)
 {
-    return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return select(mask, a.template at<B>(), b.template at<B>()); });
+    return for_each_blade<T, S>(
+        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return select(mask, a.template at<B>(), b.template at<B>()); });
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

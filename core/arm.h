@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What goes into an arm and what comes out of it, in the arm frame: the shoulder at the origin; at rest both bones along
-// +e3 and the hinge along e1; flexion carries the forearm towards +e2.
+// What goes into an arm and what comes out of it, in the arm frame: the shoulder at the origin; at rest both bones
+// along +e3 and the hinge along e1; flexion carries the forearm towards +e2.
 #pragma once
 
 #include "core/conformal.h"
@@ -19,7 +19,8 @@ inline constexpr std::uint32_t bad_input = 1u << 30;
 
 inline namespace SWIVEL_ISA {
 
-// Vectors are no longer than 1/kTiny; a shorter one than kTiny counts as zero, for its square would leave the normal floats.
+// Vectors are no longer than 1/kTiny; a shorter one than kTiny counts as zero, for its square would leave the normal
+// floats.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
 
 template <class T>

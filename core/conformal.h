@@ -3,9 +3,9 @@
 // The shapes of conformal geometric algebra as multivectors, how to make them and how to read them.
 //
 // Conventions, fixed here and nowhere else: a point is P = x + x^2/2 einf + e0, a sphere P - r^2/2 einf, a plane
-// n + d einf. A quaternion w + xi + yj + zk is the rotor with i = e3^e2, j = e1^e3, k = e2^e1; it turns o into Q o ~Q, by
-// the right hand, and a*b applies b first. So it is the ordinary Hamilton quaternion.
-// Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019), eqs. 3.9-3.23.
+// n + d einf. A quaternion w + xi + yj + zk is the rotor with i = e3^e2, j = e1^e3, k = e2^e1; it turns o into Q o ~Q,
+// by the right hand, and a*b applies b first. So it is the ordinary Hamilton quaternion. Source: D. Hildenbrand,
+// Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019), eqs. 3.9-3.23.
 #pragma once
 
 #include "core/algebra.h"
@@ -73,8 +73,8 @@ SWIVEL_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
     return dual((unit<T, kE0>() ^ b ^ a) ^ unit<T, kEinf>());
 }
 
-// The line through the origin along v: the dual of e0 ^ v ^ einf (eqs. 3.10-3.12). As a unit vector's rotor it turns by pi
-// about that line (eq. 3.23).
+// The line through the origin along v: the dual of e0 ^ v ^ einf (eqs. 3.10-3.12). As a unit vector's rotor it turns by
+// pi about that line (eq. 3.23).
 template <class T>
 SWIVEL_INLINE constexpr CentralLine<T> central_line(const Vector<T>& v)
 {

@@ -14,11 +14,12 @@ namespace swivel::dense {
 struct Multivector {
     double c[32] = {};
     constexpr Multivector() = default;
-    constexpr Multivector(double scalar) : c{scalar} {}    // implicit: the algebra contains its numbers
+    constexpr Multivector(double scalar) : c{scalar} {}  // implicit: the algebra contains its numbers
 };
 
 // Number of basis vectors in a blade.
-constexpr int grade(unsigned blade) {
+constexpr int grade(unsigned blade)
+{
     int count = 0;
     for (; blade != 0; blade >>= 1) count += int(blade & 1);
     return count;
@@ -26,16 +27,18 @@ constexpr int grade(unsigned blade) {
 
 // Sign of the product of two basis blades: one swap for each factor of `left` that must move past a lower factor of
 // `right` to sort them, then each shared factor squares to 1, except (e-)^2 = -1.
-constexpr double blade_sign(unsigned left, unsigned right) {
+constexpr double blade_sign(unsigned left, unsigned right)
+{
     int swaps = 0;
     for (unsigned higher = left >> 1; higher != 0; higher >>= 1) swaps += grade(higher & right);
     const int negative_squares = grade(left & right & 0b10000);
     return (swaps + negative_squares) % 2 == 0 ? 1.0 : -1.0;
 }
 
-// Sum of the blade products whose grades (left, right, result) are kept.
+// Sum of the blade products whose grades (left, right, result) are kept. Zeros of A are skipped for speed alone.
 template <class Keep>
-constexpr Multivector product(const Multivector& A, const Multivector& B, Keep keep) {
+constexpr Multivector product(const Multivector& A, const Multivector& B, Keep keep)
+{
     Multivector sum;
     for (unsigned a = 0; a < 32; ++a) {
         if (A.c[a] == 0) continue;
@@ -46,21 +49,25 @@ constexpr Multivector product(const Multivector& A, const Multivector& B, Keep k
 }
 
 // Geometric product.
-constexpr Multivector operator*(const Multivector& A, const Multivector& B) {
+constexpr Multivector operator*(const Multivector& A, const Multivector& B)
+{
     return product(A, B, [](int, int, int) { return true; });
 }
 
-// Outer product: the part of grade r + s. C++ gives ^ a low precedence, so it always stands in brackets.
-constexpr Multivector operator^(const Multivector& A, const Multivector& B) {
+// Outer product: the part of grade r + s. C++ binds ^ weaker than + - * and ==: bracket it beside them.
+constexpr Multivector operator^(const Multivector& A, const Multivector& B)
+{
     return product(A, B, [](int r, int s, int t) { return t == r + s; });
 }
 
 // Inner product, the lecture's dot: the part of grade |r - s|. A scalar factor just multiplies.
-constexpr Multivector dot(const Multivector& A, const Multivector& B) {
+constexpr Multivector dot(const Multivector& A, const Multivector& B)
+{
     return product(A, B, [](int r, int s, int t) { return t == (r > s ? r - s : s - r); });
 }
 
-constexpr Multivector operator+(const Multivector& A, const Multivector& B) {
+constexpr Multivector operator+(const Multivector& A, const Multivector& B)
+{
     Multivector sum;
     for (unsigned a = 0; a < 32; ++a) sum.c[a] = A.c[a] + B.c[a];
     return sum;
@@ -71,7 +78,8 @@ constexpr Multivector operator-(const Multivector& A, const Multivector& B) { re
 constexpr Multivector operator/(const Multivector& A, double s) { return (1.0 / s) * A; }
 
 // The part of one grade.
-constexpr Multivector grade_part(const Multivector& A, int wanted) {
+constexpr Multivector grade_part(const Multivector& A, int wanted)
+{
     Multivector part;
     for (unsigned a = 0; a < 32; ++a)
         if (grade(a) == wanted) part.c[a] = A.c[a];
@@ -81,18 +89,20 @@ constexpr Multivector grade_part(const Multivector& A, int wanted) {
 constexpr double scalar(const Multivector& A) { return A.c[0]; }
 
 // Reverse: the factors of every blade in opposite order, r (r - 1) / 2 swaps.
-constexpr Multivector operator~(const Multivector& A) {
+constexpr Multivector operator~(const Multivector& A)
+{
     Multivector reversed;
     for (unsigned a = 0; a < 32; ++a) reversed.c[a] = grade(a) * (grade(a) - 1) / 2 % 2 == 0 ? A.c[a] : -A.c[a];
     return reversed;
 }
 
-// |A|, and the inverse of a blade or rotor. Only for A ~A a scalar.
+// |A|, and the inverse; both only where A ~A is a scalar, as for blades and rotors.
 inline double norm(const Multivector& A) { return std::sqrt(std::fabs(scalar(A * ~A))); }
 constexpr Multivector inverse(const Multivector& A) { return ~A / scalar(A * ~A); }
 
 // Basis vector number n.
-constexpr Multivector basis(unsigned n) {
+constexpr Multivector basis(unsigned n)
+{
     Multivector e;
     e.c[1u << n] = 1;
     return e;
@@ -100,8 +110,8 @@ constexpr Multivector basis(unsigned n) {
 
 inline constexpr Multivector e1 = basis(0), e2 = basis(1), e3 = basis(2);
 inline constexpr Multivector eplus = basis(3), eminus = basis(4);
-inline constexpr Multivector e0 = (eminus - eplus) / 2;    // origin: e0^2 = 0, e0 . einf = -1
-inline constexpr Multivector einf = eminus + eplus;        // infinity: einf^2 = 0
+inline constexpr Multivector e0 = (eminus - eplus) / 2;  // origin: e0^2 = 0, e0 . einf = -1
+inline constexpr Multivector einf = eminus + eplus;      // infinity: einf^2 = 0
 
 // Table 3.2: the quaternion units.
 inline constexpr Multivector i = e3 ^ e2, j = e1 ^ e3, k = e2 ^ e1;
@@ -117,11 +127,12 @@ constexpr Multivector sphere(const Multivector& P, double r) { return P - 0.5 * 
 constexpr Multivector plane(const Multivector& n, double d) { return n + d * einf; }
 
 // A point of the point pair PP: (PP* + side sqrt(PP* . PP*)) / (einf . PP*), side = +1 or -1, with e0 coefficient 1.
-inline Multivector point_of_pair(const Multivector& PP, double side) {
+inline Multivector point_of_pair(const Multivector& PP, double side)
+{
     const Multivector PP_dual = dual(PP);
     const double root = std::sqrt(scalar(dot(PP_dual, PP_dual)));
     const Multivector P = (PP_dual + side * root) * inverse(dot(einf, PP_dual));
     return grade_part(P, 1) / -scalar(dot(einf, P));
 }
 
-}    // namespace swivel::dense
+}  // namespace swivel::dense

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a number type T owes the formulas: + - * /, unary minus, comparisons giving Mask<T>, and the functions below. Here
-// for float and double; simd/lanes.h has the same list for lanes. Each is one correctly rounded IEEE 754 operation or a
-// matter of bits, so every T of the same precision gives the same bits.
+// What a number type T owes the formulas: + - * /, unary minus, comparisons giving Mask<T>, and the functions below.
+// Here for float and double; simd/lanes.h has the same list for lanes. Each is one correctly rounded IEEE 754 operation
+// or a matter of bits, so every T of the same precision gives the same bits.
 #pragma once
 
 #include <cmath>

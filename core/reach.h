@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// How far the wrist is from the shoulder, and the triangle that this distance and the two bones form. All angles come as
-// cosines and sines built from products that cannot cancel, unit by construction (design: a = (d-|L1-L2|)(d+|L1-L2|) ...).
+// How far the wrist is from the shoulder, and the triangle that this distance and the two bones form. All angles come
+// as cosines and sines built from products that cannot cancel, unit by construction (design: a = (d-|L1-L2|)(d+|L1-L2|)
+// ...).
 //
-// Degenerate arms: with the distance clamped to the reachable shell, zero upper arm or both bones zero give a straight arm,
-// a zero forearm puts the upper arm on the target's line.
+// Degenerate arms: with the distance clamped to the reachable shell, zero upper arm or both bones zero give a straight
+// arm, a zero forearm puts the upper arm on the target's line.
 #pragma once
 
 #include "core/arm.h"
@@ -33,7 +34,8 @@ struct ArmTriangle {
 };
 
 // distance: within the shell. From a + b = 4 L1 L2 and P + M = 4 d L1:
-//   cos^2(flexion/2) = a / (a+b),   sin^2(flexion/2) = b / (a+b),   cos(lift) = (P-M) / (P+M),   sin(lift) = 2 sqrt(ab) / (P+M).
+//   cos^2(flexion/2) = a / (a+b),   sin^2(flexion/2) = b / (a+b),   cos(lift) = (P-M) / (P+M),   sin(lift) = 2 sqrt(ab)
+//   / (P+M).
 template <class T>
 SWIVEL_INLINE constexpr ArmTriangle<T> arm_triangle(const T& distance, const T& upper, const T& fore)
 {

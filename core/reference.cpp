@@ -12,17 +12,16 @@
 
 namespace swivel {
 
-using namespace dense;    // the lecture's symbols: e1, e2, e3, e0, einf, i, j, k
+using namespace dense;  // the lecture's symbols: e1, e2, e3, e0, einf, i, j, k
 
 namespace {
 
 // The swivel plane through the shoulder, a point and the wrist. Its normal is p_w x point.
-Multivector swivel_plane(const Multivector& p, const Multivector& p_w) {
-    return dual(e0 ^ p ^ p_w ^ einf);
-}
+Multivector swivel_plane(const Multivector& p, const Multivector& p_w) { return dual(e0 ^ p ^ p_w ^ einf); }
 
 // Step 1: calculate the elbow point p_e.
-Multivector elbow_point(const Multivector& p_w, const Multivector& pi_swivel, double L1, double L2) {
+Multivector elbow_point(const Multivector& p_w, const Multivector& pi_swivel, double L1, double L2)
+{
     // S1 = p_w - 1/2 L2^2 einf, the sphere around p_w
     const Multivector S1 = sphere(p_w, L2);
     // S2 = e0 - 1/2 L1^2 einf, the sphere around the shoulder e0
@@ -35,7 +34,8 @@ Multivector elbow_point(const Multivector& p_w, const Multivector& pi_swivel, do
 }
 
 // Step 2, first half: the angle of the elbow.
-double cosine_of_flexion(const Multivector& p_e, const Multivector& p_w) {
+double cosine_of_flexion(const Multivector& p_e, const Multivector& p_w)
+{
     // line_se = (e0 ^ p_e ^ einf)*
     const Multivector line_se = dual(e0 ^ p_e ^ einf);
     // line_ew = (p_e ^ p_w ^ einf)*
@@ -45,13 +45,15 @@ double cosine_of_flexion(const Multivector& p_e, const Multivector& p_w) {
 }
 
 // Step 2, second half: calculate the elbow quaternion q_e.
-Multivector elbow_quaternion(double c4) {
+Multivector elbow_quaternion(double c4)
+{
     // q_e = sqrt((1 + c4) / 2) - sqrt((1 - c4) / 2) i
     return std::sqrt((1 + c4) / 2) - std::sqrt((1 - c4) / 2) * i;
 }
 
 // Step 3: compute the middle line between p_e and p_ze.
-Multivector middle_line(const Multivector& p_e, double L1) {
+Multivector middle_line(const Multivector& p_e, double L1)
+{
     // p_ze = L1 e3 + 1/2 L1^2 einf + e0
     const Multivector p_ze = point(L1 * e3);
     // pi_M = p_ze - p_e
@@ -63,13 +65,15 @@ Multivector middle_line(const Multivector& p_e, double L1) {
 }
 
 // Step 4: rotate to the elbow position, around the middle line with angle pi.
-Multivector middle_quaternion(const Multivector& l_M) {
+Multivector middle_quaternion(const Multivector& l_M)
+{
     // q12 = cos(pi/2) + l_M / |l_M| sin(pi/2) = l_M / |l_M|
     return l_M / norm(l_M);
 }
 
 // Step 5: rotate to the wrist location.
-Multivector twist_quaternion(const Multivector& q12, const Multivector& pi_swivel) {
+Multivector twist_quaternion(const Multivector& q12, const Multivector& pi_swivel)
+{
     // pi_yz = e1
     const Multivector pi_yz = e1;
     // pi_yz2 = q12 pi_yz ~q12
@@ -84,24 +88,25 @@ Multivector twist_quaternion(const Multivector& q12, const Multivector& pi_swive
 }
 
 // w + x i + y j + z k to x, y, z, w: i i = -1, while the other units times i have no scalar part.
-void write_quaternion(const Multivector& Q, double out[4]) {
+void write_quaternion(const Multivector& Q, double out[4])
+{
     out[0] = -scalar(Q * i);
     out[1] = -scalar(Q * j);
     out[2] = -scalar(Q * k);
     out[3] = scalar(Q);
 }
 
-Multivector read_quaternion(const double q[4]) {
-    return q[3] + q[0] * i + q[1] * j + q[2] * k;
-}
+Multivector read_quaternion(const double q[4]) { return q[3] + q[0] * i + q[1] * j + q[2] * k; }
 
-void write_vector(const Multivector& v, double out[3]) {
+void write_vector(const Multivector& v, double out[3])
+{
     out[0] = scalar(dot(v, e1));
     out[1] = scalar(dot(v, e2));
     out[2] = scalar(dot(v, e3));
 }
 
-ReferencePose solve_in_plane(const Multivector& p_w, const Multivector& pi_swivel, double L1, double L2) {
+ReferencePose solve_in_plane(const Multivector& p_w, const Multivector& pi_swivel, double L1, double L2)
+{
     const Multivector p_e = elbow_point(p_w, pi_swivel, L1, L2);
     const double c4 = cosine_of_flexion(p_e, p_w);
     const Multivector q_e = elbow_quaternion(c4);
@@ -121,26 +126,29 @@ ReferencePose solve_in_plane(const Multivector& p_w, const Multivector& pi_swive
     return pose;
 }
 
-}    // namespace
+}  // namespace
 
-ReferencePose solve_reference(const ReferenceArm& arm) {
+ReferencePose solve_reference(const ReferenceArm& arm)
+{
     const Multivector p_w = point(vector(arm.wrist[0], arm.wrist[1], arm.wrist[2]));
     const Multivector p_pole = point(vector(arm.pole[0], arm.pole[1], arm.pole[2]));
     const Multivector pi_swivel = swivel_plane(p_pole, p_w);
     return solve_in_plane(p_w, pi_swivel / norm(pi_swivel), arm.upper, arm.fore);
 }
 
-ReferencePose solve_reference_for_normal(const double wrist[3], const double normal[3], double upper, double fore) {
+ReferencePose solve_reference_for_normal(const double wrist[3], const double normal[3], double upper, double fore)
+{
     const Multivector p_w = point(vector(wrist[0], wrist[1], wrist[2]));
     const Multivector n = vector(normal[0], normal[1], normal[2]);
     return solve_in_plane(p_w, plane(n / norm(n), 0), upper, fore);
 }
 
-void wrist_of(const ReferencePose& pose, double upper, double fore, double out[3]) {
+void wrist_of(const ReferencePose& pose, double upper, double fore, double out[3])
+{
     const Multivector q_s = read_quaternion(pose.shoulder_rotor);
     const Multivector q_e = read_quaternion(pose.elbow_rotor);
     // wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s
     write_vector(q_s * (upper * e3 + q_e * fore * e3 * ~q_e) * ~q_s, out);
 }
 
-}    // namespace swivel
+}  // namespace swivel

@@ -2,11 +2,12 @@
 //
 // The production formula: an arm's rotors from its wrist target, pole and lengths, exact to single precision for every
 // reach and every ratio of bones. It takes the lecture's five steps (pipeline.h) in forms that cannot cancel:
-// the elbow's triangle by products (reach.h), the middle line to the nearer of e3 and -e3, the twist by whichever half is large.
-// Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in conformal.h.
+// the elbow's triangle by products (reach.h), the middle line to the nearer of e3 and -e3, the twist by whichever half
+// is large. Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in
+// conformal.h.
 //
-// Degenerate input: bad numbers are replaced by the arm at rest on entry, so no NaN goes past the first select; a target
-// on the shoulder is taken in direction e3; reach.h and swivel_plane.h say what they do with the rest.
+// Degenerate input: bad numbers are replaced by the arm at rest on entry, so no NaN goes past the first select; a
+// target on the shoulder is taken in direction e3; reach.h and swivel_plane.h say what they do with the rest.
 #pragma once
 
 #include "core/reach.h"
@@ -26,7 +27,8 @@ SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector
     const Vector<T> middle = bone + start * unit<T, kE3>();
     const T height = abs(middle.template at<kE3>());
 
-    // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of e1, e2.
+    // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of
+    // e1, e2.
     const T share = start * normal.template at<kE3>() / height;  // n.m = start n3, as n is orthogonal to the bone
     const T c3 = share * bone.template at<kE1>() - normal.template at<kE1>();
     const T s3 = share * bone.template at<kE2>() - normal.template at<kE2>();
@@ -34,8 +36,8 @@ SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector
     // q3 is half the turn from e1 to n': along (1 + c3) + s3 k, or for obtuse turns along |s3| +- (1 - c3) k.
     const T large = T(1) + abs(c3);
     const Mask<T> obtuse = c3 < T(0);
-    const auto q3 = select(obtuse, abs(s3), large) * unit<T, kScalar>() +
-                    select(obtuse, copysign(large, s3), s3) * unit<T, kK>();
+    const auto q3 =
+        select(obtuse, abs(s3), large) * unit<T, kScalar>() + select(obtuse, copysign(large, s3), s3) * unit<T, kK>();
 
     // q_s = q12 q3 of unit length, the two lengths taken off in one.
     const T length2 = len2(middle) * len2(q3);
@@ -70,11 +72,10 @@ SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask
     // Steps 3 to 5.
     const Rotor<T> shoulder = frame_rotor(bone, plane.normal);
 
-    const Bits<T> flags = bits_where(valid & !(reach.too_far | reach.too_near), flag::reached) |
-                          bits_where(reach.too_far, flag::clamped_far) |
-                          bits_where(reach.too_near, flag::clamped_near) |
-                          bits_where(plane.undefined | on_shoulder, flag::swivel_undefined) |
-                          bits_where(!valid, flag::bad_input);
+    const Bits<T> flags =
+        bits_where(valid & !(reach.too_far | reach.too_near), flag::reached) |
+        bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
+        bits_where(plane.undefined | on_shoulder, flag::swivel_undefined) | bits_where(!valid, flag::bad_input);
     return {shoulder, triangle.cos_half, triangle.sin_half, flags, valid};
 }
 
@@ -85,7 +86,8 @@ SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
     const T zero = T(0);
     const T &x = q.template at<kI>(), &y = q.template at<kJ>(), &z = q.template at<kK>(), &w = q.template at<kScalar>();
     const T leading = select(w == zero, select(x == zero, select(y == zero, z, y), x), w);
-    return for_each_blade<T, Rotor<T>::set>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
+    return for_each_blade<T, Rotor<T>::set>(
+        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

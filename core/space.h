@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Between the arm frame and everything around it: the parent's frame in the world on the way in, the skeleton's own joint
-// frames on the way out, and the hand, which needs both.
+// Between the arm frame and everything around it: the parent's frame in the world on the way in, the skeleton's own
+// joint frames on the way out, and the hand, which needs both.
 //
 // Names: parent = frame of the shoulder's parent joint, arm = arm frame (arm.h), hand = the wrist joint's own frame.
 #pragma once
@@ -41,13 +41,17 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
     return is_valid(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
-// v_w, a vector of the world, in the arm frame: turned back by world_from_arm, a rotor of any length, and divided by the scale.
+// v_w, a vector of the world, in the arm frame: turned back by world_from_arm, a rotor of any length, and divided by
+// the scale.
 template <class T>
 struct IntoArm {
     Rotor<T> arm_from_world;
     T shrink;
 
-    SWIVEL_INLINE constexpr Vector<T> operator()(const Vector<T>& v_w) const { return shrink * sandwich(arm_from_world, v_w); }
+    SWIVEL_INLINE constexpr Vector<T> operator()(const Vector<T>& v_w) const
+    {
+        return shrink * sandwich(arm_from_world, v_w);
+    }
 };
 template <class T>
 SWIVEL_INLINE constexpr IntoArm<T> into_arm(const Rotor<T>& world_from_arm, const T& scale)
@@ -55,7 +59,8 @@ SWIVEL_INLINE constexpr IntoArm<T> into_arm(const Rotor<T>& world_from_arm, cons
     return {~world_from_arm, T(1) / (len2(world_from_arm) * scale)};
 }
 
-// The joints' own local rotations; their rest where the input was bad. A straight arm along the rest bone is q_s = q_e = 1.
+// The joints' own local rotations; their rest where the input was bad. A straight arm along the rest bone is q_s = q_e
+// = 1.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> shoulder_local(const Binding<T>& bind, const ArmPose<T>& pose)
 {
@@ -67,8 +72,8 @@ SWIVEL_INLINE constexpr Rotor<T> elbow_local(const Binding<T>& bind, const ArmPo
     return select(pose.valid, bind.upper_from_arm * elbow_rotor(pose) * ~bind.fore_from_arm, bind.elbow_rest);
 }
 
-// q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to a wanted hand orientation in the arm
-// frame, which may have any length in 1e-18..1e18 where the pose is valid.
+// q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to a wanted hand orientation in the
+// arm frame, which may have any length in 1e-18..1e18 where the pose is valid.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> wrist_rotor(const ArmPose<T>& pose, const Rotor<T>& hand_a)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Chooses the swivel plane: the plane through shoulder and wrist that the elbow lies in, the arm's one freedom for a fixed
-// wrist. Here from a pole. Where the pole does not say (along the target's line within sin 1e-3, or of no length) the plane's normal is the
-// rest hinge e1, or e2 when e1 lies along the line.
+// Chooses the swivel plane: the plane through shoulder and wrist that the elbow lies in, the arm's one freedom for a
+// fixed wrist. Here from a pole. Where the pole does not say (along the target's line within sin 1e-3, or of no length)
+// the plane's normal is the rest hinge e1, or e2 when e1 lies along the line.
 #pragma once
 
 #include "core/arm.h"

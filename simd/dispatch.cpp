@@ -8,11 +8,21 @@
 namespace swivel {
 
 // One table for each build of kernels.cpp, each in the namespace of its instruction set.
-inline namespace scalar { extern const Kernels kernels; }
-inline namespace sse2 { extern const Kernels kernels; }
-inline namespace avx2 { extern const Kernels kernels; }
-inline namespace avx512 { extern const Kernels kernels; }
-inline namespace neon64 { extern const Kernels kernels; }
+inline namespace scalar {
+extern const Kernels kernels;
+}
+inline namespace sse2 {
+extern const Kernels kernels;
+}
+inline namespace avx2 {
+extern const Kernels kernels;
+}
+inline namespace avx512 {
+extern const Kernels kernels;
+}
+inline namespace neon64 {
+extern const Kernels kernels;
+}
 
 namespace {
 
@@ -55,10 +65,7 @@ const Isa* choose()
 
 }  // namespace
 
-const Isa* isa_at(std::uint32_t index)
-{
-    return index < sizeof isas / sizeof isas[0] ? &isas[index] : nullptr;
-}
+const Isa* isa_at(std::uint32_t index) { return index < sizeof isas / sizeof isas[0] ? &isas[index] : nullptr; }
 
 const Isa* find_isa(const char* name)
 {

@@ -18,7 +18,8 @@ const Isa* isa_at(std::uint32_t index);
 // By name; null if there is none.
 const Isa* find_isa(const char* name);
 
-// The one in use. Chosen on first call: SWIVEL_FORCE_ISA, else the first that can run. Null if SWIVEL_FORCE_ISA cannot be used.
+// The one in use. Chosen on first call: SWIVEL_FORCE_ISA, else the first that can run. Null if SWIVEL_FORCE_ISA cannot
+// be used.
 const Isa* current_isa();
 void use_isa(const Isa& isa);
 

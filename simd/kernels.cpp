@@ -22,7 +22,9 @@ struct Rows {
     SWIVEL_INLINE T load(swivel_field field, std::uint32_t component) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
-        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return run.input + row_offset(limb + lane, input_row_count(Features), row); });
+        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
+            return run.input + row_offset(limb + lane, input_row_count(Features), row);
+        });
     }
     SWIVEL_INLINE Vector<T> load_vector(swivel_field field) const
     {
@@ -36,7 +38,10 @@ struct Rows {
     SWIVEL_INLINE void store(swivel_field field, std::uint32_t component, const Value& value) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
-        store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return run.results + row_offset(limb + lane, result_row_count(Features), row); }, value);
+        store_lanes(
+            [&](std::size_t lane)
+                SWIVEL_INLINE_LAMBDA { return run.results + row_offset(limb + lane, result_row_count(Features), row); },
+            value);
     }
     SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& either) const
     {
@@ -57,7 +62,8 @@ SWIVEL_INLINE Rotor<T> broadcast(const float (&q)[4])
 template <class T, std::uint32_t Features>
 SWIVEL_INLINE void solve_step(const Rows<T, Features>& rows, const Binding<T>& bind, const T& pole_is_point)
 {
-    constexpr bool world = Features & SWIVEL_WORLD, joints = Features & SWIVEL_JOINTS, with_hand = Features & SWIVEL_WITH_HAND;
+    constexpr bool world = Features & SWIVEL_WORLD, joints = Features & SWIVEL_JOINTS,
+                   with_hand = Features & SWIVEL_WITH_HAND;
     const Rotor<T> one = rotor(T(0), T(0), T(0), T(1));
 
     ArmGoal<T> goal{rows.load_vector(SWIVEL_TARGET), rows.load_vector(SWIVEL_POLE), rows.load(SWIVEL_LENGTHS, 0),
@@ -92,8 +98,10 @@ SWIVEL_INLINE void solve_step(const Rows<T, Features>& rows, const Binding<T>& b
     }
     if constexpr (with_hand) {
         const Rotor<T> hand_a = ~world_from_arm * hand;
-        if constexpr (joints) rows.store_rotor(SWIVEL_WRIST, wrist_local(bind, pose, hand_a));
-        else rows.store_rotor(SWIVEL_WRIST, wrist_rotor(pose, hand_a));
+        if constexpr (joints)
+            rows.store_rotor(SWIVEL_WRIST, wrist_local(bind, pose, hand_a));
+        else
+            rows.store_rotor(SWIVEL_WRIST, wrist_rotor(pose, hand_a));
     }
     rows.store(SWIVEL_FLAGS, 0, pose.flags);
 }
@@ -102,8 +110,9 @@ template <class T, std::uint32_t Features>
 SWIVEL_INLINE std::size_t solve_from(const SolveRun& run, std::size_t limb)
 {
     const swivel_binding& b = *run.binding;
-    const Binding<T> bind{broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
-                          broadcast<T>(b.shoulder_rest),   broadcast<T>(b.elbow_rest),     broadcast<T>(b.wrist_rest)};
+    const Binding<T> bind{broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm),
+                          broadcast<T>(b.fore_from_arm),   broadcast<T>(b.shoulder_rest),
+                          broadcast<T>(b.elbow_rest),      broadcast<T>(b.wrist_rest)};
     const T pole_is_point(run.pole_is_point);
     const std::size_t limb_count = std::size_t{run.block_count} * SWIVEL_LANES;
     for (; limb + lane_count<T> <= limb_count; limb += lane_count<T>)

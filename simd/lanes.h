@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Lanes<Arch, Registers>: a few xsimd batches of floats worked on side by side, with core/num.h's list of operations, so
-// that every formula runs on it unchanged. The only file that names xsimd, and where its operations are made equal: unary
-// minus flips the sign bit, lo and hi are selects, NEON's root and quotient are the exact instructions.
+// Lanes<Arch, Registers>: a few xsimd batches of floats worked on side by side, with core/num.h's list of operations,
+// so that every formula runs on it unchanged. The only file that names xsimd, and where its operations are made equal:
+// unary minus flips the sign bit, lo and hi are selects, NEON's root and quotient are the exact instructions.
 #pragma once
 
 #include <bit>
@@ -49,18 +49,20 @@ struct NumberTraits<Lanes<Arch, Registers>> {
 template <class Out, class F>
 SWIVEL_INLINE Out each_register(F f)
 {
-    return [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA {
+    const auto gather = [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA
+    {
         Out out;
         ((out.r[N] = f(N)), ...);
         return out;
-    }(std::make_index_sequence<std::extent_v<decltype(Out::r)>>{});
+    };
+    return gather(std::make_index_sequence<std::extent_v<decltype(Out::r)>>{});
 }
 
-#define SWIVEL_LANES_BINARY(op, Out)                                                                  \
-    template <class A, int R>                                                                         \
-    SWIVEL_INLINE Out<A, R> operator op(const Lanes<A, R>& a, const Lanes<A, R>& b)                   \
-    {                                                                                                 \
-        return each_register<Out<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] op b.r[n]; });             \
+#define SWIVEL_LANES_BINARY(op, Out)                                                                           \
+    template <class A, int R>                                                                                  \
+    SWIVEL_INLINE Out<A, R> operator op(const Lanes<A, R>& a, const Lanes<A, R>& b)                            \
+    {                                                                                                          \
+        return each_register<Out<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] op b.r[n]; }); \
     }
 SWIVEL_LANES_BINARY(+, Lanes)
 SWIVEL_LANES_BINARY(-, Lanes)
@@ -76,7 +78,8 @@ template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> operator/(const Lanes<A, R>& a, const Lanes<A, R>& b)
 {
 #ifdef __aarch64__  // xsimd divides by an estimate there
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(vdivq_f32(a.r[n], b.r[n])); });
+    return each_register<Lanes<A, R>>(
+        [&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(vdivq_f32(a.r[n], b.r[n])); });
 #else
     return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] / b.r[n]; });
 #endif
@@ -85,7 +88,8 @@ template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> sqrt(const Lanes<A, R>& a)
 {
 #ifdef __aarch64__
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(vsqrtq_f32(a.r[n])); });
+    return each_register<Lanes<A, R>>([&](std::size_t n)
+                                          SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(vsqrtq_f32(a.r[n])); });
 #else
     return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::sqrt(a.r[n]); });
 #endif
@@ -93,7 +97,8 @@ SWIVEL_INLINE Lanes<A, R> sqrt(const Lanes<A, R>& a)
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> operator-(const Lanes<A, R>& a)
 {
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] ^ xsimd::batch<float, A>(-0.0f); });
+    return each_register<Lanes<A, R>>([&](std::size_t n)
+                                          SWIVEL_INLINE_LAMBDA { return a.r[n] ^ xsimd::batch<float, A>(-0.0f); });
 }
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> abs(const Lanes<A, R>& a)
@@ -103,13 +108,15 @@ SWIVEL_INLINE Lanes<A, R> abs(const Lanes<A, R>& a)
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> copysign(const Lanes<A, R>& a, const Lanes<A, R>& sign)
 {
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::copysign(a.r[n], sign.r[n]); });
+    return each_register<Lanes<A, R>>([&](std::size_t n)
+                                          SWIVEL_INLINE_LAMBDA { return xsimd::copysign(a.r[n], sign.r[n]); });
 }
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> flip_sign(const Lanes<A, R>& a, const Lanes<A, R>& sign)
 {
     using Batch = xsimd::batch<float, A>;
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] ^ (sign.r[n] & Batch(-0.0f)); });
+    return each_register<Lanes<A, R>>([&](std::size_t n)
+                                          SWIVEL_INLINE_LAMBDA { return a.r[n] ^ (sign.r[n] & Batch(-0.0f)); });
 }
 
 template <class A, int R>
@@ -125,12 +132,13 @@ SWIVEL_INLINE LanesMask<A, R> operator|(const LanesMask<A, R>& a, const LanesMas
 template <class A, int R>
 SWIVEL_INLINE LanesMask<A, R> operator!(const LanesMask<A, R>& a)
 {
-    return each_register<LanesMask<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return !a.r[n]; });
+    return each_register<LanesMask<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return ~a.r[n]; });
 }
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> select(const LanesMask<A, R>& mask, const Lanes<A, R>& a, const Lanes<A, R>& b)
 {
-    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], a.r[n], b.r[n]); });
+    return each_register<Lanes<A, R>>([&](std::size_t n)
+                                          SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], a.r[n], b.r[n]); });
 }
 
 template <class A, int R>
@@ -143,27 +151,24 @@ SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint3
 {
     using Batch = xsimd::batch<float, A>;
     const Batch word(std::bit_cast<float>(bits)), none(0.0f);
-    return each_register<LanesBits<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], word, none); });
+    return each_register<LanesBits<A, R>>([&](std::size_t n)
+                                              SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], word, none); });
 }
 
-// How many lanes a number has, and moving them in and out of rows. address(lane) gives the place of a lane; the lanes of
-// one register lie side by side there, aligned to the register.
+// How many lanes a number has, and moving them in and out of rows. address(lane) gives the place of a lane; the lanes
+// of one register lie side by side there, aligned to the register.
 template <class T>
 inline constexpr std::size_t lane_count = 1;
 template <class A, int R>
 inline constexpr std::size_t lane_count<Lanes<A, R>> = Lanes<A, R>::count;
 
 template <class T, class Address>
-    requires std::is_same_v<T, float>
-SWIVEL_INLINE float load_lanes(Address address)
-{
-    return *address(0);
-}
+requires std::is_same_v<T, float> SWIVEL_INLINE float load_lanes(Address address) { return *address(0); }
 template <class T, class Address>
-    requires(lane_count<T> > 1)
-SWIVEL_INLINE T load_lanes(Address address)
+requires(lane_count<T> > 1) SWIVEL_INLINE T load_lanes(Address address)
 {
-    return each_register<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
+    return each_register<T>([&](std::size_t n)
+                                SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
 }
 template <class Address>
 SWIVEL_INLINE void store_lanes(Address address, float x)

@@ -19,18 +19,28 @@ constexpr bool is_input(swivel_field field) { return field < SWIVEL_SHOULDER; }
 constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field field)
 {
     switch (field) {
-    case SWIVEL_TARGET:
-    case SWIVEL_POLE: return 3;
-    case SWIVEL_LENGTHS: return 2;
-    case SWIVEL_PARENT_POSITION: return features & SWIVEL_WORLD ? 3 : 0;
-    case SWIVEL_PARENT_ROTATION: return features & SWIVEL_WORLD ? 4 : 0;
-    case SWIVEL_PARENT_SCALE: return features & SWIVEL_WORLD ? 1 : 0;
-    case SWIVEL_HAND:
-    case SWIVEL_WRIST: return features & SWIVEL_WITH_HAND ? 4 : 0;
-    case SWIVEL_SHOULDER: return 4;
-    case SWIVEL_ELBOW: return features & SWIVEL_JOINTS ? 4 : 2;
-    case SWIVEL_FLAGS: return 1;
-    default: return 0;
+        case SWIVEL_TARGET:
+        case SWIVEL_POLE:
+            return 3;
+        case SWIVEL_LENGTHS:
+            return 2;
+        case SWIVEL_PARENT_POSITION:
+            return features & SWIVEL_WORLD ? 3 : 0;
+        case SWIVEL_PARENT_ROTATION:
+            return features & SWIVEL_WORLD ? 4 : 0;
+        case SWIVEL_PARENT_SCALE:
+            return features & SWIVEL_WORLD ? 1 : 0;
+        case SWIVEL_HAND:
+        case SWIVEL_WRIST:
+            return features & SWIVEL_WITH_HAND ? 4 : 0;
+        case SWIVEL_SHOULDER:
+            return 4;
+        case SWIVEL_ELBOW:
+            return features & SWIVEL_JOINTS ? 4 : 2;
+        case SWIVEL_FLAGS:
+            return 1;
+        default:
+            return 0;
     }
 }
 

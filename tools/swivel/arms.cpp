@@ -23,20 +23,21 @@ std::string plain(std::string_view name)
     if (const std::size_t colon = name.rfind(':'); colon != std::string_view::npos) name.remove_prefix(colon + 1);
     std::string out;
     for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c))) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return out.starts_with("def") ? out.substr(3) : out;
 }
 
 // How exporters name an arm's three joints; * is the side, as a word or a letter.
 constexpr std::array<std::array<std::string_view, 3>, 9> kNamings = {{
-    {"*arm", "*forearm", "*hand"},                // CMU, Mixamo, MotionBuilder
-    {"*upperarm", "*lowerarm", "*hand"},          // Unity, VRM
-    {"upperarm*", "lowerarm*", "hand*"},          // Unreal
-    {"upperarm*", "forearm*", "hand*"},           // Blender Rigify
-    {"upperarm*", "lowerarm*", "palm2*"},         // Quaternius
-    {"*shldr", "*forearm", "*hand"},              // Poser, DAZ
-    {"*shoulder", "*elbow", "*wrist"},            // Biovision
-    {"*uparm", "*lowarm", "*hand"},               // Biovision, older
+    {"*arm", "*forearm", "*hand"},         // CMU, Mixamo, MotionBuilder
+    {"*upperarm", "*lowerarm", "*hand"},   // Unity, VRM
+    {"upperarm*", "lowerarm*", "hand*"},   // Unreal
+    {"upperarm*", "forearm*", "hand*"},    // Blender Rigify
+    {"upperarm*", "lowerarm*", "palm2*"},  // Quaternius
+    {"*shldr", "*forearm", "*hand"},       // Poser, DAZ
+    {"*shoulder", "*elbow", "*wrist"},     // Biovision
+    {"*uparm", "*lowarm", "*hand"},        // Biovision, older
     {"*collar", "*elbow", "*wrist"},
 }};
 
@@ -82,10 +83,11 @@ int joint_wanted(const Clip& clip, const std::filesystem::path& file, std::strin
 {
     const std::vector<int> found = formats::find_joints(clip, name);
     if (found.empty())
-        throw InputError(file, fmt::format("no joint is called '{}' (--arm); its joints are listed by its HIERARCHY", name));
+        throw InputError(file,
+                         fmt::format("no joint is called '{}' (--arm); its joints are listed by its HIERARCHY", name));
     if (found.size() > 1)
-        throw InputError(file, fmt::format("{} joints are called '{}' (--arm); name one by its path, such as {}", found.size(), name,
-                                           formats::joint_path(clip, found[0])));
+        throw InputError(file, fmt::format("{} joints are called '{}' (--arm); name one by its path, such as {}",
+                                           found.size(), name, formats::joint_path(clip, found[0])));
     return found[0];
 }
 
@@ -93,7 +95,8 @@ Side side_of(std::string_view shoulder_name, Side otherwise)
 {
     const std::string name = plain(shoulder_name);
     const bool left = name.starts_with("l") || name.ends_with("l") || name.find("left") != std::string::npos;
-    const bool right = name.find("right") != std::string::npos || (!name.ends_with("shoulder") && name.ends_with("r")) || name.starts_with("r");
+    const bool right = name.find("right") != std::string::npos ||
+                       (!name.ends_with("shoulder") && name.ends_with("r")) || name.starts_with("r");
     return left == right ? otherwise : left ? Side::left : Side::right;
 }
 
@@ -107,7 +110,8 @@ Arm arm_wanted(const Clip& clip, const std::filesystem::path& file, std::string_
         text.remove_prefix(prefix.size());
     }
     const std::size_t first = text.find(','), second = text.find(',', first + 1);
-    if (first == std::string_view::npos || second == std::string_view::npos || text.find(',', second + 1) != std::string_view::npos)
+    if (first == std::string_view::npos || second == std::string_view::npos ||
+        text.find(',', second + 1) != std::string_view::npos)
         throw InputError(file, fmt::format("--arm '{}' does not name three joints; write SHOULDER,ELBOW,WRIST", text));
     const std::string_view name = text.substr(0, first);
     Arm arm;
@@ -122,16 +126,17 @@ Arm arm_wanted(const Clip& clip, const std::filesystem::path& file, std::string_
 
 Eigen::Vector3d offset(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)].offset; }
 
-// The axis the elbow turns about in this clip, in the shoulder joint's frame. A bent elbow shows it; BVH rests are straight,
-// so it is the mean over the frames, each counting by the sine of its bend. A clip that never bends its elbow gets the
-// axis that carries a forearm of a figure facing +Z forwards.
+// The axis the elbow turns about in this clip, in the shoulder joint's frame. A bent elbow shows it; BVH rests are
+// straight, so it is the mean over the frames, each counting by the sine of its bend. A clip that never bends its elbow
+// gets the axis that carries a forearm of a figure facing +Z forwards.
 void choose_hinge(const Clip& clip, Arm& arm)
 {
     const Eigen::Vector3d upper = offset(clip, arm.elbow).normalized(), fore = offset(clip, arm.wrist).normalized();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weight = 0;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const Eigen::Quaterniond& elbow = clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(arm.elbow)];
+        const Eigen::Quaterniond& elbow =
+            clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(arm.elbow)];
         const Eigen::Vector3d bend = (elbow * fore).cross(upper);
         sum += bend;
         weight += bend.norm();
@@ -164,7 +169,8 @@ void bind_arm(const Clip& clip, const std::filesystem::path& file, Arm& arm)
     try {
         arm.limb = bind(chain);
     } catch (const Error& error) {
-        throw InputError(file, fmt::format("the {} arm cannot be bound: {}", formats::side_name(arm.side), error.what()));
+        throw InputError(file,
+                         fmt::format("the {} arm cannot be bound: {}", formats::side_name(arm.side), error.what()));
     }
 }
 

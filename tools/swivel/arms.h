@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The arms of a clip's skeleton: found by joint names or named by the user, and bound for the solver. Knows clips and the
-// public interface; no file format.
+// The arms of a clip's skeleton: found by joint names or named by the user, and bound for the solver. Knows clips and
+// the public interface; no file format.
 #pragma once
 
 #include <array>
@@ -24,10 +24,11 @@ struct Arm {
     std::string hinge_source;                         // how it was chosen, for people
 };
 
-// The clip's left and right arm, bound: those that wanted names as "SHOULDER,ELBOW,WRIST" (at most two; names or paths; a
-// leading "left:" or "right:" sets the side, else the names tell it, else the first is left), or, without wanted, those
-// whose names are in use for arms. Throws InputError naming the file and what is missing: no arms, an unknown or ambiguous joint,
-// joints that are not parent and child, a bone of no length, two arms on one side.
-std::vector<Arm> find_arms(const formats::Clip& clip, const std::filesystem::path& file, std::span<const std::string> wanted);
+// The clip's left and right arm, bound: those that wanted names as "SHOULDER,ELBOW,WRIST" (at most two; names or paths;
+// a leading "left:" or "right:" sets the side, else the names tell it, else the first is left), or, without wanted,
+// those whose names are in use for arms. Throws InputError naming the file and what is missing: no arms, an unknown or
+// ambiguous joint, joints that are not parent and child, a bone of no length, two arms on one side.
+std::vector<Arm> find_arms(const formats::Clip& clip, const std::filesystem::path& file,
+                           std::span<const std::string> wanted);
 
 }  // namespace swivel::tools

@@ -42,15 +42,15 @@ void store(const Quaterniond& q, float (&to)[4])
     for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(q.coeffs()[n]);
 }
 
-Quaterniond quaternion(const std::array<float, 4>& q)
-{
-    return Quaterniond(q[3], q[0], q[1], q[2]).normalized();
-}
+Quaterniond quaternion(const std::array<float, 4>& q) { return Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
 
 // Of a rotation: its whole angle, and its parts about an axis and across it.
 double angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
-double twist(const Quaterniond& q, const Vector3d& axis) { return 2 * std::atan2(std::fabs(q.vec().dot(axis)), std::fabs(q.w())); }
-double swing(const Quaterniond& q, const Vector3d& axis) 
+double twist(const Quaterniond& q, const Vector3d& axis)
+{
+    return 2 * std::atan2(std::fabs(q.vec().dot(axis)), std::fabs(q.w()));
+}
+double swing(const Quaterniond& q, const Vector3d& axis)
 {
     const Vector3d turned = q * axis;
     return std::atan2(turned.cross(axis).norm(), turned.dot(axis));
@@ -69,7 +69,8 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Arm> arms, std::
         roots_.push_back(root);
         for (const Arm& arm : arms) {
             const int parent = clip.joints[static_cast<std::size_t>(arm.shoulder)].parent;
-            sources_.push_back({at(arm.shoulder).position - root, at(arm.elbow).position - root, at(arm.wrist).position - root,
+            sources_.push_back({at(arm.shoulder).position - root, at(arm.elbow).position - root,
+                                at(arm.wrist).position - root,
                                 parent < 0 ? Quaterniond::Identity() : at(parent).rotation, at(arm.wrist).rotation,
                                 at(arm.shoulder).rotation, at(arm.elbow).rotation});
         }
@@ -210,14 +211,16 @@ void ClipCrowd::measure_range(std::size_t arm, std::uint32_t begin, std::uint32_
     }
 }
 
-void ClipCrowd::measure_against_clip(std::size_t arm, std::uint32_t character, const Vector3d& elbow, Statistics& statistics) const
+void ClipCrowd::measure_against_clip(std::size_t arm, std::uint32_t character, const Vector3d& elbow,
+                                     Statistics& statistics) const
 {
     const Source& from = source(arm, character);
     const Goal& goal = goals_[arm][character];
     const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
     const float(&lengths)[2] = inputs_[arm][character].lengths;
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
-    (bent ? statistics.elbow_bent : statistics.elbow_straight).add((elbow - goal.pole).norm() / (double{lengths[0]} + lengths[1]));
+    (bent ? statistics.elbow_bent : statistics.elbow_straight)
+        .add((elbow - goal.pole).norm() / (double{lengths[0]} + lengths[1]));
     if (character != 0) return;
 
     const formats::PoseRow row = pose(arm, character);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd that performs a clip: every character has the clip's skeleton, its own arm lengths, place and start, and wrist,
-// elbow and hand targets for each frame, taken from the clip or given. Knows clips and the public interface; no file format.
+// A crowd that performs a clip: every character has the clip's skeleton, its own arm lengths, place and start, and
+// wrist, elbow and hand targets for each frame, taken from the clip or given. Knows clips and the public interface; no
+// file format.
 #pragma once
 
 #include <span>
@@ -16,16 +17,16 @@ namespace swivel::tools {
 
 class ClipCrowd {
 public:
-    // Character 0 is the clip's own. The others differ by the seed: arm lengths by a factor in 0.85..1.15, and targets taken
-    // from the clip reach by the same factor; start anywhere in the clip. Character n stands 3 arm spans apart from its
-    // neighbours on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)).
-    // clip and arms must outlive the crowd. Memory grows with characters and with frames, not with their product.
+    // Character 0 is the clip's own. The others differ by the seed: arm lengths by a factor in 0.85..1.15, and targets
+    // taken from the clip reach by the same factor; start anywhere in the clip. Character n stands 3 arm spans apart
+    // from its neighbours on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)). clip and
+    // arms must outlive the crowd. Memory grows with characters and with frames, not with their product.
     ClipCrowd(const formats::Clip& clip, std::span<const Arm> arms, std::uint32_t characters, std::uint64_t seed);
 
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
 
-    // Sets all inputs for a frame. given: this frame's targets in the world; arms without one follow the clip, and hands without an
-    // orientation keep the clip's. Every character and side in given must exist.
+    // Sets all inputs for a frame. given: this frame's targets in the world; arms without one follow the clip, and
+    // hands without an orientation keep the clip's. Every character and side in given must exist.
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
 
     // Solves the frame; adds the time it took.
@@ -62,12 +63,13 @@ private:
     Goal goal_from_clip(std::size_t arm, std::uint32_t character) const;
     void put(std::size_t arm, std::uint32_t character, const Goal& goal);
     void measure_range(std::size_t arm, std::uint32_t begin, std::uint32_t end, Statistics& statistics) const;
-    void measure_against_clip(std::size_t arm, std::uint32_t character, const Eigen::Vector3d& elbow, Statistics& statistics) const;
+    void measure_against_clip(std::size_t arm, std::uint32_t character, const Eigen::Vector3d& elbow,
+                              Statistics& statistics) const;
 
     const formats::Clip& clip_;
     std::span<const Arm> arms_;
-    std::vector<Source> sources_;          // [frame * arms + arm]
-    std::vector<Eigen::Vector3d> roots_;   // the root joint in the world, by frame
+    std::vector<Source> sources_;         // [frame * arms + arm]
+    std::vector<Eigen::Vector3d> roots_;  // the root joint in the world, by frame
     std::vector<Character> characters_;
     std::vector<std::vector<Goal>> goals_;    // [arm][character]
     std::vector<std::vector<Input>> inputs_;  // [arm][character]

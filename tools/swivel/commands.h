@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The subcommands: each adds itself to the command line, with what to run when it is chosen. They report failure by throwing
-// CommandError, formats::InputError or swivel::Error; main.cpp turns these into one line and an exit code.
+// The subcommands: each adds itself to the command line, with what to run when it is chosen. They report failure by
+// throwing CommandError, formats::InputError or swivel::Error; main.cpp turns these into one line and an exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel demo`: the main job on made-up input. A crowd of characters stands on a square, each hand draws a loop in front
-// of its shoulder, at its own pace and reach, some of it out of reach; every frame all arms are solved.
+// `swivel demo`: the main job on made-up input. A crowd of characters stands on a square, each hand draws a loop in
+// front of its shoulder, at its own pace and reach, some of it out of reach; every frame all arms are solved.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
@@ -54,14 +56,16 @@ Limb make_limb(std::uint32_t n, float side, std::uint32_t columns, std::mt19937&
     return limb;
 }
 
-// Where the hand and the elbow should be in a frame: a figure of eight in front of the shoulder, the elbow low and outwards.
+// Where the hand and the elbow should be in a frame: a figure of eight in front of the shoulder, the elbow low and
+// outwards.
 void move(Limb& limb, float side, std::uint32_t frame)
 {
     const float t = 6.2831853f * (limb.phase + limb.pace * static_cast<float>(frame));
-    const float local[3] = {side * 0.4f * limb.reach * std::sin(t), 0.4f * limb.reach * std::sin(2 * t), 0.8f * limb.reach};
+    const float local[3] = {side * 0.4f * limb.reach * std::sin(t), 0.4f * limb.reach * std::sin(2 * t),
+                            0.8f * limb.reach};
     const float pole[3] = {side * 0.5f, -1.0f, -0.2f};
     const float s = 2 * limb.rotation[1] * limb.rotation[3], c = 1 - 2 * limb.rotation[1] * limb.rotation[1];
-    const auto place = [&](const float (&v)[3], float (&to)[3]) {
+    const auto place = [&](const float(&v)[3], float(&to)[3]) {
         to[0] = limb.position[0] + c * v[0] + s * v[2];
         to[1] = limb.position[1] + v[1];
         to[2] = limb.position[2] - s * v[0] + c * v[2];
@@ -73,8 +77,10 @@ void move(Limb& limb, float side, std::uint32_t frame)
 class DemoCrowd {
 public:
     explicit DemoCrowd(const Options& options)
-        : limbs_{std::vector<Limb>(options.characters), std::vector<Limb>(options.characters)}, residuals_(options.characters),
-          flags_(options.characters), crowd_(SWIVEL_WORLD, groups(options.characters))
+        : limbs_{std::vector<Limb>(options.characters), std::vector<Limb>(options.characters)},
+          residuals_(options.characters),
+          flags_(options.characters),
+          crowd_(SWIVEL_WORLD, groups(options.characters))
     {
         const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(options.characters)));
         std::mt19937 random(static_cast<std::uint32_t>(options.seed ^ options.seed >> 32));
@@ -124,7 +130,8 @@ private:
     }
     void write(swivel_field field, std::uint32_t group, const float* first)
     {
-        check(swivel_write(crowd_.get(), field, group, 0, static_cast<std::uint32_t>(limbs_[group].size()), {first, sizeof(Limb)}));
+        check(swivel_write(crowd_.get(), field, group, 0, static_cast<std::uint32_t>(limbs_[group].size()),
+                           {first, sizeof(Limb)}));
     }
 
     std::vector<Limb> limbs_[2];  // left, right
@@ -142,18 +149,21 @@ void run(const Options& options)
     {
         Progress progress("frames", options.frames);
         for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
+            check_interrupt();
             progress.show(frame);
             crowd.solve_frame(frame, statistics);
             crowd.measure(statistics);
         }
     }
     if (options.json) {
-        nlohmann::ordered_json out{{"characters", options.characters}, {"frames", options.frames}, {"seed", options.seed}};
+        nlohmann::ordered_json out{
+            {"characters", options.characters}, {"frames", options.frames}, {"seed", options.seed}};
         out.update(json_of(statistics));
         fmt::print("{}\n", out.dump(2));
         return;
     }
-    fmt::print("demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters, 2 * options.characters, options.frames);
+    fmt::print("demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters,
+               2 * options.characters, options.frames);
     print_statistics(statistics);
 }
 
@@ -163,8 +173,12 @@ void add_demo(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("demo", "Solve a made-up crowd and report throughput, errors and flags");
     auto options = std::make_shared<Options>();
-    command->add_option("--characters", options->characters, "Characters, two arms each")->capture_default_str()->check(CLI::Range(1u, 10'000'000u));
-    command->add_option("--frames", options->frames, "Frames")->capture_default_str()->check(CLI::Range(1u, 1'000'000u));
+    command->add_option("--characters", options->characters, "Characters, two arms each")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 10'000'000u));
+    command->add_option("--frames", options->frames, "Frames")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1'000'000u));
     command->add_option("--seed", options->seed, "Seed of the characters' differences")->capture_default_str();
     command->add_option("--threads", options->threads, "Threads at most; 0 for all")->capture_default_str();
     command->add_flag("--json", options->json, "Print JSON");

@@ -29,8 +29,8 @@ struct Random {
 float number(Random& random, float size)
 {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-    const float hard[] = {0.0f,     -0.0f, 1e-15f, -3e-12f, 1e-38f, 1e-45f, 1.0f,   -1.0f,
-                          1e15f, -1e15f, 2e15f,  3e38f,  nan,    inf,    -inf,   0.5f};
+    const float hard[] = {0.0f,  -0.0f,  1e-15f, -3e-12f, 1e-38f, 1e-45f, 1.0f, -1.0f,
+                          1e15f, -1e15f, 2e15f,  3e38f,   nan,    inf,    -inf, 0.5f};
     if (random.below(16) == 0) return hard[random.below(16)];
     return size * random.signed_unit();
 }
@@ -85,7 +85,8 @@ bool is_feature_set(std::uint32_t features) { return !(features & SWIVEL_POLE_DI
 
 Crowd golden_crowd(std::uint32_t features, std::uint32_t limb_count)
 {
-    const swivel_group_def groups[] = {{limb_count, binding_of(0)}, {limb_count / 2 + 1, binding_of(1)}, {7, binding_of(2)}};
+    const swivel_group_def groups[] = {
+        {limb_count, binding_of(0)}, {limb_count / 2 + 1, binding_of(1)}, {7, binding_of(2)}};
     Crowd crowd(features, groups);
     Random random{features};
     for (std::uint32_t group = 0; group < 3; ++group) write_group(crowd, features, group, random);

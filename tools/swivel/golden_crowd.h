@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowd that the promise of equal bits is checked on: for every set of features, ordinary limbs of all reaches, hard
-// poses and bad input, in groups that end inside a block. Knows the public interface and nothing else.
+// The crowd that the promise of equal bits is checked on: for every set of features, ordinary limbs of all reaches,
+// hard poses and bad input, in groups that end inside a block. Knows the public interface and nothing else.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace swivel::tools {
 inline constexpr std::uint32_t kFeatureSets = 16;
 bool is_feature_set(std::uint32_t features);
 
-// A crowd of three groups, limb_count limbs in the first and fewer in the others, all inputs written. The same numbers on
-// every machine.
+// A crowd of three groups, limb_count limbs in the first and fewer in the others, all inputs written. The same numbers
+// on every machine.
 Crowd golden_crowd(std::uint32_t features, std::uint32_t limb_count);
 
 // FNV-1a (64 bits) over the results of all limbs, field by field; the padding is left out.

@@ -35,7 +35,8 @@ nlohmann::ordered_json describe()
     out["cpu"] = cpu_model();
     out["cores"] = std::thread::hardware_concurrency();
     out["isa"] = isa;
-    for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n) out["built"][name] = swivel_isa_runs(name) ? "runs here" : "does not run here";
+    for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n)
+        out["built"][name] = swivel_isa_runs(name) ? "runs here" : "does not run here";
     out["compiler"] = SWIVEL_COMPILER;
     out["build_type"] = SWIVEL_BUILD_TYPE;
     out["flags"] = SWIVEL_FLAGS_TEXT;
@@ -55,8 +56,10 @@ void print_info(bool as_json)
         return;
     }
     for (const auto& [key, value] : info.items())
-        if (!value.is_object()) fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-    for (const auto& [name, state] : info["built"].items()) fmt::print("{:<12} {}, {}\n", "built for", name, state.get<std::string>());
+        if (!value.is_object())
+            fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    for (const auto& [name, state] : info["built"].items())
+        fmt::print("{:<12} {}, {}\n", "built for", name, state.get<std::string>());
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <exception>
 
-#include "tools/formats/error.h"
-#include "tools/swivel/commands.h"
 #include "swivel/swivel.hpp"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/interrupt.h"
 
 namespace {
 
@@ -27,13 +27,16 @@ int main(int argc, char** argv)
     using namespace swivel::tools;
     CLI::App app{"Solves the arms of crowds: wrist targets in, joint rotations out, the same bits on every CPU."};
     app.name("swivel");
-    app.set_version_flag("--version", fmt::format("swivel {}.{}.{}", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH));
+    app.set_version_flag(
+        "--version", fmt::format("swivel {}.{}.{}", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH));
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 1 failed, 2 bad usage. SWIVEL_FORCE_ISA=NAME forces an instruction set (swivel info).");
+    app.footer(
+        "Exit codes: 0 done, 1 failed, 2 bad usage. SWIVEL_FORCE_ISA=NAME forces an instruction set (swivel info).");
     add_demo(app);
     add_solve(app);
     add_verify(app);
     add_info(app);
+    note_interrupts();
     try {
         app.parse(argc, argv);
         return 0;

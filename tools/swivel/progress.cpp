@@ -41,8 +41,8 @@ void Progress::show(std::uint64_t done)
     const std::uint64_t filled = width * done / total_;
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const double left = done > 0 ? seconds * static_cast<double>(total_ - done) / static_cast<double>(done) : 0;
-    fmt::print(stderr, "\r[{:#<{}}{:<{}}] {:3} %  {} of {} {}, {:.0f} s left\x1b[K", "", filled, "", width - filled, 100 * done / total_, done, total_,
-               what_, left);
+    fmt::print(stderr, "\r[{:#<{}}{:<{}}] {:3} %  {} of {} {}, {:.0f} s left\x1b[K", "", filled, "", width - filled,
+               100 * done / total_, done, total_, what_, left);
     std::fflush(stderr);
 }
 

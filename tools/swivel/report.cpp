@@ -61,7 +61,8 @@ void print_statistics(const Statistics& statistics)
             fmt::print("error    {:<32} worst {:.2e}  rms {:.2e}  {}\n", e.text, e.error.max, e.error.rms(), e.unit);
     std::string flags;
     for (const auto& [flag, name] : kFlagNames)
-        if (count_of(statistics, flag) > 0) flags += fmt::format("{}{} {}", flags.empty() ? "" : ", ", name, count_of(statistics, flag));
+        if (count_of(statistics, flag) > 0)
+            flags += fmt::format("{}{} {}", flags.empty() ? "" : ", ", name, count_of(statistics, flag));
     fmt::print("flags    {}\n", flags);
 }
 
@@ -75,7 +76,8 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     out["threads"] = thread_count();
     for (const NamedError& e : errors_of(statistics))
         if (e.error.count > 0)
-            out["errors"][e.key] = {{"worst", e.error.max}, {"rms", e.error.rms()}, {"count", e.error.count}, {"unit", e.unit}};
+            out["errors"][e.key] = {
+                {"worst", e.error.max}, {"rms", e.error.rms()}, {"count", e.error.count}, {"unit", e.unit}};
     for (const auto& [flag, name] : kFlagNames) out["flags"][name] = count_of(statistics, flag);
     return out;
 }

@@ -3,6 +3,7 @@
 // `swivel solve`: binds a clip's skeleton, makes a crowd of it, solves every frame, reports, and writes the poses.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "tools/formats/targets_csv.h"
 #include "tools/swivel/clip_crowd.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
@@ -41,9 +43,11 @@ OutKind out_kind(const Options& options)
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = std::filesystem::path(options.out).extension().string();
     if (suffix == ".csv") return OutKind::csv;
-    if (suffix != ".bvh") throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh or .csv", options.out));
+    if (suffix != ".bvh")
+        throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh or .csv", options.out));
     if (options.characters > 1)
-        throw CommandError(2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv", options.out, options.characters));
+        throw CommandError(2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv", options.out,
+                                          options.characters));
     return OutKind::bvh;
 }
 
@@ -55,10 +59,15 @@ public:
         if (options.targets == "clip") return;
         targets_ = formats::read_targets_csv(options.targets);
         for (const formats::Target& target : targets_) {
-            const auto refuse = [&](const std::string& cause) { throw formats::InputError(options.targets, target.line, cause); };
-            if (target.frame >= clip.frame_count) refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame, clip.frame_count - 1));
+            const auto refuse = [&](const std::string& cause) {
+                throw formats::InputError(options.targets, target.line, cause);
+            };
+            if (target.frame >= clip.frame_count)
+                refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame,
+                                   clip.frame_count - 1));
             if (target.character >= options.characters)
-                refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0", target.character, options.characters));
+                refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
+                                   target.character, options.characters));
             if (std::none_of(arms.begin(), arms.end(), [&](const Arm& arm) { return arm.side == target.side; }))
                 refuse(fmt::format("the skeleton has no {} arm; name it with --arm", formats::side_name(target.side)));
         }
@@ -97,7 +106,10 @@ public:
         std::vector<formats::RotationOverride> overrides;
         for (std::size_t arm = 0; arm < arms.size(); ++arm)
             for (std::size_t n = 0; n < 3; ++n)
-                overrides.push_back({n == 0 ? arms[arm].shoulder : n == 1 ? arms[arm].elbow : arms[arm].wrist, keys_[3 * arm + n]});
+                overrides.push_back({n == 0   ? arms[arm].shoulder
+                                     : n == 1 ? arms[arm].elbow
+                                              : arms[arm].wrist,
+                                     keys_[3 * arm + n]});
         formats::write_bvh(path, file, overrides);
     }
 
@@ -117,6 +129,7 @@ Statistics solve_clip(const Options& options, const formats::BvhFile& file, std:
     {
         Progress progress("frames", file.clip.frame_count);
         for (std::size_t frame = 0; frame < file.clip.frame_count; ++frame) {
+            check_interrupt();
             progress.show(frame);
             crowd.set_frame(frame, given.of_frame(frame));
             crowd.solve(statistics);
@@ -130,28 +143,39 @@ Statistics solve_clip(const Options& options, const formats::BvhFile& file, std:
     return statistics;
 }
 
-const std::string& joint_name(const formats::Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)].name; }
+const std::string& joint_name(const formats::Clip& clip, int joint)
+{
+    return clip.joints[static_cast<std::size_t>(joint)].name;
+}
 
 void print_clip(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
 {
-    fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", options.clip, clip.joints.size(), clip.frame_count, 1 / clip.frame_time);
+    fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", options.clip, clip.joints.size(),
+               clip.frame_count, 1 / clip.frame_time);
     for (const Arm& arm : arms)
-        fmt::print("arm      {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n", formats::side_name(arm.side),
-                   joint_name(clip, arm.shoulder), joint_name(clip, arm.elbow), joint_name(clip, arm.wrist), arm.limb.lengths[0],
-                   arm.limb.lengths[1], arm.hinge.x(), arm.hinge.y(), arm.hinge.z(), arm.hinge_source);
-    fmt::print("crowd    {} character{}, {} arms, targets from {}\n", options.characters, options.characters == 1 ? "" : "s",
-               arms.size() * options.characters, options.targets == "clip" ? "the clip" : options.targets);
+        fmt::print("arm      {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
+                   formats::side_name(arm.side), joint_name(clip, arm.shoulder), joint_name(clip, arm.elbow),
+                   joint_name(clip, arm.wrist), arm.limb.lengths[0], arm.limb.lengths[1], arm.hinge.x(), arm.hinge.y(),
+                   arm.hinge.z(), arm.hinge_source);
+    fmt::print("crowd    {} character{}, {} arms, targets from {}\n", options.characters,
+               options.characters == 1 ? "" : "s", arms.size() * options.characters,
+               options.targets == "clip" ? "the clip" : options.targets);
 }
 
 nlohmann::ordered_json json_of(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
 {
-    nlohmann::ordered_json out{{"clip", options.clip}, {"joints", clip.joints.size()}, {"frames", clip.frame_count},
-                               {"frame_time", clip.frame_time}, {"characters", options.characters}, {"seed", options.seed}, {"targets", options.targets}};
+    nlohmann::ordered_json out{
+        {"clip", options.clip},          {"joints", clip.joints.size()},     {"frames", clip.frame_count},
+        {"frame_time", clip.frame_time}, {"characters", options.characters}, {"seed", options.seed},
+        {"targets", options.targets}};
     for (const Arm& arm : arms)
-        out["arms_bound"].push_back({{"side", formats::side_name(arm.side)}, {"shoulder", joint_name(clip, arm.shoulder)},
-                                     {"elbow", joint_name(clip, arm.elbow)}, {"wrist", joint_name(clip, arm.wrist)},
+        out["arms_bound"].push_back({{"side", formats::side_name(arm.side)},
+                                     {"shoulder", joint_name(clip, arm.shoulder)},
+                                     {"elbow", joint_name(clip, arm.elbow)},
+                                     {"wrist", joint_name(clip, arm.wrist)},
                                      {"lengths", {arm.limb.lengths[0], arm.limb.lengths[1]}},
-                                     {"hinge", {arm.hinge.x(), arm.hinge.y(), arm.hinge.z()}}, {"hinge_source", arm.hinge_source}});
+                                     {"hinge", {arm.hinge.x(), arm.hinge.y(), arm.hinge.z()}},
+                                     {"hinge_source", arm.hinge_source}});
     return out;
 }
 
@@ -187,14 +211,23 @@ void add_solve(CLI::App& app)
     CLI::App* command = app.add_subcommand("solve", "Solve the arms of a BVH clip, or of a crowd that performs it");
     auto options = std::make_shared<Options>();
     command->add_option("clip", options->clip, "Motion file, .bvh")->required();
-    command->add_option("--targets", options->targets,
-                        "Where wrists, elbows and hands must be: 'clip' for the clip's own motion, or a CSV file with the columns\n"
-                        "frame,character,side,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the world; arms without a row follow the clip")
+    command
+        ->add_option(
+            "--targets", options->targets,
+            "Where wrists, elbows and hands must be: 'clip' for the clip's own motion, or a CSV file with the columns\n"
+            "frame,character,side,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the world; arms without a row follow "
+            "the clip")
         ->capture_default_str();
-    command->add_option("--out", options->out, "Write the poses: .bvh (one character) or .csv; without it statistics only");
-    command->add_option("--arm", options->arms, "Joints of an arm, SHOULDER,ELBOW,WRIST, by name or path; up to twice; left: or right: in front sets the side")
+    command->add_option("--out", options->out,
+                        "Write the poses: .bvh (one character) or .csv; without it statistics only");
+    command
+        ->add_option("--arm", options->arms,
+                     "Joints of an arm, SHOULDER,ELBOW,WRIST, by name or path; up to twice; left: or right: in front "
+                     "sets the side")
         ->allow_extra_args(false);
-    command->add_option("--characters", options->characters, "Characters, differing in arm lengths, place and start; the first is the clip's own")
+    command
+        ->add_option("--characters", options->characters,
+                     "Characters, differing in arm lengths, place and start; the first is the clip's own")
         ->capture_default_str()
         ->check(CLI::Range(1u, 10'000'000u));
     command->add_option("--seed", options->seed, "Seed of the characters' differences")->capture_default_str();

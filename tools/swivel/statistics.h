@@ -33,9 +33,9 @@ struct Statistics {
     ErrorStat missed;  // the same, of limbs out of reach
     ErrorStat hand;    // radians, between hand and wanted orientation
     // Against the motion the targets came from; empty when they came from elsewhere:
-    ErrorStat elbow_bent, elbow_straight;                // arm lengths; bent by more than 5 degrees, and the rest
+    ErrorStat elbow_bent, elbow_straight;                 // arm lengths; bent by more than 5 degrees, and the rest
     ErrorStat upper_arm_swing, upper_arm_twist, forearm;  // radians; of the first character
-    std::array<std::uint64_t, 32> flags{};               // limbs with flag bit n
+    std::array<std::uint64_t, 32> flags{};                // limbs with flag bit n
     std::uint64_t arm_count = 0;
     double solve_seconds = 0;
 

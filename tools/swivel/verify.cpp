@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel verify`: every formula against the others, and the same bits from every instruction set, thread count and chunk
-// size of this machine.
+// `swivel verify`: every formula against the others, and the same bits from every instruction set, thread count and
+// chunk size of this machine.
 #include <fmt/format.h>
 
 #include <memory>
@@ -34,7 +34,8 @@ constexpr std::uint32_t kDigestLimbs = 1000;
 void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
-    for (std::uint32_t first = 0; first < blocks; first += chunk) crowd.solve_blocks(first, std::min(chunk, blocks - first));
+    for (std::uint32_t first = 0; first < blocks; first += chunk)
+        crowd.solve_blocks(first, std::min(chunk, blocks - first));
 }
 
 // The golden crowd on one instruction set, every way there is to run it.
@@ -74,14 +75,20 @@ bool is_within(const swivel_check& c) { return c.max <= c.max_limit && (c.rms_li
 void print_check(const swivel_check* c, void*)
 {
     const std::string rms_limit = c->rms_limit > 0 ? fmt::format(" <= {:.1e}", c->rms_limit) : "";
-    fmt::print("{:<46} {:<18} {:>8}  max {:.2e} <= {:.0e}  rms {:.2e}{:<11}{}\n", c->name, c->set, c->arm_count, c->max, c->max_limit, c->rms, rms_limit,
-               is_within(*c) ? "" : "  FAILED");
+    fmt::print("{:<46} {:<18} {:>8}  max {:.2e} <= {:.0e}  rms {:.2e}{:<11}{}\n", c->name, c->set, c->arm_count, c->max,
+               c->max_limit, c->rms, rms_limit, is_within(*c) ? "" : "  FAILED");
 }
 
 void append_check(const swivel_check* c, void* list)
 {
-    static_cast<nlohmann::ordered_json*>(list)->push_back({{"name", c->name}, {"set", c->set}, {"arms", c->arm_count}, {"max", c->max}, {"rms", c->rms},
-                                                           {"max_limit", c->max_limit}, {"rms_limit", c->rms_limit}, {"passed", is_within(*c)}});
+    static_cast<nlohmann::ordered_json*>(list)->push_back({{"name", c->name},
+                                                           {"set", c->set},
+                                                           {"arms", c->arm_count},
+                                                           {"max", c->max},
+                                                           {"rms", c->rms},
+                                                           {"max_limit", c->max_limit},
+                                                           {"rms_limit", c->rms_limit},
+                                                           {"passed", is_within(*c)}});
 }
 
 void run(const Options& options)
@@ -96,24 +103,31 @@ void run(const Options& options)
     for (const Digest& digest : digests) equal = equal && digest.hash == digests[0].hash;
     if (options.json) {
         nlohmann::ordered_json out{{"checks", checks}, {"equal_digests", equal}, {"passed", passed && equal}};
-        for (const Digest& d : digests) out["digests"].push_back({{"isa", d.isa}, {"how", d.how}, {"digest", fmt::format("{:016x}", d.hash)}});
+        for (const Digest& d : digests)
+            out["digests"].push_back({{"isa", d.isa}, {"how", d.how}, {"digest", fmt::format("{:016x}", d.hash)}});
         fmt::print("{}\n", out.dump(2));
     } else {
         for (const Digest& d : digests)
-            fmt::print("digest  {:<8} {:<12} {:016x}{}\n", d.isa, d.how, d.hash, d.hash == digests[0].hash ? "" : "  DIFFERS");
+            fmt::print("digest  {:<8} {:<12} {:016x}{}\n", d.isa, d.how, d.hash,
+                       d.hash == digests[0].hash ? "" : "  DIFFERS");
         fmt::print("{}\n", passed && equal ? "all checks passed, all digests equal" : "FAILED");
     }
     if (!passed) throw CommandError(1, "verify: a check is over its limit; the lines marked FAILED say which");
-    if (!equal) throw CommandError(1, "verify: instruction sets or chunks gave different bits; the lines marked DIFFERS say which");
+    if (!equal)
+        throw CommandError(
+            1, "verify: instruction sets or chunks gave different bits; the lines marked DIFFERS say which");
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("verify", "Check oracle, double, float and every instruction set against each other");
+    CLI::App* command =
+        app.add_subcommand("verify", "Check oracle, double, float and every instruction set against each other");
     auto options = std::make_shared<Options>();
-    command->add_option("--arms", options->arms, "Random arms in each reach band")->capture_default_str()->check(CLI::PositiveNumber);
+    command->add_option("--arms", options->arms, "Random arms in each reach band")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
     command->add_option("--seed", options->seed, "Seed of the random arms")->capture_default_str();
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { run(*options); });

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/bvh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "tools/formats/bvh_hierarchy.h"
+#include "tools/formats/bvh_scanner.h"
+#include "tools/formats/euler.h"
+#include "tools/formats/text.h"
+
+namespace swivel::formats {
+namespace {
+
+constexpr std::size_t kMaxPoses = std::size_t{1} << 28;  // frames times joints: 8 GiB of quaternions
+
+struct MotionHeader {
+    std::size_t frame_count;
+    std::size_t frames_line;
+};
+
+struct FrameLines {
+    std::vector<double> values;  // of the line at hand
+    std::size_t count = 0;       // lines with values so far
+};
+
+MotionHeader read_motion_header(Scanner& scan, BvhFile& file)
+{
+    if (file.channel_count == 0) fail(scan, "no joint has CHANNELS, so there is no motion to read");
+    expect(scan, "Frames:");
+    const std::string_view count_word = rest_of_line(scan);
+    const std::optional<std::int64_t> count = parse_integer(count_word);
+    if (!count || *count < 1) {
+        fail(scan, fmt::format("Frames: '{}' is not a whole number above 0", printable(count_word)));
+    }
+    const MotionHeader header{static_cast<std::size_t>(*count), scan.line};
+    expect(scan, "Frame");
+    expect(scan, "Time:");
+    const std::string_view time_word = rest_of_line(scan);
+    const std::optional<double> time = parse_number(time_word);
+    if (!time || !(*time > 0)) {
+        fail(scan, fmt::format("Frame Time: '{}' is not a number of seconds above 0", printable(time_word)));
+    }
+    file.clip.frame_time = *time;
+    return header;
+}
+
+// Makes room for as many frames as the rest of the text can hold, whatever the file announces: a value takes two bytes.
+void reserve_frames(const Scanner& scan, BvhFile& file, const MotionHeader& header)
+{
+    Clip& clip = file.clip;
+    const std::size_t most = (scan.text.size() - scan.at) / (2 * file.channel_count) + 1;
+    const std::size_t frame_count = std::min(header.frame_count, most);
+    if (frame_count > kMaxPoses / clip.joints.size()) {
+        fail(scan, fmt::format("{} frames of {} joints need more than 8 GiB; cut the clip into pieces", frame_count,
+                               clip.joints.size()));
+    }
+    file.frame_begin.reserve(frame_count);
+    clip.rotation.reserve(frame_count * clip.joints.size());
+    clip.translation.reserve(frame_count * clip.track_count);
+}
+
+std::string describe_channel(const BvhFile& file, std::size_t channel)
+{
+    const auto after = std::upper_bound(file.joints.begin(), file.joints.end(), channel,
+                                        [](std::size_t c, const BvhJoint& joint) { return c < joint.first_channel; });
+    // Joints without channels share their successor's first channel; the last of equals has them.
+    const auto joint = static_cast<std::size_t>(after - file.joints.begin()) - 1;
+    const Channel kind = file.joints[joint].channels[channel - file.joints[joint].first_channel];
+    return fmt::format("{} {}", printable(file.clip.joints[joint].name), kChannelNames[static_cast<std::size_t>(kind)]);
+}
+
+void parse_values(const Scanner& scan, const BvhFile& file, std::string_view line, std::span<double> values)
+{
+    std::size_t count = 0;
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++count) {
+        if (count >= values.size()) continue;
+        const std::optional<double> number = parse_number(word);
+        if (!number) {
+            fail(scan, fmt::format("value {} ({}): '{}' is not a finite decimal number", count + 1,
+                                   describe_channel(file, count), printable(word)));
+        }
+        values[count] = *number;
+    }
+    if (count != values.size()) {
+        fail(scan, fmt::format("{} values, the channels need {} (one frame is one line)", count, values.size()));
+    }
+}
+
+void append_frame(BvhFile& file, std::span<const double> values)
+{
+    Clip& clip = file.clip;
+    for (std::size_t i = 0; i < file.joints.size(); ++i) {
+        const BvhJoint& joint = file.joints[i];
+        Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+        Eigen::Vector3d translation = clip.joints[i].offset;
+        for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+            const Channel channel = joint.channels[c];
+            const double value = values[joint.first_channel + c];
+            if (is_position(channel)) {
+                translation[axis_of(channel)] = value;
+            } else {
+                rotation = rotation * axis_rotation(axis_of(channel), value);
+            }
+        }
+        clip.rotation.push_back(rotation);
+        if (clip.joints[i].track >= 0) clip.translation.push_back(translation);
+    }
+    ++clip.frame_count;
+}
+
+// Takes the line as the next frame. One line too many is checked and left out: writers that count the steps between
+// frames make such files.
+void read_frame(const Scanner& scan, BvhFile& file, const MotionHeader& header, std::string_view line,
+                FrameLines& lines)
+{
+    parse_values(scan, file, line, lines.values);
+    if (++lines.count > header.frame_count + 1) {
+        fail(scan, fmt::format("more lines than the {} frames announced in line {}; correct the number",
+                               header.frame_count, header.frames_line));
+    }
+    if (lines.count > header.frame_count) return;
+    file.frame_begin.push_back(scan.at);
+    append_frame(file, lines.values);
+}
+
+void read_frames(Scanner& scan, BvhFile& file, const MotionHeader& header)
+{
+    FrameLines lines{std::vector<double>(file.channel_count)};
+    while (scan.at < scan.text.size()) {
+        const std::size_t end = std::min(scan.text.find('\n', scan.at), scan.text.size());
+        const std::string_view line = scan.text.substr(scan.at, end - scan.at);
+        if (!trimmed(line).empty()) read_frame(scan, file, header, line, lines);
+        skip_to(scan, std::min(end + 1, scan.text.size()));
+    }
+    if (file.clip.frame_count != header.frame_count) {
+        fail(scan, fmt::format("the file ends after {} of the {} frames announced in line {}; is it cut short?",
+                               file.clip.frame_count, header.frame_count, header.frames_line));
+    }
+}
+
+}  // namespace
+
+BvhFile read_bvh(const std::filesystem::path& path)
+{
+    BvhFile file;
+    file.path = path;
+    file.text = read_text(path);
+    const std::string_view mark = "\xEF\xBB\xBF";  // some editors put UTF-8's byte order mark in front
+    Scanner scan{file.path, file.text, file.text.starts_with(mark) ? mark.size() : 0};
+    read_hierarchy(scan, file);
+    const MotionHeader header = read_motion_header(scan, file);
+    reserve_frames(scan, file, header);
+    read_frames(scan, file, header);
+    return file;
+}
+
+}  // namespace swivel::formats

@@ -1,0 +1,73 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// BVH motion files. Reading keeps the file's text; writing puts new rotations into that text and leaves every other
+// byte as it was. Conventions:
+// - Rotation channels are degrees, multiplied in the order listed: Zrotation Yrotation Xrotation is Rz Ry Rx.
+// - A position channel takes the place of that component of OFFSET, at roots and inner joints alike, as Blender and
+//   assimp read it. (An old note on the format adds the two at the root. Files in use have a zero offset there, where
+//   both agree, or repeat the first frame's position in it, where adding would double it.)
+// - One frame is one line, as the format says. A line with another number of values is refused, not joined: wrapping
+//   cannot be told from lost values. Blank lines are skipped. One line more than "Frames:" announces is left out, as
+//   other readers do (exporters that count the steps between frames make such files); two are refused.
+// - Keywords in any case; LF or CRLF; names may repeat and hold anything but braces; several ROOTs; joints without
+// CHANNELS.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/formats/clip.h"
+
+namespace swivel::formats {
+
+enum class Channel : std::uint8_t { Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation };
+
+constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
+                                                           "Xrotation", "Yrotation", "Zrotation"};
+
+constexpr bool is_position(Channel channel) { return channel <= Channel::Zposition; }
+
+// 0, 1, 2 for x, y, z.
+constexpr int axis_of(Channel channel) { return static_cast<int>(channel) % 3; }
+
+struct BvhJoint {
+    std::vector<Channel> channels;  // in the file's order, at most six
+    std::size_t first_channel = 0;  // the joint's first value in a frame's line
+    std::size_t line = 0;           // of CHANNELS, or of the joint if it has none; for messages
+};
+
+struct BvhFile {
+    std::filesystem::path path;            // where it was read; for messages
+    std::string text;                      // the whole file
+    std::vector<std::size_t> frame_begin;  // byte in `text` where each frame's line starts
+    std::vector<BvhJoint> joints;          // same order as clip.joints
+    std::size_t channel_count = 0;         // values a line
+    Clip clip;
+};
+
+// Reads and checks a whole file. Throws InputError with the line for anything malformed, a number that is not finite, a
+// wrong count of values or frames, more than 1,000 joints inside each other, or poses beyond 8 GiB.
+// Holds the text once, and 32 bytes a frame and joint; the count a file announces allocates nothing by itself.
+BvhFile read_bvh(const std::filesystem::path& path);
+
+// New local rotations for one joint of a file.
+struct RotationOverride {
+    int joint = -1;                                // index in clip.joints, at most once a call
+    std::span<const Eigen::Quaterniond> rotation;  // one per frame, not zero, made unit; borrowed for the call
+};
+
+// Writes `file` with the rotation channels of the overridden joints replaced; all other text is copied byte for byte,
+// so without overrides the copy is identical. Angles have nine decimals, which give the rotation back to better than
+// 1e-9 rad. Keys are continuous: each angle triple is the one nearest to the frame before, the first to the file's own.
+// path: may be the file that was read. It appears whole or not at all (see OutputFile).
+// Throws InputError when an overridden joint lacks three rotation channels about three different axes, or on writing.
+// Throws std::invalid_argument for a joint out of range or named twice, a wrong frame count, a zero or non-finite
+// quaternion. Allocates a few bytes a channel.
+void write_bvh(const std::filesystem::path& path, const BvhFile& file, std::span<const RotationOverride> overrides);
+
+}  // namespace swivel::formats

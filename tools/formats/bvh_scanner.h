@@ -1,0 +1,36 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// A walk through a BVH file's text, word by word, that knows the line it is in. Private to the reader.
+
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+namespace swivel::formats {
+
+struct Scanner {
+    const std::filesystem::path& path;  // for messages
+    std::string_view text;              // not empty
+    std::size_t at = 0;                 // the byte to read next
+    std::size_t line = 1;               // of that byte
+};
+
+// The next word, brace, or label with its colon; empty at the end of the file.
+std::string_view next_token(Scanner& scan);
+
+// What is left of the line, up to a brace, without blanks at the ends.
+std::string_view rest_of_line(Scanner& scan);
+
+// Goes on to byte `place`, counting lines. The end of the file counts as part of its last line.
+void skip_to(Scanner& scan, std::size_t place);
+
+// Takes the next token, which must be `word` in any case; throws InputError if it is not.
+void expect(Scanner& scan, std::string_view word);
+
+// Throws InputError for the current line.
+[[noreturn]] void fail(const Scanner& scan, std::string_view cause);
+
+// The same, saying that `found` stands where `wanted` should; nothing found means the file has ended.
+[[noreturn]] void fail_expected(const Scanner& scan, std::string_view wanted, std::string_view found);
+
+}  // namespace swivel::formats

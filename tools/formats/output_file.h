@@ -1,0 +1,45 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// A file that appears whole or not at all: bytes go to "NAME.partial-PID" in the same folder, commit() renames it to
+// NAME. An interrupted run leaves the old NAME untouched. What cannot be renamed onto (/dev/stdout, /dev/null,
+// pipes) is written straight. Knows nothing of what is written.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace swivel::formats {
+
+class OutputFile {
+public:
+    // Opens the partial file. A symbolic link is followed first, so the link stays and its target is replaced.
+    // Throws InputError when the folder is missing or not writable, or when `path` is a directory or write-protected.
+    // One object belongs to one thread. Allocates its buffer of 1 MiB here, nothing later.
+    explicit OutputFile(const std::filesystem::path& path);
+
+    // Without a commit the partial file is removed.
+    ~OutputFile();
+
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    // Appends `bytes`. They may stay in the buffer, so a full disk can show here or at commit(): InputError.
+    void write(std::string_view bytes);
+
+    // Writes out the buffer, waits until the disk has it all, closes and renames. Throws InputError when any of it
+    // fails; the file of that name is then what it was before. To be called once, last.
+    void commit();
+
+private:
+    void flush(std::string_view bytes);
+    void discard() noexcept;
+    [[noreturn]] void fail(std::string_view action);
+
+    std::filesystem::path named_;    // as the caller wrote it: for messages
+    std::filesystem::path target_;   // links followed
+    std::filesystem::path partial_;  // empty: written straight, or renamed already
+    std::string buffer_;
+    int descriptor_ = -1;
+};
+
+}  // namespace swivel::formats

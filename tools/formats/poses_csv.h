@@ -1,0 +1,42 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// The table of solved poses, written as it is produced: one line per frame, character and side, with the three local
+// rotations as quaternions x, y, z, w and the flag word as a decimal number. Floats have the fewest digits that give
+// the same float back. Knows no solver: what the flags mean is the caller's affair.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "tools/formats/output_file.h"
+#include "tools/formats/side.h"
+
+namespace swivel::formats {
+
+struct PoseRow {
+    std::uint32_t character = 0;
+    Side side = Side::left;
+    std::array<float, 4> shoulder{};  // x y z w, as are the next two; written as they are, finite or not
+    std::array<float, 4> elbow{};
+    std::array<float, 4> wrist{};
+    std::uint32_t flags = 0;
+};
+
+class PosesCsv {
+public:
+    // Opens the file and writes the line of column names. Throws InputError as OutputFile does.
+    explicit PosesCsv(const std::filesystem::path& path);
+
+    // Writes the rows of one frame in the order given. Frames may come in any order and in several pieces.
+    // Throws InputError when the disk is full. Allocates nothing.
+    void append(std::uint32_t frame, std::span<const PoseRow> rows);
+
+    // Makes the file appear; without it there is none. To be called once, last.
+    void commit();
+
+private:
+    OutputFile out_;
+};
+
+}  // namespace swivel::formats

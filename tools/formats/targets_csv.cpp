@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/targets_csv.h"
+
+#include <fmt/format.h>
+
+#define CSV_IO_NO_THREAD
+#include <libfccp/csv.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
+
+namespace swivel::formats {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr unsigned kColumnCount = 13;
+constexpr unsigned kFirstOptional = 9;  // qx
+constexpr std::array<const char*, kColumnCount> kColumns = {"frame",  "character", "side", "x",  "y",  "z", "pole_x",
+                                                            "pole_y", "pole_z",    "qx",   "qy", "qz", "qw"};
+constexpr std::string_view kColumnList =
+    "frame,character,side,x,y,z,pole_x,pole_y,pole_z and all or none of qx,qy,qz,qw";
+constexpr double kMaxNorm = 1e15;  // the engine's range for lengths
+constexpr double kMinNorm = 1 / kMaxNorm;
+
+using Csv = io::CSVReader<kColumnCount, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>, io::throw_on_overflow,
+                          io::single_and_empty_line_comment<'#'>>;
+
+// Feeds the parser, which takes a read error for the end and a zero byte for the end of a line, and which needs a line
+// end after the last line to be sure of it. Derived from the parser's base because that is its only door.
+class TextSource : public io::ByteSourceBase {
+public:
+    explicit TextSource(const fs::path& path) : path_(path), file_(open_text(path)) {}
+
+    int read(char* buffer, int size) override
+    {
+        const auto wanted = static_cast<std::size_t>(size);
+        std::size_t count = read_chunk(path_, file_.get(), buffer, wanted);
+        if (count > 0) ends_line_ = buffer[count - 1] == '\n';
+        if (count < wanted && !ends_line_) {
+            buffer[count++] = '\n';
+            ends_line_ = true;
+        }
+        return static_cast<int>(count);
+    }
+
+private:
+    fs::path path_;
+    TextFile file_;
+    bool ends_line_ = true;
+};
+
+// The values of one line, as the parser cut them out; empty for columns the file does not have.
+struct Row {
+    const fs::path& path;
+    std::size_t line = 0;
+    std::array<const char*, kColumnCount> cell;
+};
+
+[[noreturn]] void fail(const Row& row, unsigned column, std::string_view problem)
+{
+    const std::string_view cell = row.cell[column];
+    throw InputError(row.path, row.line,
+                     cell.empty() ? fmt::format("column {} is empty", kColumns[column])
+                                  : fmt::format("column {}: '{}' {}", kColumns[column], printable(cell), problem));
+}
+
+std::uint32_t index_at(const Row& row, unsigned column)
+{
+    const std::optional<std::int64_t> index = parse_integer(row.cell[column]);
+    if (!index || *index < 0 || *index > std::numeric_limits<std::uint32_t>::max()) {
+        fail(row, column, "is not a whole number from 0 to 4294967295");
+    }
+    return static_cast<std::uint32_t>(*index);
+}
+
+double number_at(const Row& row, unsigned column)
+{
+    const std::optional<double> number = parse_number(row.cell[column]);
+    if (!number) fail(row, column, "is not a finite decimal number");
+    return *number;
+}
+
+Side side_at(const Row& row, unsigned column)
+{
+    const std::string_view word = row.cell[column];
+    if (word == side_name(Side::left)) return Side::left;
+    if (word == side_name(Side::right)) return Side::right;
+    fail(row, column, "is neither left nor right");
+}
+
+Eigen::Vector3d point_at(const Row& row, unsigned column)
+{
+    return {number_at(row, column), number_at(row, column + 1), number_at(row, column + 2)};
+}
+
+bool has_orientation(const Row& row)
+{
+    return std::any_of(row.cell.begin() + kFirstOptional, row.cell.end(), [](const char* cell) { return *cell != 0; });
+}
+
+Eigen::Quaterniond orientation_of(const Row& row)
+{
+    const Eigen::Vector3d xyz = point_at(row, kFirstOptional);
+    const Eigen::Quaterniond quaternion(number_at(row, kFirstOptional + 3), xyz.x(), xyz.y(), xyz.z());
+    const double norm = quaternion.norm();
+    if (!(norm >= kMinNorm && norm <= kMaxNorm)) {
+        throw InputError(row.path, row.line, "columns qx to qw: the quaternion's length is zero or absurd");
+    }
+    return quaternion.normalized();
+}
+
+Target parse_target(const Row& row)
+{
+    Target target;
+    target.frame = index_at(row, 0);
+    target.character = index_at(row, 1);
+    target.side = side_at(row, 2);
+    target.position = point_at(row, 3);
+    target.pole = point_at(row, 6);
+    target.has_orientation = has_orientation(row);
+    if (target.has_orientation) target.orientation = orientation_of(row);
+    target.line = static_cast<std::uint32_t>(row.line);
+    return target;
+}
+
+// Calls a function of the parser, and says its complaints in our words.
+template <class Call>
+auto translated(const fs::path& path, const Csv& csv, Call call)
+{
+    const auto error = [&](std::string_view cause) { return InputError(path, csv.get_file_line(), cause); };
+    try {
+        return call();
+    } catch (const io::error::header_missing&) {
+        throw InputError(path, "is empty; its first line must name the columns");
+    } catch (const io::error::extra_column_in_header& e) {
+        throw error(fmt::format("unknown column '{}'; known are {}", printable(e.column_name), kColumnList));
+    } catch (const io::error::duplicated_column_in_header& e) {
+        throw error(fmt::format("column {} is there twice", e.column_name));
+    } catch (const io::error::too_few_columns&) {
+        throw error("fewer values than the first line names columns; leave none out");
+    } catch (const io::error::too_many_columns&) {
+        throw error("more values than the first line names columns; remove the surplus");
+    } catch (const io::error::line_length_limit_exceeded&) {
+        throw error("a line longer than 16 MiB; is this a table?");
+    }
+}
+
+void read_column_names(const fs::path& path, Csv& csv)
+{
+    translated(path, csv, [&] {
+        std::apply([&](auto... names) { csv.read_header(io::ignore_missing_column, names...); }, kColumns);
+    });
+    const auto is_there = [&](const char* name) { return csv.has_column(name); };
+    const auto first_optional = kColumns.begin() + kFirstOptional;
+    const bool has_any = std::any_of(first_optional, kColumns.end(), is_there);
+    const auto needed_end = has_any ? kColumns.end() : first_optional;
+    const auto missing = std::find_if_not(kColumns.begin(), needed_end, is_there);
+    if (missing == needed_end) return;
+    throw InputError(path, csv.get_file_line(),
+                     fmt::format("column {} is missing; the first line must name {}", *missing, kColumnList));
+}
+
+auto place_of(const Target& target) { return std::tuple(target.frame, target.character, target.side); }
+
+void sort_targets(const fs::path& path, std::vector<Target>& targets)
+{
+    const auto before = [](const Target& a, const Target& b) { return place_of(a) < place_of(b); };
+    const auto same = [](const Target& a, const Target& b) { return place_of(a) == place_of(b); };
+    if (!std::is_sorted(targets.begin(), targets.end(), before)) {
+        std::stable_sort(targets.begin(), targets.end(), before);
+    }
+    const auto twin = std::adjacent_find(targets.begin(), targets.end(), same);
+    if (twin == targets.end()) return;
+    const Target& again = *(twin + 1);
+    throw InputError(path, again.line,
+                     fmt::format("columns frame,character,side: {},{},{} is already in line {}; remove one",
+                                 again.frame, again.character, side_name(again.side), twin->line));
+}
+
+}  // namespace
+
+std::vector<Target> read_targets_csv(const fs::path& path)
+{
+    Csv csv("", std::make_unique<TextSource>(path));
+    read_column_names(path, csv);
+    std::vector<Target> targets;
+    Row row{path, 0, {}};
+    row.cell.fill("");
+    const auto read_row = [&] { return std::apply([&](auto&... cells) { return csv.read_row(cells...); }, row.cell); };
+    while (translated(path, csv, read_row)) {
+        row.line = csv.get_file_line();
+        targets.push_back(parse_target(row));
+    }
+    if (targets.empty()) throw InputError(path, "has no targets below its first line");
+    sort_targets(path, targets);
+    return targets;
+}
+
+}  // namespace swivel::formats

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <system_error>
+
+#include "tools/formats/error.h"
+
+namespace swivel::formats {
+namespace {
+
+constexpr std::size_t kChunkBytes = 1 << 20;
+
+// from_chars takes no plus sign, files do.
+std::string_view without_plus(std::string_view text)
+{
+    const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    return has_plus ? text.substr(1) : text;
+}
+
+template <class Number>
+std::optional<Number> parse_whole(std::string_view text)
+{
+    const std::string_view digits = without_plus(text);
+    Number value{};
+    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (status != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+    return value;
+}
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+TextFile open_text(const std::filesystem::path& path)
+{
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        throw InputError(path, "is a directory; name a file in it");
+    }
+    TextFile file(std::fopen(path.c_str(), "rb"));
+    if (!file) {
+        const std::string reason = std::generic_category().message(errno);
+        throw InputError(path, fmt::format("cannot be opened: {}; check the path", reason));
+    }
+    return file;
+}
+
+std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char* buffer, std::size_t size)
+{
+    const std::size_t count = std::fread(buffer, 1, size, file);
+    if (std::ferror(file)) throw InputError(path, "cannot be read to its end; check the disk");
+    const bool is_binary = std::string_view(buffer, count).find('\0') != std::string_view::npos;
+    if (is_binary) throw InputError(path, "is a binary file; a text file is needed");
+    return count;
+}
+
+std::string read_text(const std::filesystem::path& path)
+{
+    const TextFile file = open_text(path);
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    std::string text;
+    if (!unknown) text.reserve(static_cast<std::size_t>(size));
+    const auto chunk = std::make_unique<char[]>(kChunkBytes);
+    while (const std::size_t count = read_chunk(path, file.get(), chunk.get(), kChunkBytes)) {
+        text.append(chunk.get(), count);
+    }
+    if (text.empty()) throw InputError(path, "is empty; check how it was written");
+    return text;
+}
+
+std::string_view take_word(std::string_view& rest)
+{
+    rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+    const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
+    rest.remove_prefix(word.size());
+    return word;
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+bool same_ignoring_case(std::string_view a, std::string_view b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::optional<double> parse_number(std::string_view text)
+{
+    const std::optional<double> number = parse_whole<double>(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view text) { return parse_whole<std::int64_t>(text); }
+
+std::string printable(std::string_view text, std::size_t max_size)
+{
+    std::string out;
+    for (const char c : text.substr(0, max_size)) {
+        const unsigned code = static_cast<unsigned char>(c);
+        if (code < 0x20 || code == 0x7f) {
+            fmt::format_to(std::back_inserter(out), "\\x{:02x}", code);
+        } else {
+            out += c;
+        }
+    }
+    return text.size() > max_size ? out + "..." : out;
+}
+
+}  // namespace swivel::formats

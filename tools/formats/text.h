@@ -1,0 +1,55 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// What every text format here needs: a file as one string, words of a line, numbers, and quoting for messages.
+// Numbers are read by std::from_chars, so no locale can change them. Knows no format.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace swivel::formats {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using TextFile = std::unique_ptr<std::FILE, CloseFile>;
+
+// Opens a file to be read. Throws InputError when it is missing, a directory, or not readable.
+TextFile open_text(const std::filesystem::path& path);
+
+// Reads up to `size` bytes into `buffer`; fewer, or none, only at the end of the file. Throws InputError on a read
+// error and for a binary file (one with a zero byte). `path` is for messages.
+std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char* buffer, std::size_t size);
+
+// The whole file, every byte as it is. Throws InputError as the two above do, and for an empty file. Holds the file
+// once; reading from a pipe works.
+std::string read_text(const std::filesystem::path& path);
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+// Takes the next word, a run of anything but blanks, off the front of `rest`; empty when only blanks are left.
+// The word points into the text `rest` points into.
+std::string_view take_word(std::string_view& rest);
+
+// `text` without blanks at either end.
+std::string_view trimmed(std::string_view text);
+
+// True if the two are equal when ASCII letters are compared without case.
+bool same_ignoring_case(std::string_view a, std::string_view b);
+
+// The whole of `text` as a finite decimal number, such as -1.5, .5, 5. or +1e-3. Nothing for anything else: NaN,
+// infinity, hexadecimal, trailing characters, more than a double can hold.
+std::optional<double> parse_number(std::string_view text);
+
+// The whole of `text` as a whole decimal number. Nothing for anything else, 1.0 included.
+std::optional<std::int64_t> parse_integer(std::string_view text);
+
+// `text` for a message: control characters as \xNN, and cut to `max_size` bytes with "..." after them.
+std::string printable(std::string_view text, std::size_t max_size = 40);
+
+}  // namespace swivel::formats

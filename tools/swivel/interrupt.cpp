@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/interrupt.h"
+
+#include <csignal>
+
+#include "tools/swivel/commands.h"
+
+namespace swivel::tools {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+}  // namespace
+
+void note_interrupts()
+{
+    for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal, [](int number) {
+            interrupted = 1;
+            std::signal(number, SIG_DFL);
+        });
+}
+
+void check_interrupt()
+{
+    if (interrupted) throw CommandError(1, "interrupted; no output was written");
+}
+
+}  // namespace swivel::tools
