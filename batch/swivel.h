@@ -18,20 +18,22 @@
 // limbs that share one binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end
 // are padding.
 //
-// INPUT ROWS, in this order             rows  present with          meaning
-//   SWIVEL_TARGET                       3     always                wrist position: arm frame, or world with WORLD
-//   SWIVEL_POLE                         3     always                pole point, or a direction with POLE_DIRECTION
-//   SWIVEL_LENGTHS                      2     always                upper arm, forearm (before the parent's scale)
-//   SWIVEL_PARENT_POSITION              3     WORLD                 where the shoulder is, in the world
-//   SWIVEL_PARENT_ROTATION              4     WORLD                 rotation of the shoulder's parent joint, in the
-//   world SWIVEL_PARENT_SCALE                 1     WORLD                 uniform scale of the parent, > 0 SWIVEL_HAND
-//   4     HAND                  wanted hand orientation: arm frame, or world
+// INPUT ROWS, in this order    rows  present with    meaning
+//   SWIVEL_TARGET              3     always          wrist position: arm frame, or world with WORLD
+//   SWIVEL_POLE                3     always          pole point, or a direction with POLE_DIRECTION
+//   SWIVEL_LENGTHS             2     always          upper arm, forearm (before the parent's scale)
+//   SWIVEL_PARENT_POSITION     3     WORLD           where the shoulder is, in the world
+//   SWIVEL_PARENT_ROTATION     4     WORLD           world rotation of the shoulder's parent joint
+//   SWIVEL_PARENT_SCALE        1     WORLD           uniform scale of the parent, > 0
+//   SWIVEL_HAND                4     WITH_HAND       wanted hand orientation: arm frame, or world with WORLD
 // RESULT ROWS, in this order
-//   SWIVEL_SHOULDER                     4     always                arm frame rotation, or local rotation with JOINTS
-//   SWIVEL_ELBOW                        2     without JOINTS        cos and sin of half the flexion, both >= 0
-//                                       4     JOINTS                local rotation of the elbow joint
-//   SWIVEL_WRIST                        4     HAND                  hand relative to forearm, or local rotation with
-//   JOINTS SWIVEL_FLAGS                        1     always                SWIVEL_REACHED... below, as uint32_t
+//   SWIVEL_SHOULDER            4     always          rotation in the arm frame, or the joint's local one with JOINTS
+//   SWIVEL_ELBOW               2     no JOINTS       cos and sin of half the flexion, both >= 0
+//                              4     JOINTS          the joint's local rotation
+//   SWIVEL_WRIST               4     WITH_HAND       hand relative to forearm, or local rotation with JOINTS
+//   SWIVEL_FLAGS               1     always          SWIVEL_REACHED..., as uint32_t
+//
+// With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS the binding says how it lies there.
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.

@@ -173,7 +173,6 @@ void verify_double(Random& random, std::uint64_t arm_count, Report& report)
 
 void verify_float(Random& random, std::uint64_t arm_count, Report& report)
 {
-    Error plane, length;
     for (const Band& band : bands) {
         FloatErrors errors;
         for (std::uint64_t n = 0; n < arm_count; ++n) errors.add(random_arm(random, band, n % 2 ? 1000 : 1.5));
