@@ -5,15 +5,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
 
 namespace swivel::tools {
-
-struct CommandError : std::runtime_error {
-    // 1: the run failed, 2: the options do not go together.
-    CommandError(int code, const std::string& line) : std::runtime_error(line), exit_code(code) {}
-    int exit_code;
-};
 
 void add_demo(CLI::App& app);
 void add_solve(CLI::App& app);

@@ -52,7 +52,7 @@ Limb make_limb(std::uint32_t n, float side, std::uint32_t columns, std::mt19937&
     limb.position[2] = z - side * 0.2f * size * std::sin(turn);
     limb.pace = 0.004f + 0.01f * unit(random);
     limb.phase = unit(random);
-    limb.reach = (limb.lengths[0] + limb.lengths[1]) * (0.5f + 0.55f * unit(random));
+    limb.reach = (limb.lengths[0] + limb.lengths[1]) * (0.45f + 0.65f * unit(random));
     return limb;
 }
 

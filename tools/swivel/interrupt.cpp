@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "tools/swivel/commands.h"
+#include "tools/swivel/command_error.h"
 
 namespace swivel::tools {
 

@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "swivel/swivel.hpp"
+#include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/interrupt.h"
 

@@ -17,6 +17,7 @@
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/targets_csv.h"
 #include "tools/swivel/clip_crowd.h"
+#include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/golden_crowd.h"
 #include "tools/swivel/parallel.h"
