@@ -22,6 +22,8 @@ inline namespace SWIVEL_ISA {
 // Vectors are no longer than 1/kTiny; a shorter one than kTiny counts as zero, for its square would leave the normal
 // floats.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
+// Of two vectors with squared lengths within these, the product's square is a normal float.
+inline constexpr double kPlainLeast2 = 1e-12, kPlainMost2 = 1e12;
 
 template <class T>
 struct ArmGoal {

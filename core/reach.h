@@ -24,7 +24,8 @@ SWIVEL_INLINE constexpr Reach<T> clamp_reach(const T& wanted, const T& upper, co
     const T far = upper + fore;
     const T near = abs(upper - fore);
     // kTiny: bones of equal length may fold up, but the triangle keeps a base to measure by.
-    return {lo(hi(wanted, hi(near, T(kTiny))), far), wanted > far, wanted < near};
+    const T base = hi(T(kTiny), T(1e-9) * far);
+    return {lo(hi(wanted, hi(near, base)), far), wanted > far, wanted < near};
 }
 
 template <class T>
@@ -53,7 +54,7 @@ SWIVEL_INLINE constexpr ArmTriangle<T> arm_triangle(const T& distance, const T& 
     const T m = (distance - diff) * shorter;
     const T p_or_1 = select(p + m > T(0), p, T(1));  // an upper arm of no length: along the target's line
     const T per_spread = T(1) / (p_or_1 + m);
-    return {cos_half, sin_half, (p_or_1 - m) * per_spread, T(2) * (cos_half * sin_half) * sum * per_spread};
+    return {cos_half, sin_half, (p_or_1 - m) * per_spread, (cos_half * sin_half) * (sum + sum) * per_spread};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -28,20 +28,20 @@ SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector
     const T height = abs(middle.template at<kE3>());
 
     // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of
-    // e1, e2.
-    const T share = start * normal.template at<kE3>() / height;  // n.m = start n3, as n is orthogonal to the bone
-    const T c3 = share * bone.template at<kE1>() - normal.template at<kE1>();
-    const T s3 = share * bone.template at<kE2>() - normal.template at<kE2>();
+    // e1, e2. All of it times height, which spares a division: n' = c3 e1 + s3 e2 with c3^2 + s3^2 = height^2.
+    const T along = flip_sign(normal.template at<kE3>(), start);  // n.m, as n is orthogonal to the bone
+    const T c3 = along * bone.template at<kE1>() - height * normal.template at<kE1>();
+    const T s3 = along * bone.template at<kE2>() - height * normal.template at<kE2>();
 
-    // q3 is half the turn from e1 to n': along (1 + c3) + s3 k, or for obtuse turns along |s3| +- (1 - c3) k.
-    const T large = T(1) + abs(c3);
+    // q3 is half the turn from e1 to n': along (1 + c3) + s3 k, or for obtuse turns along |s3| +- (1 - c3) k. |q3|^2 =
+    // 2 height large.
+    const T large = height + abs(c3);
     const Mask<T> obtuse = c3 < T(0);
     const auto q3 =
         select(obtuse, abs(s3), large) * unit<T, kScalar>() + select(obtuse, copysign(large, s3), s3) * unit<T, kK>();
 
     // q_s = q12 q3 of unit length, the two lengths taken off in one.
-    const T length2 = len2(middle) * len2(q3);
-    const Rotor<T> q = (T(1) / sqrt(length2)) * (central_line(middle) * q3);
+    const Rotor<T> q = (T(0.5) / (height * sqrt(large))) * (central_line(middle) * q3);
     return select(turned, times_blade<kI>(q), q);
 }
 
@@ -49,25 +49,40 @@ SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector
 template <class T>
 SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask<T>& good)
 {
-    const ArmGoal<T> rest = rest_goal<T>();
-    const T asked_wrist2 = len2(asked.wrist), asked_pole2 = len2(asked.pole);
-    const Mask<T> valid = good & (asked_wrist2 <= T(kHuge2)) & (asked_pole2 <= T(kHuge2)) & is_length(asked.upper) &
-                          is_length(asked.fore);  // false for NaN
-    const Vector<T> wrist = select(valid, asked.wrist, rest.wrist), pole = select(valid, asked.pole, rest.pole);
-    const T wrist2 = select(valid, asked_wrist2, len2(rest.wrist)), pole2 = select(valid, asked_pole2, len2(rest.pole));
-    const T upper = select(valid, asked.upper, rest.upper), fore = select(valid, asked.fore, rest.fore);
+    Vector<T> wrist = asked.wrist, pole = asked.pole, aim = wrist;
+    T upper = asked.upper, fore = asked.fore, wrist2 = len2(wrist), pole2 = len2(pole), aim2 = wrist2;
+
+    // Most arms are ordinary: nothing bad, nothing of no length, nothing huge. A step with another arm in it looks
+    // closer; this changes no bit of the ordinary ones beside it.
+    const Mask<T> ordinary = good & (wrist2 + pole2 <= T(kPlainMost2)) & (lo(wrist2, pole2) >= T(kPlainLeast2)) &
+                             (lo(upper, fore) >= T(kTiny)) & (upper + fore <= T(kHuge));  // false for NaN
+    Mask<T> valid = ordinary, on_shoulder = wrist2 < T(kTiny2);
+    if (!all(ordinary)) {
+        const ArmGoal<T> rest = rest_goal<T>();
+        valid = good & (wrist2 <= T(kHuge2)) & (pole2 <= T(kHuge2)) & is_length(upper) & is_length(fore);
+        wrist = select(valid, wrist, rest.wrist), pole = select(valid, pole, rest.pole);
+        wrist2 = select(valid, wrist2, len2(rest.wrist)), pole2 = select(valid, pole2, len2(rest.pole));
+        upper = select(valid, upper, rest.upper), fore = select(valid, fore, rest.fore);
+
+        on_shoulder = wrist2 < T(kTiny2);
+        wrist = select(on_shoulder, vector(T(0), T(0), T(1)), wrist), wrist2 = select(on_shoulder, T(1), wrist2);
+
+        // Poles and aims of unit length where the square of their product would not fit a float.
+        const Mask<T> plain =
+            (wrist2 >= T(kPlainLeast2)) & (pole2 >= T(kPlainLeast2)) & (wrist2 + pole2 <= T(kPlainMost2));
+        aim = select(plain, wrist, (T(1) / sqrt(wrist2)) * wrist), aim2 = select(plain, wrist2, T(1));
+        pole = select(plain, pole, (T(1) / sqrt(hi(pole2, T(kTiny2)))) * pole), pole2 = select(plain, pole2, T(1));
+    }
 
     // The target's line from the shoulder, and how far along it the wrist can be.
-    const Mask<T> on_shoulder = wrist2 < T(kTiny2);
-    const T length = sqrt(select(on_shoulder, T(1), wrist2));
-    const T wanted = select(on_shoulder, T(0), length);
-    const Vector<T> line = (T(1) / length) * select(on_shoulder, vector(T(0), T(0), T(1)), wrist);
+    const T length = sqrt(wrist2), wanted = select(on_shoulder, T(0), length);
+    const Vector<T> line = (T(1) / length) * wrist;
     const Reach<T> reach = clamp_reach(wanted, upper, fore);
 
     // Steps 1 and 2: the swivel plane; in it the elbow's direction and the flexion.
-    const SwivelPlane<T> plane = swivel_plane(line, pole, pole2);
+    const SwivelPlane<T> plane = swivel_plane(line, aim, aim2, pole, pole2);
     const ArmTriangle<T> triangle = arm_triangle(reach.distance, upper, fore);
-    const Vector<T> bone = triangle.cos_lift * line + triangle.sin_lift * cross(plane.normal, line);
+    const Vector<T> bone = triangle.cos_lift * line + triangle.sin_lift * plane.side;
 
     // Steps 3 to 5.
     const Rotor<T> shoulder = frame_rotor(bone, plane.normal);
@@ -83,9 +98,12 @@ SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
 {
-    const T zero = T(0);
-    const T &x = q.template at<kI>(), &y = q.template at<kJ>(), &z = q.template at<kK>(), &w = q.template at<kScalar>();
-    const T leading = select(w == zero, select(x == zero, select(y == zero, z, y), x), w);
+    const T zero = T(0), w = q.template at<kScalar>();
+    T leading = w;
+    if (const Mask<T> half_turn = w == zero; any(half_turn)) {
+        const T x = q.template at<kI>(), y = q.template at<kJ>(), z = q.template at<kK>();
+        leading = select(half_turn, select(x == zero, select(y == zero, z, y), x), w);
+    }
     return for_each_blade<T, Rotor<T>::set>(
         [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
 }

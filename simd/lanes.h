@@ -142,6 +142,34 @@ SWIVEL_INLINE Lanes<A, R> select(const LanesMask<A, R>& mask, const Lanes<A, R>&
 }
 
 template <class A, int R>
+SWIVEL_INLINE bool any(const LanesMask<A, R>& mask)
+{
+    auto either = mask.r[0];
+    for (int n = 1; n < R; ++n) either = either | mask.r[n];
+    return xsimd::any(either);
+}
+template <class A, int R>
+SWIVEL_INLINE bool all(const LanesMask<A, R>& mask)
+{
+    auto both = mask.r[0];
+    for (int n = 1; n < R; ++n) both = both & mask.r[n];
+    return xsimd::all(both);
+}
+#ifdef __x86_64__
+// Here minps and maxps are num.h's selects to the bit: the second operand for NaN and for two zeros.
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> lo(const Lanes<A, R>& a, const Lanes<A, R>& b)
+{
+    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::min(a.r[n], b.r[n]); });
+}
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> hi(const Lanes<A, R>& a, const Lanes<A, R>& b)
+{
+    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::max(a.r[n], b.r[n]); });
+}
+#endif
+
+template <class A, int R>
 SWIVEL_INLINE LanesBits<A, R> operator|(const LanesBits<A, R>& a, const LanesBits<A, R>& b)
 {
     return each_register<LanesBits<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] | b.r[n]; });
