@@ -65,6 +65,13 @@ bool is_chain(const Clip& clip, const Arm& arm)
     return parent(arm.wrist) == arm.elbow && parent(arm.elbow) == arm.shoulder;
 }
 
+bool share_a_joint(const Arm& a, const Arm& b)
+{
+    for (const int joint : {a.shoulder, a.elbow, a.wrist})
+        if (joint == b.shoulder || joint == b.elbow || joint == b.wrist) return true;
+    return false;
+}
+
 std::optional<Arm> arm_by_habit(const Clip& clip, Side side)
 {
     for (const auto& naming : kNamings)
@@ -190,6 +197,8 @@ std::vector<Arm> find_arms(const Clip& clip, const std::filesystem::path& file, 
     if (arms.size() == 2 && arms[0].side == arms[1].side)
         throw InputError(file, fmt::format("both arms are taken as {}; write --arm left:... and --arm right:...",
                                            formats::side_name(arms[0].side)));
+    if (arms.size() == 2 && share_a_joint(arms[0], arms[1]))
+        throw InputError(file, "the two arms share a joint; each needs three of its own (--arm)");
     for (Arm& arm : arms) bind_arm(clip, file, arm);
     return arms;
 }

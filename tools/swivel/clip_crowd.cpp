@@ -204,6 +204,7 @@ void ClipCrowd::measure_range(std::size_t arm, std::uint32_t begin, std::uint32_
         const float(&lengths)[2] = inputs_[arm][n].lengths;
         const double length = double{lengths[0]} + lengths[1];
         statistics.add_flags(flags[n - begin]);
+        if (flags[n - begin] & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
         const double missed = (Vector3d(at.wrist) - goal.wrist).norm() / length;
         (flags[n - begin] & SWIVEL_REACHED ? statistics.wrist : statistics.missed).add(missed);
         statistics.hand.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)));

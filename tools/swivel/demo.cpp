@@ -17,6 +17,7 @@
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
@@ -159,7 +160,7 @@ void run(const Options& options)
         nlohmann::ordered_json out{
             {"characters", options.characters}, {"frames", options.frames}, {"seed", options.seed}};
         out.update(json_of(statistics));
-        fmt::print("{}\n", out.dump(2));
+        print_json(out);
         return;
     }
     fmt::print("demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters,
@@ -175,11 +176,13 @@ void add_demo(CLI::App& app)
     auto options = std::make_shared<Options>();
     command->add_option("--characters", options->characters, "Characters, two arms each")
         ->capture_default_str()
-        ->check(CLI::Range(1u, 10'000'000u));
+        ->check(whole_number(1, 10'000'000));
     command->add_option("--frames", options->frames, "Frames")
         ->capture_default_str()
-        ->check(CLI::Range(1u, 1'000'000u));
-    command->add_option("--seed", options->seed, "Seed of the characters' differences")->capture_default_str();
+        ->check(whole_number(1, 1'000'000));
+    command->add_option("--seed", options->seed, "Seed of the characters' differences")
+        ->capture_default_str()
+        ->check(whole_number(0, UINT64_MAX));
     command->add_option("--threads", options->threads, "Threads at most; 0 for all")->capture_default_str();
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { run(*options); });

@@ -11,6 +11,7 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
@@ -52,7 +53,7 @@ void print_info(bool as_json)
 {
     const nlohmann::ordered_json info = describe();
     if (as_json) {
-        fmt::print("{}\n", info.dump(2));
+        print_json(info);
         return;
     }
     for (const auto& [key, value] : info.items())

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
@@ -40,9 +43,16 @@ int main(int argc, char** argv)
     note_interrupts();
     try {
         app.parse(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            return fail(1, "standard output could not be written in full");
         return 0;
     } catch (const CLI::Success& done) {  // --help, --version
         return app.exit(done);
+    } catch (const CLI::RequiredError& error) {
+        const std::vector<std::string> unknown = app.remaining();
+        const std::string cause =
+            unknown.empty() ? error.what() : fmt::format("'{}' is no command or option", unknown[0]);
+        return fail(2, fmt::format("{}; see swivel --help", cause));
     } catch (const CLI::ParseError& error) {
         return fail(2, fmt::format("{}; see swivel --help", error.what()));
     } catch (const CommandError& error) {

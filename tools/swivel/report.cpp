@@ -82,4 +82,9 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     return out;
 }
 
+void print_json(const nlohmann::ordered_json& json)
+{
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
 }  // namespace swivel::tools

@@ -13,4 +13,7 @@ namespace swivel::tools {
 void print_statistics(const Statistics& statistics);
 nlohmann::ordered_json json_of(const Statistics& statistics);
 
+// Prints JSON on stdout; bytes of file and joint names that are not UTF-8 are replaced.
+void print_json(const nlohmann::ordered_json& json);
+
 }  // namespace swivel::tools

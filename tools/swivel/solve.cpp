@@ -14,6 +14,7 @@
 
 #include "tools/formats/bvh.h"
 #include "tools/formats/error.h"
+#include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/targets_csv.h"
 #include "tools/swivel/clip_crowd.h"
@@ -23,6 +24,7 @@
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
@@ -125,6 +127,8 @@ Statistics solve_clip(const Options& options, const formats::BvhFile& file, std:
     ClipCrowd crowd(file.clip, arms, options.characters, options.seed);
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out);
+    if (kind == OutKind::bvh)
+        const formats::OutputFile can_be_written(options.out);  // says so before the work, not after
     BvhKeys keys(arms.size());
     Statistics statistics;
     {
@@ -158,8 +162,9 @@ void print_clip(const Options& options, const formats::Clip& clip, std::span<con
                    formats::side_name(arm.side), joint_name(clip, arm.shoulder), joint_name(clip, arm.elbow),
                    joint_name(clip, arm.wrist), arm.limb.lengths[0], arm.limb.lengths[1], arm.hinge.x(), arm.hinge.y(),
                    arm.hinge.z(), arm.hinge_source);
-    fmt::print("crowd    {} character{}, {} arms, targets from {}\n", options.characters,
-               options.characters == 1 ? "" : "s", arms.size() * options.characters,
+    const std::size_t arm_count = arms.size() * options.characters;
+    fmt::print("crowd    {} character{}, {} arm{}, targets from {}\n", options.characters,
+               options.characters == 1 ? "" : "s", arm_count, arm_count == 1 ? "" : "s",
                options.targets == "clip" ? "the clip" : options.targets);
 }
 
@@ -197,7 +202,7 @@ void run(const Options& options)
         out.update(json_of(statistics));
         out["seconds"] = seconds;
         if (!options.out.empty()) out["out"] = options.out;
-        fmt::print("{}\n", out.dump(2));
+        print_json(out);
         return;
     }
     print_statistics(statistics);
@@ -211,7 +216,7 @@ void add_solve(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("solve", "Solve the arms of a BVH clip, or of a crowd that performs it");
     auto options = std::make_shared<Options>();
-    command->add_option("clip", options->clip, "Motion file, .bvh")->required();
+    command->add_option("clip", options->clip, "Motion file, .bvh")->required()->check(file_name());
     command
         ->add_option(
             "--targets", options->targets,
@@ -219,8 +224,9 @@ void add_solve(CLI::App& app)
             "frame,character,side,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the world; arms without a row follow "
             "the clip")
         ->capture_default_str();
-    command->add_option("--out", options->out,
-                        "Write the poses: .bvh (one character) or .csv; without it statistics only");
+    command
+        ->add_option("--out", options->out, "Write the poses: .bvh (one character) or .csv; without it statistics only")
+        ->check(file_name());
     command
         ->add_option("--arm", options->arms,
                      "Joints of an arm, SHOULDER,ELBOW,WRIST, by name or path; up to twice; left: or right: in front "
@@ -230,8 +236,10 @@ void add_solve(CLI::App& app)
         ->add_option("--characters", options->characters,
                      "Characters, differing in arm lengths, place and start; the first is the clip's own")
         ->capture_default_str()
-        ->check(CLI::Range(1u, 10'000'000u));
-    command->add_option("--seed", options->seed, "Seed of the characters' differences")->capture_default_str();
+        ->check(whole_number(1, 10'000'000));
+    command->add_option("--seed", options->seed, "Seed of the characters' differences")
+        ->capture_default_str()
+        ->check(whole_number(0, UINT64_MAX));
     command->add_option("--threads", options->threads, "Threads at most; 0 for all")->capture_default_str();
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { run(*options); });

@@ -15,6 +15,8 @@
 #include "tools/swivel/golden_crowd.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
+#include "tools/swivel/report.h"
+#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
@@ -30,7 +32,7 @@ struct Digest {
     std::uint64_t hash;
 };
 
-constexpr std::uint32_t kDigestLimbs = 1000;
+constexpr std::uint32_t kDigestLimbs = 20'000;  // enough blocks that oneTBB shares them out
 
 void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
 {
@@ -44,12 +46,11 @@ void add_digests(const char* isa, std::vector<Digest>& digests)
 {
     for (const unsigned threads : {1u, 2u}) {
         const ThreadLimit limit(threads);
-        // 100 times the limbs: enough blocks that oneTBB shares them out.
-        const auto many = golden_digest(100 * kDigestLimbs, [](Crowd& crowd) { crowd.solve(); });
+        const auto many = golden_digest(kDigestLimbs, [](Crowd& crowd) { crowd.solve(); });
         digests.push_back({isa, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"), many});
     }
     for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u, 1u << 20}) {
-        const auto hash = golden_digest(100 * kDigestLimbs, [chunk](Crowd& crowd) { solve_in_chunks(crowd, chunk); });
+        const auto hash = golden_digest(kDigestLimbs, [chunk](Crowd& crowd) { solve_in_chunks(crowd, chunk); });
         digests.push_back({isa, chunk == 1u << 20 ? "one chunk" : fmt::format("chunks of {}", chunk), hash});
     }
 }
@@ -106,7 +107,7 @@ void run(const Options& options)
         nlohmann::ordered_json out{{"checks", checks}, {"equal_digests", equal}, {"passed", passed && equal}};
         for (const Digest& d : digests)
             out["digests"].push_back({{"isa", d.isa}, {"how", d.how}, {"digest", fmt::format("{:016x}", d.hash)}});
-        fmt::print("{}\n", out.dump(2));
+        print_json(out);
     } else {
         for (const Digest& d : digests)
             fmt::print("digest  {:<8} {:<12} {:016x}{}\n", d.isa, d.how, d.hash,
@@ -128,8 +129,10 @@ void add_verify(CLI::App& app)
     auto options = std::make_shared<Options>();
     command->add_option("--arms", options->arms, "Random arms in each reach band")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
-    command->add_option("--seed", options->seed, "Seed of the random arms")->capture_default_str();
+        ->check(whole_number(1, 1'000'000'000));
+    command->add_option("--seed", options->seed, "Seed of the random arms")
+        ->capture_default_str()
+        ->check(whole_number(0, UINT64_MAX));
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { run(*options); });
 }
