@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: C++ and C files are laid out as .clang-format says.
+find_program(CLANG_FORMAT NAMES clang-format clang-format-14)
+if(NOT CLANG_FORMAT)
+  message(FATAL_ERROR "clang-format is missing; install the Debian package clang-format")
+endif()
+file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/core/* ${SOURCE}/simd/* ${SOURCE}/batch/* ${SOURCE}/tools/*
+     ${SOURCE}/bench/* ${SOURCE}/tests/*)
+list(FILTER files INCLUDE REGEX "[.](h|hpp|c|cpp)$")
+list(FILTER files EXCLUDE REGEX "node_modules/|/build/")
+list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no files found below ${SOURCE}")
+endif()
+set(wrong "")
+foreach(file IN LISTS files)
+  execute_process(COMMAND ${CLANG_FORMAT} --style=file --dry-run -Werror ${SOURCE}/${file} RESULT_VARIABLE result
+                  OUTPUT_QUIET ERROR_QUIET)
+  if(NOT result EQUAL 0)
+    list(APPEND wrong ${file})
+  endif()
+endforeach()
+if(wrong)
+  list(JOIN wrong " " wrong)
+  message(FATAL_ERROR "not laid out as .clang-format says; run: clang-format -i ${wrong}")
+endif()
+message(STATUS "${count} files")

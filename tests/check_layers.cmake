@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: files include what their layer may include and no more, and use only the operations that give the same bits
+# everywhere. One rule a line: rule(folder, what the path must match, the rest of the arrow).
+set(rule_count 0)
+
+# Fills `files` with the C and C++ files of a folder, relative to SOURCE.
+function(list_files folder)
+  file(GLOB_RECURSE found RELATIVE ${SOURCE} ${SOURCE}/${folder}/*)
+  list(FILTER found INCLUDE REGEX "[.](h|hpp|c|cpp)$")
+  list(FILTER found EXCLUDE REGEX "node_modules/")
+  set(files "${found}" PARENT_SCOPE)
+endfunction()
+
+# A file without its comments and without the characters that CMake's lists trip over.
+function(read_code file)
+  file(READ ${SOURCE}/${file} text)
+  string(REGEX REPLACE "[][;]" " " text "${text}")
+  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+  string(REGEX REPLACE "/[*]([^*]|[*]+[^*/])*[*]+/" "" text "${text}")
+  set(code "\n${text}\n" PARENT_SCOPE)
+endfunction()
+
+# Files of `folder` whose path matches `path` include nothing but headers that match `allowed`, a regex for "name" or <name>.
+function(may_include folder path allowed)
+  list_files(${folder})
+  set(seen 0)
+  foreach(file IN LISTS files)
+    if(file MATCHES "${path}")
+      math(EXPR seen "${seen} + 1")
+      read_code(${file})
+      string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[\"<][^\">\n]+[\">]" includes "${code}")
+      foreach(include IN LISTS includes)
+        string(REGEX REPLACE ".*include[ \t]*" "" header "${include}")
+        if(NOT header MATCHES "^(${allowed})$")
+          message(SEND_ERROR "${file} includes ${header}, which its layer must not know")
+        endif()
+      endforeach()
+    endif()
+  endforeach()
+  if(seen EQUAL 0)
+    message(SEND_ERROR "no file of ${folder} matches ${path}: the rule has nothing to hold")
+  endif()
+  math(EXPR count "${rule_count} + 1")
+  set(rule_count ${count} PARENT_SCOPE)
+endfunction()
+
+# Code matches `word` nowhere in `folder` but in files whose path matches `except`.
+function(must_not_say folder word except reason)
+  list_files(${folder})
+  foreach(file IN LISTS files)
+    if(NOT file MATCHES "${except}")
+      read_code(${file})
+      if(code MATCHES "${word}")
+        string(STRIP "${CMAKE_MATCH_0}" match)
+        message(SEND_ERROR "${file} says '${match}': ${reason}")
+      endif()
+    endif()
+  endforeach()
+  math(EXPR count "${rule_count} + 1")
+  set(rule_count ${count} PARENT_SCOPE)
+endfunction()
+
+set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
+set(nowhere "^$")
+
+# ---- core: formulas and the standard library; the oracle shares nothing with them
+may_include(core "core/(isa|num|algebra|conformal|arm|reach|swivel_plane|solve_arm|space|pipeline)[.]h$"
+            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|arm|reach|swivel_plane|solve_arm|space)[.]h\"")
+may_include(core "core/dense[.]h$" "<cmath>")
+may_include(core "core/reference[.]h$" "none")
+may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
+may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
+
+# ---- simd: kernels.cpp sees formulas and lanes, the rest sees neither
+may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
+may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
+            "${standard}|\"simd/(dispatch|kernels)[.]h\"|\"batch/swivel[.]h\"|\"core/isa[.]h\"")
+may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
+
+# ---- batch: never lanes; only rig, edge, verify and the flags in api.cpp know core
+set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env)[.]h\"")
+may_include(batch "batch/swivel[.]h$" "<std(def|int)[.]h>")
+may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
+may_include(batch "batch/(crowd|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
+may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
+may_include(batch "batch/(rig|edge|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<std(def|int)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
+
+# ---- tools and bench: the public headers and their own; a format knows no solver
+foreach(folder tools bench)
+  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" ${nowhere} "only the public headers are for it")
+  must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h and swivel.hpp")
+endforeach()
+must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/swivel)[^\n]*" ${nowhere} "a format knows no solver")
+must_not_say(tools/swivel "#[ \t]*include[ \t]*\"bench/[^\n]*" ${nowhere} "the command does not know the benchmarks")
+
+foreach(folder core simd batch)
+  # ---- names at home in one file
+  must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
+  must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
+  # ---- only + - * / sqrt, comparisons, selects and sign bits
+  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" ${nowhere} "no trigonometry here")
+  must_not_say(${folder} "[^a-zA-Z_](exp|exp2|log|log2|log10|pow|cbrt)f?[ \t]*[(]" ${nowhere} "not correctly rounded everywhere")
+  must_not_say(${folder} "[^a-zA-Z]_*(builtin_)?(fma|fmaf|fms|fnma|rsqrt|reciprocal|mm[0-9]*_rcp[a-z0-9_]*|mm[0-9]*_rsqrt[a-z0-9_]*)[ \t]*[(]"
+               ${nowhere} "its bits differ between CPUs")
+endforeach()
+foreach(folder core simd)
+  # lanes.h may: there test_lanes judges min and max to the bit.
+  must_not_say(${folder} "[^a-zA-Z_]f?(min|max)f?[ \t]*[(<]" "simd/lanes[.]h$" "use lo and hi: min and max differ between CPUs on NaN and zeros")
+  must_not_say(${folder} "[^a-zA-Z_](hypot|remainder|fmod|rint|nearbyint|round|floor|ceil)f?[ \t]*[(]" ${nowhere} "not in num.h's list")
+endforeach()
+# Intrinsics in simd: the two exact NEON instructions and the control word.
+must_not_say(simd "[^a-zA-Z_](_mm[0-9]*_[a-z0-9_]+|v[a-z]+q_f32)" "simd/(lanes|float_env)[.]h$" "intrinsics belong to lanes.h and float_env.h")
+
+# ---- flags that would move bits
+file(READ ${SOURCE}/CMakeLists.txt build)
+string(REGEX REPLACE "#[^\n]*" "" build "${build}")
+foreach(flag -ffast-math -Ofast -march= -mtune= -mfma -funsafe-math -fassociative-math -freciprocal-math)
+  string(FIND "${build}" "${flag}" at)
+  if(NOT at EQUAL -1)
+    message(SEND_ERROR "CMakeLists.txt says ${flag}: bits would depend on the machine")
+  endif()
+endforeach()
+string(FIND "${build}" "-ffp-contract=off" at)
+if(at EQUAL -1)
+  message(SEND_ERROR "CMakeLists.txt does not say -ffp-contract=off: compilers would fuse products and sums")
+endif()
+message(STATUS "${rule_count} rules")

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: the linker cannot hand one instruction set's code to another. Each object of simd/kernels.cpp defines one strong
+# symbol, its table, and every function that other objects might define, too, carries the instruction set in its name.
+#   NM: the tool; OBJECTS, ISAS: comma-separated, in the same order; DEBUG: 1 for a build without optimisation
+string(REPLACE "," ";" objects "${OBJECTS}")
+string(REPLACE "," ";" isas "${ISAS}")
+list(LENGTH objects object_count)
+list(LENGTH isas isa_count)
+if(NOT object_count EQUAL isa_count OR isa_count EQUAL 0)
+  message(FATAL_ERROR "${isa_count} instruction sets, but ${object_count} objects: ${OBJECTS}")
+endif()
+
+foreach(isa object IN ZIP_LISTS isas objects)
+  execute_process(COMMAND ${NM} --defined-only ${object} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${NM} ${object} failed: ${errors}")
+  endif()
+  string(REGEX MATCHALL "[0-9a-f]+ [A-Zu] [^\n]+" symbols "${output}")
+  string(LENGTH ${isa} length)
+  set(table "_ZN6swivel${length}${isa}7kernelsE")
+  set(table_count 0)
+  set(shared_count 0)
+  foreach(symbol IN LISTS symbols)
+    string(REGEX REPLACE "^[0-9a-f]+ ([A-Zu]) (.*)$" "\\1;\\2" parts "${symbol}")
+    list(GET parts 0 kind)
+    list(GET parts 1 name)
+    if(NOT kind MATCHES "[WVu]")
+      if(name STREQUAL table)
+        math(EXPR table_count "${table_count} + 1")
+      else()
+        message(SEND_ERROR "${isa}: a strong symbol besides the table: ${name}")
+      endif()
+    # The namespace of the instruction set, or xsimd's architecture of that name, as a part of the mangled name.
+    elseif(NOT name MATCHES "[0-9]${isa}|simd_${isa}" AND NOT "${isa} ${name}" MATCHES "^avx2 .*3avxE")
+      # Without optimisation one-line functions of other libraries stay: xsimd's constant -0.0f, std::bit_cast, std::sqrt...
+      if(NOT (DEBUG AND name MATCHES "^_ZN5xsimd9constants9minuszeroIfEE|^_ZSt[0-9]+(bit_castIfj|fabsf|sqrtf|signbitf|copysignf)"))
+        message(SEND_ERROR "${isa}: a shared function without the instruction set in its name: ${name}")
+      endif()
+    else()
+      math(EXPR shared_count "${shared_count} + 1")
+    endif()
+  endforeach()
+  if(NOT table_count EQUAL 1)
+    message(SEND_ERROR "${isa}: ${table_count} tables named ${table} instead of one in ${object}")
+  endif()
+  message(STATUS "${isa}: its table and ${shared_count} functions of its own name")
+endforeach()

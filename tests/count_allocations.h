@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+//
+// Counts every allocation of the process it is linked into, operator new's included, whoever asks for it.
+// Include in one file of a test only: it replaces malloc and its relatives, or hooks the sanitizer's.
+#pragma once
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/allocator_interface.h>
+#endif
+
+namespace swivel::test {
+inline std::atomic<std::size_t> allocations{0};
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+
+namespace swivel::test {
+inline std::size_t allocation_count()
+{
+    static const int hooked = __sanitizer_install_malloc_and_free_hooks(
+        [](const volatile void*, std::size_t) { ++allocations; }, [](const volatile void*) {});
+    (void)hooked;
+    return allocations;
+}
+}  // namespace swivel::test
+
+#else
+
+namespace swivel::test {
+inline std::size_t allocation_count() { return allocations; }
+}  // namespace swivel::test
+
+// glibc's own, under the names it keeps for those who replace malloc.
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+void* malloc(std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    return __libc_malloc(bytes);
+}
+void* calloc(std::size_t count, std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    return __libc_calloc(count, bytes);
+}
+void* realloc(void* memory, std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    return __libc_realloc(memory, bytes);
+}
+void* memalign(std::size_t alignment, std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    return __libc_memalign(alignment, bytes);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    return __libc_memalign(alignment, bytes);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    *memory = __libc_memalign(alignment, bytes);
+    return *memory ? 0 : ENOMEM;
+}
+}
+
+#endif

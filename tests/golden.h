@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+//
+// The bits that every CPU must give. Changing this number changes results for everyone: it needs an entry under
+// "Results changed" in CHANGELOG.md and at least a minor version.
+#pragma once
+
+#include <cstdint>
+
+namespace swivel::test {
+
+// golden_digest(1000, ...) of tools/swivel/golden_crowd.h, as the scalar build gives it.
+inline constexpr std::uint64_t kGoldenDigest = 0x60c40466ead58f34u;
+
+}  // namespace swivel::test

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: equal inputs give equal bits, on every instruction set, thread count, block range and number of limbs,
+// in any floating-point environment, whatever lies in padding lanes and in blocks that were not asked for.
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "tests/golden.h"
+#include "tests/test_isa_scope.h"
+#include "tools/swivel/golden_crowd.h"
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#endif
+#ifdef __x86_64__
+#include <xmmintrin.h>
+#endif
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+using swivel::tools::golden_crowd;
+using swivel::tools::golden_digest;
+using swivel::tools::is_feature_set;
+using swivel::tools::kFeatureSets;
+
+constexpr std::uint32_t kPoison = 0x7fa5a5a5u;  // a signalling NaN
+
+void solve(Crowd& crowd) { crowd.solve(); }
+
+void solve_in_ranges(Crowd& crowd, std::uint32_t size)
+{
+    const std::uint32_t blocks = swivel_block_count(crowd.get());
+    for (std::uint32_t first = 0; first < blocks; first += size)
+        crowd.solve_blocks(first, std::min(size, blocks - first));
+}
+
+std::size_t word_count(const swivel_rows& rows)
+{
+    return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES;
+}
+
+std::vector<std::uint32_t> words_of(const swivel_rows& rows)
+{
+    std::vector<std::uint32_t> words(word_count(rows));
+    std::memcpy(words.data(), rows.base, words.size() * sizeof(std::uint32_t));
+    return words;
+}
+
+void poison(float* at) { std::memcpy(at, &kPoison, sizeof kPoison); }
+void poison(const swivel_rows& rows)
+{
+    for (std::size_t n = 0; n < word_count(rows); ++n) poison(rows.base + n);
+}
+
+// Calls act(lane) for each lane of all rows that belongs to no limb.
+template <class Act>
+void for_each_padding_lane(const Crowd& crowd, const swivel_rows& rows, std::uint32_t group_count, Act act)
+{
+    std::vector<bool> used(std::size_t{rows.block_count} * SWIVEL_LANES);
+    for (std::uint32_t group = 0; group < group_count; ++group)
+        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
+            used[swivel_group_first_limb(crowd.get(), group) + n] = true;
+    for (std::size_t limb = 0; limb < used.size(); ++limb)
+        for (std::uint32_t row = 0; row < rows.row_count && !used[limb]; ++row)
+            act(rows.base + ((limb / SWIVEL_LANES) * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES);
+}
+
+}  // namespace
+
+TEST_CASE("the instruction set that was forced is the one in use")
+{
+    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
+    if (forced && *forced)
+        REQUIRE(std::string(swivel_isa_name()) == forced);
+    else
+        REQUIRE(swivel_isa_name() == runnable_isas().front());
+}
+
+TEST_CASE("the instruction set in use gives the golden digest") { CHECK(golden_digest(1000, solve) == kGoldenDigest); }
+
+TEST_CASE("every instruction set gives the golden digest")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas()) {
+        INFO(isa);
+        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+        REQUIRE(swivel_isa_name() == isa);
+        CHECK(golden_digest(1000, solve) == kGoldenDigest);
+    }
+}
+
+TEST_CASE("every block range gives the golden digest")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas())
+        for (const std::uint32_t size : {1u, 2u, 3u, 5u, 7u, ~0u}) {
+            INFO(isa << ", ranges of " << size);
+            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+            CHECK(golden_digest(1000, [&](Crowd& crowd) { solve_in_ranges(crowd, size); }) == kGoldenDigest);
+        }
+}
+
+TEST_CASE("every number of limbs gives the scalar build's digest")
+{
+    const IsaScope scope;
+    for (const std::uint32_t limb_count : {1u, 15u, 16u, 17u, 33u, 1000u}) {
+        REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
+        const std::uint64_t expected = golden_digest(limb_count, solve);
+        for (const std::string& isa : runnable_isas()) {
+            INFO(isa << ", " << limb_count << " limbs");
+            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+            CHECK(golden_digest(limb_count, solve) == expected);
+        }
+    }
+}
+
+TEST_CASE("a limb has the same bits wherever it stands in the crowd")
+{
+    const std::uint32_t count = 70;
+    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
+        Crowd crowd = golden_crowd(features, count);
+        crowd.solve();
+        const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+        const std::vector<std::uint32_t> inputs = words_of(in), results = words_of(out);
+        for (std::uint32_t shift = 1; shift < 64; shift += 5) {  // limb n goes to lane n + shift, round the first group
+            const auto place = [](const swivel_rows& rows, std::uint32_t limb, std::uint32_t row) {
+                return (std::size_t{limb / SWIVEL_LANES} * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES;
+            };
+            for (std::uint32_t n = 0; n < count; ++n)
+                for (std::uint32_t row = 0; row < in.row_count; ++row)
+                    std::memcpy(in.base + place(in, (n + shift) % count, row), &inputs[place(in, n, row)],
+                                sizeof(float));
+            crowd.solve();
+            const std::vector<std::uint32_t> moved = words_of(out);
+            std::size_t wrong = 0;
+            for (std::uint32_t n = 0; n < count; ++n)
+                for (std::uint32_t row = 0; row < out.row_count; ++row)
+                    wrong += moved[place(out, (n + shift) % count, row)] != results[place(out, n, row)];
+            INFO("features " << features << ", shift " << shift);
+            CHECK(wrong == 0);
+        }
+    }
+}
+
+#ifdef SWIVEL_WITH_TBB
+TEST_CASE("every number of threads gives the same bits")
+{
+    constexpr std::uint32_t limb_count = 20000;  // some ten chunks
+    const IsaScope scope;
+    REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
+    const std::uint64_t expected = golden_digest(limb_count, [](Crowd& crowd) { solve_in_ranges(crowd, ~0u); });
+    for (const std::string& isa : runnable_isas())
+        for (const int threads : {1, 2}) {
+            INFO(isa << ", " << threads << " threads");
+            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+            using oneapi::tbb::global_control;
+            const global_control control(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+            oneapi::tbb::task_arena arena(threads);
+            const std::uint64_t hash =
+                golden_digest(limb_count, [&](Crowd& crowd) { arena.execute([&] { crowd.solve(); }); });
+            CHECK(hash == expected);
+        }
+}
+#endif
+
+TEST_CASE("blocks outside the range are not written, and what lies in them does not matter")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas()) {
+        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+        for (std::uint32_t features = 0; features < kFeatureSets; ++features) {
+            if (!is_feature_set(features)) continue;
+            Crowd whole = golden_crowd(features, 200);
+            whole.solve();
+            const swivel_rows whole_out = swivel_result_rows(whole.get());
+            const std::vector<std::uint32_t> expected = words_of(whole_out);
+            const std::uint32_t blocks = whole_out.block_count;
+            REQUIRE(blocks == 21);
+            for (const auto& [first, count] :
+                 {std::pair{0u, 1u}, {1u, 4u}, {3u, 9u}, {12u, 2u}, {13u, 8u}, {5u, 0u}, {0u, 21u}}) {
+                Crowd crowd = golden_crowd(features, 200);
+                const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+                poison(out);
+                const std::size_t block_in = std::size_t{in.row_count} * SWIVEL_LANES;
+                for (std::size_t n = 0; n < word_count(in); ++n)
+                    if (n < first * block_in || n >= (first + count) * block_in) poison(in.base + n);
+                const std::vector<std::uint32_t> before = words_of(in);
+                crowd.solve_blocks(first, count);
+
+                const std::size_t block_out = std::size_t{out.row_count} * SWIVEL_LANES;
+                const std::vector<std::uint32_t> results = words_of(out);
+                std::size_t wrong = 0;
+                for (std::size_t n = 0; n < results.size(); ++n) {
+                    const bool inside = n >= first * block_out && n < (first + count) * block_out;
+                    wrong += results[n] != (inside ? expected[n] : kPoison);
+                }
+                INFO(isa << ", features " << features << ", blocks " << first << " + " << count);
+                CHECK(wrong == 0);
+                CHECK(words_of(in) == before);
+            }
+        }
+    }
+}
+
+TEST_CASE("blocks outside the range are not even read")
+{
+    // Rows of 512 and 448 bytes a block: 64 blocks of either are whole pages, and all but the middle 64 are locked
+    // away.
+    constexpr std::size_t page = 4096;
+    constexpr std::uint32_t blocks = 192, first = 64, count = 64;
+    const swivel_group_def group{blocks * SWIVEL_LANES, {}};
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.group_count = 1;
+    def.groups = &group;
+    const std::size_t bytes = swivel_crowd_bytes(&def), room = (bytes / page + 3) * page;
+    char* const pages =
+        static_cast<char*>(mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    REQUIRE(pages != MAP_FAILED);
+
+    const std::size_t rows_bytes = blocks * (8 + 7) * SWIVEL_LANES * sizeof(float);
+    def.memory = pages + 2 * page - (bytes - rows_bytes);  // so that the input rows start a page
+    def.memory_bytes = bytes;
+    swivel_crowd* crowd = nullptr;
+    REQUIRE(swivel_crowd_create(&def, &crowd) == SWIVEL_OK);
+    const swivel_rows in = swivel_input_rows(crowd), out = swivel_result_rows(crowd);
+    REQUIRE(in.row_count == 8);
+    REQUIRE(out.row_count == 7);
+    REQUIRE(reinterpret_cast<char*>(in.base) == pages + 2 * page);
+    REQUIRE(reinterpret_cast<char*>(out.base) == pages + 2 * page + word_count(in) * sizeof(float));
+
+    const auto lock_outside = [&](const swivel_rows& rows, int rights) {
+        const std::size_t part = word_count(rows) * sizeof(float) / 3;
+        REQUIRE(part % page == 0);
+        char* const base = reinterpret_cast<char*>(rows.base);
+        REQUIRE(mprotect(base, part, rights) == 0);
+        REQUIRE(mprotect(base + 2 * part, part, rights) == 0);
+    };
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas()) {
+        INFO(isa);
+        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+        poison(out);
+        lock_outside(in, PROT_NONE);
+        lock_outside(out, PROT_NONE);
+        CHECK(swivel_solve_blocks(crowd, first, count) == SWIVEL_OK);
+        lock_outside(in, PROT_READ | PROT_WRITE);
+        lock_outside(out, PROT_READ | PROT_WRITE);
+        const std::vector<std::uint32_t> results = words_of(out);
+        CHECK(static_cast<std::size_t>(std::count(results.begin(), results.end(), kPoison)) == results.size() * 2 / 3);
+    }
+    swivel_crowd_destroy(crowd);
+    munmap(pages, room);
+}
+
+TEST_CASE("padding lanes may hold anything, stay as they are and change nothing")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas())
+        for (const std::uint32_t word : {0x7fc00000u, kPoison, 0xffffffffu, 0x7f800000u, 0x00000001u, 0x00000000u}) {
+            INFO(isa << ", padding of " << word);
+            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+            const auto fill_and_solve = [&](Crowd& crowd) {
+                const swivel_rows rows = swivel_input_rows(crowd.get());
+                for_each_padding_lane(crowd, rows, 3, [&](float* lane) { std::memcpy(lane, &word, sizeof word); });
+                const std::vector<std::uint32_t> before = words_of(rows);
+                crowd.solve();
+                CHECK(words_of(rows) == before);
+            };
+            CHECK(golden_digest(1000, fill_and_solve) == kGoldenDigest);
+        }
+}
+
+TEST_CASE("solving twice, and over poisoned results, gives the same bits")
+{
+    const std::uint64_t hash = golden_digest(1000, [](Crowd& crowd) {
+        poison(swivel_result_rows(crowd.get()));
+        crowd.solve();
+        crowd.solve();
+    });
+    CHECK(hash == kGoldenDigest);
+}
+
+#ifdef __x86_64__
+TEST_CASE("the caller's floating-point environment changes no bit and is put back, sticky flags included")
+{
+    constexpr unsigned normal = 0x1f80, ftz = 0x8000, daz = 0x0040, up = 0x4000, down = 0x2000, to_zero = 0x6000,
+                       masks = 0x1f80, sticky = 0x003f;
+    const std::pair<const char*, unsigned> environments[] = {
+        {"as usual", normal},
+        {"flush to zero", normal | ftz},
+        {"denormals are zero", normal | daz},
+        {"both", normal | ftz | daz},
+        {"round up", normal | up},
+        {"round down", normal | down},
+        {"round to zero", normal | to_zero},
+        {"exceptions unmasked", normal & ~masks},
+        {"sticky flags set", normal | sticky},
+        {"one sticky flag set", normal | 0x0004},
+        {"round up, one sticky flag set", normal | up | 0x0004},
+        {"everything", ftz | daz | up | sticky},
+    };
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas())
+        for (const auto& [name, environment] : environments)
+            for (const bool whole : {true, false}) {
+                INFO(isa << ", " << name << (whole ? ", swivel_solve" : ", swivel_solve_blocks"));
+                REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+                unsigned found = environment;
+                const auto solve_there = [&](Crowd& crowd) {
+                    swivel_crowd* const handle = crowd.get();
+                    const std::uint32_t blocks = swivel_block_count(handle);
+                    const unsigned before = _mm_getcsr();
+                    _mm_setcsr(environment);
+                    if (whole)
+                        swivel_solve(handle);
+                    else
+                        swivel_solve_blocks(handle, 0, blocks);
+                    const unsigned after = _mm_getcsr();
+                    _mm_setcsr(before);
+                    if (after != environment) found = after;
+                };
+                CHECK(golden_digest(1000, solve_there) == kGoldenDigest);
+                CHECK(found == environment);
+            }
+}
+#endif
+
+#if defined(__x86_64__) && defined(SWIVEL_WITH_TBB)
+TEST_CASE("worker threads that took over the caller's environment give the same bits")
+{
+    constexpr std::uint32_t limb_count = 20000;
+    const std::uint64_t expected = golden_digest(limb_count, solve);
+    const unsigned before = _mm_getcsr();
+    _mm_setcsr(0x1f80 | 0x8000 | 0x0040 | 0x4000);  // flush to zero, denormals are zero, round up
+    oneapi::tbb::task_arena arena(2);
+    arena.initialize();
+    _mm_setcsr(before);
+    const std::uint64_t hash = golden_digest(limb_count, [&](Crowd& crowd) {
+        arena.execute([&] {
+            _mm_setcsr(0x1f80 | 0x8000 | 0x0040 | 0x4000);
+            swivel_solve(crowd.get());
+            _mm_setcsr(before);
+        });
+    });
+    CHECK(hash == expected);
+}
+#endif

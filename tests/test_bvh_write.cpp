@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// New rotations written into BVH files: accuracy, continuity of keys, and that all other text stays. Written angles are
+// checked by rotation matrices from the bare text as well as by reading the file again.
+
+#include <rapidcheck/catch.h>
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "tests/bvh_samples.h"
+#include "tests/test_data.h"
+#include "tools/formats/bvh.h"
+#include "tools/formats/clip.h"
+#include "tools/formats/error.h"
+
+using namespace swivel::formats;
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+Quaterniond random_rotation(std::mt19937& random)
+{
+    std::normal_distribution<double> normal;
+    return Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+}
+
+constexpr std::array<const char*, 6> kOrders = {"XYZ", "YZX", "ZXY", "XZY", "ZYX", "YXZ"};
+
+std::string channels_of(const std::string& order)
+{
+    return fmt::format("3 {}rotation {}rotation {}rotation", order[0], order[1], order[2]);
+}
+
+Eigen::Matrix3d matrix_of(const std::string& order, const double* angles_deg)
+{
+    return turn(order[0], angles_deg[0]) * turn(order[1], angles_deg[1]) * turn(order[2], angles_deg[2]);
+}
+
+std::string blanks_of(const std::string& text)
+{
+    std::string blanks;
+    for (const char c : text) {
+        if (std::isspace(static_cast<unsigned char>(c))) blanks += c;
+    }
+    return blanks;
+}
+
+// The angles written for these rotations, three a frame, where the file's first frame has `start`.
+std::vector<double> written_angles(const TempFolder& folder, const std::string& order,
+                                   const std::vector<Quaterniond>& rotations, const std::string& start = "0 0 0")
+{
+    std::string values = start + "\n";
+    for (std::size_t frame = 1; frame < rotations.size(); ++frame) values += "0 0 0\n";
+    const BvhFile file = read(folder, one_joint(channels_of(order), values, rotations.size()));
+    write_bvh(folder / "w.bvh", file, {{{0, rotations}}});
+    return motion_values(slurp(folder / "w.bvh"));
+}
+
+}  // namespace
+
+TEST_CASE("bvh: an override changes its joint's rotation words and nothing else")
+{
+    const TempFolder folder;
+    spill(folder / "own.bvh", slurp(must_find_jump()));
+    const BvhFile file = read_bvh(folder / "own.bvh");
+    const auto arm = static_cast<std::size_t>(find_joints(file.clip, "LeftArm").at(0));
+    std::vector<Quaterniond> hips, arms;
+    for (std::size_t frame = 0; frame < file.clip.frame_count; ++frame) {
+        hips.push_back(file.clip.rotation[frame * file.joints.size()]);
+        arms.push_back(file.clip.rotation[frame * file.joints.size() + arm].conjugate());
+        arms.back().coeffs() *= -3;  // neither sign nor length matter
+    }
+    write_bvh(folder / "own.bvh", file, {{{static_cast<int>(arm), arms}, {0, hips}}});  // onto the file that was read
+
+    const BvhFile again = read_bvh(folder / "own.bvh");
+    double worst = 0;
+    for (std::size_t i = 0; i < again.clip.rotation.size(); ++i) {
+        const bool is_arm = i % file.joints.size() == arm;
+        const Quaterniond wanted = is_arm ? file.clip.rotation[i].conjugate() : file.clip.rotation[i];
+        worst = std::max(worst, angle_between(again.clip.rotation[i], wanted));
+    }
+    CHECK(worst < 1e-10);
+
+    std::istringstream before(file.text), after(again.text);
+    std::size_t strange = 0;
+    std::string old_line, new_line;
+    while (std::getline(before, old_line) && std::getline(after, new_line)) {
+        std::istringstream old_words(old_line), new_words(new_line);
+        std::string old_word, new_word;
+        const std::size_t first = file.joints[arm].first_channel;
+        for (std::size_t c = 0; old_words >> old_word && new_words >> new_word; ++c) {
+            const bool may_change = (c >= 3 && c < 6) || (c >= first && c < first + 3);
+            const double shift = std::strtod(old_word.c_str(), nullptr) - std::strtod(new_word.c_str(), nullptr);
+            const bool is_same_key = c >= 3 && c < 6 && std::abs(std::remainder(shift, 360)) < 1e-8;
+            if (old_word != new_word && !may_change) ++strange;
+            if (old_word != new_word && c >= 3 && c < 6 && !is_same_key) ++strange;
+        }
+    }
+    CHECK(strange == 0);
+    CHECK(blanks_of(again.text) == blanks_of(file.text));
+}
+
+TEST_CASE("bvh: blanks, line ends and other channels around new angles stay")
+{
+    const TempFolder folder;
+    const std::string values = " 1  2\t3 +4.50 \r\n\r\n5 6 7\t\t8e0";
+    const BvhFile file = read(folder, one_joint("4 Zrotation Xrotation Yrotation Xposition", values, 2));
+    const std::vector<Quaterniond> rotations = {Quaterniond(turn('Z', 90)), Quaterniond(turn('X', -20))};
+    write_bvh(folder / "w.bvh", file, {{{0, rotations}}});
+    const std::string text = slurp(folder / "w.bvh");
+    CHECK(text == edited(file.text, values,
+                         " 90.000000000  0.000000000\t0.000000000 +4.50 \r\n\r\n"
+                         "0.000000000 -20.000000000 0.000000000\t\t8e0"));
+}
+
+TEST_CASE("bvh: any rotation in any order comes back to 1e-9 rad")
+{
+    const TempFolder folder;
+    for (const std::string order : kOrders) {
+        rc::prop(order, [&](unsigned seed) {
+            std::mt19937 random(seed);
+            std::vector<Quaterniond> rotations;
+            for (int i = 0; i < 40; ++i) {
+                rotations.push_back(random_rotation(random));
+                // And near the lock, at every distance from it.
+                const double gap_deg = std::pow(10.0, -static_cast<double>(random() % 17));
+                const double side = random() % 2 ? 1 : -1;
+                const double angles[3] = {static_cast<double>(random() % 360), side * 90 - gap_deg,
+                                          static_cast<double>(random() % 360)};
+                rotations.emplace_back(matrix_of(order, angles));
+            }
+            const std::vector<double> angles = written_angles(folder, order, rotations);
+            const Clip clip = read_bvh(folder / "w.bvh").clip;
+            RC_ASSERT(angles.size() == 3 * rotations.size());
+            for (std::size_t i = 0; i < rotations.size(); ++i) {
+                RC_ASSERT(angle_between(Quaterniond(matrix_of(order, &angles[3 * i])), rotations[i]) < 1e-9);
+                RC_ASSERT(angle_between(clip.rotation[i], rotations[i]) < 1e-9);
+            }
+        });
+    }
+}
+
+TEST_CASE("bvh: keys follow a smooth motion over full turns, through the lock, from the file's first values")
+{
+    const TempFolder folder;
+    for (const std::string order : kOrders) {
+        CAPTURE(order);
+        std::vector<Quaterniond> rotations;
+        std::vector<Vector3d> wanted;
+        for (int frame = 0; frame < 300; ++frame) {
+            const double f = frame;
+            // The middle angle crosses 90 between two frames, then once hits it exactly.
+            const Vector3d angles_deg(700 + 3.1 * f, -200 + (f < 150 ? 1.3 * f : 195 + 0.5 * (f - 150)), -4.7 * f);
+            wanted.push_back(angles_deg);
+            rotations.emplace_back(matrix_of(order, angles_deg.data()));
+            if (frame % 2) rotations.back().coeffs() *= -1;
+        }
+        const std::vector<double> angles = written_angles(folder, order, rotations, "702 -199 1");
+        double worst = 0;
+        for (std::size_t i = 0; i < rotations.size(); ++i) {
+            worst = std::max(worst, (Eigen::Map<const Vector3d>(&angles[3 * i]) - wanted[i]).norm());
+        }
+        CHECK(worst < 1e-6);
+    }
+}
+
+TEST_CASE("bvh: at gimbal lock the first angle rests and the last takes the motion")
+{
+    const TempFolder folder;
+    for (const std::string order : kOrders) {
+        for (const double side : {90.0, -90.0}) {
+            CAPTURE(order, side);
+            std::vector<Quaterniond> rotations;
+            for (int frame = 0; frame < 100; ++frame) {
+                const double angles[3] = {30, side, 10 + 5.0 * frame};
+                rotations.emplace_back(matrix_of(order, angles));
+            }
+            const std::vector<double> angles = written_angles(folder, order, rotations, "30 80 10");
+            for (std::size_t i = 0; i < rotations.size(); ++i) {
+                REQUIRE(std::abs(angles[3 * i] - 30) < 1e-6);
+                REQUIRE(std::abs(angles[3 * i + 1] - side) < 1e-6);
+                REQUIRE(std::abs(angles[3 * i + 2] - (10 + 5.0 * static_cast<double>(i))) < 1e-6);
+            }
+        }
+    }
+}
+
+TEST_CASE("bvh: enormous original angles do not spoil the new ones")
+{
+    const TempFolder folder;
+    const std::vector<Quaterniond> rotations = {Quaterniond(matrix_of("ZYX", Vector3d(10, 20, 30).data()))};
+    const std::vector<double> angles = written_angles(folder, "ZYX", rotations, "1e15 -1e300 3e6");
+    CHECK((Eigen::Map<const Vector3d>(angles.data()) - Vector3d(10, 20, 30)).norm() < 1e-8);
+}
+
+TEST_CASE("bvh: overrides the file's channels cannot hold are refused with the reason")
+{
+    const TempFolder folder;
+    const std::vector<Quaterniond> one = {Quaterniond::Identity()};
+    const auto refusal = [&](const std::string& channels, const std::string& values) -> std::string {
+        const BvhFile file = read(folder, one_joint(channels, values, 1));
+        try {
+            write_bvh(folder / "w.bvh", file, {{{0, one}}});
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    CHECK_THAT(refusal("2 Xrotation Yrotation", "1 2"),
+               Contains("t.bvh:5: joint 'A' cannot take a new rotation: it has fewer than three rotation channels"));
+    CHECK_THAT(refusal("3 Xposition Yposition Zposition", "1 2 3"), Contains("fewer than three"));
+    CHECK_THAT(refusal("3 Zrotation Xrotation Zrotation", "1 2 3"), Contains("its rotation channels repeat an axis"));
+    CHECK_THAT(refusal("4 Zrotation Xrotation Yrotation Zrotation", "1 2 3 4"), Contains("more than three"));
+    CHECK_FALSE(fs::exists(folder / "w.bvh"));
+    CHECK(refusal("6 Xrotation Zposition Yrotation Xposition Zrotation Yposition", "1 2 3 4 5 6").empty());
+    CHECK_THAT(slurp(folder / "w.bvh"), Contains("0.000000000 2 0.000000000 4 0.000000000 6"));
+}
+
+TEST_CASE("bvh: overrides that fit no file are the caller's mistake")
+{
+    const TempFolder folder;
+    const BvhFile file = read(folder, kTiny);
+    const std::vector<Quaterniond> fit(2, Quaterniond::Identity()), less(1, Quaterniond::Identity());
+    const std::vector<Quaterniond> zero(2, Quaterniond(0, 0, 0, 0)), nan(2, Quaterniond(NAN, 0, 0, 0));
+    const auto write = [&](std::vector<RotationOverride> overrides) { write_bvh(folder / "w.bvh", file, overrides); };
+    CHECK_THROWS_AS(write({{3, fit}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{-1, fit}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, less}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, zero}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, nan}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, fit}, {1, fit}}), std::invalid_argument);
+    CHECK_FALSE(fs::exists(folder / "w.bvh"));
+}

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * The promise: swivel.h is C11, and a C program can make a crowd, solve an arm and find its wrist on the target. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "swivel/swivel.h"
+
+static int failures = 0;
+
+static void check(int held, const char* what)
+{
+    if (held) return;
+    fprintf(stderr, "failed: %s (last error: '%s')\n", what, swivel_last_error());
+    ++failures;
+}
+
+static void count_line(const swivel_check* line, void* user)
+{
+    check(line->name != NULL && line->set != NULL && line->max <= line->max_limit, "a line of swivel_verify");
+    ++*(int*)user;
+}
+
+int main(void)
+{
+    const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
+    const swivel_in target_in = {target, 0}, pole_in = {pole, 0}, lengths_in = {lengths, 0};
+    swivel_group_def group;
+    swivel_crowd_def def = swivel_default_crowd_def();
+    swivel_crowd* crowd = NULL;
+    double wrist[3] = {0, 0, 0}, distance = 1;
+    const swivel_out none = {NULL, 0}, wrist_out = {wrist, sizeof wrist}, distance_out = {&distance, sizeof distance};
+    uint32_t flags = 0;
+    const swivel_out flags_out = {&flags, sizeof flags};
+    int passed = 0, lines = 0, c;
+
+    memset(&group, 0, sizeof group);
+    group.limb_count = 1;
+    def.group_count = 1;
+    def.groups = &group;
+    check(def.size == sizeof def, "the default def knows its size");
+    check(swivel_version() == SWIVEL_VERSION, "library and header are of one version");
+    check(swivel_crowd_create(&def, &crowd) == SWIVEL_OK, "create");
+    if (crowd == NULL) return 1;
+    check(swivel_write(crowd, SWIVEL_TARGET, 0, 0, 1, target_in) == SWIVEL_OK, "write targets");
+    check(swivel_write(crowd, SWIVEL_POLE, 0, 0, 1, pole_in) == SWIVEL_OK, "write poles");
+    check(swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, 1, lengths_in) == SWIVEL_OK, "write lengths");
+    check(swivel_solve(crowd) == SWIVEL_OK, "solve");
+    check(swivel_forward(crowd, 0, 0, 1, none, wrist_out, none) == SWIVEL_OK, "forward kinematics");
+    for (c = 0; c < 3; ++c) check(fabs(wrist[c] - (double)target[c]) < 1e-6, "the wrist is on its target");
+    check(swivel_residuals(crowd, 0, 0, 1, distance_out) == SWIVEL_OK && distance < 1e-6, "residual");
+    check(swivel_read(crowd, SWIVEL_FLAGS, 0, 0, 1, flags_out) == SWIVEL_OK && flags == SWIVEL_REACHED, "flags");
+    swivel_crowd_destroy(crowd);
+
+    check(swivel_verify(200, 1, count_line, &lines, &passed) == SWIVEL_OK && passed && lines > 0, "verify");
+    check(swivel_use_isa("no such thing") == SWIVEL_UNKNOWN_ISA, "unknown instruction set");
+    return failures != 0;
+}

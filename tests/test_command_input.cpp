@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+//
+// Bad input of every kind: exit code 1, one line on stderr that names file, line and cause, and no file that was not
+// there, whole or partial; a file that was there keeps its bytes.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+
+#include "tests/plain_motion.h"
+#include "tests/run_command.h"
+#include "tests/test_data.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+// Everything in a folder: names, and for files their bytes.
+std::map<std::string, std::string> contents(const TempFolder& folder)
+{
+    std::map<std::string, std::string> all;
+    std::error_code dangling;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder.path))
+        all[entry.path().string()] = entry.is_regular_file(dangling) ? slurp(entry.path()) : "";
+    return all;
+}
+
+void require_one_line(const Outcome& outcome, const Words& said)
+{
+    INFO("stderr: " << outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, StartsWith("swivel: ") && EndsWith("\n"));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    for (const std::string& words : said) CHECK_THAT(outcome.err, Contains(words));
+}
+
+// Runs `solve arguments... --out OUT` in `folder` for both suffixes, with no such file and with an old one.
+void require_refused(const TempFolder& folder, Words arguments, const Words& said,
+                     const Words& outs = {"out.bvh", "out.csv"})
+{
+    arguments.insert(arguments.begin(), {"solve", "--json"});
+    for (const std::string& out : outs)
+        for (const bool is_there : {false, true}) {
+            if (is_there) spill(folder / out, "old bytes");
+            const auto before = contents(folder);
+            Words all = arguments;
+            all.insert(all.end(), {"--out", out});
+            INFO(out << (is_there ? ", there already" : ""));
+            const Outcome outcome = run_command(folder.path, all);
+            require_one_line(outcome, said);
+            CHECK(outcome.out.empty());
+            CHECK(contents(folder) == before);
+        }
+}
+
+void require_clip_refused(std::string_view text, const Words& said)
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", text);
+    require_refused(folder, {"clip.bvh"}, said);
+}
+
+// kTwoArms is taken, with this done to it it must not be.
+void require_edit_refused(std::string_view from, std::string_view to, const Words& said)
+{
+    INFO("'" << from << "' -> '" << to << "'");
+    require_clip_refused(edited(kTwoArms, from, to), said);
+}
+
+const std::string kColumns = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n";
+const std::string kGoodRow = "0,0,left,6,8,3,4,8,9\n";
+
+void require_table_refused(const std::string& text, const Words& said, const Words& more = {})
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "t.csv", text);
+    INFO(text);
+    Words arguments = {"clip.bvh", "--targets", "t.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    require_refused(folder, arguments, said);
+}
+
+void require_arms_refused(const Words& arms, const Words& said)
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    Words arguments = {"clip.bvh"};
+    for (const std::string& arm : arms) arguments.insert(arguments.end(), {"--arm", arm});
+    require_refused(folder, arguments, said);
+}
+
+}  // namespace
+
+TEST_CASE("input: the files that the others here are broken from are good")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "t.csv", kColumns + kGoodRow);
+    for (const std::string out : {"out.bvh", "out.csv"}) {
+        const Outcome outcome = run_command(folder.path, {"solve", "clip.bvh", "--targets", "t.csv", "--out", out});
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == 0);
+        CHECK(fs::file_size(folder / out) > 100);
+    }
+    CHECK(folder.file_count() == 4);
+}
+
+TEST_CASE("input: clips that are not there or not text")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "dir.bvh");
+    require_refused(folder, {"no.bvh"}, {"no.bvh: ", "No such file"});
+    require_refused(folder, {"dir.bvh"}, {"dir.bvh: ", "directory"});
+    require_clip_refused("", {"clip.bvh: ", "empty"});
+    require_clip_refused(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), {"clip.bvh: ", "binary"});
+    require_clip_refused("\x89PNG\r\n\x1a\n", {"clip.bvh:1: ", "HIERARCHY"});
+    require_clip_refused(kTwoArms + std::string(5, '\0'), {"clip.bvh: ", "binary"});
+}
+
+TEST_CASE("input: malformed skeletons")
+{
+    require_clip_refused(kTwoArms.substr(0, kTwoArms.find("RightForeArm")), {"clip.bvh:29: "});
+    require_clip_refused(kTwoArms.substr(0, kTwoArms.find("MOTION")), {"clip.bvh:44: ", "MOTION"});
+    require_edit_refused("ROOT Hips", "ROOT", {"clip.bvh:2: ", "name"});
+    require_edit_refused("OFFSET 2 5 0", "OFFSET 2 5", {"clip.bvh:8: ", "OFFSET"});
+    require_edit_refused("OFFSET 2 5 0", "OFFSET 2 x 0", {"clip.bvh:8: ", "'x'"});
+    require_edit_refused("CHANNELS 3", "CHANNELS 4", {"clip.bvh:9: ", "CHANNELS announces 4 and names 3"});
+    require_edit_refused("CHANNELS 3 Zrotation", "CHANNELS 3 Wrotation", {"clip.bvh:9: ", "Wrotation"});
+    require_edit_refused("End Site\n{\n", "End Site\n", {"clip.bvh:19: "});
+    require_edit_refused("}\nMOTION", "MOTION", {"clip.bvh:44: "});
+}
+
+TEST_CASE("input: malformed motion")
+{
+    require_clip_refused(kTwoArms.substr(0, kTwoArms.find("1 2 4")), {"clip.bvh:48: ", "1 of the 2 frames"});
+    require_clip_refused(kTwoArms.substr(0, kTwoArms.size() - 9), {"clip.bvh:49: ", "values"});
+    require_edit_refused("Frames: 2", "Frames: 3", {"clip.bvh:49: ", "2 of the 3 frames"});
+    require_edit_refused("Frames: 2", "Frames: 0", {"clip.bvh:46: ", "Frames"});
+    require_edit_refused("Frames: 2", "Frames: many", {"clip.bvh:46: ", "many"});
+    require_edit_refused("Frames: 2", "Frames: 4000000000000000000",
+                         {"clip.bvh:49: ", "2 of the 4000000000000000000 frames"});
+    require_edit_refused("Frame Time: .01", "Frame Time: 0", {"clip.bvh:47: ", "Frame Time"});
+    require_edit_refused("1 2 4", "1 2", {"clip.bvh:49: ", "23 values, the channels need 24"});
+    require_edit_refused("1 2 4", "1 2 4 4", {"clip.bvh:49: ", "25 values, the channels need 24"});
+    for (const std::string word : {"nan", "-inf", "1e999", "0x10", "4,5"})
+        require_edit_refused("1 2 4", "1 2 " + word, {"clip.bvh:49: ", "'" + word + "'", "Hips Zposition"});
+    require_clip_refused(kTwoArms + kTwoArms.substr(kTwoArms.find("1 2 3")), {"clip.bvh:51: ", "2 frames announced"});
+}
+
+TEST_CASE("input: skeletons without arms, and --arm that names none")
+{
+    std::string legs = kTwoArms;
+    for (std::size_t at; (at = legs.find("ForeArm")) != std::string::npos;) legs.replace(at, 7, "Shin");
+    require_clip_refused(legs, {"clip.bvh: ", "no arms", "--arm"});
+    require_arms_refused({"LeftArm,LeftForeArm,Nope"}, {"clip.bvh: ", "'Nope'"});
+    require_arms_refused({"LeftArm,LeftForeArm"}, {"clip.bvh: ", "'LeftArm,LeftForeArm'", "SHOULDER,ELBOW,WRIST"});
+    require_arms_refused({"LeftHand,LeftForeArm,LeftArm"}, {"clip.bvh: ", "'LeftHand,LeftForeArm,LeftArm'"});
+    require_arms_refused({"Hips,LeftForeArm,LeftHand"}, {"clip.bvh: ", "child"});
+    require_arms_refused({"LeftArm,LeftForeArm,LeftHand", "left:RightArm,RightForeArm,RightHand"},
+                         {"clip.bvh: ", "both arms are taken as left"});
+    require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:LeftArm,LeftForeArm,LeftHand"}, {"clip.bvh: "});
+    require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:Hips,LeftArm,LeftForeArm"}, {"clip.bvh: "});
+    require_arms_refused(Words(3, "LeftArm,LeftForeArm,LeftHand"), {"clip.bvh: ", "more than twice"});
+    require_edit_refused("OFFSET 5 0 0", "OFFSET 0 0 0", {"clip.bvh: ", "left arm", "length"});
+}
+
+TEST_CASE("input: arms whose channels cannot take a rotation")
+{
+    const TempFolder folder;
+    const std::string one_channel =
+        edited(kTwoArms, "LeftForeArm\n{\nOFFSET 5 0 0\nCHANNELS 3 Zrotation Yrotation Xrotation",
+               "LeftForeArm\n{\nOFFSET 5 0 0\nCHANNELS 1 Yrotation");
+    spill(folder / "clip.bvh", edited(edited(one_channel, "0 0 -30 0", "0 -30"), "0 0 -31 0", "0 -31"));
+    require_refused(folder, {"clip.bvh"}, {"clip.bvh:13: ", "LeftForeArm", "three rotation channels"}, {"out.bvh"});
+    fs::remove(folder / "out.bvh");
+    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--out", "out.csv"}).exit_code == 0);  // a table can
+}
+
+TEST_CASE("input: tables of targets")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    fs::create_directory(folder / "dir.csv");
+    require_refused(folder, {"clip.bvh", "--targets", "no.csv"}, {"no.csv: ", "No such file"});
+    require_refused(folder, {"clip.bvh", "--targets", "dir.csv"}, {"dir.csv: ", "directory"});
+    require_table_refused("", {"t.csv: ", "empty"});
+    require_table_refused(kColumns, {"t.csv: ", "no targets"});
+    require_table_refused("frame,character,side,x,y,z,pole_x,pole_y\n0,0,left,1,2,3,4,5\n", {"t.csv:1: ", "pole_z"});
+    require_table_refused(edited(kColumns, "x,y", "x,w") + kGoodRow, {"t.csv:1: ", "'w'"});
+    require_table_refused(kColumns + kGoodRow + "1,0,left,6,eight,3,4,8,9\n", {"t.csv:3: ", "column y", "'eight'"});
+    require_table_refused(kColumns + kGoodRow + "1,0,left,6,nan,3,4,8,9\n", {"t.csv:3: ", "column y", "'nan'"});
+    require_table_refused(kColumns + kGoodRow + "1,0,left,6,8,3\n", {"t.csv:3: ", "fewer values"});
+    require_table_refused(kColumns + kGoodRow + "1,0,left,6,8,3,4,8,9,1\n", {"t.csv:3: ", "more values"});
+    require_table_refused(kColumns + kGoodRow + kGoodRow, {"t.csv:3: ", "0,0,left", "line 2"});
+    require_table_refused(kColumns + kGoodRow + "2,0,left,6,8,3,4,8,9\n", {"t.csv:3: ", "frame 2", "0 to 1"});
+    require_table_refused(kColumns + "-1,0,left,6,8,3,4,8,9\n", {"t.csv:2: ", "column frame", "'-1'"});
+    require_table_refused(kColumns + kGoodRow + "1,1,left,6,8,3,4,8,9\n", {"t.csv:3: ", "character 1"});
+    require_table_refused(kColumns + "1,0,up,6,8,3,4,8,9\n", {"t.csv:2: ", "column side", "'up'"});
+    require_table_refused(kColumns + "1,0,right,6,8,3,4,8,9\n", {"t.csv:2: ", "right arm"},
+                          {"--arm", "LeftArm,LeftForeArm,LeftHand"});
+    require_table_refused("\x89PNG\r\n\x1a\n", {"t.csv:1: "});
+    require_table_refused(kColumns + std::string(3, '\0'), {"t.csv: ", "binary"});
+}
+
+TEST_CASE("input: output that cannot be written")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    for (const std::string suffix : {".bvh", ".csv"}) {
+        fs::create_directory(folder / ("dir" + suffix));
+        fs::create_symlink("/dev/full", folder / ("full" + suffix));
+        fs::create_symlink("self" + suffix, folder / ("self" + suffix));
+        const auto refuse = [&](const std::string& out, const Words& said) {
+            const auto before = contents(folder);
+            require_one_line(run_command(folder.path, {"solve", "clip.bvh", "--out", out}), said);
+            CHECK(contents(folder) == before);
+        };
+        refuse("no/out" + suffix, {"no/out" + suffix + ": ", "No such file"});
+        refuse("clip.bvh/out" + suffix, {"clip.bvh/out" + suffix + ": ", "Not a directory"});
+        refuse("dir" + suffix, {"dir" + suffix + ": ", "directory"});
+        refuse("full" + suffix, {"full" + suffix + ": ", "No space left"});
+        refuse("self" + suffix, {"self" + suffix + ": "});
+        refuse(std::string(300, 'n') + suffix, {"nnn" + suffix + ": ", "too long"});
+    }
+}
+
+TEST_CASE("input: a file name with a line end stays in its line")
+{
+    const TempFolder folder;
+    require_refused(folder, {"two\nlines.bvh"}, {"two", "lines.bvh: ", "No such file"});
+}

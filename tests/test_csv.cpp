@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// The two tables: targets read, poses written. Reading is checked against hand-made rows and against damaged ones;
+// writing by reading back with strtof, bit for bit.
+
+#include <fmt/format.h>
+#include <rapidcheck/catch.h>
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "tests/test_data.h"
+#include "tools/formats/error.h"
+#include "tools/formats/poses_csv.h"
+#include "tools/formats/targets_csv.h"
+
+using namespace swivel::formats;
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string kPlain =
+    "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n"
+    "0,0,left,1,2,3,4,5,6\n"
+    "0,0,right,-1.5,.25,1e2,+4,5.,-6E-1\n";
+
+const std::string kOriented =
+    "frame,character,side,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n"
+    "0,7,left,1,2,3,4,5,6,0,0,2,0\n"
+    "1,7,left,1,2,3,4,5,6,,,,\n";
+
+std::vector<Target> read(const TempFolder& folder, std::string_view text)
+{
+    spill(folder / "t.csv", text);
+    return read_targets_csv(folder / "t.csv");
+}
+
+// What InputError says, without the folder; empty if the text is read.
+std::string complaint(const TempFolder& folder, std::string_view text)
+{
+    try {
+        read(folder, text);
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        const std::string place = (folder.path / "").string();
+        REQUIRE(what.starts_with(place));
+        return what.substr(place.size());
+    }
+    return {};
+}
+
+std::vector<std::string> split(const std::string& line)
+{
+    std::vector<std::string> words;
+    std::istringstream in(line);
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
+}
+
+}  // namespace
+
+TEST_CASE("targets: rows without orientation")
+{
+    const TempFolder folder;
+    const std::vector<Target> targets = read(folder, kPlain);
+    REQUIRE(targets.size() == 2);
+    CHECK(targets[0].side == Side::left);
+    CHECK(targets[0].position == Eigen::Vector3d(1, 2, 3));
+    CHECK(targets[0].pole == Eigen::Vector3d(4, 5, 6));
+    CHECK_FALSE(targets[0].has_orientation);
+    CHECK(targets[1].side == Side::right);
+    CHECK(targets[1].position == Eigen::Vector3d(-1.5, 0.25, 100));
+    CHECK(targets[1].pole == Eigen::Vector3d(4, 5, -0.6));
+    CHECK(targets[1].line == 3);
+}
+
+TEST_CASE("targets: orientation, where a row has it, is made unit")
+{
+    const TempFolder folder;
+    const std::vector<Target> targets = read(folder, kOriented);
+    REQUIRE(targets.size() == 2);
+    CHECK(targets[0].character == 7);
+    CHECK(targets[0].has_orientation);
+    CHECK(targets[0].orientation.coeffs() == Eigen::Vector4d(0, 0, 1, 0));
+    CHECK_FALSE(targets[1].has_orientation);
+    CHECK(targets[1].orientation.coeffs() == Eigen::Vector4d(0, 0, 0, 1));
+}
+
+TEST_CASE("targets: columns in any order, comments, blanks, CRLF, no last line end, sorted result")
+{
+    const TempFolder folder;
+    const std::vector<Target> targets = read(folder,
+                                             "# made by hand\r\n\r\n"
+                                             "side, z,y,x ,pole_z,pole_y,pole_x,character,frame\r\n"
+                                             "right,3,2,1,6,5,4,0,4294967295\r\n"
+                                             "   \r\n# more\r\n"
+                                             "right,3,2,1,6,5,4,2,1\r\n"
+                                             "left , 3,2,\t1,6,5,4,2,1");
+    REQUIRE(targets.size() == 3);
+    CHECK(targets[0].frame == 1);
+    CHECK(targets[0].side == Side::left);
+    CHECK(targets[0].line == 8);
+    CHECK(targets[0].position == Eigen::Vector3d(1, 2, 3));
+    CHECK(targets[1].side == Side::right);
+    CHECK(targets[1].line == 7);
+    CHECK(targets[2].frame == 4294967295u);
+}
+
+TEST_CASE("targets: damaged tables are refused with line, column and cause")
+{
+    struct Damage {
+        std::string from, to, complaint;
+    };
+    const TempFolder folder;
+    const std::vector<Damage> plain = {
+        {"0,0,left,1,", "0,0,left,one,", "t.csv:2: column x: 'one' is not a finite decimal number"},
+        {"0,0,left,1,", "0,0,left,nan,", "t.csv:2: column x: 'nan' is not a finite"},
+        {"5.,", "inf,", "t.csv:3: column pole_y: 'inf' is not a finite"},
+        {"5.,", "1e999,", "t.csv:3: column pole_y: '1e999' is not a finite"},
+        {"5.,", "0x10,", "t.csv:3: column pole_y: '0x10' is not a finite"},
+        {"5.,", "5 5,", "t.csv:3: column pole_y: '5 5' is not a finite"},
+        {"5.,", ",", "t.csv:3: column pole_y is empty"},
+        {"5.,", "", "t.csv:3: fewer values than the first line names columns"},
+        {"5.,", "5,5,", "t.csv:3: more values than the first line names columns"},
+        {"0,0,right", "0,0,Right", "t.csv:3: column side: 'Right' is neither left nor right"},
+        {"0,0,right", "0,0,left", "t.csv:3: columns frame,character,side: 0,0,left is already in line 2"},
+        {"0,0,right", "-1,0,right", "t.csv:3: column frame: '-1' is not a whole number from 0"},
+        {"0,0,right", "0,1.0,right", "t.csv:3: column character: '1.0' is not a whole number"},
+        {"0,0,right", "4294967296,0,right", "t.csv:3: column frame: '4294967296' is not a whole number"},
+        {"0,0,right", "99999999999999999999,0,right", "t.csv:3: column frame: '99999999999999999999' is"},
+        {"0,0,right", "0,0,ri\x1bght", "t.csv:3: column side: 'ri\\x1bght' is neither"},
+        {"pole_z", "pole_q", "t.csv:1: unknown column 'pole_q'; known are frame,character,side"},
+        {"pole_z", "pole_y", "t.csv:1: column pole_y is there twice"},
+        {",pole_z", "", "t.csv:1: column pole_z is missing"},
+        {"frame,character,side,x,y,z,pole_x,pole_y,pole_z\n", "", "t.csv:1: unknown column '0'"},
+    };
+    for (const Damage& damage : plain) {
+        INFO(damage.to);
+        CHECK_THAT(complaint(folder, edited(kPlain, damage.from, damage.to)), Contains(damage.complaint));
+    }
+    const std::vector<Damage> oriented = {
+        {"0,0,2,0\n", "0,0,0,0\n", "t.csv:2: columns qx to qw: the quaternion's length is zero"},
+        {"0,0,2,0\n", "1e300,0,0,0\n", "t.csv:2: columns qx to qw: the quaternion's length"},
+        {"0,0,2,0\n", "0,,2,0\n", "t.csv:2: column qy is empty"},
+        {",qz", "", "t.csv:1: column qz is missing"},
+    };
+    for (const Damage& damage : oriented) {
+        INFO(damage.to);
+        CHECK_THAT(complaint(folder, edited(kOriented, damage.from, damage.to)), Contains(damage.complaint));
+    }
+    CHECK_THAT(complaint(folder, ""), Contains("t.csv: is empty"));
+    CHECK_THAT(complaint(folder, "# nothing\n"), Contains("t.csv: is empty"));
+    CHECK_THAT(complaint(folder, kPlain.substr(0, kPlain.find('\n'))), Contains("t.csv: has no targets"));
+    CHECK_THAT(complaint(folder, std::string("frame\0,x", 8)), Contains("t.csv: is a binary file"));
+    CHECK_THAT(complaint(folder, kPlain + std::string(17 << 20, '1')), Contains("t.csv:4: a line longer than 16 MiB"));
+    CHECK_THROWS_WITH(read_targets_csv(folder / "none.csv"), Contains("none.csv: cannot be opened: No such file"));
+    CHECK_THROWS_WITH(read_targets_csv(folder.path), Contains("is a directory"));
+}
+
+// The parser reads 32 MiB, then 16 MiB at a time over what it read before. With lines of 32 bytes and no last line end,
+// the byte after the end is the line end of an older line, which must not be taken for one.
+TEST_CASE("targets: tables longer than the parser's window are read whole")
+{
+    const TempFolder folder;
+    std::string text = kPlain.substr(0, kPlain.find('\n') + 1);
+    text += std::string(63 - text.size(), '#') + "\n";
+    constexpr std::uint32_t kRows = 1600000;  // 51 MB
+    for (std::uint32_t frame = 0; frame < kRows; ++frame) text += fmt::format("{:012},3,left,1,2,3,4,5,6\n", frame);
+    REQUIRE(text.size() == 64 + 32 * kRows);
+    text.pop_back();
+    const std::vector<Target> targets = read(folder, text);
+    REQUIRE(targets.size() == kRows);
+    CHECK(targets.back().frame == kRows - 1);
+    CHECK(targets.back().line == kRows + 2);
+}
+
+TEST_CASE("targets: mutated tables are read or refused in one line")
+{
+    const TempFolder folder;
+    std::mt19937 random(7);
+    int read_count = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const std::string text = mutated(round % 2 ? kPlain : kOriented, random);
+        CAPTURE(round, text);
+        try {
+            for (const Target& target : read(folder, text)) REQUIRE(target.position.allFinite());
+            ++read_count;
+        } catch (const InputError& error) {
+            REQUIRE(std::string(error.what()).find_first_of("\n\r") == std::string::npos);
+        }
+    }
+    CHECK(read_count > 100);
+    CHECK(read_count < 1900);
+}
+
+TEST_CASE("poses: the text of known rows")
+{
+    const TempFolder folder;
+    PosesCsv csv(folder / "p.csv");
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const PoseRow left = {12, Side::left, {0, -0.0f, 0.1f, 1}, {1e-10f, tiny, 0.5f, 3}, {1, 0, 0, 0}, 4294967295u};
+    const PoseRow right = {12, Side::right, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, 0};
+    csv.append(239, {{left, right}});
+    csv.append(240, {});
+    CHECK_FALSE(fs::exists(folder / "p.csv"));
+    csv.commit();
+    CHECK(slurp(folder / "p.csv") ==
+          "frame,character,side,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
+          "wrist_x,wrist_y,wrist_z,wrist_w,flags\n"
+          "239,12,left,0,-0,0.1,1,1e-10,1e-45,0.5,3,1,0,0,0,4294967295\n"
+          "239,12,right,0,0,0,1,0,0,0,1,0,0,0,1,0\n");
+}
+
+TEST_CASE("poses: the longest line fits")
+{
+    const TempFolder folder;
+    PosesCsv csv(folder / "p.csv");
+    const float longest = -1.17549435e-38f;
+    const std::array<float, 4> all = {longest, longest, longest, longest};
+    csv.append(4294967295u, {{{4294967295u, Side::right, all, all, all, 4294967295u}}});
+    csv.commit();
+    CHECK_THAT(slurp(folder / "p.csv"), Contains("\n4294967295,4294967295,right,-1.1754944e-38,"));
+}
+
+TEST_CASE("poses: every float comes back bit for bit")
+{
+    const TempFolder folder;
+    rc::prop("random bits", [&](const std::array<std::uint32_t, 12>& bits, std::uint32_t frame, std::uint32_t flags) {
+        PoseRow row{5, Side::left, {}, {}, {}, flags};
+        const std::array<std::array<float, 4>*, 3> parts = {&row.shoulder, &row.elbow, &row.wrist};
+        for (std::size_t i = 0; i < 12; ++i) {
+            const float value = std::bit_cast<float>(bits[i] * 2654435761u);  // small numbers spread over all exponents
+            (*parts[i / 4])[i % 4] = std::isfinite(value) ? value : 0;
+        }
+        PosesCsv csv(folder / "p.csv");
+        csv.append(frame, {{row}});
+        csv.commit();
+        std::istringstream in(slurp(folder / "p.csv"));
+        std::string line;
+        std::getline(in, line);
+        std::getline(in, line);
+        const std::vector<std::string> words = split(line);
+        RC_ASSERT(words.size() == 16u);
+        RC_ASSERT(words[0] == std::to_string(frame));
+        RC_ASSERT(words[15] == std::to_string(flags));
+        for (std::size_t i = 0; i < 12; ++i) {
+            const float value = std::strtof(words[3 + i].c_str(), nullptr);
+            RC_ASSERT(std::bit_cast<std::uint32_t>(value) == std::bit_cast<std::uint32_t>((*parts[i / 4])[i % 4]));
+        }
+    });
+}

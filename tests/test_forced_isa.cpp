@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// A process of its own for each value of SWIVEL_FORCE_ISA, which the library reads once. What must be seen:
+//   refused  the name cannot be used: solving fails with a status and a line that repeats it, until swivel_use_isa()
+//   used     the name is the one in use; a CPU without it must refuse it
+//   best     the value is empty: the first that runs is in use
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "swivel/swivel.h"
+
+namespace {
+
+int failures = 0;
+
+void check(bool held, const char* what)
+{
+    if (held) return;
+    std::fprintf(stderr, "failed: %s (last error: '%s')\n", what, swivel_last_error());
+    ++failures;
+}
+
+swivel_crowd* one_arm()
+{
+    const swivel_group_def group{1, {}};
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.group_count = 1;
+    def.groups = &group;
+    swivel_crowd* crowd = nullptr;
+    check(swivel_crowd_create(&def, &crowd) == SWIVEL_OK, "a crowd can be made without an instruction set");
+    return crowd;
+}
+
+void check_refused(const std::string& forced)
+{
+    swivel_crowd* const crowd = one_arm();
+    const auto says_so = [&] {
+        return std::string(swivel_last_error()).find("SWIVEL_FORCE_ISA=" + forced + " ") != std::string::npos;
+    };
+    check(swivel_isa_name() == nullptr, "swivel_isa_name() is null");
+    check(says_so(), "swivel_isa_name() leaves a line with the name");
+    (void)swivel_solve_blocks(nullptr, 0, 0);
+    check(swivel_solve(crowd) == SWIVEL_UNKNOWN_ISA || swivel_solve(crowd) == SWIVEL_ISA_UNAVAILABLE,
+          "swivel_solve fails");
+    check(says_so(), "swivel_solve leaves a line with the name");
+    (void)swivel_solve_blocks(nullptr, 0, 0);
+    check(swivel_solve_blocks(crowd, 0, 1) != SWIVEL_OK, "swivel_solve_blocks fails");
+    check(says_so(), "swivel_solve_blocks leaves a line with the name");
+    const swivel_rows rows = swivel_result_rows(crowd);
+    for (std::uint32_t n = 0; n < rows.row_count * SWIVEL_LANES; ++n)
+        if (rows.base[n] != 0) return check(false, "failed solves write nothing");
+    check(swivel_use_isa("scalar") == SWIVEL_OK, "a name from the program helps");
+    check(swivel_solve(crowd) == SWIVEL_OK, "then solving works");
+    check(swivel_isa_name() && std::string(swivel_isa_name()) == "scalar", "with that instruction set");
+    swivel_crowd_destroy(crowd);
+}
+
+void check_used(const std::string& name)
+{
+    swivel_crowd* const crowd = one_arm();
+    check(swivel_solve(crowd) == SWIVEL_OK, "swivel_solve works");
+    check(swivel_isa_name() && swivel_isa_name() == name, "the expected one is in use");
+    swivel_crowd_destroy(crowd);
+}
+
+std::string best()
+{
+    for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n)
+        if (swivel_isa_runs(name)) return name;
+    return "";
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments)
+{
+    const char* const forced = std::getenv("SWIVEL_FORCE_ISA");
+    const std::string expected = argument_count == 2 ? arguments[1] : "", name = forced ? forced : "";
+    if (expected == "refused")
+        check_refused(name);
+    else if (expected == "best")
+        check_used(best());
+    else if (expected == "used" && swivel_isa_runs(name.c_str()))
+        check_used(name);
+    else if (expected == "used") {
+        std::printf("this CPU does not run %s: it must be refused\n", name.c_str());
+        check_refused(name);
+    } else
+        check(false, "usage: test_forced_isa refused|used|best");
+    return failures != 0;
+}

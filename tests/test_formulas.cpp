@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: the solver's three writings are one. The lecture's steps over double equal the dense oracle, the
+// production formula equals the lecture's steps, and in single precision it puts the wrist on its target to 1e-6 of the
+// arm, for every reach, every ratio of bones to 1000 : 1 and every pole down to 1.1e-3 off the line. Forward kinematics
+// is Eigen's.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <rapidcheck/catch.h>
+
+#include "core/pipeline.h"
+#include "core/reference.h"
+#include "core/solve_arm.h"
+#include "swivel/swivel.h"
+#include "tests/test_random.h"
+
+namespace {
+
+using namespace swivel;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using swivel::test::Random;
+
+template <class T>
+Vector<T> mv(const Vector3d& v)
+{
+    return vector(static_cast<T>(v.x()), static_cast<T>(v.y()), static_cast<T>(v.z()));
+}
+template <class T>
+Vector3d eigen(const Vector<T>& v)
+{
+    return {v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>()};
+}
+template <class T>
+Quaterniond eigen(const Rotor<T>& q)
+{
+    return {q.template at<kScalar>(), q.template at<kI>(), q.template at<kJ>(), q.template at<kK>()};
+}
+Quaterniond eigen(const double (&q)[4]) { return {q[3], q[0], q[1], q[2]}; }
+
+double distance(const Quaterniond& a, const Quaterniond& b)  // q and -q are one
+{
+    return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
+}
+
+struct Arm {
+    Vector3d wrist, pole;
+    double upper, fore;
+
+    double length() const { return upper + fore; }
+    Vector3d normal() const { return wrist.cross(pole).normalized(); }
+    // By the law of cosines: along the line by the elbow's foot, and away from it towards the pole.
+    Vector3d elbow() const
+    {
+        const double d = wrist.norm();
+        const double along = (d * d + upper * upper - fore * fore) / (2 * d);
+        const double away = std::sqrt(std::max(0.0, upper * upper - along * along));
+        return along / d * wrist + away * normal().cross(wrist).normalized();
+    }
+};
+
+template <class T>
+ArmPose<T> solve(const Arm& arm)
+{
+    const ArmGoal<T> goal{mv<T>(arm.wrist), mv<T>(arm.pole), static_cast<T>(arm.upper), static_cast<T>(arm.fore)};
+    return solve_arm(goal, Mask<T>(true));
+}
+
+template <class T>
+Quaterniond elbow_rotation(const ArmPose<T>& pose)
+{
+    return Quaterniond(pose.cos_half, -static_cast<double>(pose.sin_half), 0, 0);
+}
+template <class T>
+Vector3d elbow_place(const ArmPose<T>& pose, const Arm& arm)
+{
+    return eigen(pose.shoulder).normalized() * Vector3d(0, 0, arm.upper);
+}
+template <class T>
+Vector3d wrist_place(const ArmPose<T>& pose, const Arm& arm)
+{
+    return elbow_place(pose, arm) +
+           eigen(pose.shoulder).normalized() * (elbow_rotation(pose).normalized() * Vector3d(0, 0, arm.fore));
+}
+
+Arm rounded(const Arm& arm)  // to floats, so that both precisions see the same arm
+{
+    return {arm.wrist.cast<float>().cast<double>(), arm.pole.cast<float>().cast<double>(),
+            static_cast<float>(arm.upper), static_cast<float>(arm.fore)};
+}
+
+// Far from where the lecture's formulas divide by zero or lose digits.
+Arm regular_arm(Random& random)
+{
+    for (;;) {
+        Arm arm;
+        arm.upper = random.spread(0.3, 3);
+        arm.fore = random.spread(0.3, 3);
+        const double near = std::fabs(arm.upper - arm.fore), far = arm.length();
+        const Vector3d line = random.direction();
+        arm.wrist = (near + (far - near) * random.between(0.1, 0.95)) * line;
+        arm.pole = random.between(-2, 2) * line + random.between(0.3, 2) * random.across(line);
+        const Vector3d bone = arm.elbow() / arm.upper;
+        const Vector3d middle = (bone + Vector3d::UnitZ()).normalized();
+        const Vector3d turned = 2 * arm.normal().dot(middle) * middle - arm.normal();  // c3, s3: the twist
+        if (std::fabs(bone.z()) < 0.95 && std::fabs(turned.y()) > 0.1) return arm;
+    }
+}
+
+// Any arm there is a promise for. Rounded to floats; the pole's line is kept at least 1.1e-3 from the wrist's.
+Arm any_arm(Random& random)
+{
+    const double shorter = 1 / random.spread(1, 1000);
+    const bool swap = random.below(2) == 0;
+    Arm arm;
+    arm.upper = swap ? shorter : 1;
+    arm.fore = swap ? 1 : shorter;
+    if (random.below(8) == 0) arm.upper = arm.fore = 1;
+    arm = rounded(arm);
+    const double near = std::fabs(arm.upper - arm.fore), far = arm.length();
+    const double share[] = {random.unit(), 1e-4 * random.unit(), 1 - 1e-4 * random.unit(), random.spread(1e-7, 1)};
+    Vector3d line = random.direction();
+    if (random.below(8) == 0)
+        line = (Vector3d(0, 0, random.below(2) ? 1 : -1) + 1e-3 * random.direction()).normalized();
+    arm.wrist = (near + (far - near) * share[random.below(4)]) * line;
+    const double sine = random.spread(1.1e-3, 1), side = random.below(2) ? 1 : -1;
+    arm.pole = random.spread(0.1, 10) * (side * std::sqrt(1 - sine * sine) * line + sine * random.across(line));
+    return rounded(arm);
+}
+
+template <class Arms, class Property>
+void for_arms(std::uint64_t seed, Arms arms, Property holds)
+{
+    Random random{seed};
+    for (int n = 0; n < 50; ++n) holds(arms(random));
+}
+
+const double h = std::sqrt(0.5);
+const Arm kKnown = {{1.1, 1.1, 1.1}, {0, 0, -1}, 1.4, 1.3};  // its normal p_w x pole is (-1, 1, 0) / sqrt(2)
+
+}  // namespace
+
+// ---- the known answer
+
+TEST_CASE("the known answer: oracle, lecture's steps and production formula")
+{
+    REQUIRE((kKnown.normal() - Vector3d(-h, h, 0)).norm() < 1e-15);
+    const Vector3d elbow(0.980883, 0.980883, -0.189039);
+    const double c4 = -0.005494, digit = 1e-6;
+    const Quaterniond q_e(0.705162, -0.709047, 0, 0), q12(0, 0.532689, 0.532689, 0.657637),
+        q_s(0.251667, 0.288289, 0.695991, 0.607577);
+
+    const double wrist[] = {1.1, 1.1, 1.1}, normal[] = {-h, h, 0};
+    const ReferencePose oracle = solve_reference_for_normal(wrist, normal, 1.4, 1.3);
+    CHECK((Vector3d(oracle.elbow) - elbow).norm() < 2 * digit);
+    CHECK(std::fabs(oracle.cos_flexion - c4) < digit);
+    CHECK(distance(eigen(oracle.elbow_rotor), q_e) < 2 * digit);
+    CHECK(distance(eigen(oracle.middle_rotor), q12) < 2 * digit);
+    CHECK(distance(eigen(oracle.shoulder_rotor), q_s) < 2 * digit);
+
+    const PipelinePose<double> steps = solve_pipeline(mv<double>(kKnown.wrist), mv<double>(kKnown.normal()), 1.4, 1.3);
+    CHECK((eigen(steps.elbow) - elbow).norm() < 2 * digit);
+    CHECK(std::fabs(steps.cos_flexion - c4) < digit);
+    CHECK(distance(eigen(steps.elbow_rotor), q_e) < 2 * digit);
+    const Quaterniond middle(0, steps.middle_rotor.at<kI>(), steps.middle_rotor.at<kJ>(), steps.middle_rotor.at<kK>());
+    CHECK(distance(middle, q12) < 2 * digit);
+    CHECK(distance(eigen(steps.shoulder_rotor), q_s) < 2 * digit);
+
+    const auto check_production = [&](const auto& pose) {
+        CHECK((elbow_place(pose, kKnown) - elbow).norm() < 2 * digit);
+        CHECK(std::fabs(pose.cos_half * pose.cos_half - pose.sin_half * pose.sin_half - c4) < 2 * digit);
+        CHECK(distance(elbow_rotation(pose), q_e) < 2 * digit);
+        CHECK(distance(eigen(pose.shoulder), q_s) < 2 * digit);
+        CHECK((wrist_place(pose, kKnown) - kKnown.wrist).norm() < 1e-6 * kKnown.length());
+        CHECK(pose.flags == SWIVEL_REACHED);
+    };
+    check_production(solve<double>(kKnown));
+    check_production(solve<float>(kKnown));
+}
+
+// ---- one formula against the other
+
+TEST_CASE("the lecture's steps over double are the dense oracle's")
+{
+    rc::prop("elbow, flexion and every rotor", [](std::uint64_t seed) {
+        for_arms(seed, regular_arm, [](const Arm& arm) {
+            const ReferencePose oracle = solve_reference({{arm.wrist.x(), arm.wrist.y(), arm.wrist.z()},
+                                                          {arm.pole.x(), arm.pole.y(), arm.pole.z()},
+                                                          arm.upper,
+                                                          arm.fore});
+            const PipelinePose<double> steps =
+                solve_pipeline(mv<double>(arm.wrist), mv<double>(arm.normal()), arm.upper, arm.fore);
+            const auto& m = steps.middle_rotor;
+            RC_ASSERT((eigen(steps.elbow) - Vector3d(oracle.elbow)).norm() < 1e-12 * arm.length());
+            RC_ASSERT(std::fabs(steps.cos_flexion - oracle.cos_flexion) < 1e-12);
+            RC_ASSERT(distance(eigen(steps.elbow_rotor), eigen(oracle.elbow_rotor)) < 1e-12);
+            RC_ASSERT(distance(Quaterniond(0, m.at<kI>(), m.at<kJ>(), m.at<kK>()), eigen(oracle.middle_rotor)) < 1e-12);
+            RC_ASSERT(distance(eigen(steps.twist_rotor), eigen(oracle.twist_rotor)) < 2e-12);
+            RC_ASSERT(distance(eigen(steps.shoulder_rotor), eigen(oracle.shoulder_rotor)) < 2e-12);
+        });
+    });
+}
+
+TEST_CASE("the production formula over double is the lecture's steps")
+{
+    rc::prop("both rotors", [](std::uint64_t seed) {
+        for_arms(seed, regular_arm, [](const Arm& arm) {
+            const PipelinePose<double> steps =
+                solve_pipeline(mv<double>(arm.wrist), mv<double>(arm.normal()), arm.upper, arm.fore);
+            const ArmPose<double> pose = solve<double>(arm);
+            RC_ASSERT(distance(eigen(pose.shoulder), eigen(steps.shoulder_rotor)) < 2e-12);
+            RC_ASSERT(distance(elbow_rotation(pose), eigen(steps.elbow_rotor)) < 1e-12);
+            RC_ASSERT(pose.flags == SWIVEL_REACHED);
+        });
+    });
+}
+
+TEST_CASE("the production formula puts the wrist on its target")
+{
+    rc::prop("over double to 1e-12, over float to 1e-6 of the arm", [](std::uint64_t seed) {
+        for_arms(seed, any_arm, [](const Arm& arm) {
+            const double d = arm.wrist.norm();
+            const double reach = std::clamp(d, std::fabs(arm.upper - arm.fore), arm.length());
+            const Vector3d reachable = reach / d * arm.wrist;
+            RC_ASSERT((wrist_place(solve<double>(arm), arm) - reachable).norm() < 2e-12 * arm.length());
+            RC_ASSERT((wrist_place(solve<float>(arm), arm) - reachable).norm() < 1e-6 * arm.length());
+        });
+    });
+    rc::prop("rotors are of unit length, halves are not negative", [](std::uint64_t seed) {
+        for_arms(seed, any_arm, [](const Arm& arm) {
+            const ArmPose<float> pose = solve<float>(arm);
+            RC_ASSERT(std::fabs(eigen(pose.shoulder).norm() - 1) < 1e-6);
+            RC_ASSERT(std::fabs(elbow_rotation(pose).norm() - 1) < 1e-6);
+            RC_ASSERT(pose.cos_half >= 0);
+            RC_ASSERT(pose.sin_half >= 0);
+        });
+    });
+}
+
+TEST_CASE("q_s carries e3 to the upper arm and e1 to the swivel plane's normal")
+{
+    rc::prop("the upper arm by the law of cosines, over double", [](std::uint64_t seed) {
+        for_arms(seed, regular_arm, [](const Arm& arm) {
+            const Quaterniond q = eigen(solve<double>(arm).shoulder);
+            RC_ASSERT((q * Vector3d::UnitZ() - arm.elbow() / arm.upper).norm() < 1e-12);
+            RC_ASSERT((q * Vector3d::UnitX() - arm.normal()).norm() < 1e-12);
+        });
+    });
+    rc::prop("over float: the plane holds shoulder, elbow, wrist and pole, the elbow is on the pole's side",
+             [](std::uint64_t seed) {
+                 for_arms(seed, any_arm, [](const Arm& arm) {
+                     const ArmPose<float> pose = solve<float>(arm);
+                     const Vector3d hinge = eigen(pose.shoulder).normalized() * Vector3d::UnitX();
+                     // A normal's digits are lost by the sine of the pole's angle.
+                     const Vector3d across = arm.wrist.normalized().cross(arm.pole.normalized());
+                     RC_ASSERT((across.norm() * hinge - across).norm() < 1e-6);
+                     RC_ASSERT(std::fabs(hinge.dot(arm.wrist.normalized())) < 1e-6);
+                     const Vector3d elbow = elbow_place(pose, arm);
+                     RC_ASSERT(std::fabs(hinge.dot(elbow)) < 1e-6 * arm.length());
+                     RC_ASSERT(elbow.dot(arm.normal().cross(arm.wrist.normalized())) > -1e-6 * arm.length());
+                 });
+             });
+}
+
+TEST_CASE("core's own forward kinematics is Eigen's")
+{
+    rc::prop("elbow and wrist", [](std::uint64_t seed) {
+        for_arms(seed, any_arm, [](const Arm& arm) {
+            const ArmPose<double> pose = solve<double>(arm);
+            RC_ASSERT((eigen(elbow_of(pose, arm.upper)) - elbow_place(pose, arm)).norm() < 1e-13 * arm.length());
+            RC_ASSERT((eigen(wrist_of(pose, arm.upper, arm.fore)) - wrist_place(pose, arm)).norm() <
+                      1e-13 * arm.length());
+        });
+    });
+}
+
+// ---- equivariance
+
+TEST_CASE("turning target and pole about e3 turns the arm")
+{
+    rc::prop("over double the rotor is turned, over float elbow and wrist are", [](std::uint64_t seed) {
+        for_arms(seed, regular_arm, [&](const Arm& arm) {
+            const Quaterniond turn(Eigen::AngleAxisd(0.1 + static_cast<double>(seed % 60) * 0.1, Vector3d::UnitZ()));
+            const Arm turned = {turn * arm.wrist, turn * arm.pole, arm.upper, arm.fore};
+            const ArmPose<double> pose = solve<double>(arm), other = solve<double>(turned);
+            RC_ASSERT(distance(turn * eigen(pose.shoulder), eigen(other.shoulder)) < 1e-12);
+            RC_ASSERT(distance(elbow_rotation(pose), elbow_rotation(other)) < 1e-12);
+            const ArmPose<float> single = solve<float>(arm), single_turned = solve<float>(turned);
+            RC_ASSERT((turn * elbow_place(single, arm) - elbow_place(single_turned, turned)).norm() <
+                      1e-5 * arm.length());
+            RC_ASSERT((turn * wrist_place(single, arm) - wrist_place(single_turned, turned)).norm() <
+                      2e-6 * arm.length());
+        });
+    });
+}
+
+TEST_CASE("lengths times a power of two give the same bits")
+{
+    const auto check_sizes = [](const Arm& arm, std::initializer_list<double> sizes) {
+        const ArmPose<float> pose = solve<float>(arm);
+        for (const double size : sizes) {
+            const ArmPose<float> other =
+                solve<float>({size * arm.wrist, size * arm.pole, size * arm.upper, size * arm.fore});
+            RC_ASSERT(std::memcmp(pose.shoulder.c, other.shoulder.c, sizeof pose.shoulder.c) == 0);
+            RC_ASSERT(pose.cos_half == other.cos_half);
+            RC_ASSERT(pose.sin_half == other.sin_half);
+            RC_ASSERT(pose.flags == other.flags);
+        }
+    };
+    rc::prop("everyday arms, sizes from 2^-10 to 2^10", [=](std::uint64_t seed) {
+        const auto everyday = [](Random& random) { return rounded(regular_arm(random)); };
+        for_arms(seed, everyday, [=](const Arm& arm) { check_sizes(arm, {0x1p-10, 0x1p-3, 0x1p1, 0x1p10}); });
+    });
+    rc::prop("any arm, sizes from 2^-20 to 2^20", [=](std::uint64_t seed) {
+        for_arms(seed, any_arm, [=](const Arm& arm) { check_sizes(arm, {0x1p-20, 0x1p-3, 0x1p1, 0x1p20}); });
+    });
+    rc::prop("the pole's own length, too", [](std::uint64_t seed) {
+        for_arms(seed, any_arm, [](const Arm& arm) {
+            const ArmPose<float> pose = solve<float>(arm),
+                                 other = solve<float>({arm.wrist, 8 * arm.pole, arm.upper, arm.fore});
+            RC_ASSERT(std::memcmp(pose.shoulder.c, other.shoulder.c, sizeof pose.shoulder.c) == 0);
+        });
+    });
+}
+
+TEST_CASE("the mirrored goal has the mirrored pose")
+{
+    rc::prop("in the plane of e2 and e3: x, -y, -z, w", [](std::uint64_t seed) {
+        for_arms(seed, any_arm, [](const Arm& arm) {
+            const auto mirror = [](const Vector3d& v) { return Vector3d(-v.x(), v.y(), v.z()); };
+            const Arm mirrored = {mirror(arm.wrist), mirror(arm.pole), arm.upper, arm.fore};
+            const ArmPose<float> pose = solve<float>(arm), other = solve<float>(mirrored);
+            const Quaterniond q = eigen(pose.shoulder);
+            RC_ASSERT(distance(Quaterniond(q.w(), q.x(), -q.y(), -q.z()), eigen(other.shoulder)) < 1e-6);
+            RC_ASSERT(pose.cos_half == other.cos_half);
+            RC_ASSERT(pose.sin_half == other.sin_half);
+        });
+    });
+    rc::prop("the negated pole has the elbow mirrored in the target's line", [](std::uint64_t seed) {
+        for_arms(seed, any_arm, [](const Arm& arm) {
+            const Arm other = {arm.wrist, -arm.pole, arm.upper, arm.fore};
+            const Vector3d line = arm.wrist.normalized(), elbow = elbow_place(solve<float>(arm), arm);
+            RC_ASSERT((elbow_place(solve<float>(other), other) - (2 * elbow.dot(line) * line - elbow)).norm() <
+                      2e-6 * arm.length());
+        });
+    });
+}
+
+// ---- swivel_verify()
+
+namespace {
+
+struct Line {
+    std::string name, set;
+    std::uint64_t arm_count;
+    double max, rms, max_limit, rms_limit;
+
+    bool operator==(const Line&) const = default;
+};
+
+std::vector<Line> verify(std::uint64_t arm_count, std::uint64_t seed, int& passed)
+{
+    std::vector<Line> lines;
+    const auto add = [](const swivel_check* check, void* user) {
+        static_cast<std::vector<Line>*>(user)->push_back(
+            {check->name, check->set, check->arm_count, check->max, check->rms, check->max_limit, check->rms_limit});
+    };
+    REQUIRE(swivel_verify(arm_count, seed, add, &lines, &passed) == SWIVEL_OK);
+    return lines;
+}
+
+}  // namespace
+
+TEST_CASE("swivel_verify passes, and says what it measured")
+{
+    constexpr std::uint64_t arm_count = 20000;
+    int passed = 5;
+    const std::vector<Line> lines = verify(arm_count, 1, passed);
+    CHECK(passed == 1);
+    std::set<std::string> names, sets;
+    for (const Line& line : lines) {
+        INFO(line.name << ", " << line.set);
+        names.insert(line.name);
+        sets.insert(line.set);
+        CHECK(line.max_limit > 0);
+        CHECK(line.max_limit <= 1e-6);
+        CHECK(line.max <= line.max_limit);
+        CHECK(line.max > 0);  // something was measured
+        CHECK(line.rms <= line.max);
+        CHECK(line.rms > 0);
+        if (line.rms_limit > 0) CHECK(line.rms <= line.rms_limit);
+        CHECK(line.arm_count >= (line.set == "regular arms" ? 50u : 10000u));
+    }
+    CHECK(lines.size() == 19);
+    CHECK(names.size() == 5);
+    CHECK(sets.size() == 7);  // regular arms, five bands of reach, hard poses
+    // One check each for the oracle, the formula over double, and the wrist in every band.
+    const auto count = [&](const char* part) {
+        return std::count_if(lines.begin(), lines.end(),
+                             [&](const Line& l) { return l.name.find(part) != std::string::npos; });
+    };
+    CHECK(count("oracle") == 1);
+    CHECK(count("production<double>") == 1);
+    CHECK(count("wrist") == 6);
+}
+
+TEST_CASE("swivel_verify's arms are the seed's, its report may be left out")
+{
+    int passed = 5;
+    const std::vector<Line> one = verify(500, 7, passed), same = verify(500, 7, passed), other = verify(500, 8, passed);
+    CHECK(one == same);
+    CHECK_FALSE(one == other);
+    passed = 5;
+    CHECK(swivel_verify(100, 3, nullptr, nullptr, &passed) == SWIVEL_OK);
+    CHECK(passed == 1);
+}
