@@ -23,7 +23,7 @@ inline namespace SWIVEL_ISA {
 // floats.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
 // Of two vectors with squared lengths within these, the product's square is a normal float.
-inline constexpr double kPlainLeast2 = 1e-12, kPlainMost2 = 1e12;
+inline constexpr double kPlainLeast2 = 1e-15, kPlainMost2 = 1e12;
 
 template <class T>
 struct ArmGoal {

@@ -16,7 +16,7 @@ struct SwivelPlane {
     Mask<T> undefined;
 };
 
-// u: unit vector from shoulder to wrist. aim: along u, and pole: both of any length in 1e-6..1e6, aim2 and pole2 its
+// u: unit vector from shoulder to wrist. aim: along u, and pole: both of any length in 3e-8..1e6, aim2 and pole2 its
 // square. The aim is taken instead of u so that this root and this division need not wait for u's.
 template <class T>
 SWIVEL_INLINE constexpr SwivelPlane<T> swivel_plane(const Vector<T>& u, const Vector<T>& aim, const T& aim2,

@@ -68,7 +68,7 @@ SWIVEL_INLINE void solve_step(const Rows<T, Features>& rows, const Binding<T>& b
 
     ArmGoal<T> goal{rows.load_vector(SWIVEL_TARGET), rows.load_vector(SWIVEL_POLE), rows.load(SWIVEL_LENGTHS, 0),
                     rows.load(SWIVEL_LENGTHS, 1)};
-    Mask<T> good = goal.upper == goal.upper;
+    Mask<T> good = T(0) == T(0);
     Rotor<T> world_from_arm = one;
     if constexpr (world) {
         const ParentFrame<T> parent{rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
@@ -106,8 +106,10 @@ SWIVEL_INLINE void solve_step(const Rows<T, Features>& rows, const Binding<T>& b
     rows.store(SWIVEL_FLAGS, 0, pose.flags);
 }
 
+// Solves whole steps from limb on; returns the first limb it left. A function of its own for each T, so that its
+// constants do not take registers from another's loop.
 template <class T, std::uint32_t Features>
-SWIVEL_INLINE std::size_t solve_from(const SolveRun& run, std::size_t limb)
+SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_steps(const SolveRun& run, std::size_t limb)
 {
     const swivel_binding& b = *run.binding;
     const Binding<T> bind{broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm),
@@ -122,10 +124,10 @@ SWIVEL_INLINE std::size_t solve_from(const SolveRun& run, std::size_t limb)
 
 // Steps of several registers, then the rest with one: the same formula, the same bits.
 template <std::uint32_t Features>
-SWIVEL_FLATTEN void solve(const SolveRun& run)
+void solve(const SolveRun& run)
 {
-    const std::size_t done = solve_from<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0);
-    solve_from<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
+    const std::size_t done = solve_steps<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0);
+    solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
 }
 
 }  // namespace
