@@ -3,6 +3,8 @@
 // Cuts a crowd's blocks into chunks and runs them on oneTBB. The only file that knows oneTBB.
 #include "batch/solve.h"
 
+#include "simd/float_env.h"
+
 #ifdef SWIVEL_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -18,6 +20,7 @@ void solve_all(const swivel_crowd& crowd, const Kernels& kernels)
     const std::size_t block_bytes = (crowd.input_row_count + crowd.result_row_count) * SWIVEL_LANES * sizeof(float);
     const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes);
     if (crowd.block_count > chunk) {
+        const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;
         oneapi::tbb::parallel_for(Range(0, crowd.block_count, chunk), [&](const Range& blocks) {
             solve_blocks(crowd, kernels, blocks.begin(), blocks.end() - blocks.begin());
