@@ -114,7 +114,8 @@ struct Terms {
     std::size_t count;
 };
 
-// The products of components that add up to component `out`.
+// The products of components that add up to component `out`, one that is added first where there is one: then nothing
+// has to be negated.
 constexpr Terms terms(Product kind, BladeSet a, BladeSet b, Blade out)
 {
     Terms list{};
@@ -122,6 +123,8 @@ constexpr Terms terms(Product kind, BladeSet a, BladeSet b, Blade out)
         for (Blade y = 0; y < 32; ++y)
             if ((a >> x & 1u) && (b >> y & 1u))
                 if (const int sign = coefficient(kind, x, y, out); sign != 0) list.term[list.count++] = {x, y, sign};
+    for (std::size_t n = 1; n < list.count; ++n)
+        if (list.term[0].sign < 0 && list.term[n].sign > 0) std::swap(list.term[0], list.term[n]);
     return list;
 }
 

@@ -66,11 +66,12 @@ SWIVEL_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
     return (T(1) / sqrt(len2(m))) * m;
 }
 
-// The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf.
+// The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf, which is the
+// Euclidean dual of b ^ a.
 template <class T, BladeSet A, BladeSet B>
 SWIVEL_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return dual((unit<T, kE0>() ^ b ^ a) ^ unit<T, kEinf>());
+    return times_blade<kEuclid>(b ^ a);
 }
 
 // The line through the origin along v: the dual of e0 ^ v ^ einf (eqs. 3.10-3.12). As a unit vector's rotor it turns by
