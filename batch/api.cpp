@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The C entry points: check the arguments, call in, turn outcomes into statuses.
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
@@ -26,6 +27,16 @@ constexpr std::uint32_t kAllFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WIT
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 constexpr std::size_t kArenaAlignment = 64;
 
+bool is_binding(const swivel_binding& b)
+{
+    for (const auto* q :
+         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest}) {
+        const Rotor<double> unit = rotor<double>((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+        if (!(std::fabs(len2(unit) - 1) <= 1e-5)) return false;  // ten times what rounding to floats leaves
+    }
+    return true;
+}
+
 swivel_status check(const swivel_crowd_def* def)
 {
     if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
@@ -46,13 +57,17 @@ swivel_status check(const swivel_crowd_def* def)
     for (std::uint32_t g = 0; g < def->group_count; ++g) {
         if (def->groups[g].limb_count == 0)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+        if ((def->features & SWIVEL_JOINTS) && !is_binding(def->groups[g].binding))
+            return fail(SWIVEL_INVALID_ARGUMENT,
+                        "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", g);
         limb_count += std::uint64_t{def->groups[g].limb_count} + SWIVEL_LANES;
     }
-    if (limb_count > kMostLimbs) return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs; use several crowds");
+    if (limb_count > kMostLimbs)
+        return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
     return SWIVEL_OK;
 }
 
-// A range of limbs of a group, and the field it is about.
+// A range of limbs of a group.
 swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
@@ -92,15 +107,17 @@ RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t gro
             limb_count};
 }
 
-// The kernels to solve with, or null with the reason in last_error().
-const Isa* usable_isa()
+// The kernels to solve with; or null, with the reason in status and last_error().
+const Isa* usable_isa(swivel_status& status)
 {
     const Isa* isa = current_isa();
-    if (!isa)
-        fail(SWIVEL_UNKNOWN_ISA,
-             "SWIVEL_FORCE_ISA=%s names no instruction set that this build has and this CPU runs; unset it",
-             std::getenv("SWIVEL_FORCE_ISA"));
-    return isa;
+    if (isa) return isa;
+    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
+    const bool built = forced && find_isa(forced);
+    status = fail(built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA,
+                  "SWIVEL_FORCE_ISA=%s names an instruction set that %s; unset it, or see swivel info",
+                  forced ? forced : "", built ? "this CPU does not run" : "this build does not have");
+    return nullptr;
 }
 
 void store(const swivel_out& out, std::size_t n, const Vector<double>& v)
@@ -188,9 +205,12 @@ swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, fl
 uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd->block_count; }
 uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group)
 {
-    return crowd->groups[group].first_block * SWIVEL_LANES;
+    return group < crowd->group_count ? crowd->groups[group].first_block * SWIVEL_LANES : 0;
 }
-uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group) { return crowd->groups[group].limb_count; }
+uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group)
+{
+    return group < crowd->group_count ? crowd->groups[group].limb_count : 0;
+}
 uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field)
 {
     return field_first_row(crowd->features, field);
@@ -242,8 +262,9 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
 swivel_status swivel_solve(swivel_crowd* crowd)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve: crowd is null");
-    const Isa* isa = usable_isa();
-    if (!isa) return SWIVEL_UNKNOWN_ISA;
+    swivel_status status = SWIVEL_OK;
+    const Isa* isa = usable_isa(status);
+    if (!isa) return status;
     solve_all(*crowd, *isa->kernels);
     return SWIVEL_OK;
 }
@@ -253,8 +274,9 @@ swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uin
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: crowd is null");
     if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: this crowd has %u blocks", crowd->block_count);
-    const Isa* isa = usable_isa();
-    if (!isa) return SWIVEL_UNKNOWN_ISA;
+    swivel_status status = SWIVEL_OK;
+    const Isa* isa = usable_isa(status);
+    if (!isa) return status;
     solve_blocks(*crowd, *isa->kernels, first_block, block_count);
     return SWIVEL_OK;
 }
@@ -298,7 +320,8 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
 
 const char* swivel_isa_name(void)
 {
-    const Isa* isa = usable_isa();
+    swivel_status status = SWIVEL_OK;
+    const Isa* isa = usable_isa(status);
     return isa ? isa->name : nullptr;
 }
 

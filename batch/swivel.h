@@ -11,7 +11,7 @@
 // carries the forearm towards +y (e2). The elbow lies on the pole's side of the line from shoulder to wrist.
 //
 // LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
-// results -> swivel_crowd_destroy(). After creation no call that takes a crowd allocates memory.
+// results -> swivel_crowd_destroy(). After creation swivel allocates nothing; oneTBB, inside swivel_solve(), may.
 //
 // LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
 // to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
@@ -39,12 +39,14 @@
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
 // A limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit.
 //
+// Lengths below 1e-15 are not resolved: a target that near to the shoulder counts as on it, and is reached to 1e-15.
+//
 // RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not
 // zero is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 // THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks()
-// on ranges that do not overlap.
+// on ranges that do not overlap, and for calls that take it const while nothing else runs on it.
 #pragma once
 
 #include <stddef.h>
@@ -193,11 +195,13 @@ SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* 
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
+// A group that does not exist has 0 limbs.
 // First row of a field in its blocks, and its number of rows: 0 if this crowd does not have the field.
 SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field);
 SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field);
 
-// Direct access to rows: the fast way in and out. Padding lanes may hold anything and stay as they are.
+// Direct access to rows: the fast way in and out. Padding lanes of inputs may hold anything and are left alone; those
+// of results are overwritten and mean nothing.
 SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
 
@@ -242,7 +246,7 @@ typedef struct swivel_check {
     const char* set;   // over which arms, e.g. "reach 5-98 %"
     uint64_t arm_count;
     double max, rms;              // in arm lengths, or as the name says
-    double max_limit, rms_limit;  // 0: not limited
+    double max_limit, rms_limit;  // an rms_limit of 0: not limited
 } swivel_check;
 
 // Checks the formulas against each other: the lecture's steps against the dense oracle, production in float against its

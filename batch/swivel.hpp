@@ -8,6 +8,7 @@
 #include <ranges>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "swivel.h"
@@ -70,6 +71,8 @@ public:
     template <class Value>
     void write_all(swivel_field field, std::uint32_t group, const Value& value)
     {
+        static_assert(std::is_trivially_copyable_v<Value>, "one value of plain floats");
+        check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
     }
     template <std::ranges::contiguous_range R>

@@ -42,7 +42,7 @@ struct Error {
 
     void add(double e)
     {
-        max = e <= max ? max : e;  // keeps a NaN
+        if (!std::isnan(max) && !(e <= max)) max = e;  // keeps a NaN
         sum2 += e * e;
         ++count;
     }

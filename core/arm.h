@@ -19,11 +19,11 @@ inline constexpr std::uint32_t bad_input = 1u << 30;
 
 inline namespace SWIVEL_ISA {
 
-// Vectors are no longer than 1/kTiny; a shorter one than kTiny counts as zero, for its square would leave the normal
-// floats.
+// Vectors are no longer than kHuge; a shorter one than kTiny counts as zero. Products of two squares then stay floats.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
-// Of two vectors with squared lengths within these, the product's square is a normal float.
-inline constexpr double kPlainLeast2 = 1e-15, kPlainMost2 = 1e12;
+// Of two vectors with squared lengths within these, 1e-3 or more apart in direction, the product's square is a normal
+// float. For bone lengths they are the same limits, to be tested in one.
+inline constexpr double kPlainLeast = 1e-15, kPlainMost = 1e12;
 
 template <class T>
 struct ArmGoal {

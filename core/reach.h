@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // How far the wrist is from the shoulder, and the triangle that this distance and the two bones form. All angles come
-// as cosines and sines built from products that cannot cancel, unit by construction (design: a = (d-|L1-L2|)(d+|L1-L2|)
-// ...).
+// as cosines and sines built from products that cannot cancel, unit by construction.
 //
 // Degenerate arms: with the distance clamped to the reachable shell, zero upper arm or both bones zero give a straight
 // arm, a zero forearm puts the upper arm on the target's line.

@@ -54,8 +54,8 @@ SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask
 
     // Most arms are ordinary: nothing bad, nothing of no length, nothing huge. A step with another arm in it looks
     // closer; this changes no bit of the ordinary ones beside it.
-    const Mask<T> ordinary = good & (wrist2 + pole2 <= T(kPlainMost2)) & (lo(wrist2, pole2) >= T(kPlainLeast2)) &
-                             (lo(upper, fore) >= T(kTiny)) & (upper + fore <= T(kHuge));  // false for NaN
+    const T least = lo(lo(wrist2, pole2), lo(upper, fore)), sum = (wrist2 + pole2) + (upper + fore);
+    const Mask<T> ordinary = good & (least >= T(kPlainLeast)) & (sum <= T(kPlainMost));  // false for NaN
     Mask<T> valid = ordinary, on_shoulder = wrist2 < T(kTiny2);
     if (!all(ordinary)) {
         const ArmGoal<T> rest = rest_goal<T>();
@@ -69,9 +69,11 @@ SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask
 
         // Poles and aims of unit length where the square of their product would not fit a float.
         const Mask<T> plain =
-            (wrist2 >= T(kPlainLeast2)) & (pole2 >= T(kPlainLeast2)) & (wrist2 + pole2 <= T(kPlainMost2));
+            (wrist2 >= T(kPlainLeast)) & (pole2 >= T(kPlainLeast)) & (wrist2 + pole2 <= T(kPlainMost));
         aim = select(plain, wrist, (T(1) / sqrt(wrist2)) * wrist), aim2 = select(plain, wrist2, T(1));
-        pole = select(plain, pole, (T(1) / sqrt(hi(pole2, T(kTiny2)))) * pole), pole2 = select(plain, pole2, T(1));
+        const Mask<T> no_pole = pole2 < T(kTiny2);
+        const T per_pole = T(1) / sqrt(select(no_pole, T(1), pole2));
+        pole = select(plain, pole, select(no_pole, T(0), per_pole) * pole), pole2 = select(plain, pole2, T(1));
     }
 
     // The target's line from the shoulder, and how far along it the wrist can be.

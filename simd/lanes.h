@@ -2,7 +2,7 @@
 //
 // Lanes<Arch, Registers>: a few xsimd batches of floats worked on side by side, with core/num.h's list of operations,
 // so that every formula runs on it unchanged. The only file that names xsimd, and where its operations are made equal:
-// unary minus flips the sign bit, lo and hi are selects, NEON's root and quotient are the exact instructions.
+// unary minus flips the sign bit, lo and hi do as selects do, NEON's root and quotient are the exact instructions.
 #pragma once
 
 #include <bit>

@@ -43,7 +43,10 @@ bool is_one_line(const std::string& text)
         CHECK(swivel_last_error() != line_before);           \
     } while (false)
 
-swivel_group_def group_of(std::uint32_t limb_count) { return {limb_count, {}}; }
+swivel_group_def group_of(std::uint32_t limb_count)
+{
+    return {limb_count, {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}};
+}
 
 swivel_crowd_def def_of(const swivel_group_def& group)
 {
@@ -242,6 +245,30 @@ TEST_CASE("the C++ wrapper throws the line and frees what it owns")
     CHECK(three.get() == first);
     CHECK(two.get() == nullptr);
     CHECK_THROWS_AS(Crowd(swivel_default_crowd_def()), Error);
+}
+
+TEST_CASE("results as joints need bindings of unit rotations")
+{
+    swivel_group_def group = group_of(3);
+    CHECK_NOTHROW(Crowd(SWIVEL_JOINTS, {&group, 1}));
+    for (float* const q : {group.binding.parent_from_arm, group.binding.upper_from_arm, group.binding.fore_from_arm,
+                           group.binding.shoulder_rest, group.binding.elbow_rest, group.binding.wrist_rest}) {
+        for (const float w : {0.0f, 1.001f, std::numeric_limits<float>::quiet_NaN()}) {
+            q[3] = w;
+            CHECK_THROWS_WITH(Crowd(SWIVEL_JOINTS, {&group, 1}), Catch::Contains("group 0") && Catch::Contains("unit"));
+            CHECK_NOTHROW(Crowd(0, {&group, 1}));
+        }
+        q[3] = 1;
+    }
+}
+
+TEST_CASE("write_all checks the group and the value's size")
+{
+    const swivel_group_def group = group_of(3);
+    Crowd crowd(0, {&group, 1});
+    CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 7, Float3{0, 1, 0}), Error);
+    CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 0, 1.0f), Error);
+    CHECK(swivel_group_limb_count(crowd.get(), 7) == 0);
 }
 
 // ---- shape

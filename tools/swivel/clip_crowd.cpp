@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/clip_crowd.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <random>
 

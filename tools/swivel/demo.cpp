@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
@@ -143,7 +144,8 @@ private:
 
 void run(const Options& options)
 {
-    if (!swivel_isa_name()) throw Error(SWIVEL_UNKNOWN_ISA);
+    note_interrupts();
+    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const ThreadLimit limit(options.threads);
     DemoCrowd crowd(options);
     Statistics statistics;
@@ -183,7 +185,9 @@ void add_demo(CLI::App& app)
     command->add_option("--seed", options->seed, "Seed of the characters' differences")
         ->capture_default_str()
         ->check(whole_number(0, UINT64_MAX));
-    command->add_option("--threads", options->threads, "Threads at most; 0 for all")->capture_default_str();
+    command->add_option("--threads", options->threads, "Threads at most; 0 for all")
+        ->capture_default_str()
+        ->check(whole_number(0, 1024));
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { run(*options); });
 }

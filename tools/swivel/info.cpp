@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "swivel/swivel.hpp"
+#include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
 
@@ -29,7 +30,7 @@ std::string cpu_model()
 nlohmann::ordered_json describe()
 {
     const char* isa = swivel_isa_name();
-    if (!isa) throw Error(SWIVEL_UNKNOWN_ISA);
+    if (!isa) throw CommandError(1, swivel_last_error());
     nlohmann::ordered_json out;
     const std::uint32_t version = swivel_version();
     out["swivel"] = fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);

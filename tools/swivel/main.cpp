@@ -13,7 +13,6 @@
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/interrupt.h"
 
 namespace {
 
@@ -40,7 +39,6 @@ int main(int argc, char** argv)
     add_solve(app);
     add_verify(app);
     add_info(app);
-    note_interrupts();
     try {
         app.parse(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))

@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -187,9 +188,10 @@ nlohmann::ordered_json json_of(const Options& options, const formats::Clip& clip
 
 void run(const Options& options)
 {
+    note_interrupts();
     const auto before = std::chrono::steady_clock::now();
     out_kind(options);  // usage errors first
-    if (!swivel_isa_name()) throw Error(SWIVEL_UNKNOWN_ISA);
+    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const formats::BvhFile file = formats::read_bvh(options.clip);
     const std::vector<Arm> arms = find_arms(file.clip, options.clip, options.arms);
     if (!options.json) print_clip(options, file.clip, arms);
@@ -240,7 +242,9 @@ void add_solve(CLI::App& app)
     command->add_option("--seed", options->seed, "Seed of the characters' differences")
         ->capture_default_str()
         ->check(whole_number(0, UINT64_MAX));
-    command->add_option("--threads", options->threads, "Threads at most; 0 for all")->capture_default_str();
+    command->add_option("--threads", options->threads, "Threads at most; 0 for all")
+        ->capture_default_str()
+        ->check(whole_number(0, 1024));
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { run(*options); });
 }

@@ -15,15 +15,19 @@ struct ErrorStat {
 
     void add(double error)
     {
-        max = error <= max ? max : error;  // keeps a NaN
+        keep_worst(error);
         sum2 += error * error;
         ++count;
     }
     void add(const ErrorStat& other)
     {
-        max = other.max <= max ? max : other.max;
+        keep_worst(other.max);
         sum2 += other.sum2;
         count += other.count;
+    }
+    void keep_worst(double error)
+    {
+        if (!std::isnan(max) && !(error <= max)) max = error;  // a NaN is the worst of all
     }
     double rms() const { return count ? std::sqrt(sum2 / static_cast<double>(count)) : 0; }
 };

@@ -4,6 +4,7 @@
 // chunk size of this machine.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -95,7 +96,7 @@ void append_check(const swivel_check* c, void* list)
 
 void run(const Options& options)
 {
-    if (!swivel_isa_name()) throw Error(SWIVEL_UNKNOWN_ISA);
+    if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     nlohmann::ordered_json checks = nlohmann::ordered_json::array();
     int passed = 0;
     check(swivel_verify(options.arms, options.seed, options.json ? append_check : print_check, &checks, &passed));
