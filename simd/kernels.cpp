@@ -13,18 +13,18 @@ namespace swivel::inline SWIVEL_ISA {
 
 namespace {
 
-// The rows of one step: T's lanes from limb `limb` of the run on.
+// The rows of one step of T's lanes: where its first lane is in the first input row and in the first result row. A step
+// does not cross blocks unevenly, so every other place is a constant away.
 template <class T, std::uint32_t Features>
 struct Rows {
-    const float* input;  // of the run
+    const float* input;
     float* results;
-    std::size_t limb;
 
     SWIVEL_INLINE T load(swivel_field field, std::uint32_t component) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
         return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-            return input + row_offset(limb + lane, input_row_count(Features), row);
+            return input + row_offset(lane, input_row_count(Features), row);
         });
     }
     SWIVEL_INLINE Vector<T> load_vector(swivel_field field) const
@@ -39,10 +39,9 @@ struct Rows {
     SWIVEL_INLINE void store(swivel_field field, std::uint32_t component, const Value& value) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
-        store_lanes(
-            [&](std::size_t lane)
-                SWIVEL_INLINE_LAMBDA { return results + row_offset(limb + lane, result_row_count(Features), row); },
-            value);
+        store_lanes([&](std::size_t lane)
+                        SWIVEL_INLINE_LAMBDA { return results + row_offset(lane, result_row_count(Features), row); },
+                    value);
     }
     SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& either) const
     {
@@ -118,10 +117,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_steps(const SolveRun& run, st
                           broadcast<T>(b.elbow_rest),      broadcast<T>(b.wrist_rest)};
     const T pole_is_point(run.pole_is_point);
     const std::size_t limb_count = std::size_t{run.block_count} * SWIVEL_LANES;
-    const float* const input = run.input;  // copies: a store to results could change what run says
-    float* const results = run.results;
     for (; limb + lane_count<T> <= limb_count; limb += lane_count<T>)
-        solve_step(Rows<T, Features>{input, results, limb}, bind, pole_is_point);
+        solve_step(Rows<T, Features>{run.input + row_offset(limb, input_row_count(Features), 0),
+                                     run.results + row_offset(limb, result_row_count(Features), 0)},
+                   bind, pole_is_point);
     return limb;
 }
 
