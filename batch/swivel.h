@@ -33,6 +33,7 @@
 //   SWIVEL_WRIST               4     WITH_HAND       hand relative to forearm, or local rotation with JOINTS
 //   SWIVEL_FLAGS               1     always          SWIVEL_REACHED..., as uint32_t
 //
+// Without JOINTS the elbow's quaternion is (-sin, 0, 0, cos), and hand = parent * shoulder * elbow * wrist.
 // With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS the binding says how it lies there.
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
