@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "batch/status.h"
+#include "core/frame_rotor.h"
 #include "core/solve_arm.h"
 
 namespace swivel {

@@ -19,11 +19,17 @@ inline constexpr std::uint32_t bad_input = 1u << 30;
 
 inline namespace SWIVEL_ISA {
 
-// Vectors are no longer than kHuge; a shorter one than kTiny counts as zero. Products of two squares then stay floats.
+// Vectors are no longer than kHuge; a shorter one than kTiny counts as zero.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
-// Of two vectors with squared lengths within these, 1e-3 or more apart in direction, the product's square is a normal
-// float. For bone lengths they are the same limits, to be tested in one.
-inline constexpr double kPlainLeast = 1e-15, kPlainMost = 1e12;
+// Between these are the bones, poles, squared wrists and their product of ordinary arms: nothing in the formula then
+// leaves the normal floats.
+inline constexpr double kPlainLeast = 1e-12, kPlainMost = 1e9;
+// The sine of a pole's angle to the target's line: a closer one does not say where the elbow goes, its digits are
+// noise.
+inline constexpr double kPoleOff = 1e-3;
+// In arm lengths: a shorter bone is lost in the digits of the other; no wrist comes nearer to the shoulder; as far away
+// is a pole put that such a wrist's products with it stay normal floats.
+inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9, kPoleAway = 1e6;
 
 template <class T>
 struct ArmGoal {
@@ -45,6 +51,25 @@ template <class T>
 SWIVEL_INLINE constexpr Mv<T, blades(kScalar, kI)> elbow_rotor(const ArmPose<T>& pose)
 {
     return pose.cos_half * unit<T, kScalar>() - pose.sin_half * unit<T, kI>();
+}
+
+// The arm frame's axes in some other space: e1, e2 and e3 there.
+template <class T>
+struct ArmAxes {
+    Vector<T> hinge, other, bone;
+};
+template <class T>
+SWIVEL_INLINE constexpr ArmAxes<T> arm_axes()
+{
+    return {vector(T(1), T(0), T(0)), vector(T(0), T(1), T(0)), vector(T(0), T(0), T(1))};
+}
+
+// Goal by goal, a where the mask holds, b elsewhere.
+template <class T>
+SWIVEL_INLINE constexpr ArmGoal<T> select(const Mask<T>& mask, const ArmGoal<T>& a, const ArmGoal<T>& b)
+{
+    return {select(mask, a.wrist, b.wrist), select(mask, a.pole, b.pole), select(mask, a.upper, b.upper),
+            select(mask, a.fore, b.fore)};
 }
 
 // A straight arm in its rest pose: solving it gives the identity. It takes the place of bad input.

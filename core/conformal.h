@@ -89,4 +89,28 @@ SWIVEL_INLINE constexpr Vector<T> sandwich(const Rotor<T>& q, const Vector<T>& v
     return grade_part<1>(q * v * ~q);
 }
 
+// The same sandwich for several vectors: what the rotor makes of e1, e2 and e3.
+template <class T>
+struct Turn {
+    Vector<T> e1, e2, e3;
+    T length2;  // of the rotor
+
+    SWIVEL_INLINE constexpr Vector<T> operator()(const Vector<T>& v) const
+    {
+        return v.template at<kE1>() * e1 + v.template at<kE2>() * e2 + v.template at<kE3>() * e3;
+    }
+};
+// With Q = w + x i + y j + z k, from Q e1 ~Q = (ww + xx - yy - zz) e1 + 2 (xy + wz) e2 + 2 (xz - wy) e3 and its like.
+template <class T>
+SWIVEL_INLINE constexpr Turn<T> turn_by(const Rotor<T>& q)
+{
+    const T w = q.template at<kScalar>(), x = q.template at<kI>(), y = q.template at<kJ>(), z = q.template at<kK>();
+    const T twice_x = x + x, twice_y = y + y, twice_z = z + z;
+    const T xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+    const T xy = twice_x * y, xz = twice_x * z, yz = twice_y * z, wx = w * twice_x, wy = w * twice_y, wz = w * twice_z;
+    const T even = ww - zz, odd = ww + zz, across = xx - yy, along = xx + yy;
+    return {vector(even + across, xy + wz, xz - wy), vector(xy - wz, even - across, yz + wx),
+            vector(xz + wy, yz - wx, odd - along), odd + along};
+}
+
 }  // namespace swivel::inline SWIVEL_ISA

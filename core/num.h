@@ -5,6 +5,7 @@
 // or a matter of bits, so every T of the same precision gives the same bits.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -35,6 +36,16 @@ SWIVEL_INLINE double copysign(double x, double sign) { return std::copysign(x, s
 SWIVEL_INLINE float flip_sign(float x, float sign) { return std::signbit(sign) ? -x : x; }
 SWIVEL_INLINE double flip_sign(double x, double sign) { return std::signbit(sign) ? -x : x; }
 
+// The largest power of two that is not above x > 0, a normal number; it divides without rounding.
+SWIVEL_INLINE float power_of_two(float x)
+{
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7f800000u);
+}
+SWIVEL_INLINE double power_of_two(double x)
+{
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u);
+}
+
 SWIVEL_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }
 SWIVEL_INLINE double select(bool mask, double a, double b) { return mask ? a : b; }
 SWIVEL_INLINE bool any(bool mask) { return mask; }
@@ -52,7 +63,13 @@ SWIVEL_INLINE T hi(const T& a, const T& b)
     return select(a > b, a, b);
 }
 
-// The bits where the mask holds, 0 elsewhere.
-SWIVEL_INLINE std::uint32_t bits_where(bool mask, std::uint32_t bits) { return mask ? bits : 0u; }
+// The same word in every lane; the word where the mask holds, 0 elsewhere; one word or the other.
+template <class T>
+SWIVEL_INLINE Bits<T> bits(std::uint32_t word)
+{
+    return Bits<T>{word};
+}
+SWIVEL_INLINE std::uint32_t bits_where(bool mask, std::uint32_t word) { return mask ? word : 0u; }
+SWIVEL_INLINE std::uint32_t select(bool mask, std::uint32_t a, std::uint32_t b) { return mask ? a : b; }
 
 }  // namespace swivel::inline SWIVEL_ISA

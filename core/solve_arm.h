@@ -1,113 +1,151 @@
 // SPDX-License-Identifier: MIT
 //
 // The production formula: an arm's rotors from its wrist target, pole and lengths, exact to single precision for every
-// reach and every ratio of bones. It takes the lecture's five steps (pipeline.h) in forms that cannot cancel:
-// the elbow's triangle by products (reach.h), the middle line to the nearer of e3 and -e3, the twist by whichever half
-// is large. Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in
-// conformal.h.
+// reach and every ratio of bones. It takes the lecture's five steps (pipeline.h) in an order that shortens them: the
+// middle line and the twist lay a frame along the target's line (frame_rotor.h), and the elbow's triangle (reach.h)
+// lifts the upper arm out of it. Every length is taken off in one root at the end. Source: D. Hildenbrand, Inverse
+// Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in conformal.h.
 //
-// Degenerate input: bad numbers are replaced by the arm at rest on entry, so no NaN goes past the first select; a
-// target on the shoulder is taken in direction e3; reach.h and swivel_plane.h say what they do with the rest.
+// The formula has no guards; it says for which arms it holds. The others, rare, are given a tame goal with the same
+// pose first: bad numbers the arm at rest, so no NaN is left; a target on the shoulder the direction e3; a pole that
+// does not say where the elbow goes (along the target's line within sin 1e-3, or of no length) the rest hinge e1 as the
+// swivel plane's normal, or e2 when e1 lies along the line.
 #pragma once
 
+#include "core/frame_rotor.h"
 #include "core/reach.h"
-#include "core/swivel_plane.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// The rotor that carries e3 to the unit vector bone and e1 to normal, a unit vector orthogonal to it.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& bone, const Vector<T>& normal)
+struct PlainArm {
+    ArmPose<T> pose;
+    Mask<T> holds;  // where false, the pose may be anything, NaN too
+};
+
+template <class T>
+SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
 {
-    // The upper arm near -e3 has no middle line to e3: turn by pi about e1 first and start from -e3 instead.
-    const Mask<T> turned = bone.template at<kE3>() < T(0);
-    const T start = select(turned, T(-1), T(1));
+    const T wrist2 = len2(goal.wrist), length = sqrt(wrist2);
 
-    // Steps 3 and 4: the middle line between the start and the bone, not yet of unit length; |middle|^2 = 2 height.
-    const Vector<T> middle = bone + start * unit<T, kE3>();
-    const T height = abs(middle.template at<kE3>());
+    // Steps 1 and 2: how far the wrist is, and the triangle of the bones.
+    const Reach<T> reach = clamp_reach(length, goal.upper, goal.fore);
+    const ArmTriangle<T> triangle = arm_triangle(reach.distance, goal.upper, goal.fore);
 
-    // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of
-    // e1, e2. All of it times height, which spares a division: n' = c3 e1 + s3 e2 with c3^2 + s3^2 = height^2.
-    const T along = flip_sign(normal.template at<kE3>(), start);  // n.m, as n is orthogonal to the bone
-    const T c3 = along * bone.template at<kE1>() - height * normal.template at<kE1>();
-    const T s3 = along * bone.template at<kE2>() - height * normal.template at<kE2>();
+    // Steps 3 to 5, for the target's line in the swivel plane through the pole.
+    const Vector<T> normal = cross(goal.wrist, goal.pole);
+    const T normal_length = sqrt(len2(normal));
+    const FrameRotor<T> frame = frame_from_start(goal.wrist, length, T(1) / wrist2, normal, normal_length);
 
-    // q3 is half the turn from e1 to n': along (1 + c3) + s3 k, or for obtuse turns along |s3| +- (1 - c3) k. |q3|^2 =
-    // 2 height large.
-    const T large = height + abs(c3);
-    const Mask<T> obtuse = c3 < T(0);
-    const auto q3 =
-        select(obtuse, abs(s3), large) * unit<T, kScalar>() + select(obtuse, copysign(large, s3), s3) * unit<T, kK>();
+    // The upper arm is lifted off the line by a turn about the normal, at rest e1: cos + sin i, or after the turn by pi
+    // that starts from -e3, i (cos + sin i) = -sin + cos i.
+    const Mask<T> larger_first = flip_sign(triangle.cos_lift, frame.start) >= T(0);
+    const T first = select(larger_first, triangle.larger, triangle.smaller),
+            second = select(larger_first, triangle.smaller, triangle.larger);
+    const auto lift = flip_sign(first, frame.start) * unit<T, kScalar>() + second * unit<T, kI>();
 
-    // q_s = q12 q3 of unit length, the two lengths taken off in one.
-    const Rotor<T> q = (T(0.5) / (height * sqrt(large))) * (central_line(middle) * q3);
-    return select(turned, times_blade<kI>(q), q);
+    const T half2 = (frame.middle_half2 * frame.twist_len2) * triangle.lift2;
+    const Rotor<T> shoulder = (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * lift);
+
+    // It holds for numbers whose squares and products stay normal floats, for poles off the line, and for bones of
+    // which neither swallows the other. pole1 is 1 to 1.7 times the pole's length.
+    const T pole1 =
+        abs(goal.pole.template at<kE1>()) + abs(goal.pole.template at<kE2>()) + abs(goal.pole.template at<kE3>());
+    const T far = goal.upper + goal.fore, shortest2 = far - abs(goal.upper - goal.fore);
+    const Mask<T> holds = (lo(lo(wrist2, pole1), lo(shortest2, half2)) >= T(kPlainLeast)) &
+                          ((wrist2 + pole1) + far <= T(kPlainMost)) & (normal_length > T(kPoleOff) * (length * pole1));
+    return {{shoulder, triangle.cos_half, triangle.sin_half,
+             select(reach.too_far, bits<T>(flag::clamped_far),
+                    select(reach.too_near, bits<T>(flag::clamped_near), bits<T>(flag::reached))),
+             T(0) == T(0)},
+            holds};
 }
 
-// good: false where the caller already knows the input to be bad.
+// A goal for which the formula holds, and what only the asked one tells.
 template <class T>
-SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& asked, const Mask<T>& good)
+struct TameArm {
+    ArmGoal<T> goal;
+    Bits<T> flags;
+    Mask<T> valid;
+};
+
+// axes: the arm frame, in the space of the goal. good: false where the caller already knows the input to be bad.
+template <class T>
+SWIVEL_INLINE constexpr TameArm<T> tamed(const ArmGoal<T>& asked, const Mask<T>& good, const ArmAxes<T>& axes)
 {
-    Vector<T> wrist = asked.wrist, pole = asked.pole, aim = wrist;
-    T upper = asked.upper, fore = asked.fore, wrist2 = len2(wrist), pole2 = len2(pole), aim2 = wrist2;
+    const Mask<T> valid = good & (len2(asked.wrist) <= T(kHuge2)) & (len2(asked.pole) <= T(kHuge2)) &
+                          is_length(asked.upper) & is_length(asked.fore);
+    const ArmGoal<T> rest = rest_goal<T>();
+    const T upper = select(valid, asked.upper, rest.upper), fore = select(valid, asked.fore, rest.fore);
+    const Vector<T> wrist = select(valid, asked.wrist, rest.wrist), pole = select(valid, asked.pole, rest.pole);
 
-    // Most arms are ordinary: nothing bad, nothing of no length, nothing huge. A step with another arm in it looks
-    // closer; this changes no bit of the ordinary ones beside it.
-    const T least = lo(lo(wrist2, pole2), lo(upper, fore)), sum = (wrist2 + pole2) + (upper + fore);
-    const Mask<T> ordinary = good & (least >= T(kPlainLeast)) & (sum <= T(kPlainMost));  // false for NaN
-    Mask<T> valid = ordinary, on_shoulder = wrist2 < T(kTiny2);
-    if (!all(ordinary)) {
-        const ArmGoal<T> rest = rest_goal<T>();
-        valid = good & (wrist2 <= T(kHuge2)) & (pole2 <= T(kHuge2)) & is_length(upper) & is_length(fore);
-        wrist = select(valid, wrist, rest.wrist), pole = select(valid, pole, rest.pole);
-        wrist2 = select(valid, wrist2, len2(rest.wrist)), pole2 = select(valid, pole2, len2(rest.pole));
-        upper = select(valid, upper, rest.upper), fore = select(valid, fore, rest.fore);
+    // The target's line from the shoulder.
+    const T wrist2 = len2(wrist);
+    const Mask<T> on_shoulder = wrist2 < T(kTiny2);
+    const T length = sqrt(select(on_shoulder, T(1), wrist2));
+    const Vector<T> line = select(on_shoulder, axes.bone, (T(1) / length) * wrist);
 
-        on_shoulder = wrist2 < T(kTiny2);
-        wrist = select(on_shoulder, vector(T(0), T(0), T(1)), wrist), wrist2 = select(on_shoulder, T(1), wrist2);
-
-        // Poles and aims of unit length where the square of their product would not fit a float.
-        const Mask<T> plain =
-            (wrist2 >= T(kPlainLeast)) & (pole2 >= T(kPlainLeast)) & (wrist2 + pole2 <= T(kPlainMost));
-        aim = select(plain, wrist, (T(1) / sqrt(wrist2)) * wrist), aim2 = select(plain, wrist2, T(1));
-        const Mask<T> no_pole = pole2 < T(kTiny2);
-        const T per_pole = T(1) / sqrt(select(no_pole, T(1), pole2));
-        pole = select(plain, pole, select(no_pole, T(0), per_pole) * pole), pole2 = select(plain, pole2, T(1));
-    }
-
-    // The target's line from the shoulder, and how far along it the wrist can be.
-    const T length = sqrt(wrist2), wanted = select(on_shoulder, T(0), length);
-    const Vector<T> line = (T(1) / length) * wrist;
+    // Bones of about length 1, in the same ratio to the last bit: the flexion of a folded arm hangs on it. One that the
+    // other swallows is straight with it, along the line.
+    const T wanted = select(on_shoulder, T(0), length), far = upper + fore;
     const Reach<T> reach = clamp_reach(wanted, upper, fore);
+    const T shrink = T(1) / power_of_two(select(far > T(0), far, T(1)));
+    const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
+    const T distance = select(one_bone, T(2), hi(reach.distance * shrink, T(kNearest)));
 
-    // Steps 1 and 2: the swivel plane; in it the elbow's direction and the flexion.
-    const SwivelPlane<T> plane = swivel_plane(line, aim, aim2, pole, pole2);
-    const ArmTriangle<T> triangle = arm_triangle(reach.distance, upper, fore);
-    const Vector<T> bone = triangle.cos_lift * line + triangle.sin_lift * plane.side;
-
-    // Steps 3 to 5.
-    const Rotor<T> shoulder = frame_rotor(bone, plane.normal);
+    // The pole by the normal that it stands for: orthogonal to the line and the normal, so that line x pole = normal.
+    const T pole2 = len2(pole);
+    const Mask<T> no_pole = pole2 < T(kTiny2);
+    const Vector<T> towards = (T(1) / sqrt(select(no_pole, T(1), pole2))) * pole;
+    const Mask<T> undefined = no_pole | !(len2(cross(line, towards)) > T(kPoleOff * kPoleOff));
+    const Vector<T> by_hinge = cross(axes.hinge, line), by_other = cross(axes.other, line);
+    const Vector<T> instead = select(len2(by_hinge) > T(kPoleOff * kPoleOff), by_hinge, by_other);
 
     const Bits<T> flags =
         bits_where(valid & !(reach.too_far | reach.too_near), flag::reached) |
         bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
-        bits_where(plane.undefined | on_shoulder, flag::swivel_undefined) | bits_where(!valid, flag::bad_input);
-    return {shoulder, triangle.cos_half, triangle.sin_half, flags, valid};
+        bits_where(undefined | on_shoulder, flag::swivel_undefined) | bits_where(!valid, flag::bad_input);
+    return {{distance * line, T(kPoleAway) * select(undefined, instead, towards),
+             select(one_bone, T(0.5), upper * shrink), select(one_bone, T(0.5), fore * shrink)},
+            flags,
+            valid};
 }
 
-// One of the two quaternions of a rotation: w >= 0, and at w = 0 the first of x, y, z that is not zero is positive.
+// Any arm. plain: the same goal in the form that the formula was tried on; where it holds its bits are kept.
+template <class T>
+SWIVEL_INLINE constexpr ArmPose<T> solve_any(const ArmGoal<T>& plain, const Mask<T>& holds, const ArmGoal<T>& asked,
+                                             const Mask<T>& good, const ArmAxes<T>& axes)
+{
+    const TameArm<T> tame = tamed(asked, good, axes);
+    ArmPose<T> pose = solve_plain(select(holds, plain, tame.goal)).pose;
+    pose.flags = select(holds, pose.flags, tame.flags);
+    pose.valid = holds | tame.valid;
+    return pose;
+}
+
+// An arm in the arm frame. good: false where the caller already knows the input to be bad.
+template <class T>
+SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& goal, const Mask<T>& good)
+{
+    const PlainArm<T> plain = solve_plain(goal);
+    const Mask<T> holds = plain.holds & good;
+    return all(holds) ? plain.pose : solve_any(goal, holds, goal, good, arm_axes<T>());
+}
+
+// One of the two quaternions of a rotation: q, or -q where leading is negative.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> with_sign_of(const T& leading, const Rotor<T>& q)
+{
+    return for_each_blade<T, Rotor<T>::set>(
+        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
+}
+// The one with w >= 0, and at w = 0 with the first of x, y, z that is not zero positive.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
 {
-    const T zero = T(0), w = q.template at<kScalar>();
-    T leading = w;
-    if (const Mask<T> half_turn = w == zero; any(half_turn)) {
-        const T x = q.template at<kI>(), y = q.template at<kJ>(), z = q.template at<kK>();
-        leading = select(half_turn, select(x == zero, select(y == zero, z, y), x), w);
-    }
-    return for_each_blade<T, Rotor<T>::set>(
-        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
+    const T zero = T(0), x = q.template at<kI>(), y = q.template at<kJ>(), w = q.template at<kScalar>();
+    const T among_xyz = select(x == zero, select(y == zero, q.template at<kK>(), y), x);
+    return with_sign_of(select(w == zero, among_xyz, w), q);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

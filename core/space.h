@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Between the arm frame and everything around it: the parent's frame in the world on the way in, the skeleton's own
-// joint frames on the way out, and the hand, which needs both.
+// Between the arm's own frame and everything around it: the parent's frame in the world on the way in, the skeleton's
+// own joint frames on the way out, and the hand, which needs both.
 //
 // Names: parent = frame of the shoulder's parent joint, arm = arm frame (arm.h), hand = the wrist joint's own frame.
+// Targets in the world are solved in the parent's frame: the rotor found there carries the arm frame's axes e3 and e1
+// to upper arm and hinge just the same, and where the arm frame lies in the parent's only says what is at rest.
 #pragma once
 
 #include "core/arm.h"
@@ -17,12 +19,28 @@ struct ParentFrame {
     T scale;             // uniform, > 0
 };
 
-// Unit rotors that place the arm frame in a skeleton, and its joints' rest (batch/swivel.h: swivel_binding).
+// What a group's binding (batch/swivel.h: swivel_binding) makes of an arm's rotors. All of them of unit length.
 template <class T>
 struct Binding {
-    Rotor<T> parent_from_arm, upper_from_arm, fore_from_arm;
+    Rotor<T> parent_from_arm, arm_from_upper, fore_from_arm;
+    Rotor<T> elbow_straight, elbow_hinge;  // the elbow's local rotation is cos elbow_straight - sin elbow_hinge
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
+
+template <class T>
+SWIVEL_INLINE constexpr Binding<T> binding(const Rotor<T>& parent_from_arm, const Rotor<T>& upper_from_arm,
+                                           const Rotor<T>& fore_from_arm, const Rotor<T>& shoulder_rest,
+                                           const Rotor<T>& elbow_rest, const Rotor<T>& wrist_rest)
+{
+    return {parent_from_arm,
+            ~upper_from_arm,
+            fore_from_arm,
+            upper_from_arm * ~fore_from_arm,
+            times_blade<kI>(upper_from_arm) * ~fore_from_arm,
+            shoulder_rest,
+            elbow_rest,
+            wrist_rest};
+}
 
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_within(const T& x, double least, double most)
@@ -41,49 +59,60 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
     return is_valid(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
-// v_w, a vector of the world, in the arm frame: turned back by world_from_arm, a rotor of any length, and divided by
-// the scale.
+// A goal in the world as the parent's frame sees it: turned back by the parent's rotation. Instead of taking its length
+// and the scale off the target, both go onto the bones; an arm of another size has the same pose.
 template <class T>
-struct IntoArm {
-    Rotor<T> arm_from_world;
-    T shrink;
-
-    SWIVEL_INLINE constexpr Vector<T> operator()(const Vector<T>& v_w) const
-    {
-        return shrink * sandwich(arm_from_world, v_w);
-    }
+struct SeenGoal {
+    ArmGoal<T> goal;
+    Mask<T> plain;  // the parent's numbers are so ordinary that a goal with plain ones has nothing bad in it
 };
 template <class T>
-SWIVEL_INLINE constexpr IntoArm<T> into_arm(const Rotor<T>& world_from_arm, const T& scale)
+SWIVEL_INLINE constexpr SeenGoal<T> seen_by(const ParentFrame<T>& parent, const ArmGoal<T>& goal_w,
+                                            const T& pole_is_point)
 {
-    return {~world_from_arm, T(1) / (len2(world_from_arm) * scale)};
+    const Turn<T> turn = turn_by(~parent.rotation);
+    const T size = parent.scale * turn.length2;
+    const Mask<T> plain = is_within(turn.length2, 0.5, 2) & (len2(parent.position) <= T(1e26)) &
+                          is_within(parent.scale, 1e-5, 1e5);
+    return {{turn(goal_w.wrist - parent.position), turn(goal_w.pole - pole_is_point * parent.position),
+             size * goal_w.upper, size * goal_w.fore},
+            plain};
 }
 
-// The joints' own local rotations; their rest where the input was bad. A straight arm along the rest bone is q_s = q_e
-// = 1.
+// The same for any numbers.
+template <class T>
+SWIVEL_INLINE constexpr ArmGoal<T> seen_by_any(const ParentFrame<T>& parent, const ArmGoal<T>& goal_w,
+                                               const T& pole_is_point)
+{
+    const Rotor<T> back = ~normalise(parent.rotation);
+    const T shrink = T(1) / parent.scale;
+    return {shrink * sandwich(back, goal_w.wrist - parent.position),
+            shrink * sandwich(back, goal_w.pole - pole_is_point * parent.position), goal_w.upper, goal_w.fore};
+}
+
+// The joints' own local rotations of a pose in the parent's frame. A straight arm along the rest bone is q_s = q_e = 1.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> shoulder_local(const Binding<T>& bind, const ArmPose<T>& pose)
 {
-    return select(pose.valid, bind.parent_from_arm * pose.shoulder * ~bind.upper_from_arm, bind.shoulder_rest);
+    return pose.shoulder * bind.arm_from_upper;
 }
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> elbow_local(const Binding<T>& bind, const ArmPose<T>& pose)
 {
-    return select(pose.valid, bind.upper_from_arm * elbow_rotor(pose) * ~bind.fore_from_arm, bind.elbow_rest);
+    return pose.cos_half * bind.elbow_straight - pose.sin_half * bind.elbow_hinge;
+}
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> wrist_local(const Binding<T>& bind, const Rotor<T>& wrist)
+{
+    return bind.fore_from_arm * wrist;
 }
 
 // q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to a wanted hand orientation in the
-// arm frame, which may have any length in 1e-18..1e18 where the pose is valid.
+// space of the pose, which may have any length in 1e-18..1e18.
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> wrist_rotor(const ArmPose<T>& pose, const Rotor<T>& hand_a)
+SWIVEL_INLINE constexpr Rotor<T> wrist_rotor(const ArmPose<T>& pose, const Rotor<T>& hand)
 {
-    const Rotor<T> one = rotor(T(0), T(0), T(0), T(1));
-    return normalise(~(pose.shoulder * elbow_rotor(pose)) * select(pose.valid, hand_a, one));
-}
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> wrist_local(const Binding<T>& bind, const ArmPose<T>& pose, const Rotor<T>& hand_a)
-{
-    return select(pose.valid, bind.fore_from_arm * wrist_rotor(pose, hand_a), bind.wrist_rest);
+    return normalise(~(pose.shoulder * elbow_rotor(pose)) * hand);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -43,9 +43,8 @@ struct Rows {
                         SWIVEL_INLINE_LAMBDA { return results + row_offset(lane, result_row_count(Features), row); },
                     value);
     }
-    SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& either) const
+    SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& q) const
     {
-        const Rotor<T> q = hemisphere(either);
         store(field, 0, q.template at<kI>());
         store(field, 1, q.template at<kJ>());
         store(field, 2, q.template at<kK>());
@@ -59,76 +58,166 @@ SWIVEL_INLINE Rotor<T> broadcast(const float (&q)[4])
     return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3]));
 }
 
+// What all steps of a run share.
+template <class T>
+struct Shared {
+    Binding<T> bind;
+    T pole_is_point;
+};
+
+constexpr bool has(std::uint32_t features, swivel_feature feature) { return features & feature; }
+
 template <class T, std::uint32_t Features>
-SWIVEL_INLINE void solve_step(const Rows<T, Features>& rows, const Binding<T>& bind, const T& pole_is_point)
+SWIVEL_INLINE ArmGoal<T> load_goal(const Rows<T, Features>& rows)
 {
-    constexpr bool world = Features & SWIVEL_WORLD, joints = Features & SWIVEL_JOINTS,
-                   with_hand = Features & SWIVEL_WITH_HAND;
-    const Rotor<T> one = rotor(T(0), T(0), T(0), T(1));
+    return {rows.load_vector(SWIVEL_TARGET), rows.load_vector(SWIVEL_POLE), rows.load(SWIVEL_LENGTHS, 0),
+            rows.load(SWIVEL_LENGTHS, 1)};
+}
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE ParentFrame<T> load_parent(const Rows<T, Features>& rows)
+{
+    return {rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
+            rows.load(SWIVEL_PARENT_SCALE, 0)};
+}
 
-    ArmGoal<T> goal{rows.load_vector(SWIVEL_TARGET), rows.load_vector(SWIVEL_POLE), rows.load(SWIVEL_LENGTHS, 0),
-                    rows.load(SWIVEL_LENGTHS, 1)};
-    Mask<T> good = T(0) == T(0);
-    Rotor<T> world_from_arm = one;
-    if constexpr (world) {
-        const ParentFrame<T> parent{rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
-                                    rows.load(SWIVEL_PARENT_SCALE, 0)};
-        good = good & is_valid(parent) & (len2(goal.wrist) <= T(kHuge2)) & (len2(goal.pole) <= T(kHuge2));
-        world_from_arm = parent.rotation;
-        if constexpr (joints) world_from_arm = parent.rotation * bind.parent_from_arm;
-        const IntoArm<T> into = into_arm(world_from_arm, parent.scale);
-        goal.wrist = into(goal.wrist - parent.position);
-        goal.pole = into(goal.pole - pole_is_point * parent.position);
-    }
-    Rotor<T> hand = one;
-    if constexpr (with_hand) {
-        hand = rows.load_rotor(SWIVEL_HAND);
-        good = good & is_valid(hand);
-    }
+// The wanted hand orientations in the space of the poses; the identity in crowds without hands.
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE Rotor<T> load_hand(const Rows<T, Features>& rows)
+{
+    if constexpr (!has(Features, SWIVEL_WITH_HAND))
+        return rotor(T(0), T(0), T(0), T(1));
+    else if constexpr (has(Features, SWIVEL_WORLD))
+        return ~rows.load_rotor(SWIVEL_PARENT_ROTATION) * rows.load_rotor(SWIVEL_HAND);
+    else
+        return rows.load_rotor(SWIVEL_HAND);
+}
 
-    const ArmPose<T> pose = solve_arm(goal, good);
+// The goals as the formula takes them, and where their other numbers are plain too.
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE SeenGoal<T> seen_goal(const Rows<T, Features>& rows, const Shared<T>& shared)
+{
+    SeenGoal<T> seen{load_goal(rows), T(0) == T(0)};
+    if constexpr (has(Features, SWIVEL_WORLD)) seen = seen_by(load_parent(rows), seen.goal, shared.pole_is_point);
+    if constexpr (has(Features, SWIVEL_WITH_HAND)) seen.plain = seen.plain & is_valid(rows.load_rotor(SWIVEL_HAND));
+    return seen;
+}
 
-    if constexpr (joints) {
-        rows.store_rotor(SWIVEL_SHOULDER, shoulder_local(bind, pose));
-        rows.store_rotor(SWIVEL_ELBOW, elbow_local(bind, pose));
-    } else {
-        rows.store_rotor(SWIVEL_SHOULDER, pose.shoulder);
+// The rotations of a pose, as the features want them.
+template <class T>
+struct Rotations {
+    Rotor<T> shoulder, elbow, wrist;  // elbow: with JOINTS; wrist: with a hand
+};
+template <std::uint32_t Features, class T>
+SWIVEL_INLINE Rotations<T> rotations_of(const ArmPose<T>& pose, const Shared<T>& shared, const Rotor<T>& hand)
+{
+    constexpr bool world = has(Features, SWIVEL_WORLD), joints = has(Features, SWIVEL_JOINTS);
+    Rotations<T> q;
+    q.shoulder = pose.shoulder;
+    if constexpr (joints) q.shoulder = shoulder_local(shared.bind, pose);
+    if constexpr (joints && !world) q.shoulder = shared.bind.parent_from_arm * q.shoulder;
+    if constexpr (joints) q.elbow = elbow_local(shared.bind, pose);
+    if constexpr (has(Features, SWIVEL_WITH_HAND)) q.wrist = wrist_rotor(pose, hand);
+    if constexpr (joints && has(Features, SWIVEL_WITH_HAND)) q.wrist = wrist_local(shared.bind, q.wrist);
+    return q;
+}
+// Calls each(field, rotation) for those that there are.
+template <std::uint32_t Features, class T, class Each>
+SWIVEL_INLINE void for_each_rotation(const Rotations<T>& q, Each each)
+{
+    each(SWIVEL_SHOULDER, q.shoulder);
+    if constexpr (has(Features, SWIVEL_JOINTS)) each(SWIVEL_ELBOW, q.elbow);
+    if constexpr (has(Features, SWIVEL_WITH_HAND)) each(SWIVEL_WRIST, q.wrist);
+}
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE void store_rest(const Rows<T, Features>& rows, const ArmPose<T>& pose)
+{
+    if constexpr (!has(Features, SWIVEL_JOINTS)) {
         rows.store(SWIVEL_ELBOW, 0, pose.cos_half);
         rows.store(SWIVEL_ELBOW, 1, pose.sin_half);
-    }
-    if constexpr (with_hand) {
-        const Rotor<T> hand_a = ~world_from_arm * hand;
-        if constexpr (joints)
-            rows.store_rotor(SWIVEL_WRIST, wrist_local(bind, pose, hand_a));
-        else
-            rows.store_rotor(SWIVEL_WRIST, wrist_rotor(pose, hand_a));
     }
     rows.store(SWIVEL_FLAGS, 0, pose.flags);
 }
 
-// Solves whole steps from limb on; returns the first limb it left. A function of its own for each T, so that its
+// Solves a step of plain arms; false if one of them is not, or lies half a turn away: then its results mean nothing.
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE bool solve_plain_step(const Rows<T, Features>& rows, const Shared<T>& shared)
+{
+    const SeenGoal<T> seen = seen_goal(rows, shared);
+    const PlainArm<T> arm = solve_plain(seen.goal);
+    Mask<T> holds = arm.holds;
+    if constexpr (has(Features, SWIVEL_WORLD) || has(Features, SWIVEL_WITH_HAND)) holds = holds & seen.plain;
+    for_each_rotation<Features>(rotations_of<Features>(arm.pose, shared, load_hand(rows)),
+                                [&](swivel_field field, const Rotor<T>& q) SWIVEL_INLINE_LAMBDA {
+                                    const T w = q.template at<kScalar>();
+                                    holds = holds & (abs(w) > T(0));
+                                    rows.store_rotor(field, with_sign_of(w, q));
+                                });
+    store_rest(rows, arm.pose);
+    return all(holds);
+}
+
+// Solves a step of any arms: plain ones to the same bits.
+template <class T, std::uint32_t Features>
+SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Features> rows, const Shared<T>& shared)
+{
+    constexpr bool world = has(Features, SWIVEL_WORLD);
+    const SeenGoal<T> seen = seen_goal(rows, shared);
+    ArmGoal<T> asked = load_goal(rows);
+    Mask<T> good = T(0) == T(0);
+    ArmAxes<T> axes = arm_axes<T>();
+    if constexpr (world) {
+        const ParentFrame<T> parent = load_parent(rows);
+        good = is_valid(parent) & (len2(asked.wrist) <= T(kHuge2)) & (len2(asked.pole) <= T(kHuge2));
+        asked = seen_by_any(parent, asked, shared.pole_is_point);
+    }
+    if constexpr (world && has(Features, SWIVEL_JOINTS)) {
+        const Turn<T> turn = turn_by(shared.bind.parent_from_arm);
+        axes = {turn.e1, turn.e2, turn.e3};
+    }
+    if constexpr (has(Features, SWIVEL_WITH_HAND)) good = good & is_valid(rows.load_rotor(SWIVEL_HAND));
+
+    const Mask<T> holds = solve_plain(seen.goal).holds & seen.plain;
+    const ArmPose<T> pose = solve_any(seen.goal, holds, asked, good, axes);
+    const Rotor<T> one = rotor(T(0), T(0), T(0), T(1));
+    const Rotations<T> q = rotations_of<Features>(pose, shared, select(pose.valid, load_hand(rows), one));
+    for_each_rotation<Features>(q, [&](swivel_field field, const Rotor<T>& each) SWIVEL_INLINE_LAMBDA {
+        const Rotor<T> rest = !has(Features, SWIVEL_JOINTS) ? one
+                              : field == SWIVEL_SHOULDER    ? shared.bind.shoulder_rest
+                              : field == SWIVEL_ELBOW       ? shared.bind.elbow_rest
+                                                            : shared.bind.wrist_rest;
+        rows.store_rotor(field, hemisphere(select(pose.valid, each, rest)));
+    });
+    store_rest(rows, pose);
+}
+
+// Solves whole steps from block on; returns the first block it left. A function of its own for each T, so that its
 // constants do not take registers from another's loop.
 template <class T, std::uint32_t Features>
-SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_steps(const SolveRun& run, std::size_t limb)
+SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block)
 {
+    constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > SWIVEL_LANES ? lanes / SWIVEL_LANES : 1;
     const swivel_binding& b = *run.binding;
-    const Binding<T> bind{broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm),
-                          broadcast<T>(b.fore_from_arm),   broadcast<T>(b.shoulder_rest),
-                          broadcast<T>(b.elbow_rest),      broadcast<T>(b.wrist_rest)};
-    const T pole_is_point(run.pole_is_point);
-    const std::size_t limb_count = std::size_t{run.block_count} * SWIVEL_LANES;
-    for (; limb + lane_count<T> <= limb_count; limb += lane_count<T>)
-        solve_step(Rows<T, Features>{run.input + row_offset(limb, input_row_count(Features), 0),
-                                     run.results + row_offset(limb, result_row_count(Features), 0)},
-                   bind, pole_is_point);
-    return limb;
+    const Shared<T> shared{
+        binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
+                broadcast<T>(b.shoulder_rest), broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
+        T(run.pole_is_point)};
+    for (; block + blocks <= run.block_count; block += blocks)
+        for (std::uint32_t lane = 0; lane < SWIVEL_LANES; lane += lanes) {
+            const std::size_t limb = std::size_t{block} * SWIVEL_LANES;
+            const Rows<T, Features> rows{run.input + row_offset(limb, input_row_count(Features), 0) + lane,
+                                         run.results + row_offset(limb, result_row_count(Features), 0) + lane};
+            if (!solve_plain_step(rows, shared)) [[unlikely]]
+                solve_any_step(rows, shared);
+        }
+    return block;
 }
 
 // Steps of several registers, then the rest with one: the same formula, the same bits.
 template <std::uint32_t Features>
 void solve(const SolveRun& run)
 {
-    const std::size_t done = solve_steps<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0);
+    const std::uint32_t done =
+        solve_steps<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0);
     solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
 }
 

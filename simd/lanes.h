@@ -23,6 +23,14 @@ struct Lanes {
     Batch r[Registers];
 
     Lanes() = default;
+    // Register by register: as one piece of memory, g++ would carry copies of arrays of these through general
+    // registers.
+    SWIVEL_INLINE Lanes(const Lanes& other) { *this = other; }
+    SWIVEL_INLINE Lanes& operator=(const Lanes& other)
+    {
+        for (int n = 0; n < Registers; ++n) r[n].data = other.r[n].data;
+        return *this;
+    }
     explicit Lanes(double x)
     {
         for (Batch& b : r) b = Batch(static_cast<float>(x));
@@ -36,7 +44,14 @@ struct LanesMask {
 // 32-bit words, kept in registers of floats: they are only selected, or-ed and stored, which leaves bits as they are.
 template <class Arch, int Registers>
 struct LanesBits {
-    xsimd::batch<float, Arch> r[Registers];
+    using Batch = xsimd::batch<float, Arch>;
+    Batch r[Registers];
+
+    LanesBits() = default;
+    explicit LanesBits(std::uint32_t word)
+    {
+        for (Batch& b : r) b = Batch(std::bit_cast<float>(word));
+    }
 };
 
 template <class Arch, int Registers>
@@ -120,6 +135,14 @@ SWIVEL_INLINE Lanes<A, R> flip_sign(const Lanes<A, R>& a, const Lanes<A, R>& sig
 }
 
 template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> power_of_two(const Lanes<A, R>& a)
+{
+    using Batch = xsimd::batch<float, A>;
+    const Batch exponent(std::bit_cast<float>(0x7f800000u));
+    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] & exponent; });
+}
+
+template <class A, int R>
 SWIVEL_INLINE LanesMask<A, R> operator&(const LanesMask<A, R>& a, const LanesMask<A, R>& b)
 {
     return each_register<LanesMask<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] & b.r[n]; });
@@ -175,12 +198,15 @@ SWIVEL_INLINE LanesBits<A, R> operator|(const LanesBits<A, R>& a, const LanesBit
     return each_register<LanesBits<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] | b.r[n]; });
 }
 template <class A, int R>
-SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint32_t bits)
+SWIVEL_INLINE LanesBits<A, R> select(const LanesMask<A, R>& mask, const LanesBits<A, R>& a, const LanesBits<A, R>& b)
 {
-    using Batch = xsimd::batch<float, A>;
-    const Batch word(std::bit_cast<float>(bits)), none(0.0f);
-    return each_register<LanesBits<A, R>>([&](std::size_t n)
-                                              SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], word, none); });
+    return each_register<LanesBits<A, R>>(
+        [&](std::size_t n) SWIVEL_INLINE_LAMBDA { return xsimd::select(mask.r[n], a.r[n], b.r[n]); });
+}
+template <class A, int R>
+SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint32_t word)
+{
+    return select(mask, LanesBits<A, R>(word), LanesBits<A, R>(0u));
 }
 
 // How many lanes a number has, and moving them in and out of rows. address(lane) gives the place of a lane; the lanes

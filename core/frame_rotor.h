@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// The rotor that lays a frame along a line: steps 3 to 5 of the lecture (pipeline.h), the middle line and the twist
+// about it, in forms that cannot cancel and take lines and normals of any length. Source: D. Hildenbrand, Inverse
+// Kinematics of a Virtual Character (TU Darmstadt, 2019).
+#pragma once
+
+#include "core/conformal.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A line along -e3 has no middle line to e3. So the frame starts from e3 or -e3, whichever is nearer to the line: from
+// -e3 it is first turned by pi about e1.
+template <class T>
+struct FrameRotor {
+    Rotor<T> from_start;         // carries the start to the line and e1 to the normal; of any length
+    T middle_half2, twist_len2;  // half the squared length of its middle line, and the squared length of its twist
+    T start;                     // only its sign counts: e3's
+};
+
+// line: of this length, per_length2 = 1 / length^2. normal: orthogonal to it but for rounding, of this length, not
+// zero.
+template <class T>
+SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, const T& length, const T& per_length2,
+                                                       const Vector<T>& normal, const T& normal_length)
+{
+    // Steps 3 and 4: the middle line between the start and the line, here of squared length 2 length height.
+    const T start = line.template at<kE3>(), height = length + abs(start);
+    const Vector<T> middle = part<blades(kE1, kE2)>(line) + copysign(height, start) * unit<T, kE3>();
+
+    // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of
+    // e1, e2: n' ~ c e1 + s e2. Here all is times height / length^2.
+    const Vector<T> n = per_length2 * normal;
+    const T along = flip_sign(n.template at<kE3>(), start);  // n.m / length, as n is orthogonal to the line
+    const T c = along * line.template at<kE1>() - height * n.template at<kE1>();
+    const T s = along * line.template at<kE2>() - height * n.template at<kE2>();
+    const T spread = (per_length2 * normal_length) * height;  // sqrt(c^2 + s^2), at hand before they are
+
+    // Half the turn from e1 to n', along spread + c and s k, or for obtuse turns along s and (spread - c) k.
+    const T large = spread + abs(c);
+    const Mask<T> obtuse = c < T(0);
+    const auto twist = select(obtuse, s, large) * unit<T, kScalar>() + select(obtuse, large, s) * unit<T, kK>();
+
+    return {central_line(middle) * twist, length * height, large * large + s * s, start};
+}
+
+// The rotor of unit length that carries e3 to the line and e1 to a normal orthogonal to it, both of any length.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector<T>& normal)
+{
+    const T length2 = len2(line);
+    const FrameRotor<T> frame = frame_from_start(line, sqrt(length2), T(1) / length2, normal, sqrt(len2(normal)));
+    const Rotor<T> q = (T(1) / sqrt((frame.middle_half2 + frame.middle_half2) * frame.twist_len2)) * frame.from_start;
+    return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(q), q);
+}
+
+}  // namespace swivel::inline SWIVEL_ISA
