@@ -66,6 +66,13 @@ SWIVEL_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
     return (T(1) / sqrt(len2(m))) * m;
 }
 
+// The sum of the sizes of a vector's components: 1 to 1.74 times its length, and cheaper.
+template <class T>
+SWIVEL_INLINE constexpr T length1(const Vector<T>& v)
+{
+    return abs(v.template at<kE1>()) + abs(v.template at<kE2>()) + abs(v.template at<kE3>());
+}
+
 // The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf, which is the
 // Euclidean dual of b ^ a.
 template <class T, BladeSet A, BladeSet B>

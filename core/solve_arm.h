@@ -48,10 +48,8 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
     const Rotor<T> shoulder = (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * lift);
 
     // It holds for numbers whose squares and products stay normal floats, for poles off the line, and for bones of
-    // which neither swallows the other. pole1 is 1 to 1.7 times the pole's length.
-    const T pole1 =
-        abs(goal.pole.template at<kE1>()) + abs(goal.pole.template at<kE2>()) + abs(goal.pole.template at<kE3>());
-    const T far = goal.upper + goal.fore, shortest2 = far - abs(goal.upper - goal.fore);
+    // which neither swallows the other.
+    const T pole1 = length1(goal.pole), far = goal.upper + goal.fore, shortest2 = far - abs(goal.upper - goal.fore);
     const Mask<T> holds = (lo(lo(wrist2, pole1), lo(shortest2, half2)) >= T(kPlainLeast)) &
                           ((wrist2 + pole1) + far <= T(kPlainMost)) & (normal_length > T(kPoleOff) * (length * pole1));
     return {{shoulder, triangle.cos_half, triangle.sin_half,

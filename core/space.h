@@ -72,8 +72,8 @@ SWIVEL_INLINE constexpr SeenGoal<T> seen_by(const ParentFrame<T>& parent, const 
 {
     const Turn<T> turn = turn_by(~parent.rotation);
     const T size = parent.scale * turn.length2;
-    const Mask<T> plain = is_within(turn.length2, 0.5, 2) & (len2(parent.position) <= T(1e26)) &
-                          is_within(parent.scale, 1e-5, 1e5);
+    const Mask<T> plain =
+        is_within(turn.length2, 0.5, 2) & (length1(parent.position) <= T(1e13)) & is_within(parent.scale, 1e-5, 1e5);
     return {{turn(goal_w.wrist - parent.position), turn(goal_w.pole - pole_is_point * parent.position),
              size * goal_w.upper, size * goal_w.fore},
             plain};

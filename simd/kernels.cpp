@@ -120,14 +120,6 @@ SWIVEL_INLINE Rotations<T> rotations_of(const ArmPose<T>& pose, const Shared<T>&
     if constexpr (joints && has(Features, SWIVEL_WITH_HAND)) q.wrist = wrist_local(shared.bind, q.wrist);
     return q;
 }
-// Calls each(field, rotation) for those that there are.
-template <std::uint32_t Features, class T, class Each>
-SWIVEL_INLINE void for_each_rotation(const Rotations<T>& q, Each each)
-{
-    each(SWIVEL_SHOULDER, q.shoulder);
-    if constexpr (has(Features, SWIVEL_JOINTS)) each(SWIVEL_ELBOW, q.elbow);
-    if constexpr (has(Features, SWIVEL_WITH_HAND)) each(SWIVEL_WRIST, q.wrist);
-}
 template <class T, std::uint32_t Features>
 SWIVEL_INLINE void store_rest(const Rows<T, Features>& rows, const ArmPose<T>& pose)
 {
@@ -138,29 +130,38 @@ SWIVEL_INLINE void store_rest(const Rows<T, Features>& rows, const ArmPose<T>& p
     rows.store(SWIVEL_FLAGS, 0, pose.flags);
 }
 
-// Solves a step of plain arms; false if one of them is not, or lies half a turn away: then its results mean nothing.
+// Stores a rotation as its quaternion with w > 0; false where w is 0, or NaN: then it means nothing.
 template <class T, std::uint32_t Features>
-SWIVEL_INLINE bool solve_plain_step(const Rows<T, Features>& rows, const Shared<T>& shared)
+SWIVEL_INLINE Mask<T> store_plain(const Rows<T, Features>& rows, swivel_field field, const Rotor<T>& q)
 {
+    const T w = q.template at<kScalar>();
+    rows.store_rotor(field, with_sign_of(w, q));
+    return abs(w) > T(0);
+}
+
+// Solves a step of plain arms. False for arms that are not, or lie half a turn away: then their results mean nothing.
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE Mask<T> solve_plain_step(const Rows<T, Features>& rows, const Shared<T>& shared)
+{
+    constexpr bool world = has(Features, SWIVEL_WORLD), joints = has(Features, SWIVEL_JOINTS),
+                   with_hand = has(Features, SWIVEL_WITH_HAND);
     const SeenGoal<T> seen = seen_goal(rows, shared);
     const PlainArm<T> arm = solve_plain(seen.goal);
-    Mask<T> holds = arm.holds;
-    if constexpr (has(Features, SWIVEL_WORLD) || has(Features, SWIVEL_WITH_HAND)) holds = holds & seen.plain;
-    for_each_rotation<Features>(rotations_of<Features>(arm.pose, shared, load_hand(rows)),
-                                [&](swivel_field field, const Rotor<T>& q) SWIVEL_INLINE_LAMBDA {
-                                    const T w = q.template at<kScalar>();
-                                    holds = holds & (abs(w) > T(0));
-                                    rows.store_rotor(field, with_sign_of(w, q));
-                                });
+    const Rotations<T> q = rotations_of<Features>(arm.pose, shared, load_hand(rows));
     store_rest(rows, arm.pose);
-    return all(holds);
+    Mask<T> holds = arm.holds & store_plain(rows, SWIVEL_SHOULDER, q.shoulder);
+    if constexpr (joints) holds = holds & store_plain(rows, SWIVEL_ELBOW, q.elbow);
+    if constexpr (with_hand) holds = holds & store_plain(rows, SWIVEL_WRIST, q.wrist);
+    if constexpr (world || with_hand) holds = holds & seen.plain;
+    return holds;
 }
 
 // Solves a step of any arms: plain ones to the same bits.
 template <class T, std::uint32_t Features>
 SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Features> rows, const Shared<T>& shared)
 {
-    constexpr bool world = has(Features, SWIVEL_WORLD);
+    constexpr bool world = has(Features, SWIVEL_WORLD), joints = has(Features, SWIVEL_JOINTS),
+                   with_hand = has(Features, SWIVEL_WITH_HAND);
     const SeenGoal<T> seen = seen_goal(rows, shared);
     ArmGoal<T> asked = load_goal(rows);
     Mask<T> good = T(0) == T(0);
@@ -170,23 +171,22 @@ SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Fe
         good = is_valid(parent) & (len2(asked.wrist) <= T(kHuge2)) & (len2(asked.pole) <= T(kHuge2));
         asked = seen_by_any(parent, asked, shared.pole_is_point);
     }
-    if constexpr (world && has(Features, SWIVEL_JOINTS)) {
+    if constexpr (world && joints) {
         const Turn<T> turn = turn_by(shared.bind.parent_from_arm);
         axes = {turn.e1, turn.e2, turn.e3};
     }
-    if constexpr (has(Features, SWIVEL_WITH_HAND)) good = good & is_valid(rows.load_rotor(SWIVEL_HAND));
+    if constexpr (with_hand) good = good & is_valid(rows.load_rotor(SWIVEL_HAND));
 
     const Mask<T> holds = solve_plain(seen.goal).holds & seen.plain;
     const ArmPose<T> pose = solve_any(seen.goal, holds, asked, good, axes);
     const Rotor<T> one = rotor(T(0), T(0), T(0), T(1));
     const Rotations<T> q = rotations_of<Features>(pose, shared, select(pose.valid, load_hand(rows), one));
-    for_each_rotation<Features>(q, [&](swivel_field field, const Rotor<T>& each) SWIVEL_INLINE_LAMBDA {
-        const Rotor<T> rest = !has(Features, SWIVEL_JOINTS) ? one
-                              : field == SWIVEL_SHOULDER    ? shared.bind.shoulder_rest
-                              : field == SWIVEL_ELBOW       ? shared.bind.elbow_rest
-                                                            : shared.bind.wrist_rest;
+    const auto store = [&](swivel_field field, const Rotor<T>& each, const Rotor<T>& rest) SWIVEL_INLINE_LAMBDA {
         rows.store_rotor(field, hemisphere(select(pose.valid, each, rest)));
-    });
+    };
+    store(SWIVEL_SHOULDER, q.shoulder, joints ? shared.bind.shoulder_rest : one);
+    if constexpr (joints) store(SWIVEL_ELBOW, q.elbow, shared.bind.elbow_rest);
+    if constexpr (with_hand) store(SWIVEL_WRIST, q.wrist, joints ? shared.bind.wrist_rest : one);
     store_rest(rows, pose);
 }
 
@@ -201,14 +201,18 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
         binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
                 broadcast<T>(b.shoulder_rest), broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
         T(run.pole_is_point)};
-    for (; block + blocks <= run.block_count; block += blocks)
+    const std::size_t from = std::size_t{block} * SWIVEL_LANES, step = blocks * SWIVEL_LANES;
+    const float* input = run.input + row_offset(from, input_row_count(Features), 0);
+    float* results = run.results + row_offset(from, result_row_count(Features), 0);
+    for (; block + blocks <= run.block_count; block += blocks) {
         for (std::uint32_t lane = 0; lane < SWIVEL_LANES; lane += lanes) {
-            const std::size_t limb = std::size_t{block} * SWIVEL_LANES;
-            const Rows<T, Features> rows{run.input + row_offset(limb, input_row_count(Features), 0) + lane,
-                                         run.results + row_offset(limb, result_row_count(Features), 0) + lane};
-            if (!solve_plain_step(rows, shared)) [[unlikely]]
+            const Rows<T, Features> rows{input + lane, results + lane};
+            if (!all(solve_plain_step(rows, shared))) [[unlikely]]
                 solve_any_step(rows, shared);
         }
+        input += row_offset(step, input_row_count(Features), 0);
+        results += row_offset(step, result_row_count(Features), 0);
+    }
     return block;
 }
 
