@@ -21,15 +21,16 @@ inline namespace SWIVEL_ISA {
 
 // Vectors are no longer than kHuge; a shorter one than kTiny counts as zero.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
-// Between these are the bones, poles, squared wrists and their product of ordinary arms: nothing in the formula then
-// leaves the normal floats.
-inline constexpr double kPlainLeast = 1e-12, kPlainMost = 1e9;
+// Between these are the bones, poles and squared wrists of ordinary arms: nothing in the formula leaves the normal
+// floats.
+inline constexpr double kPlainLeast = 1e-9, kPlainMost = 1e9;
 // The sine of a pole's angle to the target's line: a closer one does not say where the elbow goes, its digits are
 // noise.
 inline constexpr double kPoleOff = 1e-3;
-// In arm lengths: a shorter bone is lost in the digits of the other; no wrist comes nearer to the shoulder; as far away
-// is a pole put that such a wrist's products with it stay normal floats.
-inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9, kPoleAway = 1e6;
+// In arm lengths: a shorter bone is lost in the digits of the other; no wrist comes nearer to the shoulder; a wrist
+// this far away is out of reach; and so far away is a pole put that even the nearest wrist's products with it stay
+// normal floats.
+inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9, kOutOfReach = 4, kPoleAway = 1e6;
 
 template <class T>
 struct ArmGoal {
