@@ -137,6 +137,35 @@ TEST_CASE("wrong arguments are refused and change nothing")
     CHECK(passed == 5);
 }
 
+TEST_CASE("errors name group and field")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    Crowd crowd(0, groups);
+    swivel_crowd* const c = crowd.get();
+    float value[4] = {};
+    double doubles[4] = {};
+    const swivel_out none{};
+    const auto says = [](swivel_status status, const std::string& line) {
+        CHECK(status == SWIVEL_INVALID_ARGUMENT);
+        CHECK(swivel_last_error() == line);
+    };
+    says(swivel_write(c, SWIVEL_TARGET, 1, 0, 1, {value, 4}),
+         "group 1, target: stride 4 is smaller than a value, 12 bytes");
+    says(swivel_write(c, SWIVEL_POLE, 0, 0, 1, {nullptr, 12}), "group 0, pole: data is null");
+    says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
+         "group 1, parent_scale: not part of this crowd; create it with SWIVEL_WORLD");
+    says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
+    says(swivel_write(c, SWIVEL_FIELD_COUNT, 0, 0, 1, {value, 0}), "there is no field 11");
+    says(swivel_read(c, SWIVEL_WRIST, 0, 0, 1, {value, 16}),
+         "group 0, wrist: not part of this crowd; create it with SWIVEL_WITH_HAND");
+    says(swivel_read(c, SWIVEL_ELBOW, 0, 0, 1, {value, 0}),
+         "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
+    says(swivel_read(c, static_cast<swivel_field>(15), 0, 0, 1, {value, 16}), "there is no field 15");
+    says(swivel_forward(c, 1, 0, 1, none, {doubles, 8}, none),
+         "group 1, wrist: stride 8 is smaller than a value, 24 bytes");
+    says(swivel_residuals(c, 1, 0, 1, none), "group 1, distance: data is null");
+}
+
 TEST_CASE("ranges of no limbs are allowed")
 {
     Crowd crowd = crowd_of(0, 20);
