@@ -105,18 +105,6 @@ swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swive
     return check_stride(group, name, data, stride, component_count * sizeof(float), input);
 }
 
-RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t first,
-                std::uint32_t limb_count)
-{
-    const bool input = is_input(field);
-    return {input ? crowd.input : crowd.results,
-            input ? crowd.input_row_count : crowd.result_row_count,
-            field_first_row(crowd.features, field),
-            field_row_count(crowd.features, field),
-            std::size_t{crowd.groups[group].first_block} * SWIVEL_LANES + first,
-            limb_count};
-}
-
 // The kernels to solve with; or null, with the reason in status and last_error().
 const Isa* usable_isa(swivel_status& status)
 {
@@ -245,7 +233,7 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t gro
     if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, true);
         status != SWIVEL_OK)
         return status;
-    copy_in(span_of(*crowd, field, group, first, limb_count), values);
+    copy_in(span_of(*crowd, crowd->groups[group], field, first, limb_count), values);
     return SWIVEL_OK;
 }
 
@@ -256,7 +244,7 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
     if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, false);
         status != SWIVEL_OK)
         return status;
-    copy_out(span_of(*crowd, field, group, first, limb_count), values);
+    copy_out(span_of(*crowd, crowd->groups[group], field, first, limb_count), values);
     return SWIVEL_OK;
 }
 

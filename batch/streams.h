@@ -14,6 +14,10 @@ struct RowSpan {
     std::size_t first_limb, limb_count;
 };
 
+// The field's rows of limbs first ... first + limb_count - 1 of the group.
+RowSpan span_of(const swivel_crowd& crowd, const Group& group, swivel_field field, std::uint32_t first,
+                std::uint32_t limb_count);
+
 void copy_in(const RowSpan& rows, const swivel_in& values);
 void copy_out(const RowSpan& rows, const swivel_out& values);
 
