@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "batch/edge.h"
+#include "batch/frame.h"
 #include "batch/rig.h"
 #include "batch/solve.h"
 #include "batch/status.h"
@@ -103,6 +104,34 @@ swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swive
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with %s", group, name,
                     field == SWIVEL_HAND || field == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
     return check_stride(group, name, data, stride, component_count * sizeof(float), input);
+}
+
+// A range of blocks, and the frames of the groups it touches: those of other groups are not looked at.
+swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, std::uint32_t first_block,
+                           std::uint32_t block_count)
+{
+    if (!frames)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frames are missing; give one for each of this crowd's %u groups",
+                    crowd.group_count);
+    swivel_status status = SWIVEL_OK;
+    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
+        const auto check_member = [&](swivel_field field, const auto& values) {
+            if (values.data && status == SWIVEL_OK)
+                status = check_values(crowd, g, field, values.data, values.stride, is_input(field));
+        };
+        for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
+        for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
+    });
+    return status;
+}
+
+swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
+        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
+                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
+    return SWIVEL_OK;
 }
 
 // The kernels to solve with; or null, with the reason in status and last_error().
@@ -233,7 +262,7 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t gro
     if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, true);
         status != SWIVEL_OK)
         return status;
-    copy_in(span_of(*crowd, crowd->groups[group], field, first, limb_count), values);
+    copy_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 
@@ -244,7 +273,7 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
     if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, false);
         status != SWIVEL_OK)
         return status;
-    copy_out(span_of(*crowd, crowd->groups[group], field, first, limb_count), values);
+    copy_out(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 
@@ -260,13 +289,34 @@ swivel_status swivel_solve(swivel_crowd* crowd)
 
 swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: crowd is null");
-    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: this crowd has %u blocks", crowd->block_count);
-    swivel_status status = SWIVEL_OK;
+    swivel_status status = check_blocks(crowd, first_block, block_count);
+    if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
     solve_blocks(*crowd, *isa->kernels, first_block, block_count);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_frame: crowd is null");
+    swivel_status status = check_frames(*crowd, frames, 0, crowd->block_count);
+    if (status != SWIVEL_OK) return status;
+    const Isa* isa = usable_isa(status);
+    if (!isa) return status;
+    solve_frame_all(*crowd, *isa->kernels, frames);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames, uint32_t first_block,
+                                        uint32_t block_count)
+{
+    swivel_status status = check_blocks(crowd, first_block, block_count);
+    if (status == SWIVEL_OK) status = check_frames(*crowd, frames, first_block, block_count);
+    if (status != SWIVEL_OK) return status;
+    const Isa* isa = usable_isa(status);
+    if (!isa) return status;
+    solve_frame_blocks(*crowd, *isa->kernels, frames, first_block, block_count);
     return SWIVEL_OK;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "batch/streams.h"
 
+#include <algorithm>
+
 #include "simd/rows.h"
 #include "simd/transpose.h"
 
@@ -8,74 +10,72 @@ namespace swivel {
 
 namespace {
 
-// Calls copy.one() or copy.four() with the place of the first component in the rows and the number of the first limb.
-template <class Copy>
-void for_each_limb(const RowSpan& rows, const Copy& copy)
-{
-    const auto lane = [&](std::size_t n) {
-        return rows.base + row_offset(rows.first_limb + n, rows.row_count, rows.first_row);
-    };
-    std::size_t n = 0;
-    for (; n < rows.limb_count && (rows.first_limb + n) % 4 != 0; ++n) copy.one(lane(n), n);
-    for (; n + 4 <= rows.limb_count; n += 4) copy.four(lane(n), n);
-    for (; n < rows.limb_count; ++n) copy.one(lane(n), n);
-}
-
 template <int C>
 struct In {
-    const char* data;
-    std::size_t stride;
-
-    void one(float* lane, std::size_t n) const { value_to_rows<C>(data + n * stride, lane); }
-    void four(float* lanes, std::size_t n) const { four_values_to_rows<C>(data + n * stride, stride, lanes); }
+    static void four(const char* values, std::size_t stride, float* lanes)
+    {
+        four_values_to_rows<C>(values, stride, lanes);
+    }
+    static void one(const char* value, float* lane) { value_to_rows<C>(value, lane); }
 };
 
 template <int C>
 struct Out {
-    char* data;
-    std::size_t stride;
-
-    void one(const float* lane, std::size_t n) const { value_from_rows<C>(lane, data + n * stride); }
-    void four(const float* lanes, std::size_t n) const { four_values_from_rows<C>(lanes, data + n * stride, stride); }
+    static void four(char* values, std::size_t stride, const float* lanes)
+    {
+        four_values_from_rows<C>(lanes, values, stride);
+    }
+    static void one(char* value, const float* lane) { value_from_rows<C>(lane, value); }
 };
 
+// Block by block, since the lanes of one block lie side by side.
+template <class Copy, class Byte>
+void copy_blocks(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
+{
+    float* const base = rows.base;  // the compiler cannot know that values do not overlap `rows`
+    const std::uint32_t row_count = rows.row_count;
+    for (std::size_t limb = first, end = first + limb_count; limb < end;) {
+        float* lanes = base + row_offset(limb, row_count, 0);
+        const std::size_t block_end = std::min(end, limb / SWIVEL_LANES * SWIVEL_LANES + SWIVEL_LANES);
+        for (; limb + 4 <= block_end; limb += 4, lanes += 4, values += 4 * stride) Copy::four(values, stride, lanes);
+        for (; limb < block_end; ++limb, ++lanes, values += stride) Copy::one(values, lanes);
+    }
+}
+
 template <template <int> class Copy, class Byte>
-void copy(const RowSpan& rows, Byte* data, std::size_t stride)
+void copy(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
 {
     switch (rows.component_count) {
         case 1:
-            return for_each_limb(rows, Copy<1>{data, stride});
+            return copy_blocks<Copy<1>>(rows, first, limb_count, values, stride);
         case 2:
-            return for_each_limb(rows, Copy<2>{data, stride});
+            return copy_blocks<Copy<2>>(rows, first, limb_count, values, stride);
         case 3:
-            return for_each_limb(rows, Copy<3>{data, stride});
+            return copy_blocks<Copy<3>>(rows, first, limb_count, values, stride);
         case 4:
-            return for_each_limb(rows, Copy<4>{data, stride});
+            return copy_blocks<Copy<4>>(rows, first, limb_count, values, stride);
     }
 }
 
 }  // namespace
 
-RowSpan span_of(const swivel_crowd& crowd, const Group& group, swivel_field field, std::uint32_t first,
-                std::uint32_t limb_count)
+FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field field)
 {
     const bool input = is_input(field);
-    return {input ? crowd.input : crowd.results,
-            input ? crowd.input_row_count : crowd.result_row_count,
-            field_first_row(crowd.features, field),
-            field_row_count(crowd.features, field),
-            std::size_t{group.first_block} * SWIVEL_LANES + first,
-            limb_count};
+    const std::uint32_t row_count = input ? crowd.input_row_count : crowd.result_row_count;
+    const std::size_t offset =
+        row_offset(std::size_t{group.first_block} * SWIVEL_LANES, row_count, field_first_row(crowd.features, field));
+    return {(input ? crowd.input : crowd.results) + offset, row_count, field_row_count(crowd.features, field)};
 }
 
-void copy_in(const RowSpan& rows, const swivel_in& values)
+void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
-    copy<In>(rows, static_cast<const char*>(values.data), values.stride);
+    copy<In>(rows, first, limb_count, static_cast<const char*>(values.data), values.stride);
 }
 
-void copy_out(const RowSpan& rows, const swivel_out& values)
+void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)
 {
-    copy<Out>(rows, static_cast<char*>(values.data), values.stride);
+    copy<Out>(rows, first, limb_count, static_cast<char*>(values.data), values.stride);
 }
 
 }  // namespace swivel

@@ -38,6 +38,12 @@ void value_from_rows(const float* lane, char* value)
 
 using Words = __m128i;
 inline Words load4(const void* from) { return _mm_loadu_si128(static_cast<const Words*>(from)); }
+inline Words load1(const void* from)
+{
+    int word;
+    std::memcpy(&word, from, sizeof word);
+    return _mm_cvtsi32_si128(word);
+}
 inline Words load2(const void* from) { return _mm_loadl_epi64(static_cast<const Words*>(from)); }
 inline void store4(void* to, Words w) { _mm_storeu_si128(static_cast<Words*>(to), w); }
 inline void store_low(void* to, Words w) { _mm_storel_epi64(static_cast<Words*>(to), w); }
@@ -49,6 +55,12 @@ inline Words zip_high(Words a, Words b) { return _mm_unpackhi_epi32(a, b); }
 
 using Words = uint32x4_t;  // loaded and stored as bytes, which may have any alignment
 inline Words load4(const void* from) { return vreinterpretq_u32_u8(vld1q_u8(static_cast<const std::uint8_t*>(from))); }
+inline Words load1(const void* from)
+{
+    std::uint32_t word;
+    std::memcpy(&word, from, sizeof word);
+    return vdupq_n_u32(word);
+}
 inline Words load2(const void* from)
 {
     const uint8x8_t low = vld1_u8(static_cast<const std::uint8_t*>(from));
@@ -90,9 +102,9 @@ void four_values_to_rows(const char* values, std::size_t stride, float* lanes)
         store4(lanes + SWIVEL_LANES, zip_high(ac, bd));
     }
     if constexpr (C % 2 == 1) {  // the last of one or three components
-        constexpr std::size_t c = C - 1;
-        const char* const last[] = {v0, v1, v2, v3};
-        for (int n = 0; n < 4; ++n) value_to_rows<1>(last[n] + c * sizeof(float), lanes + c * SWIVEL_LANES + n);
+        constexpr std::size_t byte = (C - 1) * sizeof(float);
+        const Words ac = zip_low(load1(v0 + byte), load1(v2 + byte)), bd = zip_low(load1(v1 + byte), load1(v3 + byte));
+        store4(lanes + (C - 1) * SWIVEL_LANES, zip_low(ac, bd));
     }
 }
 

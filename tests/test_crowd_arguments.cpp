@@ -4,7 +4,9 @@
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 
+#include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -229,6 +231,39 @@ TEST_CASE("results as joints need bindings of unit rotations")
         q[3] = 1;
     }
 }
+
+namespace {
+
+template <class Values>
+concept Writable = requires(Crowd& crowd, Values& values)
+{
+    crowd.write(SWIVEL_TARGET, 0, values);
+    crowd.read(SWIVEL_TARGET, 0, values);
+};
+template <class Value>
+concept WritableAll = requires(Crowd& crowd, const Value& value)
+{
+    crowd.write_all(SWIVEL_TARGET, 0, value);
+};
+
+struct Goal {
+    float target[3];
+    int other;
+};
+struct Owner {
+    std::string name;
+    float target[3];
+};
+
+static_assert(Writable<std::vector<float>> && Writable<std::vector<std::uint32_t>> && Writable<std::vector<Float3>>);
+static_assert(Writable<std::vector<Goal>> && Writable<std::span<Goal>> && Writable<float[3]> && Writable<float[3][4]>);
+static_assert(!Writable<std::vector<double>> && !Writable<std::vector<int>> && !Writable<double[3]>);
+static_assert(!Writable<std::vector<std::array<double, 3>>> && !Writable<double[3][4]> &&
+              !Writable<std::vector<Owner>>);
+static_assert(WritableAll<Float3> && WritableAll<float> && WritableAll<Goal> && WritableAll<float[3]>);
+static_assert(!WritableAll<double> && !WritableAll<std::array<double, 3>> && !WritableAll<int> && !WritableAll<Owner>);
+
+}  // namespace
 
 TEST_CASE("write_all checks the group and the value's size")
 {
