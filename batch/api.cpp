@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
+#include <tuple>
 
 #include "batch/edge.h"
+#include "batch/frame.h"
 #include "batch/rig.h"
 #include "batch/solve.h"
 #include "batch/status.h"
@@ -80,31 +81,57 @@ swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_
     return SWIVEL_OK;
 }
 
-swivel_status check_stride(const void* data, std::size_t stride, std::size_t value_bytes, bool may_repeat)
+swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
+                           std::size_t value_bytes, bool may_repeat)
 {
-    if (!data) return fail(SWIVEL_INVALID_ARGUMENT, "data is null");
+    if (!data) return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: data is null", group, name);
     if (stride < value_bytes && !(may_repeat && stride == 0))
-        return fail(SWIVEL_INVALID_ARGUMENT, "stride %zu is smaller than a value, %zu bytes", stride, value_bytes);
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: stride %zu is smaller than a value, %zu bytes", group, name,
+                    stride, value_bytes);
     return SWIVEL_OK;
 }
 
-swivel_status check_field(const swivel_crowd& crowd, swivel_field field)
+// The caller's values of a field, to be read if they are input.
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
+                           std::size_t stride, bool input)
 {
-    if (field_row_count(crowd.features, field) != 0) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "field %d is not part of this crowd; see the features it was created with",
-                static_cast<int>(field));
+    const char* const name = field_name(field);
+    if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
+    if (input && !is_input(field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
+    const std::uint32_t component_count = field_row_count(crowd.features, field);
+    if (component_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with %s", group, name,
+                    field == SWIVEL_HAND || field == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
+    return check_stride(group, name, data, stride, component_count * sizeof(float), input);
 }
 
-RowSpan span_of(const swivel_crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t first,
-                std::uint32_t limb_count)
+// A range of blocks, and the frames of the groups it touches: those of other groups are not looked at.
+swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, std::uint32_t first_block,
+                           std::uint32_t block_count)
 {
-    const bool input = is_input(field);
-    return {input ? crowd.input : crowd.results,
-            input ? crowd.input_row_count : crowd.result_row_count,
-            field_first_row(crowd.features, field),
-            field_row_count(crowd.features, field),
-            std::size_t{crowd.groups[group].first_block} * SWIVEL_LANES + first,
-            limb_count};
+    if (!frames)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frames are missing; give one for each of this crowd's %u groups",
+                    crowd.group_count);
+    swivel_status status = SWIVEL_OK;
+    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
+        const auto check_member = [&](swivel_field field, const auto& values) {
+            if (values.data && status == SWIVEL_OK)
+                status = check_values(crowd, g, field, values.data, values.stride, is_input(field));
+        };
+        for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
+        for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
+    });
+    return status;
+}
+
+swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
+        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
+                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
+    return SWIVEL_OK;
 }
 
 // The kernels to solve with; or null, with the reason in status and last_error().
@@ -232,16 +259,10 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t gro
                            swivel_in values)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (!is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "field %d is a result; swivel_write takes input fields",
-                    static_cast<int>(field));
-    if (const swivel_status status = check_field(*crowd, field); status != SWIVEL_OK) return status;
-    const RowSpan rows = span_of(*crowd, field, group, first, limb_count);
-    if (const swivel_status status =
-            check_stride(values.data, values.stride, rows.component_count * sizeof(float), true);
+    if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, true);
         status != SWIVEL_OK)
         return status;
-    copy_in(rows, values);
+    copy_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 
@@ -249,13 +270,10 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
                           uint32_t limb_count, swivel_out values)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_field(*crowd, field); status != SWIVEL_OK) return status;
-    const RowSpan rows = span_of(*crowd, field, group, first, limb_count);
-    if (const swivel_status status =
-            check_stride(values.data, values.stride, rows.component_count * sizeof(float), false);
+    if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, false);
         status != SWIVEL_OK)
         return status;
-    copy_out(rows, values);
+    copy_out(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 
@@ -271,13 +289,34 @@ swivel_status swivel_solve(swivel_crowd* crowd)
 
 swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: crowd is null");
-    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_blocks: this crowd has %u blocks", crowd->block_count);
-    swivel_status status = SWIVEL_OK;
+    swivel_status status = check_blocks(crowd, first_block, block_count);
+    if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
     solve_blocks(*crowd, *isa->kernels, first_block, block_count);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_frame: crowd is null");
+    swivel_status status = check_frames(*crowd, frames, 0, crowd->block_count);
+    if (status != SWIVEL_OK) return status;
+    const Isa* isa = usable_isa(status);
+    if (!isa) return status;
+    solve_frame_all(*crowd, *isa->kernels, frames);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames, uint32_t first_block,
+                                        uint32_t block_count)
+{
+    swivel_status status = check_blocks(crowd, first_block, block_count);
+    if (status == SWIVEL_OK) status = check_frames(*crowd, frames, first_block, block_count);
+    if (status != SWIVEL_OK) return status;
+    const Isa* isa = usable_isa(status);
+    if (!isa) return status;
+    solve_frame_blocks(*crowd, *isa->kernels, frames, first_block, block_count);
     return SWIVEL_OK;
 }
 
@@ -288,10 +327,12 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
     if (hand.data && !(crowd->features & SWIVEL_WITH_HAND))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
-    for (const auto& [out, bytes] :
-         {std::pair{elbow, 3 * sizeof(double)}, {wrist, 3 * sizeof(double)}, {hand, 4 * sizeof(double)}})
+    for (const auto& [name, out, component_count] :
+         {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
         if (out.data)
-            if (const swivel_status status = check_stride(out.data, out.stride, bytes, false); status != SWIVEL_OK)
+            if (const swivel_status status =
+                    check_stride(group, name, out.data, out.stride, component_count * sizeof(double), false);
+                status != SWIVEL_OK)
                 return status;
     const Group& of = crowd->groups[group];
     for (uint32_t n = 0; n < limb_count; ++n) {
@@ -307,7 +348,8 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
                                swivel_out distance)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_stride(distance.data, distance.stride, sizeof(double), false);
+    if (const swivel_status status =
+            check_stride(group, "distance", distance.data, distance.stride, sizeof(double), false);
         status != SWIVEL_OK)
         return status;
     const Group& of = crowd->groups[group];

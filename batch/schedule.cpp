@@ -14,7 +14,11 @@
 
 namespace swivel {
 
-void solve_all(const swivel_crowd& crowd, const Kernels& kernels)
+namespace {
+
+// Calls work(first_block, block_count) until all blocks are done.
+template <class Work>
+void in_chunks(const swivel_crowd& crowd, const Work& work)
 {
 #ifdef SWIVEL_WITH_TBB
     // Rows of an eighth of a level 2 cache of 1 MiB: some microseconds of work, several times what handing it over
@@ -27,14 +31,27 @@ void solve_all(const swivel_crowd& crowd, const Kernels& kernels)
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;
         // Of its own: a cancelled context of the caller's must not leave blocks out.
         oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
-        const auto work = [&](const Range& blocks) {
-            solve_blocks(crowd, kernels, blocks.begin(), blocks.end() - blocks.begin());
-        };
-        oneapi::tbb::parallel_for(Range(0, crowd.block_count, chunk), work, oneapi::tbb::auto_partitioner{}, context);
+        const auto on_range = [&](const Range& blocks) { work(blocks.begin(), blocks.end() - blocks.begin()); };
+        oneapi::tbb::parallel_for(Range(0, crowd.block_count, chunk), on_range, oneapi::tbb::auto_partitioner{},
+                                  context);
         return;
     }
 #endif
-    solve_blocks(crowd, kernels, 0, crowd.block_count);
+    work(std::uint32_t{0}, crowd.block_count);
+}
+
+}  // namespace
+
+void solve_all(const swivel_crowd& crowd, const Kernels& kernels)
+{
+    in_chunks(crowd, [&](std::uint32_t first, std::uint32_t count) { solve_blocks(crowd, kernels, first, count); });
+}
+
+void solve_frame_all(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames)
+{
+    in_chunks(crowd, [&](std::uint32_t first, std::uint32_t count) {
+        solve_frame_blocks(crowd, kernels, frames, first, count);
+    });
 }
 
 }  // namespace swivel

@@ -3,8 +3,6 @@
 // One run of blocks: which kernel, on which rows, with which binding.
 #include "batch/solve.h"
 
-#include <algorithm>
-
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -24,18 +22,19 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, std::uint32_t fir
 
 }  // namespace
 
+void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
+                 std::uint32_t block_count)
+{
+    kernels.solve[crowd.features & kFormulaFeatures](run_of(crowd, group, first_block, block_count));
+}
+
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
                   std::uint32_t block_count)
 {
     const FloatEnv env;
-    const auto solve = kernels.solve[crowd.features & kFormulaFeatures];
-    const std::uint32_t end_block = first_block + block_count;
-    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
-        const Group& group = crowd.groups[g];
-        const std::uint32_t from = std::max(first_block, group.first_block);
-        const std::uint32_t to = std::min(end_block, group.first_block + group.block_count);
-        if (from < to) solve(run_of(crowd, group, from, to - from));
-    }
+    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
+        solve_group(crowd, kernels, crowd.groups[g], first, count);
+    });
 }
 
 }  // namespace swivel

@@ -3,10 +3,29 @@
 // Solving runs of blocks, and cutting a crowd into chunks for threads.
 #pragma once
 
+#include <algorithm>
+
 #include "batch/crowd.h"
 #include "simd/kernels.h"
 
 namespace swivel {
+
+// Calls run(g, first_block, block_count) for each group's share of a range of blocks.
+template <class Run>
+void for_each_group(const swivel_crowd& crowd, std::uint32_t first_block, std::uint32_t block_count, const Run& run)
+{
+    const std::uint32_t end_block = first_block + block_count;
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        const Group& group = crowd.groups[g];
+        const std::uint32_t from = std::max(first_block, group.first_block);
+        const std::uint32_t to = std::min(end_block, group.first_block + group.block_count);
+        if (from < to) run(g, from, to - from);
+    }
+}
+
+// Solves blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv).
+void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
+                 std::uint32_t block_count);
 
 // Solves blocks first_block ... first_block + block_count - 1 on this thread.
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
@@ -14,5 +33,10 @@ void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32
 
 // Solves all blocks, in chunks on the caller's oneTBB arena, or on this thread in a build without oneTBB.
 void solve_all(const swivel_crowd& crowd, const Kernels& kernels);
+
+// The same, with the caller's values copied in before and out after, a frame for each group. Frames are checked.
+void solve_frame_blocks(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames,
+                        std::uint32_t first_block, std::uint32_t block_count);
+void solve_frame_all(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames);
 
 }  // namespace swivel

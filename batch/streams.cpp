@@ -1,40 +1,81 @@
 // SPDX-License-Identifier: MIT
 #include "batch/streams.h"
 
-#include <cstring>
+#include <algorithm>
 
 #include "simd/rows.h"
+#include "simd/transpose.h"
 
 namespace swivel {
 
 namespace {
 
-// Calls copy(address of the first component in the rows, limb) for each limb; components are SWIVEL_LANES floats apart.
-template <class Copy>
-void for_each_limb(const RowSpan& rows, Copy copy)
+template <int C>
+struct In {
+    static void four(const char* values, std::size_t stride, float* lanes)
+    {
+        four_values_to_rows<C>(values, stride, lanes);
+    }
+    static void one(const char* value, float* lane) { value_to_rows<C>(value, lane); }
+};
+
+template <int C>
+struct Out {
+    static void four(char* values, std::size_t stride, const float* lanes)
+    {
+        four_values_from_rows<C>(lanes, values, stride);
+    }
+    static void one(char* value, const float* lane) { value_from_rows<C>(lane, value); }
+};
+
+// Block by block, since the lanes of one block lie side by side.
+template <class Copy, class Byte>
+void copy_blocks(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
 {
-    for (std::size_t n = 0; n < rows.limb_count; ++n)
-        copy(rows.base + row_offset(rows.first_limb + n, rows.row_count, rows.first_row), n);
+    float* const base = rows.base;  // the compiler cannot know that values do not overlap `rows`
+    const std::uint32_t row_count = rows.row_count;
+    for (std::size_t limb = first, end = first + limb_count; limb < end;) {
+        float* lanes = base + row_offset(limb, row_count, 0);
+        const std::size_t block_end = std::min(end, limb / SWIVEL_LANES * SWIVEL_LANES + SWIVEL_LANES);
+        for (; limb + 4 <= block_end; limb += 4, lanes += 4, values += 4 * stride) Copy::four(values, stride, lanes);
+        for (; limb < block_end; ++limb, ++lanes, values += stride) Copy::one(values, lanes);
+    }
+}
+
+template <template <int> class Copy, class Byte>
+void copy(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
+{
+    switch (rows.component_count) {
+        case 1:
+            return copy_blocks<Copy<1>>(rows, first, limb_count, values, stride);
+        case 2:
+            return copy_blocks<Copy<2>>(rows, first, limb_count, values, stride);
+        case 3:
+            return copy_blocks<Copy<3>>(rows, first, limb_count, values, stride);
+        case 4:
+            return copy_blocks<Copy<4>>(rows, first, limb_count, values, stride);
+    }
 }
 
 }  // namespace
 
-void copy_in(const RowSpan& rows, const swivel_in& values)
+FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field field)
 {
-    const char* const data = static_cast<const char*>(values.data);
-    for_each_limb(rows, [&](float* lane, std::size_t n) {
-        for (std::uint32_t c = 0; c < rows.component_count; ++c)
-            std::memcpy(lane + c * SWIVEL_LANES, data + n * values.stride + c * sizeof(float), sizeof(float));
-    });
+    const bool input = is_input(field);
+    const std::uint32_t row_count = input ? crowd.input_row_count : crowd.result_row_count;
+    const std::size_t offset =
+        row_offset(std::size_t{group.first_block} * SWIVEL_LANES, row_count, field_first_row(crowd.features, field));
+    return {(input ? crowd.input : crowd.results) + offset, row_count, field_row_count(crowd.features, field)};
 }
 
-void copy_out(const RowSpan& rows, const swivel_out& values)
+void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
-    char* const data = static_cast<char*>(values.data);
-    for_each_limb(rows, [&](const float* lane, std::size_t n) {
-        for (std::uint32_t c = 0; c < rows.component_count; ++c)
-            std::memcpy(data + n * values.stride + c * sizeof(float), lane + c * SWIVEL_LANES, sizeof(float));
-    });
+    copy<In>(rows, first, limb_count, static_cast<const char*>(values.data), values.stride);
+}
+
+void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)
+{
+    copy<Out>(rows, first, limb_count, static_cast<char*>(values.data), values.stride);
 }
 
 }  // namespace swivel

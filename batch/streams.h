@@ -7,14 +7,16 @@
 
 namespace swivel {
 
-struct RowSpan {
-    float* base;                               // input or result rows of the crowd
-    std::uint32_t row_count;                   // of a block
-    std::uint32_t first_row, component_count;  // the field
-    std::size_t first_limb, limb_count;
+// A field's rows in the blocks of one group.
+struct FieldRows {
+    float* base;              // lane 0 of its first row in the group's first block
+    std::uint32_t row_count;  // of a block
+    std::uint32_t component_count;
 };
+FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field field);
 
-void copy_in(const RowSpan& rows, const swivel_in& values);
-void copy_out(const RowSpan& rows, const swivel_out& values);
+// Values of limbs first ... first + limb_count - 1 of the group; data is limb first's.
+void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values);
+void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values);
 
 }  // namespace swivel

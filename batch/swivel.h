@@ -47,7 +47,8 @@
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 // THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks()
-// on ranges that do not overlap, and for calls that take it const while nothing else runs on it.
+// and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take it const while nothing else
+// runs on it.
 #pragma once
 
 #include <stddef.h>
@@ -220,6 +221,41 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
 // uses oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of
 // the caller is restored.
 SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
+
+// One group's values in the caller's own arrays, as engines keep them: one limb's value `stride` bytes after the one
+// before, the group's first limb at `data`; consecutive floats in each value (uint32_t for flags), any alignment.
+typedef struct swivel_frame {
+    // Null data: the rows keep what they hold. Stride 0: one value for the whole group.
+    swivel_in target, pole, lengths, parent_position, parent_rotation, parent_scale, hand;
+    // Null data: not written. With data null a stride is ignored.
+    swivel_out shoulder, elbow, wrist, flags;
+} swivel_frame;
+
+// A whole frame in one pass: swivel_write() of every input given, swivel_solve(), swivel_read() of every output given,
+// with the same bits, a few blocks at a time, so that rows are copied and solved while they are in the nearest cache.
+// frames has one frame for each group, in the order of the crowd's; it is read during the call and not kept. Rows hold
+// inputs and results afterwards, as after the separate calls. Nothing outside the values is read or written.
+//
+// Inputs and outputs may lie in one buffer, such as a pose that is read and written, and may even be the same bytes: a
+// limb's inputs are read before its outputs are written. Other limbs' inputs may be read later, in any order, so no
+// output of a limb may overlap an input of another limb (nor an input of stride 0 in a group of several), nor any other
+// output, nor the crowd's own memory. Inputs may overlap each other.
+//
+// On the calling thread's oneTBB arena if built with it. For arms in one array of structures, of 4 floats a rotation:
+//     swivel_frame frame = {0};
+//     frame.target = (swivel_in){goals[0].wrist, sizeof goals[0]};
+//     frame.pole = (swivel_in){goals[0].elbow, sizeof goals[0]};
+//     frame.parent_rotation = (swivel_in){poses[0].clavicle_world, sizeof poses[0]};
+//     frame.shoulder = (swivel_out){poses[0].shoulder, sizeof poses[0]};
+//     frame.elbow = (swivel_out){poses[0].elbow, sizeof poses[0]};
+//     swivel_solve_frame(crowd, &frame);
+SWIVEL_API swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames);
+// The same for a range of blocks on the calling thread, as swivel_solve_blocks(): the limbs of a group in these blocks
+// are the 16 from 16 * (block - the group's first) on, as far as the group goes. Frames of groups without a block in
+// the range are not looked at. Never allocates, never uses oneTBB; ranges that do not overlap may run on several
+// threads at once, with the same frames.
+SWIVEL_API swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames,
+                                                   uint32_t first_block, uint32_t block_count);
 
 // Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or
 // 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.

@@ -4,6 +4,7 @@
 // statuses. Header only; adds no behaviour. Contracts, units and layouts are swivel.h's.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <ranges>
 #include <span>
@@ -38,6 +39,25 @@ inline BoundLimb bind(const swivel_chain& chain)
     return limb;
 }
 
+// A limb's value: a struct or array of plain floats, a float, or a uint32_t (flags). Doubles, and arrays of them, would
+// be taken for floats and do not compile.
+template <class Value>
+constexpr bool holds_words()
+{
+    if constexpr (std::is_arithmetic_v<Value>)
+        return std::same_as<Value, float> || std::same_as<Value, std::uint32_t>;
+    else if constexpr (std::is_array_v<Value>)
+        return holds_words<std::remove_cv_t<std::remove_extent_t<Value>>>();
+    else if constexpr (requires { typename Value::value_type; })
+        return std::is_trivially_copyable_v<Value> && holds_words<std::remove_cv_t<typename Value::value_type>>();
+    else
+        return std::is_trivially_copyable_v<Value>;
+}
+template <class Value>
+concept FieldValue = holds_words<std::remove_cv_t<Value>>();
+template <class Range>
+concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
+
 // Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group
 // on, each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by
 // size.
@@ -62,20 +82,19 @@ public:
 
     swivel_crowd* get() const { return crowd_; }
 
-    template <std::ranges::contiguous_range R>
+    template <FieldRange R>
     void write(swivel_field field, std::uint32_t group, const R& values, std::uint32_t first = 0)
     {
         check(swivel_write(crowd_, field, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
     }
     // The same value for every limb of the group.
-    template <class Value>
+    template <FieldValue Value>
     void write_all(swivel_field field, std::uint32_t group, const Value& value)
     {
-        static_assert(std::is_trivially_copyable_v<Value>, "one value of plain floats");
         check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
     }
-    template <std::ranges::contiguous_range R>
+    template <FieldRange R>
     void read(swivel_field field, std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
         check(swivel_read(crowd_, field, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
@@ -83,6 +102,15 @@ public:
 
     void solve() { check(swivel_solve(crowd_)); }
     void solve_blocks(std::uint32_t first, std::uint32_t count) { check(swivel_solve_blocks(crowd_, first, count)); }
+    // One frame for each group.
+    void solve_frame(std::span<const swivel_frame> frames)
+    {
+        check(swivel_solve_frame(crowd_, for_all_groups(frames)));
+    }
+    void solve_frame_blocks(std::span<const swivel_frame> frames, std::uint32_t first, std::uint32_t count)
+    {
+        check(swivel_solve_frame_blocks(crowd_, for_all_groups(frames), first, count));
+    }
 
     template <std::ranges::contiguous_range R>
     void elbows(std::uint32_t group, R&& values, std::uint32_t first = 0) const
@@ -112,6 +140,13 @@ private:
     static std::uint32_t count(const R& values)
     {
         return static_cast<std::uint32_t>(std::ranges::size(values));
+    }
+
+    // Null, which the call refuses, if they are too few: then there are limbs in a group past the last frame's.
+    const swivel_frame* for_all_groups(std::span<const swivel_frame> frames) const
+    {
+        const auto frame_count = static_cast<std::uint32_t>(frames.size());
+        return swivel_group_limb_count(crowd_, frame_count) == 0 ? frames.data() : nullptr;
     }
 
     swivel_crowd* crowd_ = nullptr;

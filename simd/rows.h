@@ -44,6 +44,18 @@ constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field fie
     }
 }
 
+// What messages call a field: its enumerator in small letters. Null for a number that is no field.
+constexpr const char* field_name(swivel_field field)
+{
+    constexpr const char* names[] = {
+        "target", "pole",     "lengths", "parent_position", "parent_rotation", "parent_scale",
+        "hand",   "shoulder", "elbow",   "wrist",           "flags",
+    };
+    static_assert(sizeof names / sizeof *names == SWIVEL_FIELD_COUNT);
+    const auto n = static_cast<std::uint32_t>(field);
+    return n < SWIVEL_FIELD_COUNT ? names[n] : nullptr;
+}
+
 // First row of a field among the input rows, or among the result rows.
 constexpr std::uint32_t field_first_row(std::uint32_t features, swivel_field field)
 {

@@ -78,12 +78,13 @@ may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
             "${standard}|\"simd/(dispatch|kernels)[.]h\"|\"batch/swivel[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
+may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"batch/swivel[.]h\"")
 
 # ---- batch: never lanes; only rig, edge, verify and the flags in api.cpp know core
-set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env)[.]h\"")
+set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<std(def|int)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
-may_include(batch "batch/(crowd|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/(crowd|frame|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
 may_include(batch "batch/(rig|edge|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
@@ -117,8 +118,9 @@ foreach(folder core simd)
   must_not_say(${folder} "[^a-zA-Z_]f?(min|max)f?[ \t]*[(<]" "simd/lanes[.]h$" "use lo and hi: min and max differ between CPUs on NaN and zeros")
   must_not_say(${folder} "[^a-zA-Z_](hypot|remainder|fmod|rint|nearbyint|round|floor|ceil)f?[ \t]*[(]" ${nowhere} "not in num.h's list")
 endforeach()
-# Intrinsics in simd: the two exact NEON instructions and the control word.
-must_not_say(simd "[^a-zA-Z_](_mm[0-9]*_[a-z0-9_]+|v[a-z]+q_f32)" "simd/(lanes|float_env)[.]h$" "intrinsics belong to lanes.h and float_env.h")
+# Intrinsics in simd: the two exact NEON instructions, the control word, and moves of words.
+must_not_say(simd "[^a-zA-Z_](_mm[0-9]*_[a-z0-9_]+|v[a-z]+q_f32)" "simd/(lanes|float_env|transpose)[.]h$"
+             "intrinsics belong to lanes.h, float_env.h and transpose.h")
 
 # ---- flags that would move bits
 file(READ ${SOURCE}/CMakeLists.txt build)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// The members of a swivel_frame and the fields they stand for.
+#pragma once
+
+#include "batch/swivel.h"
+
+namespace swivel {
+
+struct FrameInput {
+    swivel_field field;
+    swivel_in swivel_frame::*member;
+};
+inline constexpr FrameInput kFrameInputs[] = {
+    {SWIVEL_TARGET, &swivel_frame::target},
+    {SWIVEL_POLE, &swivel_frame::pole},
+    {SWIVEL_LENGTHS, &swivel_frame::lengths},
+    {SWIVEL_PARENT_POSITION, &swivel_frame::parent_position},
+    {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
+    {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
+    {SWIVEL_HAND, &swivel_frame::hand},
+};
+
+struct FrameOutput {
+    swivel_field field;
+    swivel_out swivel_frame::*member;
+};
+inline constexpr FrameOutput kFrameOutputs[] = {
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
+    {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},
+    {SWIVEL_FLAGS, &swivel_frame::flags},
+};
+
+}  // namespace swivel

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+//
+// What tests of swivel.h's contract share: groups and defs to start from, the whole of a crowd as words, and a check of
+// calls that must fail.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "swivel/swivel.hpp"
+
+namespace swivel::test {
+
+inline constexpr std::uint32_t kEverything = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+
+inline bool is_one_line(const std::string& text)
+{
+    return !text.empty() && text.find('\n') == std::string::npos && text.size() < 256;
+}
+
+// A failed call leaves one line of its own.
+#define CHECK_REFUSED(call, expected)                        \
+    do {                                                     \
+        swivel_use_isa("no such thing"); /* another line */  \
+        const std::string line_before = swivel_last_error(); \
+        CHECK((call) == (expected));                         \
+        CHECK(is_one_line(swivel_last_error()));             \
+        CHECK(swivel_last_error() != line_before);           \
+    } while (false)
+
+inline swivel_group_def group_of(std::uint32_t limb_count)
+{
+    return {limb_count, {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}};
+}
+
+inline swivel_crowd_def def_of(const swivel_group_def& group)
+{
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.group_count = 1;
+    def.groups = &group;
+    return def;
+}
+
+// The whole of a crowd's rows.
+inline std::vector<std::uint32_t> all_words(const Crowd& crowd)
+{
+    std::vector<std::uint32_t> words;
+    for (const swivel_rows rows : {swivel_input_rows(crowd.get()), swivel_result_rows(crowd.get())}) {
+        const std::size_t count = std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES, at = words.size();
+        words.resize(at + count);
+        std::memcpy(words.data() + at, rows.base, count * sizeof(float));
+    }
+    return words;
+}
+
+}  // namespace swivel::test

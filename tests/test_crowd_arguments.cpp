@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: wrong arguments are refused with one line and change nothing.
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <thread>
+
+using namespace swivel;
+using namespace swivel::test;
+
+TEST_CASE("a def that breaks its contract makes no crowd")
+{
+    const auto refuse = [](const swivel_crowd_def* def, swivel_status status = SWIVEL_INVALID_ARGUMENT) {
+        swivel_crowd* crowd = reinterpret_cast<swivel_crowd*>(8);
+        CHECK_REFUSED(swivel_crowd_create(def, &crowd), status);
+        CHECK(crowd == nullptr);
+        if (status == SWIVEL_INVALID_ARGUMENT) CHECK_REFUSED(swivel_crowd_bytes(def), 0u);
+    };
+    swivel_group_def groups[2] = {group_of(3), group_of(4)};
+    const swivel_crowd_def good = def_of(groups[0]);
+    swivel_crowd* crowd = nullptr;
+    REQUIRE(swivel_crowd_create(&good, &crowd) == SWIVEL_OK);
+    swivel_crowd_destroy(crowd);
+    swivel_crowd_destroy(nullptr);
+
+    CHECK_REFUSED(swivel_crowd_create(&good, nullptr), SWIVEL_INVALID_ARGUMENT);
+    refuse(nullptr);
+    swivel_crowd_def def = good;
+    def.size = 0;
+    refuse(&def);
+    def.size = sizeof def - 1;
+    refuse(&def);
+    for (std::uint32_t bit = 4; bit < 32; ++bit) {
+        def = good;
+        def.features = 1u << bit;
+        refuse(&def);
+    }
+    for (const std::uint32_t features :
+         {0u, std::uint32_t{SWIVEL_JOINTS}, std::uint32_t{SWIVEL_JOINTS | SWIVEL_WITH_HAND}}) {
+        def = good;
+        def.features = features | SWIVEL_POLE_DIRECTION;
+        refuse(&def);
+    }
+    def = good;
+    def.group_count = 0;
+    refuse(&def);
+    def = good;
+    def.groups = nullptr;
+    refuse(&def);
+    def = good;
+    def.groups = groups;
+    def.group_count = 2;
+    groups[1].limb_count = 0;
+    refuse(&def);
+    groups[0].limb_count = groups[1].limb_count = 0x80000000u;  // together 2^32: counts must not wrap
+    refuse(&def);
+    groups[0].limb_count = 0xffffffffu;
+    groups[1].limb_count = 1;
+    refuse(&def);
+    groups[0].limb_count = groups[1].limb_count = 3;
+    def = good;
+    def.allocate = [](std::size_t, std::size_t, void*) -> void* { return nullptr; };
+    refuse(&def);
+    def.allocate = nullptr;
+    def.release = [](void*, std::size_t, void*) {};
+    refuse(&def);
+}
+
+TEST_CASE("wrong arguments are refused and change nothing")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    Crowd crowd(0, groups);
+    crowd.solve();
+    float in[3] = {1, 2, 3}, out[4] = {7, 7, 7, 7};
+    double out3[3] = {7, 7, 7};
+    const auto before = all_words(crowd);
+    swivel_crowd* const c = crowd.get();
+    const auto bad = SWIVEL_INVALID_ARGUMENT;
+
+    CHECK_REFUSED(swivel_write(nullptr, SWIVEL_TARGET, 0, 0, 1, {in, 12}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 2, 0, 1, {in, 12}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, ~0u, 0, 1, {in, 12}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 21, 0, {in, 12}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 20, 1, {in, 0}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 21, {in, 0}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 1, 4, 2, {in, 0}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 1, ~0u, {in, 0}), bad);  // 1 + 2^32 - 1 must not wrap to 0
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, ~0u, 1, {in, 0}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {nullptr, 12}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {in, 11}), bad);
+    CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {in, 4}), bad);
+    for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_FIELD_COUNT,
+                                     SWIVEL_PARENT_POSITION, SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND})
+        CHECK_REFUSED(swivel_write(c, field, 0, 0, 1, {in, 0}), bad);
+
+    CHECK_REFUSED(swivel_read(nullptr, SWIVEL_SHOULDER, 0, 0, 1, {out, 16}), bad);
+    CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 2, 0, 1, {out, 16}), bad);
+    CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 20, 1, {out, 16}), bad);
+    CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 1, {nullptr, 16}), bad);
+    CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 1, {out, 15}), bad);
+    CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 1, {out, 0}), bad);
+    for (const swivel_field field : {SWIVEL_WRIST, SWIVEL_HAND, SWIVEL_PARENT_SCALE, SWIVEL_FIELD_COUNT})
+        CHECK_REFUSED(swivel_read(c, field, 0, 0, 1, {out, 16}), bad);
+
+    CHECK_REFUSED(swivel_solve(nullptr), bad);
+    CHECK_REFUSED(swivel_solve_blocks(nullptr, 0, 1), bad);
+    REQUIRE(swivel_block_count(c) == 3);
+    CHECK_REFUSED(swivel_solve_blocks(c, 0, 4), bad);
+    CHECK_REFUSED(swivel_solve_blocks(c, 3, 1), bad);
+    CHECK_REFUSED(swivel_solve_blocks(c, 4, 0), bad);
+    CHECK_REFUSED(swivel_solve_blocks(c, 1, ~0u), bad);
+    CHECK(swivel_solve_blocks(c, 3, 0) == SWIVEL_OK);
+
+    const swivel_out none{}, three{out3, 24};
+    CHECK_REFUSED(swivel_forward(nullptr, 0, 0, 1, three, none, none), bad);
+    CHECK_REFUSED(swivel_forward(c, 2, 0, 1, three, none, none), bad);
+    CHECK_REFUSED(swivel_forward(c, 0, 20, 1, three, none, none), bad);
+    CHECK_REFUSED(swivel_forward(c, 0, 0, 1, {out3, 23}, none, none), bad);
+    CHECK_REFUSED(swivel_forward(c, 0, 0, 1, none, {out3, 0}, none), bad);
+    CHECK_REFUSED(swivel_forward(c, 0, 0, 1, none, none, three), bad);  // no hands here
+    CHECK(swivel_forward(c, 0, 0, 1, none, none, none) == SWIVEL_OK);
+    CHECK_REFUSED(swivel_residuals(nullptr, 0, 0, 1, {out3, 8}), bad);
+    CHECK_REFUSED(swivel_residuals(c, 0, 0, 21, {out3, 8}), bad);
+    CHECK_REFUSED(swivel_residuals(c, 0, 0, 1, {out3, 7}), bad);
+    CHECK_REFUSED(swivel_residuals(c, 0, 0, 1, none), bad);
+
+    CHECK(all_words(crowd) == before);
+    for (const float x : out) CHECK(x == 7);
+    for (const double x : out3) CHECK(x == 7);
+
+    int passed = 5;
+    CHECK_REFUSED(swivel_verify(1, 1, nullptr, nullptr, nullptr), bad);
+    CHECK_REFUSED(swivel_verify(0, 1, nullptr, nullptr, &passed), bad);
+    CHECK(passed == 5);
+}
+
+TEST_CASE("errors name group and field")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    Crowd crowd(0, groups);
+    swivel_crowd* const c = crowd.get();
+    float value[4] = {};
+    double doubles[4] = {};
+    const swivel_out none{};
+    const auto says = [](swivel_status status, const std::string& line) {
+        CHECK(status == SWIVEL_INVALID_ARGUMENT);
+        CHECK(swivel_last_error() == line);
+    };
+    says(swivel_write(c, SWIVEL_TARGET, 1, 0, 1, {value, 4}),
+         "group 1, target: stride 4 is smaller than a value, 12 bytes");
+    says(swivel_write(c, SWIVEL_POLE, 0, 0, 1, {nullptr, 12}), "group 0, pole: data is null");
+    says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
+         "group 1, parent_scale: not part of this crowd; create it with SWIVEL_WORLD");
+    says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
+    says(swivel_write(c, SWIVEL_FIELD_COUNT, 0, 0, 1, {value, 0}), "there is no field 11");
+    says(swivel_read(c, SWIVEL_WRIST, 0, 0, 1, {value, 16}),
+         "group 0, wrist: not part of this crowd; create it with SWIVEL_WITH_HAND");
+    says(swivel_read(c, SWIVEL_ELBOW, 0, 0, 1, {value, 0}),
+         "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
+    says(swivel_read(c, static_cast<swivel_field>(15), 0, 0, 1, {value, 16}), "there is no field 15");
+    says(swivel_forward(c, 1, 0, 1, none, {doubles, 8}, none),
+         "group 1, wrist: stride 8 is smaller than a value, 24 bytes");
+    says(swivel_residuals(c, 1, 0, 1, none), "group 1, distance: data is null");
+}
+
+TEST_CASE("ranges of no limbs are allowed")
+{
+    Crowd crowd = crowd_of(0, 20);
+    float value[4] = {7, 7, 7, 7};
+    CHECK(swivel_write(crowd.get(), SWIVEL_TARGET, 0, 20, 0, {value, 12}) == SWIVEL_OK);
+    CHECK(swivel_read(crowd.get(), SWIVEL_SHOULDER, 0, 0, 0, {value, 16}) == SWIVEL_OK);
+    CHECK(value[0] == 7);
+}
+
+TEST_CASE("statuses and errors have their texts, errors belong to their thread")
+{
+    for (const int status : {0, 1, 2, 3, 4, 77}) {
+        const std::string text = swivel_status_text(static_cast<swivel_status>(status));
+        CHECK(is_one_line(text));
+        CHECK((text == "unknown status") == (status == 77));
+    }
+    CHECK(swivel_version() == SWIVEL_VERSION);
+    swivel_solve(nullptr);
+    const std::string here = swivel_last_error();
+    std::string before, after;
+    std::thread([&] {
+        before = swivel_last_error();
+        swivel_use_isa("no such thing");
+        after = swivel_last_error();
+    }).join();
+    CHECK(before.empty());
+    CHECK(is_one_line(after));
+    CHECK(swivel_last_error() == here);
+}
+
+TEST_CASE("the C++ wrapper throws the line and frees what it owns")
+{
+    try {
+        Crowd crowd = crowd_of(0, 0);
+        FAIL("a crowd without limbs");
+    } catch (const Error& error) {
+        CHECK(error.status == SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::string(error.what()) == swivel_last_error());
+    }
+    Crowd one = crowd_of(0, 3), two = crowd_of(0, 40);
+    swivel_crowd* const first = one.get();
+    two = std::move(one);
+    CHECK(two.get() == first);
+    const Crowd three(std::move(two));
+    CHECK(three.get() == first);
+    CHECK(two.get() == nullptr);
+    CHECK_THROWS_AS(Crowd(swivel_default_crowd_def()), Error);
+}
+
+TEST_CASE("results as joints need bindings of unit rotations")
+{
+    swivel_group_def group = group_of(3);
+    CHECK_NOTHROW(Crowd(SWIVEL_JOINTS, {&group, 1}));
+    for (float* const q : {group.binding.parent_from_arm, group.binding.upper_from_arm, group.binding.fore_from_arm,
+                           group.binding.shoulder_rest, group.binding.elbow_rest, group.binding.wrist_rest}) {
+        for (const float w : {0.0f, 1.001f, std::numeric_limits<float>::quiet_NaN()}) {
+            q[3] = w;
+            CHECK_THROWS_WITH(Crowd(SWIVEL_JOINTS, {&group, 1}), Catch::Contains("group 0") && Catch::Contains("unit"));
+            CHECK_NOTHROW(Crowd(0, {&group, 1}));
+        }
+        q[3] = 1;
+    }
+}
+
+namespace {
+
+template <class Values>
+concept Writable = requires(Crowd& crowd, Values& values)
+{
+    crowd.write(SWIVEL_TARGET, 0, values);
+    crowd.read(SWIVEL_TARGET, 0, values);
+};
+template <class Value>
+concept WritableAll = requires(Crowd& crowd, const Value& value)
+{
+    crowd.write_all(SWIVEL_TARGET, 0, value);
+};
+
+struct Goal {
+    float target[3];
+    int other;
+};
+struct Owner {
+    std::string name;
+    float target[3];
+};
+
+static_assert(Writable<std::vector<float>> && Writable<std::vector<std::uint32_t>> && Writable<std::vector<Float3>>);
+static_assert(Writable<std::vector<Goal>> && Writable<std::span<Goal>> && Writable<float[3]> && Writable<float[3][4]>);
+static_assert(!Writable<std::vector<double>> && !Writable<std::vector<int>> && !Writable<double[3]>);
+static_assert(!Writable<std::vector<std::array<double, 3>>> && !Writable<double[3][4]> &&
+              !Writable<std::vector<Owner>>);
+static_assert(WritableAll<Float3> && WritableAll<float> && WritableAll<Goal> && WritableAll<float[3]>);
+static_assert(!WritableAll<double> && !WritableAll<std::array<double, 3>> && !WritableAll<int> && !WritableAll<Owner>);
+
+}  // namespace
+
+TEST_CASE("write_all checks the group and the value's size")
+{
+    const swivel_group_def group = group_of(3);
+    Crowd crowd(0, {&group, 1});
+    CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 7, Float3{0, 1, 0}), Error);
+    CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 0, 1.0f), Error);
+    CHECK(swivel_group_limb_count(crowd.get(), 7) == 0);
+}

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: what a crowd says through skeletons is what a walk down the skeleton's joints, by Eigen in double, makes
+// of it; and bindings are made of limbs alone.
+#include "tests/test_crowd.h"
+#include "tests/test_limb.h"
+
+#include <functional>
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+enum class Rest { straight, bent, bent_by_itself };  // the last: no hinge given, the rest pose shows it
+
+// A shoulder, elbow and wrist with random rest rotations and bone axes.
+swivel_chain random_chain(Random& random, Rest rest)
+{
+    swivel_chain chain{};
+    const auto put3 = [](float(&to)[3], const Vector3d& v) { std::ranges::copy(floats(v), to); };
+    const auto put4 = [&random](float(&to)[4], const Quaterniond& q) {
+        std::ranges::copy(floats(Quaterniond(random.spread(0.1, 10) * q.coeffs())), to);
+    };
+    put4(chain.shoulder_rotation, random.rotation());
+    put4(chain.elbow_rotation, random.rotation());
+    put4(chain.wrist_rotation, random.rotation());
+    const Vector3d upper = random.direction(), hinge = random.across(upper);
+    const double flexion = rest == Rest::straight ? 0 : random.between(0.1, 2.5);
+    const Vector3d fore = Eigen::AngleAxisd(-flexion, hinge) * upper;  // flexion turns about -hinge
+    put3(chain.elbow_offset, random.spread(0.5, 5) * upper);
+    put3(chain.wrist_offset, random.spread(0.5, 5) * (quat(chain.elbow_rotation).normalized().conjugate() * fore));
+    if (rest != Rest::bent_by_itself) put3(chain.hinge, random.spread(0.1, 10) * hinge);
+    return chain;
+}
+
+// The hinge in the shoulder joint's frame, as the documentation of swivel_chain has it.
+Vector3d hinge_of(const swivel_chain& chain)
+{
+    if (vec(chain.hinge).norm() > 0) return vec(chain.hinge).normalized();
+    const Vector3d fore = quat(chain.elbow_rotation).normalized() * vec(chain.wrist_offset);
+    return fore.cross(vec(chain.elbow_offset)).normalized();
+}
+
+struct Joints {
+    Quaterniond shoulder, elbow, wrist;  // local
+};
+
+// Down the skeleton from the parent joint: nothing of the arm frame is in it.
+Places places_of(const swivel_chain& chain, const Parent& parent, const Joints& local)
+{
+    const Quaterniond shoulder_w = parent.rotation * local.shoulder, elbow_w = shoulder_w * local.elbow;
+    const Vector3d elbow = parent.position + parent.scale * (shoulder_w * vec(chain.elbow_offset));
+    return {elbow, elbow + parent.scale * (elbow_w * vec(chain.wrist_offset)), elbow_w * local.wrist};
+}
+
+Joints joints_of(const Crowd& crowd, std::uint32_t group, std::uint32_t n)
+{
+    Float4 q[3] = {{}, {}, {0, 0, 0, 1}};
+    crowd.read(SWIVEL_SHOULDER, group, std::span(q, 1), n);
+    crowd.read(SWIVEL_ELBOW, group, std::span(q + 1, 1), n);
+    if (swivel_field_row_count(crowd.get(), SWIVEL_WRIST)) crowd.read(SWIVEL_WRIST, group, std::span(q + 2, 1), n);
+    for (const Float4& each : q) {
+        CHECK(is_unit(each));
+        CHECK(is_in_hemisphere(each));
+    }
+    return {quat(q[0]).normalized(), quat(q[1]).normalized(), quat(q[2]).normalized()};
+}
+
+// Without a world the arm frame is the space of the targets; the parent joint is then seen from it.
+Parent parent_of(const Limb& limb, const swivel_binding& binding, std::uint32_t features)
+{
+    if (features & SWIVEL_WORLD) return limb.parent();
+    return {Vector3d::Zero(), quat(binding.parent_from_arm).normalized().conjugate(), 1};
+}
+
+Joints rest_of(const swivel_chain& chain)
+{
+    return {quat(chain.shoulder_rotation).normalized(), quat(chain.elbow_rotation).normalized(),
+            quat(chain.wrist_rotation).normalized()};
+}
+
+constexpr std::uint32_t kGroups = 12, kLimbs = 21;
+
+}  // namespace
+
+TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as wanted, the elbow on the pole's side")
+{
+    const std::uint32_t j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
+    for (const std::uint32_t features : {j, j | h, j | w, j | w | h, j | w | d, j | w | h | d})
+        for (const Rest rest : {Rest::straight, Rest::bent, Rest::bent_by_itself}) {
+            Random random{features * 3 + static_cast<std::uint64_t>(rest)};
+            std::vector<swivel_chain> chains;
+            std::vector<swivel_group_def> groups;
+            std::vector<BoundLimb> bound;
+            for (std::uint32_t g = 0; g < kGroups; ++g) {
+                chains.push_back(random_chain(random, rest));
+                bound.push_back(bind(chains.back()));
+                groups.push_back({kLimbs, bound.back().binding});
+                CHECK(std::fabs(bound[g].lengths[0] - vec(chains[g].elbow_offset).norm()) <=
+                      1e-6 * bound[g].lengths[0]);
+                CHECK(std::fabs(bound[g].lengths[1] - vec(chains[g].wrist_offset).norm()) <=
+                      1e-6 * bound[g].lengths[1]);
+            }
+            Crowd crowd(features, groups);
+            std::vector<std::vector<Limb>> limbs(kGroups);
+            for (std::uint32_t g = 0; g < kGroups; ++g)
+                for (std::uint32_t n = 0; n < kLimbs; ++n) {
+                    limbs[g].push_back(random_limb(random, features, {bound[g].lengths[0], bound[g].lengths[1]}));
+                    write_limb(crowd, g, n, limbs[g].back());
+                }
+            crowd.solve();
+            for (std::uint32_t g = 0; g < kGroups; ++g) {
+                const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS, g);
+                const Vector3d hinge = hinge_of(chains[g]);
+                const Vector3d hinge_e = quat(chains[g].elbow_rotation).normalized().conjugate() * hinge;
+                std::vector<Places> places;
+                for (std::uint32_t n = 0; n < kLimbs; ++n) {
+                    INFO("features " << features << ", rest " << static_cast<int>(rest) << ", group " << g << ", limb "
+                                     << n);
+                    const Joints local = joints_of(crowd, g, n);
+                    const Parent parent = parent_of(limbs[g][n], bound[g].binding, features);
+                    places.push_back(places_of(chains[g], parent, local));
+                    check_places(limbs[g][n], features, places.back(), flags[n]);
+                    // The elbow joint turns about the hinge alone, and bends the forearm about -hinge.
+                    CHECK((local.elbow * hinge_e - hinge).norm() <= 2e-6);
+                    const Vector3d upper = vec(chains[g].elbow_offset),
+                                   fore = local.elbow * vec(chains[g].wrist_offset);
+                    CHECK(upper.cross(fore).dot(-hinge) > 0);
+                }
+                check_forward(crowd, g, limbs[g], places, 5e-7);
+            }
+        }
+}
+
+TEST_CASE("skeletons: the rest pose's own wrist and elbow give back the rest rotations")
+{
+    for (const Rest rest : {Rest::bent, Rest::bent_by_itself})
+        for (std::uint64_t seed = 0; seed < 60; ++seed) {
+            INFO("rest " << static_cast<int>(rest) << ", seed " << seed);
+            Random random{seed};
+            const swivel_chain chain = random_chain(random, rest);
+            const BoundLimb bound = bind(chain);
+            constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
+            Crowd crowd = crowd_of(features, 1, bound.binding);
+            Limb limb = random_limb(random, features, {bound.lengths[0], bound.lengths[1]});
+            const Places places = places_of(chain, limb.parent(), rest_of(chain));
+            limb.target = floats(places.wrist);
+            limb.pole = floats(places.elbow);
+            limb.hand = floats(places.hand);
+            write_limb(crowd, 0, 0, limb);
+            crowd.solve();
+            const Joints got = joints_of(crowd, 0, 0), want = rest_of(chain);
+            // The target's rounding, seen from a parent 5 units away, through a bend of down to 0.1.
+            CHECK(distance(got.shoulder, want.shoulder) <= 1e-4);
+            CHECK(distance(got.elbow, want.elbow) <= 1e-4);
+            CHECK(distance(got.wrist, want.wrist) <= 1e-4);
+        }
+}
+
+TEST_CASE("skeletons: a tilted hinge still turns about one axis of the upper arm")
+{
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        INFO("seed " << seed);
+        Random random{seed};
+        swivel_chain chain = random_chain(random, Rest::bent);
+        const Vector3d tilted = hinge_of(chain) + 0.5 * vec(chain.elbow_offset).normalized();
+        std::ranges::copy(floats(tilted), chain.hinge);
+        const BoundLimb bound = bind(chain);
+        constexpr std::uint32_t count = 16, features = SWIVEL_JOINTS | SWIVEL_WORLD;
+        Crowd crowd = crowd_of(features, count, bound.binding);
+        std::vector<Limb> limbs;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            limbs.push_back(random_limb(random, features, {bound.lengths[0], bound.lengths[1]}));
+            write_limb(crowd, 0, n, limbs.back());
+        }
+        crowd.solve();
+        const Vector3d upper = vec(chain.elbow_offset).normalized();
+        const Vector3d axis = (tilted - tilted.dot(upper) * upper).normalized();
+        const Quaterniond first = joints_of(crowd, 0, 0).elbow;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Joints local = joints_of(crowd, 0, n);
+            const Places places = places_of(chain, limbs[n].parent(), local);
+            check_places(limbs[n], features, places, SWIVEL_REACHED);
+            CHECK((local.elbow * first.conjugate()).vec().cross(axis).norm() <= 2e-6);
+        }
+    }
+}
+
+TEST_CASE("skeletons: the negated hinge bends the limb the other way")
+{
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        INFO("seed " << seed);
+        Random random{seed};
+        swivel_chain chain = random_chain(random, Rest::straight);
+        constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD;
+        const BoundLimb one = bind(chain);
+        for (float& x : chain.hinge) x = -x;
+        const BoundLimb other = bind(chain);
+        const swivel_group_def groups[] = {{1, one.binding}, {1, other.binding}};
+        Crowd crowd(features, groups);
+        const Limb limb = random_limb(random, features, {one.lengths[0], one.lengths[1]});
+        write_limb(crowd, 0, 0, limb);
+        write_limb(crowd, 1, 0, limb);
+        crowd.solve();
+        const Joints a = joints_of(crowd, 0, 0), b = joints_of(crowd, 1, 0);
+        for (const Joints& local : {a, b})
+            check_places(limb, features, places_of(chain, limb.parent(), local), SWIVEL_REACHED);
+        const Quaterniond rest = quat(chain.elbow_rotation).normalized();
+        // The same bend from straight, in opposite senses: one undoes the other.
+        CHECK(distance(a.elbow * rest.conjugate(), (b.elbow * rest.conjugate()).conjugate()) <= 2e-6);
+        CHECK(distance(a.elbow, b.elbow) > 0.01);
+    }
+}
+
+TEST_CASE("skeletons: a mirrored limb with mirrored goals has mirrored rotations")
+{
+    const auto mirror3 = [](const Float3& v) { return Float3{-v[0], v[1], v[2]}; };
+    const auto mirror4 = [](const Float4& q) { return Float4{q[0], -q[1], -q[2], q[3]}; };
+    const auto as3 = [](const float(&v)[3]) { return Float3{v[0], v[1], v[2]}; };
+    const auto as4 = [](const float(&q)[4]) { return Float4{q[0], q[1], q[2], q[3]}; };
+    const auto mirrored = [&](const Quaterniond& q) { return Quaterniond(q.w(), q.x(), -q.y(), -q.z()); };
+    for (const Rest rest : {Rest::straight, Rest::bent, Rest::bent_by_itself})
+        for (std::uint64_t seed = 0; seed < 40; ++seed) {
+            INFO("rest " << static_cast<int>(rest) << ", seed " << seed);
+            Random random{seed};
+            const swivel_chain left = random_chain(random, rest);
+            swivel_chain right = left;
+            std::ranges::copy(mirror4(as4(left.shoulder_rotation)), right.shoulder_rotation);
+            std::ranges::copy(mirror4(as4(left.elbow_rotation)), right.elbow_rotation);
+            std::ranges::copy(mirror4(as4(left.wrist_rotation)), right.wrist_rotation);
+            std::ranges::copy(mirror3(as3(left.elbow_offset)), right.elbow_offset);
+            std::ranges::copy(mirror3(as3(left.wrist_offset)), right.wrist_offset);
+            const Float3 hinge = mirror3(as3(left.hinge));  // an axis of turning mirrors with the other sign
+            std::ranges::copy(Float3{-hinge[0], -hinge[1], -hinge[2]}, right.hinge);
+            const BoundLimb l = bind(left), r = bind(right);
+            constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
+            const swivel_group_def groups[] = {{1, l.binding}, {1, r.binding}};
+            Crowd crowd(features, groups);
+            const Limb limb = random_limb(random, features, {l.lengths[0], l.lengths[1]});
+            Limb other = limb;
+            other.target = mirror3(limb.target);
+            other.pole = mirror3(limb.pole);
+            other.position = mirror3(limb.position);
+            other.rotation = mirror4(limb.rotation);
+            other.hand = mirror4(limb.hand);
+            write_limb(crowd, 0, 0, limb);
+            write_limb(crowd, 1, 0, other);
+            crowd.solve();
+            const Joints a = joints_of(crowd, 0, 0), b = joints_of(crowd, 1, 0);
+            CHECK(distance(mirrored(a.shoulder), b.shoulder) <= 1e-5);
+            CHECK(distance(mirrored(a.elbow), b.elbow) <= 1e-5);
+            CHECK(distance(mirrored(a.wrist), b.wrist) <= 1e-5);
+        }
+}
+
+TEST_CASE("skeletons: bad input leaves the skeleton's own rest rotations")
+{
+    Random random{4};
+    const swivel_chain chain = random_chain(random, Rest::bent);
+    Crowd crowd = crowd_of(SWIVEL_JOINTS | SWIVEL_WITH_HAND, 3, bind(chain).binding);
+    crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{0, 0, 1}, {kInf, 0, 0}, {0, 0, 1}});
+    crowd.solve();
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[1] == SWIVEL_BAD_INPUT);
+    const Joints got = joints_of(crowd, 0, 1), rest = rest_of(chain);
+    CHECK(distance(got.shoulder, rest.shoulder) <= 1e-7);
+    CHECK(distance(got.elbow, rest.elbow) <= 1e-7);
+    CHECK(distance(got.wrist, rest.wrist) <= 1e-7);
+    CHECK(distance(joints_of(crowd, 0, 0).shoulder, rest.shoulder) > 1e-3);
+}
+
+TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
+{
+    Random random{9};
+    const auto refuse = [&](const char* what, Rest rest, auto spoil) {
+        INFO(what);
+        swivel_chain chain = random_chain(random, rest);
+        swivel_binding binding;
+        float lengths[2] = {7, 7};
+        REQUIRE(swivel_bind(&chain, &binding, lengths) == SWIVEL_OK);
+        std::memset(&binding, 0x5a, sizeof binding);
+        const swivel_binding untouched = binding;
+        lengths[0] = lengths[1] = 7;
+        spoil(chain);
+        CHECK_REFUSED(swivel_bind(&chain, &binding, lengths), SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::memcmp(&binding, &untouched, sizeof binding) == 0);
+        CHECK(lengths[0] == 7);
+        CHECK(lengths[1] == 7);
+    };
+    const auto fill = [](auto& values, float x) { std::ranges::fill(values, x); };
+    for (const float bad : {0.0f, kNan, kInf, 1e-20f, 3e38f}) {
+        refuse("shoulder rotation", Rest::bent, [&](swivel_chain& c) { fill(c.shoulder_rotation, bad); });
+        refuse("elbow rotation", Rest::bent, [&](swivel_chain& c) { fill(c.elbow_rotation, bad); });
+        refuse("wrist rotation", Rest::bent, [&](swivel_chain& c) { fill(c.wrist_rotation, bad); });
+        refuse("upper arm", Rest::bent, [&](swivel_chain& c) { fill(c.elbow_offset, bad); });
+        refuse("forearm", Rest::bent, [&](swivel_chain& c) { fill(c.wrist_offset, bad); });
+    }
+    for (const float bad : {kNan, kInf, 3e38f})
+        refuse("hinge", Rest::bent, [&](swivel_chain& c) { fill(c.hinge, bad); });
+    for (const float one : {kNan, kInf}) {
+        refuse("one number of a rotation", Rest::bent, [&](swivel_chain& c) { c.wrist_rotation[1] = one; });
+        refuse("one number of an offset", Rest::bent, [&](swivel_chain& c) { c.wrist_offset[2] = one; });
+    }
+    refuse("hinge along the upper arm", Rest::bent,
+           [](swivel_chain& c) { std::ranges::copy(c.elbow_offset, c.hinge); });
+    refuse("hinge against the upper arm", Rest::bent,
+           [](swivel_chain& c) { std::ranges::copy(floats(Vector3d(-vec(c.elbow_offset))), c.hinge); });
+    refuse("hinge along the forearm", Rest::bent, [](swivel_chain& c) {
+        std::ranges::copy(floats(Vector3d(quat(c.elbow_rotation).normalized() * vec(c.wrist_offset))), c.hinge);
+    });
+    refuse("straight without a hinge", Rest::straight, [](swivel_chain& c) { std::ranges::fill(c.hinge, 0.0f); });
+
+    swivel_chain chain = random_chain(random, Rest::bent);
+    swivel_binding binding;
+    CHECK_REFUSED(swivel_bind(nullptr, &binding, nullptr), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_bind(&chain, nullptr, nullptr), SWIVEL_INVALID_ARGUMENT);
+    CHECK(swivel_bind(&chain, &binding, nullptr) == SWIVEL_OK);
+    for (const float(&q)[4] :
+         {std::cref(binding.parent_from_arm), std::cref(binding.upper_from_arm), std::cref(binding.fore_from_arm),
+          std::cref(binding.shoulder_rest), std::cref(binding.elbow_rest), std::cref(binding.wrist_rest)})
+        CHECK(is_unit({q[0], q[1], q[2], q[3]}));
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: groups and fields lie in rows as swivel.h's table says, and data goes in and out whole.
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_random.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+TEST_CASE("groups start blocks, fields are rows in the order of the table")
+{
+    const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
+    const std::uint32_t first_limbs[] = {0, 16, 32, 64};
+    for (std::uint32_t features = 0; features < 16; ++features) {
+        if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
+        const Crowd crowd(features, groups);
+        INFO("features " << features);
+        CHECK(swivel_block_count(crowd.get()) == 7);
+        for (std::uint32_t g = 0; g < 4; ++g) {
+            CHECK(swivel_group_first_limb(crowd.get(), g) == first_limbs[g]);
+            CHECK(swivel_group_limb_count(crowd.get(), g) == groups[g].limb_count);
+        }
+        const bool world = features & SWIVEL_WORLD, joints = features & SWIVEL_JOINTS,
+                   hand = features & SWIVEL_WITH_HAND;
+        const std::uint32_t sizes[SWIVEL_FIELD_COUNT] = {3,
+                                                         3,
+                                                         2,
+                                                         world ? 3u : 0u,
+                                                         world ? 4u : 0u,
+                                                         world ? 1u : 0u,
+                                                         hand ? 4u : 0u,
+                                                         4,
+                                                         joints ? 4u : 2u,
+                                                         hand ? 4u : 0u,
+                                                         1};
+        std::uint32_t row = 0;
+        for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+            const auto field = static_cast<swivel_field>(f);
+            if (field == SWIVEL_SHOULDER) {
+                CHECK(swivel_input_rows(crowd.get()).row_count == row);
+                row = 0;
+            }
+            CHECK(swivel_field_row_count(crowd.get(), field) == sizes[f]);
+            if (sizes[f]) CHECK(swivel_field_first_row(crowd.get(), field) == row);
+            row += sizes[f];
+        }
+        CHECK(swivel_result_rows(crowd.get()).row_count == row);
+        CHECK(swivel_result_rows(crowd.get()).block_count == 7);
+        for (const swivel_rows rows : {swivel_input_rows(crowd.get()), swivel_result_rows(crowd.get())})
+            CHECK(reinterpret_cast<std::uintptr_t>(rows.base) % 64 == 0);
+    }
+}
+
+TEST_CASE("a new crowd is at rest, its results are zeros")
+{
+    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_HAND, 20);
+    const swivel_rows out = swivel_result_rows(crowd.get());
+    for (std::size_t n = 0; n < std::size_t{out.block_count} * out.row_count * SWIVEL_LANES; ++n)
+        REQUIRE(out.base[n] == 0);
+    CHECK(read<Float2>(crowd, SWIVEL_LENGTHS)[19] == Float2{1, 1});
+    CHECK(read<Float4>(crowd, SWIVEL_PARENT_ROTATION)[19] == Float4{0, 0, 0, 1});
+    CHECK(read<Float3>(crowd, SWIVEL_PARENT_POSITION)[19] == Float3{0, 0, 0});
+    CHECK(read<Float1>(crowd, SWIVEL_PARENT_SCALE)[19] == Float1{1});
+    CHECK(read<Float4>(crowd, SWIVEL_HAND)[19] == Float4{0, 0, 0, 1});
+    crowd.solve();
+    for (std::uint32_t limb = 0; limb < 32; ++limb) {  // padding, too
+        const std::vector<std::uint32_t> words = result_words(crowd, limb);
+        CHECK(words == result_words(crowd, 0));
+        CHECK(words.back() == SWIVEL_REACHED);
+    }
+    CHECK(read<Float4>(crowd, SWIVEL_SHOULDER)[7] == Float4{0, 0, 0, 1});
+    CHECK(read<Float2>(crowd, SWIVEL_ELBOW)[7] == Float2{1, 0});
+    CHECK(read<Float4>(crowd, SWIVEL_WRIST)[7] == Float4{0, 0, 0, 1});
+}
+
+TEST_CASE("streams of any stride and alignment land in the documented place, bit for bit")
+{
+    const swivel_group_def groups[] = {group_of(5), group_of(37)};
+    Crowd crowd(kEverything, groups);
+    Random random{1};
+    for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+        const auto field = static_cast<swivel_field>(f);
+        const std::uint32_t rows_of_field = swivel_field_row_count(crowd.get(), field), count = 30, first = 3;
+        const bool input = field < SWIVEL_SHOULDER;
+        const std::size_t bytes = rows_of_field * sizeof(float);
+        for (const std::size_t stride : {bytes, bytes + 1, bytes + 3, bytes + 4, std::size_t{97}}) {
+            for (const std::size_t misaligned : {0u, 1u, 2u, 3u}) {
+                INFO("field " << f << ", stride " << stride << ", from byte " << misaligned);
+                const swivel_rows rows = input ? swivel_input_rows(crowd.get()) : swivel_result_rows(crowd.get());
+                const std::uint32_t row0 = swivel_field_first_row(crowd.get(), field);
+                const auto place = [&](std::uint32_t n, std::uint32_t c) {
+                    const std::uint32_t limb = swivel_group_first_limb(crowd.get(), 1) + first + n;
+                    return rows.base + (std::size_t{limb / 16} * rows.row_count + row0 + c) * 16 + limb % 16;
+                };
+                std::vector<unsigned char> data(misaligned + stride * count), got(data.size(), 0xee);
+                for (unsigned char& byte : data) byte = static_cast<unsigned char>(random.word());
+                if (input) {
+                    const auto before = all_words(crowd);
+                    REQUIRE(swivel_write(crowd.get(), field, 1, first, count, {data.data() + misaligned, stride}) ==
+                            SWIVEL_OK);
+                    for (std::uint32_t n = 0; n < count; ++n)
+                        for (std::uint32_t c = 0; c < rows_of_field; ++c)
+                            CHECK(std::memcmp(place(n, c), data.data() + misaligned + n * stride + c * 4, 4) == 0);
+                    const auto after = all_words(crowd);
+                    std::size_t changed = 0;
+                    for (std::size_t n = 0; n < after.size(); ++n) changed += after[n] != before[n];
+                    CHECK(changed <= std::size_t{count} * rows_of_field);
+                } else {
+                    for (std::uint32_t n = 0; n < count; ++n)
+                        for (std::uint32_t c = 0; c < rows_of_field; ++c)
+                            std::memcpy(place(n, c), data.data() + misaligned + n * stride + c * 4, 4);
+                }
+                REQUIRE(swivel_read(crowd.get(), field, 1, first, count, {got.data() + misaligned, stride}) ==
+                        SWIVEL_OK);
+                for (std::size_t n = 0; n < got.size(); ++n) {
+                    const bool value = n >= misaligned && (n - misaligned) % stride < bytes;
+                    REQUIRE(got[n] == (value ? data[n] : 0xee));
+                }
+            }
+        }
+        if (!input) continue;
+        const float one[4] = {1.5f, -0.0f, kNan, 4};
+        REQUIRE(swivel_write(crowd.get(), field, 1, first, count, {one, 0}) == SWIVEL_OK);
+        std::vector<float> all(count * rows_of_field);
+        REQUIRE(swivel_read(crowd.get(), field, 1, first, count, {all.data(), bytes}) == SWIVEL_OK);
+        for (std::uint32_t n = 0; n < count; ++n) CHECK(std::memcmp(all.data() + n * rows_of_field, one, bytes) == 0);
+    }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: what a crowd says in the arm frame, in the world and through hands is what forward kinematics by Eigen,
+// in double and on its own, makes of it.
+#include "tests/test_crowd.h"
+#include "tests/test_limb.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+TEST_CASE("arms in the arm frame and in the world: wrist on the target, elbow on the pole's side, hand as wanted")
+{
+    const std::uint32_t w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
+    for (const std::uint32_t features : {0u, h, w, w | h, w | d, w | h | d}) {
+        constexpr std::uint32_t count = 400;
+        Crowd crowd = crowd_of(features, count);
+        Random random{features + 11};
+        std::vector<Limb> limbs;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Float2 lengths = {static_cast<float>(random.spread(0.2, 5)),
+                                    static_cast<float>(random.spread(0.2, 5))};
+            limbs.push_back(random_limb(random, features, lengths));
+            write_limb(crowd, 0, n, limbs.back());
+        }
+        crowd.solve();
+        const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
+        const auto elbows = read<Float2>(crowd, SWIVEL_ELBOW);
+        const auto wrists =
+            features & h ? read<Float4>(crowd, SWIVEL_WRIST) : std::vector<Float4>(count, Float4{0, 0, 0, 1});
+        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+        std::vector<Places> places;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            INFO("features " << features << ", limb " << n);
+            places.push_back(places_of(limbs[n], shoulders[n], elbows[n], wrists[n]));
+            check_places(limbs[n], features, places.back(), flags[n]);
+            CHECK(is_unit(shoulders[n]));
+            CHECK(is_unit(wrists[n]));
+            CHECK(is_in_hemisphere(shoulders[n]));
+            CHECK(is_in_hemisphere(wrists[n]));
+        }
+        check_forward(crowd, 0, limbs, places, 1e-12);
+    }
+}
+
+TEST_CASE("a world frame of identity gives the arm frame's bits")
+{
+    constexpr std::uint32_t count = 100;
+    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WITH_HAND}}) {
+        Crowd arm = crowd_of(features, count), world = crowd_of(features | SWIVEL_WORLD, count);
+        Random random{5};
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Limb limb = random_limb(random, features, {1, 1.25f});
+            write_limb(arm, 0, n, limb);
+            write_limb(world, 0, n, limb);
+        }
+        arm.solve();
+        world.solve();
+        for (std::uint32_t n = 0; n < count; ++n) CHECK(result_words(arm, n) == result_words(world, n));
+    }
+}
+
+TEST_CASE("a frame's power-of-two scale changes no bit")
+{
+    constexpr std::uint32_t count = 100;
+    Crowd one = crowd_of(SWIVEL_WORLD, count), scaled = crowd_of(SWIVEL_WORLD, count);
+    Random random{6};
+    for (std::uint32_t n = 0; n < count; ++n) {
+        Limb limb = random_limb(random, SWIVEL_WORLD, {1, 1.25f});
+        write_limb(one, 0, n, limb);
+        for (Float3* v : {&limb.target, &limb.pole, &limb.position})
+            for (float& x : *v) x *= 4;
+        limb.scale[0] *= 4;
+        write_limb(scaled, 0, n, limb);
+    }
+    one.solve();
+    scaled.solve();
+    for (std::uint32_t n = 0; n < count; ++n) CHECK(result_words(one, n) == result_words(scaled, n));
+}
+
+TEST_CASE("residuals of what cannot be reached, of no arm and of bad input")
+{
+    Crowd crowd = crowd_of(0, 4);
+    crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{0, 6, 0}, {0, 0.25f, 0}, {0, 1, 0}, {kNan, 1, 0}});
+    crowd.write(SWIVEL_LENGTHS, 0, std::vector<Float2>{{1, 1}, {3, 1}, {0, 0}, {1, 1}});
+    crowd.solve();
+    std::vector<double> residuals(4);
+    crowd.residuals(0, residuals);
+    CHECK(std::fabs(residuals[0] - 2) <= 1e-6);
+    CHECK(std::fabs(residuals[1] - 1.75 / 4) <= 1e-6);
+    CHECK(residuals[2] == 0);
+    CHECK(residuals[3] == 0);
+}

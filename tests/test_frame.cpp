@@ -1,0 +1,508 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a whole frame through the caller's arrays gives the bits of writing, solving and reading, for any stride
+// and alignment, touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
+#include "tests/count_allocations.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_random.h"
+
+#include <rapidcheck/catch.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <thread>
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+constexpr std::uint32_t kInputs = SWIVEL_SHOULDER, kOutputs = SWIVEL_FIELD_COUNT - kInputs;
+constexpr swivel_in swivel_frame::*kIn[kInputs] = {
+    &swivel_frame::target,          &swivel_frame::pole,         &swivel_frame::lengths, &swivel_frame::parent_position,
+    &swivel_frame::parent_rotation, &swivel_frame::parent_scale, &swivel_frame::hand};
+constexpr swivel_out swivel_frame::*kOut[kOutputs] = {&swivel_frame::shoulder, &swivel_frame::elbow,
+                                                      &swivel_frame::wrist, &swivel_frame::flags};
+constexpr const char* kNames[SWIVEL_FIELD_COUNT] = {"target",          "pole",         "lengths", "parent_position",
+                                                    "parent_rotation", "parent_scale", "hand",    "shoulder",
+                                                    "elbow",           "wrist",        "flags"};
+
+swivel_field field_at(std::uint32_t n) { return static_cast<swivel_field>(n); }
+std::size_t value_bytes(const Crowd& crowd, std::uint32_t field)
+{
+    return swivel_field_row_count(crowd.get(), field_at(field)) * sizeof(float);
+}
+
+// The place of a component of a limb of a group, as the header's layout says.
+float* place(const Crowd& crowd, std::uint32_t field, std::uint32_t group, std::uint32_t n, std::size_t component)
+{
+    const swivel_rows rows = field < kInputs ? swivel_input_rows(crowd.get()) : swivel_result_rows(crowd.get());
+    const std::size_t row = swivel_field_first_row(crowd.get(), field_at(field)) + component;
+    const std::uint32_t limb = swivel_group_first_limb(crowd.get(), group) + n;
+    return rows.base + (std::size_t{limb / 16} * rows.row_count + row) * 16 + limb % 16;
+}
+
+// A field's values in bytes of their own, among bytes that are nobody's. size 0: the field is left out.
+struct Array {
+    Bytes bytes;
+    std::size_t at = 0, stride = 0, size = 0;
+
+    const unsigned char* value(std::uint32_t n) const { return bytes.data() + at + n * stride; }
+    unsigned char* value(std::uint32_t n) { return bytes.data() + at + n * stride; }
+};
+
+float ordinary(Random& random, std::uint32_t field)
+{
+    const bool positive = field == SWIVEL_LENGTHS || field == SWIVEL_PARENT_SCALE;
+    return static_cast<float>(positive ? random.between(0.5, 1.5) : random.between(-1, 1));
+}
+
+// Ordinary arms, and in one component of thirty-two any bits: NaNs with payloads, infinities, denormals.
+Array random_array(Random& random, const Crowd& crowd, std::uint32_t field, std::uint32_t limb_count)
+{
+    Array array;
+    array.size = value_bytes(crowd, field);
+    if (array.size == 0 || random.below(5) == 0) return {};
+    const bool one = field < kInputs && random.below(6) == 0;
+    const std::size_t gaps[] = {0, 1, 3, 4, 8, random.below(200)};
+    array.stride = one ? 0 : array.size + gaps[random.below(6)];
+    array.at = random.below(20);
+    array.bytes.resize(array.at + array.stride * (limb_count - 1) + array.size + random.below(20));
+    for (unsigned char& byte : array.bytes) byte = static_cast<unsigned char>(random.word());
+    for (std::uint32_t n = 0; n < limb_count && field < kInputs; ++n)
+        for (std::size_t c = 0; c < array.size; c += sizeof(float))
+            if (const float x = ordinary(random, field); random.below(32) != 0)
+                std::memcpy(array.value(n) + c, &x, sizeof x);
+    return array;
+}
+
+using Arrays = std::array<Array, SWIVEL_FIELD_COUNT>;  // of one group
+
+swivel_frame frame_of(Arrays& arrays)
+{
+    swivel_frame frame{};
+    for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+        if (arrays[f].size == 0) continue;
+        if (f < kInputs)
+            frame.*kIn[f] = {arrays[f].value(0), arrays[f].stride};
+        else
+            frame.*kOut[f - kInputs] = {arrays[f].value(0), arrays[f].stride};
+    }
+    return frame;
+}
+
+std::vector<swivel_frame> frames_of(std::vector<Arrays>& arrays)
+{
+    std::vector<swivel_frame> frames;
+    for (Arrays& group : arrays) frames.push_back(frame_of(group));
+    return frames;
+}
+
+// copy(field, group, array) for the fields of a frame that are given.
+template <class Copy>
+void each_array(std::vector<Arrays>& arrays, std::uint32_t from, std::uint32_t to, Copy copy)
+{
+    for (std::uint32_t g = 0; g < arrays.size(); ++g)
+        for (std::uint32_t f = from; f < to; ++f)
+            if (arrays[g][f].size != 0) copy(f, g, arrays[g][f]);
+}
+
+void solve_by_steps(Crowd& crowd, std::vector<Arrays>& arrays)
+{
+    const auto count = [&](std::uint32_t g) { return swivel_group_limb_count(crowd.get(), g); };
+    each_array(arrays, 0, kInputs, [&](std::uint32_t f, std::uint32_t g, Array& array) {
+        check(swivel_write(crowd.get(), field_at(f), g, 0, count(g), {array.value(0), array.stride}));
+    });
+    crowd.solve();
+    each_array(arrays, kInputs, SWIVEL_FIELD_COUNT, [&](std::uint32_t f, std::uint32_t g, Array& array) {
+        check(swivel_read(crowd.get(), field_at(f), g, 0, count(g), {array.value(0), array.stride}));
+    });
+}
+
+// Without the library's copies: each word to and from its documented place.
+void solve_by_words(Crowd& crowd, std::vector<Arrays>& arrays)
+{
+    const auto each_word = [&](std::uint32_t from, std::uint32_t to, auto copy) {
+        each_array(arrays, from, to, [&](std::uint32_t f, std::uint32_t g, Array& array) {
+            for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), g); ++n)
+                for (std::size_t c = 0; c < array.size / sizeof(float); ++c)
+                    copy(place(crowd, f, g, n, c), array.value(n) + c * sizeof(float));
+        });
+    };
+    each_word(0, kInputs, [](float* row, unsigned char* value) { std::memcpy(row, value, sizeof *row); });
+    crowd.solve();
+    each_word(kInputs, SWIVEL_FIELD_COUNT,
+              [](float* row, unsigned char* value) { std::memcpy(value, row, sizeof *row); });
+}
+
+bool same_bytes(const std::vector<Arrays>& a, const std::vector<Arrays>& b)
+{
+    return std::ranges::equal(a, b, [](const Arrays& x, const Arrays& y) {
+        return std::ranges::equal(x, y, [](const Array& p, const Array& q) { return p.bytes == q.bytes; });
+    });
+}
+
+struct Problem {
+    std::uint32_t features = 0;
+    std::vector<swivel_group_def> groups;
+    std::vector<Arrays> arrays;
+
+    Crowd crowd() const { return Crowd(features, groups); }
+};
+
+Problem random_problem(Random& random, std::uint32_t most_limbs)
+{
+    Problem problem;
+    do problem.features = random.below(16);
+    while ((problem.features & SWIVEL_POLE_DIRECTION) && !(problem.features & SWIVEL_WORLD));
+    for (std::uint32_t g = 1 + random.below(4); g > 0; --g) {
+        problem.groups.push_back(group_of(1 + random.below(most_limbs)));
+        const Quaterniond q = random.rotation();
+        std::ranges::copy(floats(q), problem.groups.back().binding.upper_from_arm);
+    }
+    const Crowd crowd = problem.crowd();
+    for (const swivel_group_def& group : problem.groups) {
+        problem.arrays.emplace_back();
+        for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f)
+            problem.arrays.back()[f] = random_array(random, crowd, f, group.limb_count);
+    }
+    return problem;
+}
+
+// Rows of before and results of after, for limbs of a group in a range of blocks; padding lanes of results mean
+// nothing.
+struct Range {
+    std::uint32_t first, count;
+    bool has(std::uint32_t block) const { return block >= first && block - first < count; }
+};
+
+}  // namespace
+
+TEST_CASE("a whole frame gives the bits of writing, solving and reading, in rows and arrays, and touches nothing else")
+{
+    rc::prop("random groups, features, strides, alignments, missing members", [](std::uint64_t seed) {
+        Random random{seed};
+        const Problem problem = random_problem(random, 100);
+        std::vector<Arrays> by_words = problem.arrays, by_steps = problem.arrays, whole = problem.arrays,
+                            in_blocks = problem.arrays;
+        Crowd words = problem.crowd(), steps = problem.crowd(), frame = problem.crowd(), blocks = problem.crowd();
+        solve_by_words(words, by_words);
+        solve_by_steps(steps, by_steps);
+        frame.solve_frame(frames_of(whole));
+        blocks.solve_frame_blocks(frames_of(in_blocks), 0, swivel_block_count(blocks.get()));
+        RC_ASSERT(all_words(steps) == all_words(words));
+        RC_ASSERT(all_words(frame) == all_words(words));
+        RC_ASSERT(all_words(blocks) == all_words(words));
+        RC_ASSERT(same_bytes(by_steps, by_words));
+        RC_ASSERT(same_bytes(whole, by_words));
+        RC_ASSERT(same_bytes(in_blocks, by_words));
+    });
+}
+
+TEST_CASE("large crowds, in chunks on threads, give the bits of one thread")
+{
+    Random random{7};
+    Problem problem;
+    do problem = random_problem(random, 9000);
+    while (problem.groups.size() < 3 || problem.groups[0].limb_count < 4000);
+    std::vector<Arrays> by_words = problem.arrays, whole = problem.arrays;
+    Crowd words = problem.crowd(), frame = problem.crowd();
+    solve_by_words(words, by_words);
+    frame.solve_frame(frames_of(whole));
+    CHECK(all_words(frame) == all_words(words));
+    CHECK(same_bytes(whole, by_words));
+}
+
+TEST_CASE("a range of blocks copies and solves its limbs alone, ranges in any order make the whole")
+{
+    rc::prop("random ranges", [](std::uint64_t seed) {
+        Random random{seed};
+        const Problem problem = random_problem(random, 100);
+        std::vector<Arrays> expected = problem.arrays, got = problem.arrays;
+        Crowd words = problem.crowd(), crowd = problem.crowd();
+        const std::vector<std::uint32_t> before = all_words(crowd);
+        solve_by_words(words, expected);
+        const std::vector<std::uint32_t> after = all_words(words);
+        const std::vector<swivel_frame> frames = frames_of(got);
+
+        const std::uint32_t block_count = swivel_block_count(crowd.get()), first = random.below(block_count);
+        const Range range{first, random.below(block_count - first + 1)};
+        crowd.solve_frame_blocks(frames, range.first, range.count);
+        const std::vector<std::uint32_t> words_now = all_words(crowd);
+        const std::size_t in_size = std::size_t{swivel_input_rows(crowd.get()).row_count} * SWIVEL_LANES,
+                          out_size = std::size_t{swivel_result_rows(crowd.get()).row_count} * SWIVEL_LANES;
+        for (std::size_t w = 0; w < words_now.size(); ++w) {
+            const std::size_t out = w - std::min(w, in_size * block_count);
+            const std::size_t block = w < in_size * block_count ? w / in_size : out / out_size;
+            RC_ASSERT(words_now[w] == (range.has(static_cast<std::uint32_t>(block)) ? after : before)[w]);
+        }
+        for (std::uint32_t g = 0; g < got.size(); ++g)
+            for (std::uint32_t f = kInputs; f < SWIVEL_FIELD_COUNT; ++f) {
+                Array& array = got[g][f];
+                Bytes want = problem.arrays[g][f].bytes;
+                for (std::uint32_t n = 0; n < problem.groups[g].limb_count && array.size != 0; ++n)
+                    if (range.has((swivel_group_first_limb(crowd.get(), g) + n) / SWIVEL_LANES))
+                        std::memcpy(want.data() + array.at + n * array.stride, expected[g][f].value(n), array.size);
+                RC_ASSERT(array.bytes == want);
+            }
+
+        std::vector<std::uint32_t> order(block_count);
+        for (std::uint32_t b = 0; b < block_count; ++b) std::swap(order[b] = b, order[random.below(b + 1)]);
+        for (const std::uint32_t block : order) crowd.solve_frame_blocks(frames, block, 1);
+        RC_ASSERT(all_words(crowd) == after);
+        RC_ASSERT(same_bytes(got, expected));
+    });
+}
+
+TEST_CASE("one value for a whole group, and null members leave the rows alone")
+{
+    Crowd crowd = crowd_of(SWIVEL_WORLD, 50);
+    const Float3 target = {0.5f, -1, 0.25f};
+    const Float4 turned = {0, 0.6f, 0, 0.8f};
+    crowd.write_all(SWIVEL_PARENT_ROTATION, 0, turned);
+    swivel_frame frame{};
+    frame.target = {&target, 0};
+    crowd.solve_frame({&frame, 1});
+    CHECK(read<Float3>(crowd, SWIVEL_TARGET) == std::vector<Float3>(50, target));
+    CHECK(read<Float4>(crowd, SWIVEL_PARENT_ROTATION) == std::vector<Float4>(50, turned));
+    const auto solved = all_words(crowd);
+    const swivel_frame none{};
+    crowd.solve_frame({&none, 1});
+    CHECK(all_words(crowd) == solved);
+}
+
+TEST_CASE("a pose may be read and written in place")
+{
+    // A transform as engines keep it, its rotation replaced by the solved one; goals lie in another array.
+    struct Transform {
+        Float3 position;
+        float scale;
+        Float4 rotation;
+    };
+    struct Character {
+        Transform joints[5];
+        Float3 target, pole;
+        std::uint32_t flags;
+    };
+    for (const std::uint32_t count : {1u, 3u, 16u, 50u, 777u}) {
+        Crowd separate = crowd_of(SWIVEL_WORLD | SWIVEL_JOINTS, count, group_of(1).binding),
+              whole = crowd_of(SWIVEL_WORLD | SWIVEL_JOINTS, count, group_of(1).binding);
+        Random random{count};
+        std::vector<Character> pose(count);
+        for (Character& character : pose) {
+            for (Transform& joint : character.joints)
+                joint = {floats(random.direction()), 1.5f, floats(random.rotation())};
+            character.target = floats(random.direction());
+            character.pole = floats(random.direction());
+        }
+        std::vector<Character> in_place = pose;
+        const auto frame_in = [](std::vector<Character>& all) {
+            const std::size_t stride = sizeof(Character);
+            swivel_frame frame{};
+            frame.target = {&all[0].target, stride};
+            frame.pole = {&all[0].pole, stride};
+            frame.parent_position = {&all[0].joints[2].position, stride};
+            frame.parent_rotation = {&all[0].joints[2].rotation, stride};
+            frame.parent_scale = {&all[0].joints[2].scale, stride};
+            frame.shoulder = {&all[0].joints[2].rotation, stride};  // the bytes the parent's rotation was read from
+            frame.elbow = {&all[0].joints[3].rotation, stride};
+            frame.flags = {&all[0].target, stride};  // over a part of an input
+            return frame;
+        };
+        const swivel_frame there = frame_in(pose), here = frame_in(in_place);
+        for (std::uint32_t f = 0; f < kInputs; ++f)
+            if ((there.*kIn[f]).data) check(swivel_write(separate.get(), field_at(f), 0, 0, count, there.*kIn[f]));
+        separate.solve();
+        for (std::uint32_t f = 0; f < kOutputs; ++f)
+            if ((there.*kOut[f]).data)
+                check(swivel_read(separate.get(), field_at(kInputs + f), 0, 0, count, there.*kOut[f]));
+        whole.solve_frame({&here, 1});
+        CHECK(all_words(whole) == all_words(separate));
+        CHECK(std::memcmp(pose.data(), in_place.data(), count * sizeof(Character)) == 0);
+        CHECK(read<std::uint32_t>(whole, SWIVEL_FLAGS) == read<std::uint32_t>(separate, SWIVEL_FLAGS));
+    }
+}
+
+// ---- memory
+
+namespace {
+
+// A page to use between two pages that must not be touched.
+struct GuardedPage {
+    const std::size_t size = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    unsigned char* const all =
+        static_cast<unsigned char*>(::mmap(nullptr, 3 * size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+
+    GuardedPage()
+    {
+        REQUIRE(all != MAP_FAILED);
+        REQUIRE(::mprotect(begin(), size, PROT_READ | PROT_WRITE) == 0);
+    }
+    ~GuardedPage() { ::munmap(all, 3 * size); }
+    GuardedPage(const GuardedPage&) = delete;
+    GuardedPage& operator=(const GuardedPage&) = delete;
+
+    unsigned char* begin() const { return all + size; }
+    unsigned char* end() const { return all + 2 * size; }
+};
+
+}  // namespace
+
+TEST_CASE("values that start or end at a page nobody may touch")
+{
+    const GuardedPage page;
+    for (const std::uint32_t features : {kEverything, std::uint32_t{0}})  // elbows of four and of two components
+        for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 16u, 17u, 36u}) {
+            Crowd crowd = crowd_of(features, count, group_of(1).binding);
+            swivel_crowd* const c = crowd.get();
+            for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+                const std::size_t bytes = value_bytes(crowd, f);
+                if (bytes == 0) continue;
+                for (const std::size_t stride : {bytes, bytes + 1, bytes + 4, std::size_t{100}})
+                    for (const bool at_end : {false, true}) {
+                        INFO(kNames[f] << ", " << count << " limbs, stride " << stride
+                                       << (at_end ? ", end" : ", start"));
+                        const std::size_t extent = stride * (count - 1) + bytes;
+                        unsigned char* const data = at_end ? page.end() - extent : page.begin();
+                        std::memset(page.begin(), 0x41, page.size);
+                        swivel_frame frame{};
+                        if (f < kInputs) {
+                            CHECK(swivel_write(c, field_at(f), 0, 0, count, {data, stride}) == SWIVEL_OK);
+                            frame.*kIn[f] = {data, stride};
+                            CHECK(swivel_solve_frame(c, &frame) == SWIVEL_OK);
+                            CHECK(std::memcmp(place(crowd, f, 0, count - 1, bytes / 4 - 1), "AAAA", 4) == 0);
+                        } else {
+                            CHECK(swivel_read(c, field_at(f), 0, 0, count, {data, stride}) == SWIVEL_OK);
+                            std::memset(page.begin(), 0x41, page.size);
+                            frame.*kOut[f - kInputs] = {data, stride};
+                            CHECK(swivel_solve_frame(c, &frame) == SWIVEL_OK);
+                            for (const unsigned char* p = page.begin(); p < page.end(); ++p) {
+                                const bool in_value = p >= data && p < data + extent &&
+                                                      static_cast<std::size_t>(p - data) % stride < bytes;
+                                if (!in_value) REQUIRE(*p == 0x41);
+                            }
+                        }
+                    }
+            }
+        }
+}
+
+TEST_CASE("a frame of blocks allocates nothing")
+{
+    Random random{3};
+    Problem problem = random_problem(random, 1000);
+    Crowd crowd = problem.crowd();
+    const std::vector<swivel_frame> frames = frames_of(problem.arrays);
+    const std::uint32_t block_count = swivel_block_count(crowd.get());
+    crowd.solve_frame_blocks(frames, 0, block_count);  // once before counting: the instruction set is chosen
+    const std::size_t before = allocation_count();
+    for (int n = 0; n < 20; ++n) crowd.solve_frame_blocks(frames, 0, block_count);
+    (void)swivel_solve_frame(crowd.get(), nullptr);
+    CHECK(allocation_count() == before);
+    CHECK(std::make_unique<int>(1));
+    CHECK(allocation_count() > before);  // the counter counts
+}
+
+TEST_CASE("several threads run ranges of one frame that do not overlap")
+{
+    Random random{5};
+    Problem problem;
+    do problem = random_problem(random, 2000);
+    while (problem.groups.size() < 2);
+    std::vector<Arrays> expected = problem.arrays;
+    Crowd alone = problem.crowd(), crowd = problem.crowd();
+    solve_by_words(alone, expected);
+    const std::vector<swivel_frame> frames = frames_of(problem.arrays);
+    const std::uint32_t block_count = swivel_block_count(crowd.get());
+    std::vector<std::thread> threads;
+    for (std::uint32_t t = 0; t < 3; ++t)
+        threads.emplace_back([&, t] {
+            for (std::uint32_t b = t; b < block_count; b += 3)
+                swivel_solve_frame_blocks(crowd.get(), frames.data(), b, 1);
+        });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(all_words(crowd) == all_words(alone));
+    CHECK(same_bytes(problem.arrays, expected));
+}
+
+// ---- errors
+
+TEST_CASE("wrong frames are refused, name group and field, and change nothing")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
+    float values[200] = {};
+    const auto fill = [&](std::uint32_t features) {
+        std::vector<swivel_frame> frames(3);
+        for (swivel_frame& frame : frames)
+            for (std::uint32_t f = 0; f < kInputs; ++f)
+                if (f < SWIVEL_PARENT_POSITION || (features & SWIVEL_WORLD)) frame.*kIn[f] = {values, 0};
+        if (!(features & SWIVEL_WITH_HAND))
+            for (swivel_frame& frame : frames) frame.hand = {};
+        return frames;
+    };
+    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD}, std::uint32_t{kEverything}}) {
+        Crowd crowd(features, groups);
+        crowd.solve();
+        const auto before = all_words(crowd);
+        for (std::uint32_t g = 0; g < 3; ++g)
+            for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+                const std::size_t bytes = value_bytes(crowd, f);
+                std::vector<swivel_frame> frames = fill(features);
+                std::string line = "group " + std::to_string(g) + ", " + kNames[f] + ": ";
+                const std::size_t stride = bytes == 0 ? 16 : bytes - 1;
+                if (f < kInputs)
+                    frames[g].*kIn[f] = {values, stride};
+                else
+                    frames[g].*kOut[f - kInputs] = {values, stride};
+                if (bytes != 0)
+                    line += "stride " + std::to_string(stride) + " is smaller than a value, " + std::to_string(bytes) +
+                            " bytes";
+                else
+                    line += std::string("not part of this crowd; create it with ") +
+                            (f == SWIVEL_HAND || f == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
+                CHECK(swivel_solve_frame(crowd.get(), frames.data()) == SWIVEL_INVALID_ARGUMENT);
+                CHECK(swivel_last_error() == line);
+                CHECK_REFUSED(swivel_solve_frame_blocks(crowd.get(), frames.data(), 0, 6), SWIVEL_INVALID_ARGUMENT);
+                CHECK(swivel_last_error() == line);
+                if (f >= kInputs && bytes != 0) {
+                    frames[g].*kOut[f - kInputs] = {values, 0};  // one place for all: outputs cannot
+                    CHECK_REFUSED(swivel_solve_frame(crowd.get(), frames.data()), SWIVEL_INVALID_ARGUMENT);
+                }
+            }
+        CHECK(all_words(crowd) == before);
+    }
+    for (const float x : values) CHECK(x == 0);
+}
+
+TEST_CASE("missing frames, crowds and blocks are refused; frames outside the range are not looked at")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    Crowd crowd(0, groups);
+    swivel_crowd* const c = crowd.get();
+    const auto bad = SWIVEL_INVALID_ARGUMENT;
+    float value[4] = {};
+    swivel_frame frames[2] = {};
+    CHECK_REFUSED(swivel_solve_frame(nullptr, frames), bad);
+    CHECK_REFUSED(swivel_solve_frame(c, nullptr), bad);
+    CHECK(std::string(swivel_last_error()) == "frames are missing; give one for each of this crowd's 2 groups");
+    CHECK_REFUSED(swivel_solve_frame_blocks(nullptr, frames, 0, 1), bad);
+    CHECK_REFUSED(swivel_solve_frame_blocks(c, nullptr, 0, 1), bad);
+    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 0, 4), bad);
+    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 4, 0), bad);
+    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 1, ~0u), bad);
+    CHECK(swivel_solve_frame_blocks(c, frames, 3, 0) == SWIVEL_OK);
+    frames[1].target = {value, 4};
+    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 1, 2), bad);
+    CHECK(swivel_solve_frame_blocks(c, frames, 0, 2) == SWIVEL_OK);  // blocks of group 0 alone
+    frames[1].target = {nullptr, 4};                                 // not given: its stride is ignored
+    CHECK(swivel_solve_frame(c, frames) == SWIVEL_OK);
+    CHECK_NOTHROW(crowd.solve_frame(frames));
+    CHECK_THROWS_AS(crowd.solve_frame({frames, 1}), Error);
+    CHECK_THROWS_AS(crowd.solve_frame({}), Error);
+    CHECK_THROWS_AS(crowd.solve_frame_blocks({frames, 1}, 0, 1), Error);
+}
