@@ -3,8 +3,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-
 namespace bench {
 
 swivel::Crowd& Crowds::get(std::uint32_t features, std::size_t arm_count)
@@ -13,12 +11,6 @@ swivel::Crowd& Crowds::get(std::uint32_t features, std::size_t arm_count)
     const auto at = crowds_.find(key);
     if (at != crowds_.end()) return at->second;
     return crowds_.emplace(key, make_crowd(features, arm_count, limbs_)).first->second;
-}
-
-std::size_t arms_within(std::size_t memory_level, std::uint32_t features)
-{
-    const std::size_t blocks = working_sets()[memory_level] / row_bytes(features) / SWIVEL_LANES;
-    return std::max(blocks, std::size_t{1}) * SWIVEL_LANES;
 }
 
 void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the suite's files share: the machine, the crowds that several benchmarks solve, and how one is added. Names have
-// slashes, so that --benchmark_filter picks families: P/, features/, resident/, copy/, threads/, growth/, loop_trig/...
+// slashes, so that --benchmark_filter picks families: P/, features/, resident/, frame/, copy/, threads/...
 #pragma once
 
 #include <functional>
@@ -16,9 +16,6 @@
 #include "bench/rivals/op_counts.h"
 
 namespace bench {
-
-// WORLD | JOINTS: world targets, poles, lengths and parent frames in rows; local rotations in rows.
-inline constexpr std::uint32_t kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
 
 // Crowds are made when first asked for and kept: filling the largest takes longer than solving it.
 class Crowds {
@@ -39,9 +36,6 @@ struct Suite {
     const std::string& best_isa() const { return isas.front(); }
 };
 
-// Arms of which rows in and out fill the working set of a level, in whole blocks.
-std::size_t arms_within(std::size_t memory_level, std::uint32_t features);
-
 enum class Clock { cpu, wall };  // of the one thread that works; of several threads together
 using Work = std::function<void()>;
 
@@ -53,9 +47,11 @@ void add(const std::string& name, std::size_t arm_count, Clock clock, std::funct
 void add_solve(Suite& suite, const std::string& name, const std::string& isa, std::uint32_t features,
                std::size_t arm_count, std::size_t crowd_bytes = 0);
 
-// One for each family. The first also checks what it is going to time; it throws if someone's results are wrong.
+// One for each family. Those with rivals also check what they are going to time; they throw if someone's results are
+// wrong.
 void add_problem_p(Suite& suite);
 void add_features(Suite& suite);
+void add_frames(Suite& suite);
 void add_copies(Suite& suite);
 void add_threads(Suite& suite);
 void add_growth(Suite& suite);

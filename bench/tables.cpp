@@ -31,11 +31,19 @@ void print_rivals(const Suite& suite, const Medians& medians)
     }
     for (const std::string& isa : suite.isas) row(medians, "P out of cache", "copy/P/memory", "P/" + isa + "/memory");
     const std::string best = suite.best_isa();
+    if (const Level* level = level_for(best)) {
+        const std::string glm = std::string("frame_glm/") + level->name;
+        row(medians, "resident, whole frame", "resident/" + best + "/L2", glm);
+        row(medians, "whole frame", "frame/" + best + "/in_one", glm);
+    }
+    for (const char* step : {"write", "solve", "read", "apart"})
+        row(medians, "whole frame, its steps", "frame/" + best + "/in_one", "frame/" + best + "/" + step);
     row(medians, "resident out of cache", "copy/resident/memory", "resident/" + best + "/memory");
     for (int threads = 2; threads <= 1024; ++threads)
         for (const char* arms : {"64", "1024", "16384", "262144"})
-            row(medians, "P on threads", "threads/" + std::to_string(threads) + "/" + arms,
-                std::string("threads/1/") + arms);
+            for (const char* family : {"threads/", "frame_threads/"})
+                row(medians, "threads", family + std::to_string(threads) + "/" + arms,
+                    std::string(family) + "1/" + arms);
 }
 
 void print_bounds(const Suite& suite, const Medians& medians)
@@ -77,6 +85,7 @@ void print_roofline(const Suite& suite, const Medians& medians)
 void print_tables(const Suite& suite, const Medians& medians)
 {
     print_rivals(suite, medians);
+    if (!medians.ns("P/" + suite.best_isa() + "/L1")) return;
     print_bounds(suite, medians);
     print_roofline(suite, medians);
 }

@@ -310,7 +310,7 @@ TEST_CASE("command: bench has a row for everyone on every instruction set")
         require_keys(out.at("machine").at("limits").at(isa),
                      {"lanes", "flops_per_ns", "division_ns", "root_ns", "divide_root_ns"});
     }
-    for (const std::string work : {"P out of cache", "resident"}) CHECK(has_pair(work, info.at("isa")));
+    for (const std::string work : {"P out of cache", "resident", "whole frame"}) CHECK(has_pair(work, info.at("isa")));
     for (const Json& bound : out.at("bounds"))
         CHECK(bound.at("bound_ns") == std::max(bound.at("divider_ns"), bound.at("arithmetic_ns")));
 
@@ -319,8 +319,8 @@ TEST_CASE("command: bench has a row for everyone on every instruction set")
     CHECK_THAT(text.out, Contains(info.at("cpu").get<std::string>()) &&
                              Contains(info.at("compiler").get<std::string>().substr(0, 3)));
     CHECK_THAT(text.out, Contains("P in cache") && Contains("single_glm") && Contains("loop_roots") &&
-                             Contains("P out of cache") && Contains("resident") && Contains("divider") &&
-                             Contains("Roofline") && Contains("past the caches"));
+                             Contains("P out of cache") && Contains("resident") && Contains("whole frame") &&
+                             Contains("divider") && Contains("Roofline") && Contains("past the caches"));
 }
 
 TEST_CASE("command: an instruction set that does not exist")

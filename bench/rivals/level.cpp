@@ -28,6 +28,7 @@ const Level level{SWIVEL_LEVEL_NAME,
                   {{"loop_trig", kTrig, solve_loop_trig},
                    {"loop_light", kTrig, solve_loop_light},
                    {"loop_roots", kRoots, solve_loop_roots}},
-                  solve_single};
+                  solve_single,
+                  solve_frame};
 
 }  // namespace bench::SWIVEL_LEVEL

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/rivals/arms.h"
+#include "bench/rivals/frames.h"
 
 namespace bench {
 
@@ -35,6 +36,7 @@ struct Level {
     const char* flags;  // of the compiler
     Loop loops[3];      // trig, light, roots: see loop.cpp
     void (*solve_single)(const SingleArm* arms, SinglePose* poses, std::size_t count);
+    void (*solve_frame)(const FrameView& frame);  // one arm at a time, too
 };
 
 // The levels that this CPU runs, widest first; none on x86 CPUs older than x86-64-v2.
@@ -49,6 +51,7 @@ void solve_loop_trig(const Arms& arms, Poses& poses);
 void solve_loop_light(const Arms& arms, Poses& poses);
 void solve_loop_roots(const Arms& arms, Poses& poses);
 void solve_single(const SingleArm* arms, SinglePose* poses, std::size_t count);
+void solve_frame(const FrameView& frame);
 
 }  // namespace SWIVEL_LEVEL
 #endif

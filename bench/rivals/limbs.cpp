@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "bench/rivals/machine.h"
+
 namespace bench {
 
 namespace {
@@ -64,17 +66,6 @@ Limb random_limb(Random& random)
     return limb;
 }
 
-// A vector of the parent's frame in the world: p + s (v + 2 q x (q x v + w v)).
-void to_world(const Limb& limb, float (&v)[3])
-{
-    const float(&q)[4] = limb.rotation;
-    const auto cross = [&](const float(&a)[3], std::size_t n) {
-        return q[(n + 1) % 3] * a[(n + 2) % 3] - q[(n + 2) % 3] * a[(n + 1) % 3];
-    };
-    const float t[3] = {cross(v, 0) + q[3] * v[0], cross(v, 1) + q[3] * v[1], cross(v, 2) + q[3] * v[2]};
-    for (std::size_t n = 0; n < 3; ++n) v[n] = limb.position[n] + limb.scale[0] * (v[n] + 2 * cross(t, n));
-}
-
 // Bones along +x that bend about +y, as many rigs have them.
 swivel_binding binding()
 {
@@ -93,6 +84,17 @@ std::vector<Limb> random_limbs(std::size_t count)
     std::vector<Limb> limbs(count);
     for (Limb& limb : limbs) limb = random_limb(random);
     return limbs;
+}
+
+// p + s (v + 2 q x (q x v + w v)).
+void to_world(const Limb& limb, float (&v)[3])
+{
+    const float(&q)[4] = limb.rotation;
+    const auto cross = [&](const float(&a)[3], std::size_t n) {
+        return q[(n + 1) % 3] * a[(n + 2) % 3] - q[(n + 2) % 3] * a[(n + 1) % 3];
+    };
+    const float t[3] = {cross(v, 0) + q[3] * v[0], cross(v, 1) + q[3] * v[1], cross(v, 2) + q[3] * v[2]};
+    for (std::size_t n = 0; n < 3; ++n) v[n] = limb.position[n] + limb.scale[0] * (v[n] + 2 * cross(t, n));
 }
 
 Arms arms_of(std::span<const Limb> limbs)
@@ -154,6 +156,12 @@ std::size_t row_bytes(std::uint32_t features)
     const swivel_group_def group{1, binding()};
     const swivel::Crowd crowd(features, {&group, 1});
     return sizeof(float) * (swivel_input_rows(crowd.get()).row_count + swivel_result_rows(crowd.get()).row_count);
+}
+
+std::size_t arms_within(std::size_t memory_level, std::uint32_t features)
+{
+    const std::size_t blocks = working_sets()[memory_level] / row_bytes(features) / SWIVEL_LANES;
+    return std::max(blocks, std::size_t{1}) * SWIVEL_LANES;
 }
 
 Poses poses_of(const swivel::Crowd& crowd)

@@ -25,13 +25,21 @@ struct Limb {
 // far. Every pole is at least sin 0.1 off the target's line.
 std::vector<Limb> random_limbs(std::size_t count);
 
+// A vector of the parent's frame in the world.
+void to_world(const Limb& limb, float (&v)[3]);
+
 Arms arms_of(std::span<const Limb> limbs);
 std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs);
+
+// Resident: world targets, poles, lengths and parent frames in rows, the skeleton's local rotations in rows.
+inline constexpr std::uint32_t kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
 
 // A crowd of one group with all inputs written; limbs repeat where the crowd is larger than they are.
 swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::span<const Limb> limbs);
 // Bytes of rows, in and out, that a solve of one arm touches.
 std::size_t row_bytes(std::uint32_t features);
+// Arms whose rows are at home in a level of memory, one of kMemoryLevels; whole blocks.
+std::size_t arms_within(std::size_t memory_level, std::uint32_t features);
 // Results of a crowd without features.
 Poses poses_of(const swivel::Crowd& crowd);
 

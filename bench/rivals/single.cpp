@@ -1,46 +1,55 @@
 // SPDX-License-Identifier: MIT
 //
-// The textbook solver as people write it on glm: one arm, law of cosines, acos, a frame that looks at the target, axis
-// and angle. Compiled once for each level.
-#include <algorithm>
-#include <cmath>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-
+// One arm at a time on glm: problem P, and whole frames from and to pose buffers. Compiled once for each level.
+// Flattened, so that no function of glm stays in the object for another level's linker to pick.
 #include "bench/rivals/level.h"
+#include "bench/rivals/two_bone.h"
 
 namespace bench::SWIVEL_LEVEL {
 
 namespace {
 
-SinglePose solve(const SingleArm& arm)
-{
-    const glm::vec3 target(arm.target[0], arm.target[1], arm.target[2]), pole(arm.pole[0], arm.pole[1], arm.pole[2]);
-    const float wanted = glm::length(target), far = arm.upper + arm.fore, near = std::abs(arm.upper - arm.fore);
-    const float d = glm::clamp(wanted, near, far);
-    const glm::vec3 u = target / wanted;
-    const glm::vec3 n = glm::normalize(glm::cross(u, pole));
+glm::vec3 vec3(const float* v) { return {v[0], v[1], v[2]}; }
+glm::quat quat(const float (&q)[4]) { return {q[3], q[0], q[1], q[2]}; }
 
-    const float l1 = arm.upper, l2 = arm.fore;
-    const float flexion = std::acos(glm::clamp((d * d - l1 * l1 - l2 * l2) / (2 * l1 * l2), -1.0f, 1.0f));
-    const float lift = std::acos(glm::clamp((l1 * l1 + d * d - l2 * l2) / (2 * l1 * d), -1.0f, 1.0f));
-
-    const glm::quat look = glm::quat_cast(glm::mat3(n, glm::cross(u, n), u));
-    const glm::quat shoulder = look * glm::angleAxis(lift, glm::vec3(1, 0, 0));
-    return {{shoulder.x, shoulder.y, shoulder.z, shoulder.w},
-            std::cos(flexion / 2),
-            std::sin(flexion / 2),
-            wanted > far    ? 8u
-            : wanted < near ? 16u
-                            : 1u};
-}
+void store(const glm::quat& q, float (&to)[4]) { to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w; }
 
 }  // namespace
 
-// Flattened, so that no function of glm stays in the object for another level's linker to pick.
 [[gnu::flatten]] void solve_single(const SingleArm* arms, SinglePose* poses, std::size_t count)
 {
-    for (std::size_t n = 0; n < count; ++n) poses[n] = solve(arms[n]);
+    for (std::size_t n = 0; n < count; ++n) {
+        const SingleArm& arm = arms[n];
+        const TwoBone solved = solve_two_bone(vec3(arm.target), vec3(arm.pole), arm.upper, arm.fore);
+        store(solved.shoulder, poses[n].shoulder);
+        poses[n].cos_half = std::cos(solved.flexion / 2);
+        poses[n].sin_half = std::sin(solved.flexion / 2);
+        poses[n].flags = solved.flags;
+    }
+}
+
+[[gnu::flatten]] void solve_frame(const FrameView& frame)
+{
+    for (std::size_t n = 0; n < frame.character_count; ++n)
+        for (std::size_t side = 0; side < kArms; ++side) {
+            const CharacterPose& world = frame.world[n];
+            const auto& goal = frame.goals[n].arm[side];
+            const Rig& rig = frame.rigs[side];
+
+            const glm::quat parent_from_arm = quat(rig.parent_from_arm);
+            const glm::quat arm_from_world = glm::conjugate(quat(world.chest.rotation) * parent_from_arm);
+            const glm::vec3 shoulder_w = vec3(world.arm[side].shoulder.position);
+            const float shrink = 1 / world.chest.scale[0];
+            const glm::vec3 target = arm_from_world * (vec3(goal.wrist) - shoulder_w) * shrink;
+            const glm::vec3 pole = arm_from_world * (vec3(goal.pole) - shoulder_w) * shrink;
+
+            const TwoBone solved = solve_two_bone(target, pole, rig.upper, rig.fore);
+            const glm::quat elbow = glm::angleAxis(-solved.flexion, glm::vec3(1, 0, 0));
+            const glm::quat upper_from_arm = quat(rig.upper_from_arm), fore_from_arm = quat(rig.fore_from_arm);
+            auto& local = frame.local[n].arm[side];
+            store(parent_from_arm * solved.shoulder * glm::conjugate(upper_from_arm), local.shoulder.rotation);
+            store(upper_from_arm * elbow * glm::conjugate(fore_from_arm), local.elbow.rotation);
+        }
 }
 
 }  // namespace bench::SWIVEL_LEVEL

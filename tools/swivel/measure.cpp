@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Problem P: targets, poles and bone lengths in; shoulder rotations, half flexions and flags out, arms in their own
-// frame. Resident: world targets and parent frames in, local rotations out.
+// frame. Resident: world targets and parent frames in, local rotations out. Whole frame: the same from and to the pose
+// buffers of 16,384 arms.
 #include "tools/swivel/measure.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "bench/rivals/check.h"
 #include "bench/rivals/contenders.h"
 #include "bench/rivals/probe.h"
+#include "bench/rivals/whole_frame.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/race.h"
@@ -19,19 +21,13 @@ namespace swivel::tools {
 
 namespace {
 
-constexpr std::uint32_t kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
+constexpr std::size_t kFrameCharacters = 8192;
 constexpr std::size_t kThreadArms = 262144;  // 16 MB of rows: many chunks for each thread
 
-void require_right(const std::string& name, std::span<const bench::Limb> limbs, const bench::Poses& poses)
+void require_right(const std::string& name, double worst)
 {
-    const double worst = bench::worst_error(limbs, poses);
     if (!(worst < bench::kRightWithin))
         throw CommandError(1, fmt::format("{} is off by {:.1e} of the arm's length; nothing was timed", name, worst));
-}
-
-std::size_t arms_within(std::size_t memory_level, std::uint32_t features)
-{
-    return bench::working_sets()[memory_level] / bench::row_bytes(features) / SWIVEL_LANES * SWIVEL_LANES;
 }
 
 // The runners, by name; what they work on lives as long as this.
@@ -39,14 +35,16 @@ class Bench {
 public:
     explicit Bench(std::string isa)
         : isa_(std::move(isa)),
-          limbs_(bench::random_limbs(arms_within(1, 0))),
+          limbs_(bench::random_limbs(bench::arms_within(1, 0))),
           cached_(bench::make_crowd(0, limbs_.size(), limbs_)),
-          large_(bench::make_crowd(0, arms_within(3, 0), limbs_)),
-          resident_(bench::make_crowd(kResident, arms_within(1, kResident), limbs_)),
-          shared_(bench::make_crowd(0, kThreadArms, limbs_))
+          large_(bench::make_crowd(0, bench::arms_within(3, 0), limbs_)),
+          resident_(bench::make_crowd(bench::kResident, bench::arms_within(1, bench::kResident), limbs_)),
+          shared_(bench::make_crowd(0, kThreadArms, limbs_)),
+          frame_(kFrameCharacters)
     {
         add_cached();
         add_rivals();
+        add_frames();
         add_crowd("resident", resident_, isa_);
         add_crowd("memory", large_, isa_);
         const swivel_rows in = swivel_input_rows(large_.get()), out = swivel_result_rows(large_.get());
@@ -79,8 +77,12 @@ public:
         pair("P out of cache", isa_, "memory", "copy", "of the same rows, nothing solved");
         if (thread_count() > 1)
             pair(fmt::format("P, {} threads", thread_count()), isa_, "all threads", "one thread", "swivel");
-        if (const bench::Level* level = bench::level_for(isa_))
-            pair("resident", isa_, "resident", fmt::format("single_glm {}", level->name), "problem P alone");
+        if (const bench::Level* level = bench::level_for(isa_)) {
+            const std::string glm = fmt::format("frame_glm {}", level->name);
+            pair("resident", isa_, "resident", glm, "the whole frame, one arm at a time");
+            pair("whole frame", isa_, "frame in one", glm, "one arm at a time");
+        }
+        pair("whole frame", isa_, "frame in one", "frame in steps", "swivel: write, solve, read");
         return pairs;
     }
 
@@ -105,16 +107,34 @@ private:
     {
         for (const std::string& isa : bench::runnable_isas()) {
             bench::solve_all(cached_, isa);
-            require_right("swivel on " + isa, limbs_, bench::poses_of(cached_));
+            require_right("swivel on " + isa, bench::worst_error(limbs_, bench::poses_of(cached_)));
             add_crowd("P " + isa, cached_, isa);
         }
+    }
+    void add_frame(const std::string& name, const std::function<void()>& work)
+    {
+        check(swivel_use_isa(isa_.c_str()));
+        frame_.spoil();
+        work();
+        require_right(name, frame_.worst_error());
+        race_.add(name, frame_.arm_count(), [this, work] {
+            check(swivel_use_isa(isa_.c_str()));
+            work();
+        });
+    }
+    void add_frames()
+    {
+        add_frame("frame in one", [this] { frame_.solve_in_one(); });
+        add_frame("frame in steps", [this] { frame_.write(), frame_.solve(), frame_.read(); });
+        if (const bench::Level* level = bench::level_for(isa_))
+            add_frame(fmt::format("frame_glm {}", level->name), [this, level] { level->solve_frame(frame_.view()); });
     }
     void add_rivals()
     {
         for (const bench::Level* level : bench::runnable_levels())
             for (bench::Contender& rival : bench::contenders(*level, limbs_)) {
                 rival.solve();
-                require_right(rival.name, limbs_, rival.poses());
+                require_right(rival.name, bench::worst_error(limbs_, rival.poses()));
                 race_.add(rival.name + " " + rival.level, limbs_.size(), rival.solve);
                 rivals_.push_back(std::move(rival));
             }
@@ -123,6 +143,7 @@ private:
     std::string isa_;
     std::vector<bench::Limb> limbs_;
     Crowd cached_, large_, resident_, shared_;
+    bench::WholeFrame frame_;
     std::vector<bench::Contender> rivals_;
     Race race_;
 };
