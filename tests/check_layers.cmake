@@ -92,11 +92,16 @@ may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<
 
 # ---- tools and bench: the public headers and their own; a format knows no solver
 foreach(folder tools bench)
-  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" ${nowhere} "only the public headers are for it")
+  # Counting a formula's operations takes the formula itself.
+  must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted[.]h|op_counts[.]cpp)$"
+               "only the public headers are for it")
   must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h and swivel.hpp")
 endforeach()
 must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/swivel)[^\n]*" ${nowhere} "a format knows no solver")
-must_not_say(tools/swivel "#[ \t]*include[ \t]*\"bench/[^\n]*" ${nowhere} "the command does not know the benchmarks")
+must_not_say(tools/swivel "#[ \t]*include[ \t]*\"bench/[a-z_]+[.]h[^\n]*" ${nowhere} "the command does not know the suite")
+must_not_say(tools/formats "#[ \t]*include[ \t]*\"bench/[^\n]*" ${nowhere} "a format knows no benchmark")
+must_not_say(bench/rivals "#[ \t]*include[ \t]*(\"bench/[a-z_]+[.]h|<benchmark/)[^\n]*" ${nowhere} "the rivals do not know the suite")
+must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmarks do not know the tools")
 
 foreach(folder core simd batch)
   # ---- names at home in one file

@@ -107,8 +107,13 @@ const Words kLongRun = {"demo", "--characters", "20000", "--frames", "100"};
 TEST_CASE("command: help and version")
 {
     const TempFolder folder;
-    for (const Words& help : std::vector<Words>{
-             {"--help"}, {"-h"}, {"demo", "--help"}, {"solve", "--help"}, {"verify", "--help"}, {"info", "--help"}}) {
+    for (const Words& help : std::vector<Words>{{"--help"},
+                                                {"-h"},
+                                                {"demo", "--help"},
+                                                {"solve", "--help"},
+                                                {"verify", "--help"},
+                                                {"bench", "--help"},
+                                                {"info", "--help"}}) {
         const Outcome outcome = run_command(folder.path, help);
         INFO(help.front());
         CHECK(outcome.exit_code == 0);
@@ -117,7 +122,8 @@ TEST_CASE("command: help and version")
         if (help.size() == 2)
             CHECK_THAT(outcome.out, Contains("--json"));
         else
-            CHECK_THAT(outcome.out, Contains("demo") && Contains("solve") && Contains("verify") && Contains("info"));
+            CHECK_THAT(outcome.out, Contains("demo") && Contains("solve") && Contains("verify") && Contains("bench") &&
+                                        Contains("info"));
     }
     CHECK_THAT(run_command(folder.path, {"solve", "--help"}).out,
                Contains("--targets") && Contains("--out") && Contains("--characters"));
@@ -150,6 +156,8 @@ TEST_CASE("command: bad usage is refused in one line before anything happens")
     }
     require_bad_usage({"verify", "--arms", "0"}, "--arms");
     require_bad_usage({"demo", "--frames", "0"}, "--frames");
+    for (const std::string number : {"0", "-1", "nan", "inf", "1e9", "1s", ""})
+        require_bad_usage({"bench", "--seconds", number}, "--seconds");
     require_bad_usage({"solve", "clip.bvh", "--threads", "1", "--threads", "2"}, "--threads");
     require_bad_usage({"solve", "clip.bvh", "--out"}, "--out");
 }
@@ -273,11 +281,53 @@ TEST_CASE("command: verify --json")
     }
 }
 
+TEST_CASE("command: bench has a row for everyone on every instruction set")
+{
+    const TempFolder folder;
+    const Json info = json_of(folder, {"info", "--json"});
+    const Json out = json_of(folder, {"bench", "--json", "--seconds", "0.2"});
+    CHECK(out.at("isa") == info.at("isa"));
+    CHECK(out.at("machine").at("cpu") == info.at("cpu"));
+    require_keys(out, {"library_build", "rivals_build", "row_bytes", "memory_ns"});
+    require_keys(out.at("ops"), {"roots", "divisions", "multiplications", "additions", "comparisons", "selects"});
+    CHECK(out.at("ops").at("roots") > 0);
+    require_keys(out.at("machine").at("copy_bytes_per_ns"), {"L1", "L2", "L3", "memory"});
+    for (const Json& pair : out.at("pairs")) {
+        INFO(pair.dump());
+        CHECK(pair.at("own_ns") > 0);
+        CHECK(pair.at("other_ns") > 0);
+        CHECK(pair.at("ratio") > 0);
+        CHECK(pair.at("note") != "");
+    }
+    const auto has_pair = [&](const std::string& work, const std::string& isa) {
+        return std::any_of(out.at("pairs").begin(), out.at("pairs").end(),
+                           [&](const Json& pair) { return pair.at("work") == work && pair.at("isa") == isa; });
+    };
+    for (const auto& [isa, state] : info.at("built").items()) {
+        if (state != "runs here") continue;
+        INFO(isa);
+        CHECK(has_pair("P in cache", isa));
+        require_keys(out.at("machine").at("limits").at(isa),
+                     {"lanes", "flops_per_ns", "division_ns", "root_ns", "divide_root_ns"});
+    }
+    for (const std::string work : {"P out of cache", "resident", "whole frame"}) CHECK(has_pair(work, info.at("isa")));
+    for (const Json& bound : out.at("bounds"))
+        CHECK(bound.at("bound_ns") == std::max(bound.at("divider_ns"), bound.at("arithmetic_ns")));
+
+    const Outcome text = run_command(folder.path, {"bench", "--seconds", "0.2"}, kTerminal);
+    CHECK(text.exit_code == 0);
+    CHECK_THAT(text.out, Contains(info.at("cpu").get<std::string>()) &&
+                             Contains(info.at("compiler").get<std::string>().substr(0, 3)));
+    CHECK_THAT(text.out, Contains("P in cache") && Contains("single_glm") && Contains("loop_roots") &&
+                             Contains("P out of cache") && Contains("resident") && Contains("whole frame") &&
+                             Contains("divider") && Contains("Roofline") && Contains("past the caches"));
+}
+
 TEST_CASE("command: an instruction set that does not exist")
 {
     const Surroundings forced{{"SWIVEL_FORCE_ISA=nonsense"}};
     for (const Words& arguments : std::vector<Words>{
-             {"info"}, {"info", "--json"}, {"demo"}, {"verify"}, {"solve", "clip.bvh", "--out", "x.bvh"}}) {
+             {"info"}, {"info", "--json"}, {"demo"}, {"verify"}, {"bench"}, {"solve", "clip.bvh", "--out", "x.bvh"}}) {
         const TempFolder folder;
         const Outcome outcome = run_beside_clip(folder, arguments, forced);
         INFO(arguments.front());

@@ -3,12 +3,12 @@
 // `swivel info`: what this machine is and what the library was built with.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
+#include "bench/rivals/machine.h"
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
@@ -18,15 +18,6 @@ namespace swivel::tools {
 
 namespace {
 
-std::string cpu_model()
-{
-    std::ifstream cpuinfo("/proc/cpuinfo");
-    for (std::string line; std::getline(cpuinfo, line);)
-        if (line.starts_with("model name"))
-            if (const std::size_t colon = line.find(':'); colon + 2 < line.size()) return line.substr(colon + 2);
-    return "unknown";
-}
-
 nlohmann::ordered_json describe()
 {
     const char* isa = swivel_isa_name();
@@ -34,7 +25,7 @@ nlohmann::ordered_json describe()
     nlohmann::ordered_json out;
     const std::uint32_t version = swivel_version();
     out["swivel"] = fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);
-    out["cpu"] = cpu_model();
+    out["cpu"] = bench::cpu_model();
     out["cores"] = std::thread::hardware_concurrency();
     out["isa"] = isa;
     for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n)

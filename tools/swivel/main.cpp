@@ -38,6 +38,7 @@ int main(int argc, char** argv)
     add_demo(app);
     add_solve(app);
     add_verify(app);
+    add_bench(app);
     add_info(app);
     try {
         app.parse(argc, argv);

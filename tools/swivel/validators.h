@@ -27,6 +27,18 @@ inline CLI::Validator whole_number(std::uint64_t least, std::uint64_t most)
     return CLI::Validator(check, fmt::format("{}..{}", least, most));
 }
 
+// A finite number, least to most.
+inline CLI::Validator number(double least, double most)
+{
+    const auto check = [least, most](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
+        return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+    };
+    return CLI::Validator(check, fmt::format("{}..{}", least, most));
+}
+
 inline CLI::Validator file_name()
 {
     const auto check = [](const std::string& text) -> std::string {

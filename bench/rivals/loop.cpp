@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// The textbook solver as a loop over arrays, in three writings (rivals.h).
+// The textbook solver as a plain loop over arrays that the compiler turns into vectors, in three writings; compiled
+// once for each level. Trig: acos and cosines for flexion and lift, as textbooks have it. Light: the fastest we found
+// that still goes through an angle, the flexion's; the lift by its cosine and a root. Roots: half-angle formulas
+// throughout, no angle at all; the fastest loop we found.
 //
-// That all are vectorised is checked with g++ 12 by -fopt-info-vec, which CMakeLists.txt passes: it prints "loop
-// vectorized using 64 byte vectors" for the loop below, once for each writing, and `nm` on the object lists
-// _ZGVeN16v_acosf and _ZGVeN16v_cosf. What it took: ivdep, since 56 alias checks are too many and __restrict on locals
-// is not enough, and a second cosine in place of the sine, since g++ joins sin and cos of one angle into a sincos that
-// it cannot vectorise.
-#include "rivals.h"
-
+// That g++ 12 vectorises all of them is seen with -fopt-info-vec: it prints "loop vectorized using 64 byte vectors" for
+// the loop below, once for each writing, and `nm` on the object lists _ZGVeN16v_acosf and _ZGVeN16v_cosf, libmvec's.
+// tests/check_rivals.cmake looks at the objects of every build. What it took: ivdep, since 56 alias checks are too many
+// and __restrict on locals is not enough, and a second cosine in place of the sine, since g++ joins sin and cos of one
+// angle into a sincos that it cannot vectorise.
 #include <bit>
 #include <cmath>
 
-#ifdef __AVX2__
-#include <immintrin.h>
-#else
-#include <cstring>
-#endif
+#include "bench/rivals/level.h"
 
-namespace bench {
+namespace bench::SWIVEL_LEVEL {
 
 namespace {
 
@@ -45,7 +42,11 @@ void solve_loop(const Arms& arms, Poses& poses)
     float *qx = poses[0], *qy = poses[1], *qz = poses[2], *qw = poses[3], *cos_half = poses[4], *sin_half = poses[5];
     float* flags = poses[6];
     const std::size_t count = arms.count();
+#ifdef __clang__
+#pragma clang loop vectorize(assume_safety)
+#else
 #pragma GCC ivdep
+#endif
     for (std::size_t n = 0; n < count; ++n) {
         const float l1 = upper[n], l2 = fore[n];
         const float far = l1 + l2, near = std::fabs(l1 - l2);
@@ -96,33 +97,4 @@ void solve_loop_trig(const Arms& arms, Poses& poses) { solve_loop<Writing::trig>
 void solve_loop_light(const Arms& arms, Poses& poses) { solve_loop<Writing::light>(arms, poses); }
 void solve_loop_roots(const Arms& arms, Poses& poses) { solve_loop<Writing::roots>(arms, poses); }
 
-void copy_rows(const float* input, float* results, std::size_t block_count)
-{
-    for (std::size_t block = 0; block < block_count; ++block, input += 8 * 16, results += 7 * 16) {
-#if defined(__AVX512F__)
-        const __m512i last = _mm512_load_si512(input + 7 * 16);
-        for (int row = 0; row < 7; ++row) {
-            const __m512i value = _mm512_load_si512(input + row * 16);
-            _mm512_stream_si512(reinterpret_cast<__m512i*>(results + row * 16),
-                                row < 6 ? value : _mm512_xor_si512(value, last));
-        }
-#elif defined(__AVX2__)
-        for (int half = 0; half < 14; ++half) {
-            const __m256i value = _mm256_load_si256(reinterpret_cast<const __m256i*>(input + half * 8));
-            const __m256i last = _mm256_load_si256(reinterpret_cast<const __m256i*>(input + 7 * 16 + half % 2 * 8));
-            _mm256_stream_si256(reinterpret_cast<__m256i*>(results + half * 8),
-                                half < 12 ? value : _mm256_xor_si256(value, last));
-        }
-#else
-        std::memcpy(results, input, 7 * 64);
-        results[0] += input[7 * 16];
-#endif
-    }
-#ifdef __AVX2__
-    _mm_sfence();
-#endif
-}
-
-const char* rival_compiler() { return SWIVEL_RIVAL_COMPILER; }
-
-}  // namespace bench
+}  // namespace bench::SWIVEL_LEVEL

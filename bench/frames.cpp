@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole frames, from and to the pose buffers of 8,192 characters, 16,384 arms, on one thread: swivel in one call, with
+// each instruction set; its three steps apart, with the best; one arm at a time on glm. And in one call on several
+// threads.
+#include <cstdio>
+#include <stdexcept>
+
+#include "bench/rivals/check.h"
+#include "bench/rivals/level.h"
+#include "bench/rivals/whole_frame.h"
+#include "bench/suite.h"
+
+namespace bench {
+
+namespace {
+
+constexpr std::size_t kCharacters = 8192;
+
+void require_right(const std::string& name, WholeFrame& frame, const Work& solve)
+{
+    frame.spoil();
+    solve();
+    const double worst = frame.worst_error();
+    std::fprintf(stderr, "%-24s worst wrist error of reached arms %.1e\n", name.c_str(), worst);
+    if (!(worst < kRightWithin)) throw std::runtime_error(name + " does not solve this frame; nothing is measured");
+}
+
+}  // namespace
+
+void add_frames(Suite& suite)
+{
+    const auto frame = std::make_shared<WholeFrame>(kCharacters);
+    const auto timed = [&](const std::string& name, const std::string& isa, const Work& work) {
+        add(name, frame->arm_count(), Clock::cpu, [isa, work] {
+            swivel::check(swivel_use_isa(isa.c_str()));
+            return work;
+        });
+    };
+    const Work in_one = [frame] { frame->solve_in_one(); };
+    const Work apart = [frame] { frame->write(), frame->solve(), frame->read(); };
+    for (const std::string& isa : suite.isas) {
+        swivel::check(swivel_use_isa(isa.c_str()));
+        require_right("frame/" + isa, *frame, in_one);
+        timed("frame/" + isa + "/in_one", isa, in_one);
+    }
+    const std::string best = suite.best_isa();
+    swivel::check(swivel_use_isa(best.c_str()));
+    require_right("frame/" + best + "/apart", *frame, apart);
+    timed("frame/" + best + "/apart", best, apart);
+    timed("frame/" + best + "/write", best, [frame] { frame->write(); });
+    timed("frame/" + best + "/solve", best, [frame] { frame->solve(); });
+    timed("frame/" + best + "/read", best, [frame] { frame->read(); });
+    for (const Level* level : runnable_levels()) {
+        const std::string name = std::string("frame_glm/") + level->name;
+        const Work work = [frame, solve = level->solve_frame] { solve(frame->view()); };
+        require_right(name, *frame, work);
+        timed(name, best, work);
+    }
+}
+
+}  // namespace bench

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+//
+// swivel_bench: swivel's kernels with each instruction set and in each level of memory, on one thread and several, from
+// one arm to ten million, beside textbook rivals, bare copies and the machine's own limits, all in one run. Before
+// timing, forward kinematics of everyone's results must put the wrists of ordinary arms on their targets.
+//
+//   cmake --preset dev && cmake --build --preset dev && build/dev/bench/swivel_bench
+//
+// Repetitions in random order, medians shown (of the CPU time; threads/ by the clock on the wall), and at the end
+// tables of ratios. Takes some minutes and 2 GB. Google Benchmark's own flags come after: --benchmark_filter=P/,
+// --benchmark_repetitions=..., --benchmark_out=result.json, which compare.py and plot.py read. Debian's libbenchmark
+// says that it "was built as DEBUG"; that is its own build and does not touch what is measured.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "bench/rivals/level.h"
+#include "bench/tables.h"
+
+namespace {
+
+using namespace bench;
+
+void note(const std::string& key, const std::string& value) { benchmark::AddCustomContext(key, value); }
+void note(const std::string& key, double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    note(key, text);
+}
+
+// What a result file says beside its times.
+void note_context(const Suite& suite)
+{
+    std::string isas;
+    for (const std::string& isa : suite.isas) isas += (isas.empty() ? "" : " ") + isa;
+    note("cpu", suite.machine.cpu);
+    note("isas", isas);
+    note("commit", SWIVEL_COMMIT);
+    note("library_build", library_build());
+    for (const Level* level : runnable_levels()) {
+        note(std::string("rivals_build/") + level->name, level->flags);
+        for (const Loop& loop : level->loops) note(std::string("how/") + loop.name + "/" + level->name, loop.how);
+    }
+    for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
+        note(std::string("copy_bytes_per_ns/") + kMemoryLevels[level], suite.machine.copy_bytes_per_ns[level]);
+    note("copy_bytes_per_ns/streamed", suite.machine.streamed_bytes_per_ns);
+    for (const IsaLimits& limits : suite.machine.isas) {
+        note("flops_per_ns/" + limits.isa, limits.flops_per_ns);
+        note("division_ns/" + limits.isa, limits.division_ns);
+        note("root_ns/" + limits.isa, limits.root_ns);
+        note("divide_root_ns/" + limits.isa, limits.divide_root_ns);
+        note("port_bound_ns/" + limits.isa, port_bound(suite.ops, limits).ns());
+    }
+    note("ops/roots", suite.ops.roots);
+    note("ops/divisions", suite.ops.divisions);
+    note("ops/multiplications", suite.ops.multiplications);
+    note("ops/additions", suite.ops.additions);
+    note("ops/comparisons", suite.ops.comparisons);
+    note("ops/selects", suite.ops.selects);
+    note("row_bytes", static_cast<double>(row_bytes(0)));
+}
+
+int run(int argc, char** argv)
+{
+    // Defaults first, so that the caller's flags win.
+    std::vector<std::string> defaults{"swivel_bench", "--benchmark_repetitions=9", "--benchmark_min_time=0.05",
+                                      "--benchmark_enable_random_interleaving=true",
+                                      "--benchmark_report_aggregates_only=true"};
+    std::vector<char*> args;
+    for (std::string& text : defaults) args.push_back(text.data());
+    args.insert(args.end(), argv + 1, argv + argc);
+    int arg_count = static_cast<int>(args.size());
+    args.push_back(nullptr);
+    benchmark::Initialize(&arg_count, args.data());
+    if (benchmark::ReportUnrecognizedArguments(arg_count, args.data())) return 2;
+
+    Suite suite;
+    note_context(suite);
+    add_problem_p(suite);
+    add_features(suite);
+    add_frames(suite);
+    add_copies(suite);
+    add_threads(suite);
+    add_growth(suite);
+
+    Medians medians;
+    benchmark::RunSpecifiedBenchmarks(&medians);
+    benchmark::Shutdown();
+    print_tables(suite, medians);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "swivel_bench: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// Problem P: targets, poles and bone lengths in; shoulder rotors, half flexions and flags out. By swivel with each
+// instruction set in each level of memory, and by the rivals at each level of flags, on the same arms within the level
+// 2 cache.
+#include <cstdio>
+#include <stdexcept>
+
+#include "bench/rivals/check.h"
+#include "bench/rivals/contenders.h"
+#include "bench/suite.h"
+
+namespace bench {
+
+namespace {
+
+void require_right(const std::string& name, std::span<const Limb> limbs, const Poses& poses)
+{
+    const double worst = worst_error(limbs, poses);
+    std::fprintf(stderr, "%-24s worst wrist error of ordinary arms %.1e\n", name.c_str(), worst);
+    if (!(worst < kRightWithin)) throw std::runtime_error(name + " does not solve these arms; nothing is measured");
+}
+
+}  // namespace
+
+void add_problem_p(Suite& suite)
+{
+    const std::vector<Limb> limbs = random_limbs(arms_within(1, 0));
+    for (const std::string& isa : suite.isas) {
+        swivel::Crowd crowd = make_crowd(0, limbs.size(), limbs);
+        solve_all(crowd, isa);
+        require_right(isa, limbs, poses_of(crowd));
+        for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
+            add_solve(suite, "P/" + isa + "/" + kMemoryLevels[level], isa, 0, arms_within(level, 0));
+    }
+    for (const Level* level : runnable_levels())
+        for (const Contender& contender : contenders(*level, limbs)) {
+            const std::string name = contender.name + "/" + contender.level;
+            contender.solve();
+            require_right(name, limbs, contender.poses());
+            add(name, limbs.size(), Clock::cpu, [solve = contender.solve] { return solve; });
+        }
+}
+
+}  // namespace bench

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+//
+// A number that counts what is done with it: a float with the list of operations that core/num.h asks for, each of them
+// one more in a tally. Formulas run on it unchanged.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "bench/rivals/op_counts.h"
+#include "core/num.h"
+
+namespace bench {
+
+// Of the calling thread.
+inline thread_local OpCounts tally;
+
+struct Counted {
+    float value = 0;
+
+    Counted() = default;
+    explicit Counted(double x) : value(static_cast<float>(x)) {}
+};
+struct CountedMask {
+    bool value;
+};
+struct CountedBits {
+    std::uint32_t value;
+};
+
+inline Counted counted(int& count, float result)
+{
+    ++count;
+    return Counted(double{result});
+}
+inline CountedMask compared(bool result)
+{
+    ++tally.comparisons;
+    return {result};
+}
+inline CountedMask combined(bool result)
+{
+    ++tally.selects;
+    return {result};
+}
+
+inline Counted operator+(Counted a, Counted b) { return counted(tally.additions, a.value + b.value); }
+inline Counted operator-(Counted a, Counted b) { return counted(tally.additions, a.value - b.value); }
+inline Counted operator*(Counted a, Counted b) { return counted(tally.multiplications, a.value * b.value); }
+inline Counted operator/(Counted a, Counted b) { return counted(tally.divisions, a.value / b.value); }
+inline Counted operator-(Counted a) { return counted(tally.selects, -a.value); }
+inline Counted sqrt(Counted x) { return counted(tally.roots, std::sqrt(x.value)); }
+inline Counted abs(Counted x) { return counted(tally.selects, std::fabs(x.value)); }
+inline Counted copysign(Counted x, Counted sign) { return counted(tally.selects, std::copysign(x.value, sign.value)); }
+inline Counted flip_sign(Counted x, Counted sign)
+{
+    return counted(tally.selects, std::signbit(sign.value) ? -x.value : x.value);
+}
+
+inline CountedMask operator<(Counted a, Counted b) { return compared(a.value < b.value); }
+inline CountedMask operator<=(Counted a, Counted b) { return compared(a.value <= b.value); }
+inline CountedMask operator>(Counted a, Counted b) { return compared(a.value > b.value); }
+inline CountedMask operator>=(Counted a, Counted b) { return compared(a.value >= b.value); }
+inline CountedMask operator==(Counted a, Counted b) { return compared(a.value == b.value); }
+
+inline CountedMask operator&(CountedMask a, CountedMask b) { return combined(a.value && b.value); }
+inline CountedMask operator|(CountedMask a, CountedMask b) { return combined(a.value || b.value); }
+inline CountedMask operator!(CountedMask a) { return combined(!a.value); }
+inline bool any(CountedMask mask) { return combined(mask.value).value; }
+inline bool all(CountedMask mask) { return combined(mask.value).value; }
+
+inline Counted select(CountedMask mask, Counted a, Counted b)
+{
+    return counted(tally.selects, mask.value ? a.value : b.value);
+}
+inline CountedBits bits_where(CountedMask mask, std::uint32_t bits)
+{
+    ++tally.selects;
+    return {mask.value ? bits : 0u};
+}
+inline CountedBits operator|(CountedBits a, CountedBits b)
+{
+    ++tally.selects;
+    return {a.value | b.value};
+}
+
+}  // namespace bench
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <>
+struct NumberTraits<bench::Counted> {
+    using Mask = bench::CountedMask;
+    using Bits = bench::CountedBits;
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// Which levels of rivals run here. __builtin_cpu_supports() also asks the operating system; it does not know the
+// levels' names in every compiler, so each is told by the sets that float loops use of it.
+#include <iterator>
+
+#include "bench/rivals/level.h"
+
+namespace bench {
+
+#if defined(__x86_64__)
+namespace v2 {
+extern const Level level;
+}
+namespace v3 {
+extern const Level level;
+}
+namespace v4 {
+extern const Level level;
+}
+#else
+namespace plain {
+extern const Level level;
+}
+#endif
+
+std::vector<const Level*> runnable_levels()
+{
+    std::vector<const Level*> levels;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        levels.push_back(&v4::level);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+        levels.push_back(&v3::level);
+    if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt")) levels.push_back(&v2::level);
+#else
+    levels.push_back(&plain::level);
+#endif
+    return levels;
+}
+
+const Level* level_for(const std::string& isa)
+{
+    const std::vector<const Level*> levels = runnable_levels();
+    for (const Level* level : levels)
+        if (isa == level->isa) return level;
+    return levels.empty() ? nullptr : levels.back();
+}
+
+}  // namespace bench

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// What an arm costs, counted, and what that takes at least on a machine whose limits are known.
+#pragma once
+
+#include <algorithm>
+
+#include "bench/rivals/machine.h"
+
+namespace bench {
+
+struct OpCounts {
+    int roots = 0, divisions = 0, multiplications = 0;
+    int additions = 0;    // and subtractions
+    int comparisons = 0;  // of numbers
+    int selects = 0;      // and all else that moves bits: signs, masks, flags
+
+    int flops() const { return roots + divisions + multiplications + additions; }
+};
+
+// Operations of problem P, as kernels do it, on an ordinary arm: solve_arm() and the choice of the quaternion's sign.
+OpCounts count_ops();
+
+// Nanoseconds an arm that no kernel with these operations can go below: the divider works on one root or division at
+// a time, everything else takes its turn on the multipliers and adders. Comparisons, selects, loads and stores are
+// taken as free.
+struct PortBound {
+    double divider_ns, arithmetic_ns;
+
+    double ns() const { return std::max(divider_ns, arithmetic_ns); }
+};
+inline PortBound port_bound(const OpCounts& ops, const IsaLimits& limits)
+{
+    return {(ops.roots * limits.root_ns + ops.divisions * limits.division_ns) / limits.lanes,
+            (ops.multiplications + ops.additions) / limits.flops_per_ns};
+}
+
+}  // namespace bench

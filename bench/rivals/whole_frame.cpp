@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "bench/rivals/whole_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/rivals/check.h"
+#include "bench/rivals/limbs.h"
+
+namespace bench {
+
+namespace {
+
+constexpr float kUpper = 0.30f, kFore = 0.26f;
+
+// Bones along +x on the left and -x on the right, hinges up or down, so that both bend forwards.
+swivel_binding binding(float side)
+{
+    swivel_chain chain{};
+    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    chain.elbow_offset[0] = side * kUpper;
+    chain.wrist_offset[0] = side * kFore;
+    chain.hinge[1] = side;
+    return swivel::bind(chain).binding;
+}
+Rig rig(float side)
+{
+    const swivel_binding b = binding(side);
+    Rig rig{kUpper, kFore, {side * kUpper, 0, 0}, {side * kFore, 0, 0}, {}, {}, {}};
+    std::copy_n(b.parent_from_arm, 4, rig.parent_from_arm);
+    std::copy_n(b.upper_from_arm, 4, rig.upper_from_arm);
+    std::copy_n(b.fore_from_arm, 4, rig.fore_from_arm);
+    return rig;
+}
+
+swivel::Crowd make_crowd(std::size_t character_count)
+{
+    const auto count = static_cast<std::uint32_t>(character_count);
+    const swivel_group_def groups[kArms] = {{count, binding(1)}, {count, binding(-1)}};
+    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, groups);
+    for (std::uint32_t side = 0; side < kArms; ++side) crowd.write_all(SWIVEL_LENGTHS, side, std::array{kUpper, kFore});
+    return crowd;
+}
+
+void store(const float (&v)[3], float (&to)[4]) { std::copy_n(v, 3, to); }
+
+}  // namespace
+
+WholeFrame::WholeFrame(std::size_t character_count)
+    : world_(character_count),
+      local_(character_count),
+      goals_(character_count),
+      rigs_{rig(1), rig(-1)},
+      crowd_(make_crowd(character_count))
+{
+    const std::vector<Limb> limbs = random_limbs(arm_count());
+    for (std::size_t n = 0; n < character_count; ++n) {
+        const Limb& chest = limbs[kArms * n];
+        store(chest.position, world_[n].chest.position);
+        std::copy_n(chest.rotation, 4, world_[n].chest.rotation);
+        std::fill_n(world_[n].chest.scale, 3, chest.scale[0]);
+        for (std::size_t side = 0; side < kArms; ++side) {
+            const Limb& limb = limbs[kArms * n + side];
+            const float offset[3] = {side == 0 ? 0.2f : -0.2f, 0.1f, 0};
+            const float resize = (kUpper + kFore) / (limb.lengths[0] + limb.lengths[1]);
+            float shoulder[3], wrist[3], pole[3];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                shoulder[axis] = offset[axis];
+                wrist[axis] = offset[axis] + resize * limb.target[axis];
+                pole[axis] = offset[axis] + limb.pole[axis];
+            }
+            to_world(chest, shoulder), to_world(chest, wrist), to_world(chest, pole);
+            store(shoulder, world_[n].arm[side].shoulder.position);
+            store(wrist, goals_[n].arm[side].wrist);
+            store(pole, goals_[n].arm[side].pole);
+        }
+    }
+    constexpr std::size_t pose = sizeof(CharacterPose), goal = sizeof(CharacterGoal);
+    for (std::size_t side = 0; side < kArms; ++side) {
+        swivel_frame frame{};
+        frame.target = {goals_[0].arm[side].wrist, goal};
+        frame.pole = {goals_[0].arm[side].pole, goal};
+        frame.parent_position = {world_[0].arm[side].shoulder.position, pose};
+        frame.parent_rotation = {world_[0].chest.rotation, pose};
+        frame.parent_scale = {world_[0].chest.scale, pose};
+        frame.shoulder = {local_[0].arm[side].shoulder.rotation, pose};
+        frame.elbow = {local_[0].arm[side].elbow.rotation, pose};
+        frames_[side] = frame;
+    }
+}
+
+void WholeFrame::write()
+{
+    const auto count = static_cast<std::uint32_t>(world_.size());
+    for (std::uint32_t side = 0; side < kArms; ++side) {
+        const swivel_frame& frame = frames_[side];
+        const auto put = [&](swivel_field field, swivel_in values) {
+            swivel::check(swivel_write(crowd_.get(), field, side, 0, count, values));
+        };
+        put(SWIVEL_TARGET, frame.target);
+        put(SWIVEL_POLE, frame.pole);
+        put(SWIVEL_PARENT_POSITION, frame.parent_position);
+        put(SWIVEL_PARENT_ROTATION, frame.parent_rotation);
+        put(SWIVEL_PARENT_SCALE, frame.parent_scale);
+    }
+}
+
+void WholeFrame::read()
+{
+    const auto count = static_cast<std::uint32_t>(world_.size());
+    for (std::uint32_t side = 0; side < kArms; ++side) {
+        swivel::check(swivel_read(crowd_.get(), SWIVEL_SHOULDER, side, 0, count, frames_[side].shoulder));
+        swivel::check(swivel_read(crowd_.get(), SWIVEL_ELBOW, side, 0, count, frames_[side].elbow));
+    }
+}
+
+double WholeFrame::worst_error() const
+{
+    double worst = 0;
+    for (std::size_t n = 0; n < world_.size(); ++n)
+        for (std::size_t side = 0; side < kArms; ++side) {
+            const auto& local = local_[n].arm[side];
+            const Rig& rig = rigs_[side];
+            const double scale = world_[n].chest.scale[0], length = scale * (rig.upper + rig.fore);
+            const Vec shoulder = vec(world_[n].arm[side].shoulder.position);
+            const Vec wanted = vec(goals_[n].arm[side].wrist) - shoulder;
+            // The bones are nearly equal: whatever is not stretched or folded is reached.
+            if (const double share = norm(wanted) / length; share < 0.15 || share > 0.98) continue;
+            const Vec fore = vec(rig.elbow_offset) + turn(local.elbow.rotation, vec(rig.wrist_offset));
+            const Vec wrist = scale * turn(world_[n].chest.rotation, turn(local.shoulder.rotation, fore));
+            const double error = norm(wrist - wanted) / length;
+            if (!std::isfinite(error)) return INFINITY;
+            worst = std::fmax(worst, error);
+        }
+    return worst;
+}
+
+void WholeFrame::spoil()
+{
+    for (CharacterPose& pose : local_)
+        for (auto& arm : pose.arm) {
+            std::fill_n(arm.shoulder.rotation, 4, NAN);
+            std::fill_n(arm.elbow.rotation, 4, NAN);
+        }
+}
+
+}  // namespace bench

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// One register of the instruction set that this file is compiled for, and the few operations that probes and copies
+// need of it. SWIVEL_PROBE_SCALAR: one float.
+#pragma once
+
+#include <cmath>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+namespace bench::SWIVEL_ISA {
+
+// stream(): a store past the caches, where the instruction set has one; to addresses aligned to the register.
+#if defined(SWIVEL_PROBE_SCALAR) || !(defined(__x86_64__) || defined(__aarch64__))
+using Wide = float;
+inline Wide broadcast(float x) { return x; }
+inline Wide root(Wide x) { return std::sqrt(x); }
+inline Wide load(const float* from) { return *from; }
+inline void store(float* to, Wide x) { *to = x; }
+inline void stream(float* to, Wide x) { *to = x; }
+#elif defined(__AVX512F__)
+using Wide = __m512;
+inline Wide broadcast(float x) { return _mm512_set1_ps(x); }
+inline Wide root(Wide x) { return _mm512_sqrt_ps(x); }
+inline Wide load(const float* from) { return _mm512_load_ps(from); }
+inline void store(float* to, Wide x) { _mm512_store_ps(to, x); }
+inline void stream(float* to, Wide x) { _mm512_stream_ps(to, x); }
+#elif defined(__AVX2__)
+using Wide = __m256;
+inline Wide broadcast(float x) { return _mm256_set1_ps(x); }
+inline Wide root(Wide x) { return _mm256_sqrt_ps(x); }
+inline Wide load(const float* from) { return _mm256_load_ps(from); }
+inline void store(float* to, Wide x) { _mm256_store_ps(to, x); }
+inline void stream(float* to, Wide x) { _mm256_stream_ps(to, x); }
+#elif defined(__x86_64__)
+using Wide = __m128;
+inline Wide broadcast(float x) { return _mm_set1_ps(x); }
+inline Wide root(Wide x) { return _mm_sqrt_ps(x); }
+inline Wide load(const float* from) { return _mm_load_ps(from); }
+inline void store(float* to, Wide x) { _mm_store_ps(to, x); }
+inline void stream(float* to, Wide x) { _mm_stream_ps(to, x); }
+#else
+using Wide = float32x4_t;
+inline Wide broadcast(float x) { return vdupq_n_f32(x); }
+inline Wide root(Wide x) { return vsqrtq_f32(x); }
+inline Wide load(const float* from) { return vld1q_f32(from); }
+inline void store(float* to, Wide x) { vst1q_f32(to, x); }
+inline void stream(float* to, Wide x) { vst1q_f32(to, x); }
+#endif
+
+inline constexpr unsigned kWide = sizeof(Wide) / sizeof(float);
+
+// Streamed stores are in memory from here on.
+inline void finish_streams()
+{
+#if defined(__x86_64__)
+    _mm_sfence();
+#endif
+}
+
+// The compiler may not know this value from here on, and has to have worked it out.
+inline void keep(Wide& x)
+{
+#if defined(__x86_64__)
+    asm volatile("" : "+v"(x));
+#elif defined(__aarch64__)
+    asm volatile("" : "+w"(x));
+#else
+    asm volatile("" : "+m"(x));
+#endif
+}
+
+}  // namespace bench::SWIVEL_ISA

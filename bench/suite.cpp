@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "bench/suite.h"
+
+#include <benchmark/benchmark.h>
+
+namespace bench {
+
+swivel::Crowd& Crowds::get(std::uint32_t features, std::size_t arm_count)
+{
+    const std::pair key(features, arm_count);
+    const auto at = crowds_.find(key);
+    if (at != crowds_.end()) return at->second;
+    return crowds_.emplace(key, make_crowd(features, arm_count, limbs_)).first->second;
+}
+
+void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare,
+         std::size_t crowd_bytes)
+{
+    auto* timed = benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        const Work work = prepare();
+        work();
+        for (auto _ : state) {
+            work();
+            benchmark::ClobberMemory();
+        }
+        const auto arms = static_cast<double>(arm_count);
+        // The inverted rate of arms: seconds an arm, shown with their unit ("2.8ns").
+        state.counters["time/arm"] = {arms,
+                                      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+        state.counters["arms"] = arms;
+        if (crowd_bytes > 0) state.counters["bytes/arm"] = static_cast<double>(crowd_bytes) / arms;
+    });
+    if (clock == Clock::wall) timed->UseRealTime();
+}
+
+void add_solve(Suite& suite, const std::string& name, const std::string& isa, std::uint32_t features,
+               std::size_t arm_count, std::size_t crowd_bytes)
+{
+    const auto prepare = [&suite, isa, features, arm_count]() -> Work {
+        swivel::check(swivel_use_isa(isa.c_str()));
+        swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
+        const std::uint32_t blocks = swivel_block_count(crowd.get());
+        return [&crowd, blocks] { crowd.solve_blocks(0, blocks); };
+    };
+    add(name, arm_count, Clock::cpu, prepare, crowd_bytes);
+}
+
+}  // namespace bench

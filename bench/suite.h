@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// What the suite's files share: the machine, the crowds that several benchmarks solve, and how one is added. Names have
+// slashes, so that --benchmark_filter picks families: P/, features/, resident/, frame/, copy/, threads/...
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/rivals/limbs.h"
+#include "bench/rivals/machine.h"
+#include "bench/rivals/op_counts.h"
+
+namespace bench {
+
+// Crowds are made when first asked for and kept: filling the largest takes longer than solving it.
+class Crowds {
+public:
+    swivel::Crowd& get(std::uint32_t features, std::size_t arm_count);
+
+private:
+    std::vector<Limb> limbs_ = random_limbs(65536);
+    std::map<std::pair<std::uint32_t, std::size_t>, swivel::Crowd> crowds_;
+};
+
+struct Suite {
+    std::vector<std::string> isas = runnable_isas();  // best first
+    Machine machine = measure_machine();
+    OpCounts ops = count_ops();
+    Crowds crowds;
+
+    const std::string& best_isa() const { return isas.front(); }
+};
+
+enum class Clock { cpu, wall };  // of the one thread that works; of several threads together
+using Work = std::function<void()>;
+
+// prepare is called at the start of every repetition; what it returns is timed. crowd_bytes: memory of the crowd, shown
+// by the arm; 0: not shown.
+void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare,
+         std::size_t crowd_bytes = 0);
+// A crowd solved by that instruction set on one thread.
+void add_solve(Suite& suite, const std::string& name, const std::string& isa, std::uint32_t features,
+               std::size_t arm_count, std::size_t crowd_bytes = 0);
+
+// One for each family. Those with rivals also check what they are going to time; they throw if someone's results are
+// wrong.
+void add_problem_p(Suite& suite);
+void add_features(Suite& suite);
+void add_frames(Suite& suite);
+void add_copies(Suite& suite);
+void add_threads(Suite& suite);
+void add_growth(Suite& suite);
+
+}  // namespace bench

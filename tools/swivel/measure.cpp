@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+//
+// Problem P: targets, poles and bone lengths in; shoulder rotations, half flexions and flags out, arms in their own
+// frame. Resident: world targets and parent frames in, local rotations out. Whole frame: the same from and to the pose
+// buffers of 16,384 arms.
+#include "tools/swivel/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/rivals/check.h"
+#include "bench/rivals/contenders.h"
+#include "bench/rivals/probe.h"
+#include "bench/rivals/whole_frame.h"
+#include "tools/swivel/command_error.h"
+#include "tools/swivel/parallel.h"
+#include "tools/swivel/race.h"
+
+namespace swivel::tools {
+
+namespace {
+
+constexpr std::size_t kFrameCharacters = 8192;
+constexpr std::size_t kThreadArms = 262144;  // 16 MB of rows: many chunks for each thread
+
+void require_right(const std::string& name, double worst)
+{
+    if (!(worst < bench::kRightWithin))
+        throw CommandError(1, fmt::format("{} is off by {:.1e} of the arm's length; nothing was timed", name, worst));
+}
+
+// The runners, by name; what they work on lives as long as this.
+class Bench {
+public:
+    explicit Bench(std::string isa)
+        : isa_(std::move(isa)),
+          limbs_(bench::random_limbs(bench::arms_within(1, 0))),
+          cached_(bench::make_crowd(0, limbs_.size(), limbs_)),
+          large_(bench::make_crowd(0, bench::arms_within(3, 0), limbs_)),
+          resident_(bench::make_crowd(bench::kResident, bench::arms_within(1, bench::kResident), limbs_)),
+          shared_(bench::make_crowd(0, kThreadArms, limbs_)),
+          frame_(kFrameCharacters)
+    {
+        add_cached();
+        add_rivals();
+        add_frames();
+        add_crowd("resident", resident_, isa_);
+        add_crowd("memory", large_, isa_);
+        const swivel_rows in = swivel_input_rows(large_.get()), out = swivel_result_rows(large_.get());
+        race_.add("copy", limb_count(large_), [=, copy = bench::probe_of(isa_.c_str()).copy_rows] {
+            copy(in.base, in.row_count, out.base, out.row_count, in.block_count);
+        });
+        if (thread_count() > 1) {
+            add_threads("one thread", 1);
+            add_threads("all threads", 0);
+        }
+    }
+
+    void run(double seconds) { race_.run(seconds); }
+
+    std::vector<Pair> pairs() const
+    {
+        std::vector<Pair> pairs;
+        const auto pair = [&](std::string work, const std::string& isa, std::string own, std::string other,
+                              std::string note) {
+            const double own_ns = race_.ns(own), other_ns = race_.ns(other);
+            pairs.push_back(
+                {std::move(work), isa, std::move(own), std::move(other), std::move(note), own_ns, other_ns});
+        };
+        for (const std::string& isa : bench::runnable_isas()) {
+            const bench::Level* level = bench::level_for(isa);
+            for (const bench::Contender& rival : rivals_)
+                if (level && rival.level == level->name && (level->isa == isa || rival.name == "single_glm"))
+                    pair("P in cache", isa, "P " + isa, rival.name + " " + rival.level, rival.how);
+        }
+        pair("P out of cache", isa_, "memory", "copy", "of the same rows, nothing solved");
+        if (thread_count() > 1)
+            pair(fmt::format("P, {} threads", thread_count()), isa_, "all threads", "one thread", "swivel");
+        if (const bench::Level* level = bench::level_for(isa_)) {
+            const std::string glm = fmt::format("frame_glm {}", level->name);
+            pair("resident", isa_, "resident", glm, "the whole frame, one arm at a time");
+            pair("whole frame", isa_, "frame in one", glm, "one arm at a time");
+        }
+        pair("whole frame", isa_, "frame in one", "frame in steps", "swivel: write, solve, read");
+        return pairs;
+    }
+
+    double ns(const std::string& name) const { return race_.ns(name); }
+
+private:
+    static std::size_t limb_count(const Crowd& crowd) { return swivel_group_limb_count(crowd.get(), 0); }
+
+    void add_crowd(const std::string& name, Crowd& crowd, const std::string& isa)
+    {
+        race_.add(name, limb_count(crowd), [&crowd, isa] { bench::solve_all(crowd, isa); });
+    }
+    void add_threads(const std::string& name, unsigned most)
+    {
+        race_.add(name, kThreadArms, [this, most] {
+            const ThreadLimit limit(most);
+            check(swivel_use_isa(isa_.c_str()));
+            shared_.solve();
+        });
+    }
+    void add_cached()
+    {
+        for (const std::string& isa : bench::runnable_isas()) {
+            bench::solve_all(cached_, isa);
+            require_right("swivel on " + isa, bench::worst_error(limbs_, bench::poses_of(cached_)));
+            add_crowd("P " + isa, cached_, isa);
+        }
+    }
+    void add_frame(const std::string& name, const std::function<void()>& work)
+    {
+        check(swivel_use_isa(isa_.c_str()));
+        frame_.spoil();
+        work();
+        require_right(name, frame_.worst_error());
+        race_.add(name, frame_.arm_count(), [this, work] {
+            check(swivel_use_isa(isa_.c_str()));
+            work();
+        });
+    }
+    void add_frames()
+    {
+        add_frame("frame in one", [this] { frame_.solve_in_one(); });
+        add_frame("frame in steps", [this] { frame_.write(), frame_.solve(), frame_.read(); });
+        if (const bench::Level* level = bench::level_for(isa_))
+            add_frame(fmt::format("frame_glm {}", level->name), [this, level] { level->solve_frame(frame_.view()); });
+    }
+    void add_rivals()
+    {
+        for (const bench::Level* level : bench::runnable_levels())
+            for (bench::Contender& rival : bench::contenders(*level, limbs_)) {
+                rival.solve();
+                require_right(rival.name, bench::worst_error(limbs_, rival.poses()));
+                race_.add(rival.name + " " + rival.level, limbs_.size(), rival.solve);
+                rivals_.push_back(std::move(rival));
+            }
+    }
+
+    std::string isa_;
+    std::vector<bench::Limb> limbs_;
+    Crowd cached_, large_, resident_, shared_;
+    bench::WholeFrame frame_;
+    std::vector<bench::Contender> rivals_;
+    Race race_;
+};
+
+// Leaves the process with the instruction set it had.
+struct KeepIsa {
+    std::string isa;
+    ~KeepIsa() { swivel_use_isa(isa.c_str()); }
+};
+
+}  // namespace
+
+Measured measure(double seconds)
+{
+    const char* isa = swivel_isa_name();
+    if (!isa) throw CommandError(1, swivel_last_error());
+    const KeepIsa keep{isa};
+    Bench runners(keep.isa);
+    Measured out{bench::measure_machine(), bench::count_ops(), bench::row_bytes(0), 0, keep.isa, {}, {}};
+    runners.run(seconds);
+    out.memory_ns = runners.ns("memory");
+    out.pairs = runners.pairs();
+    for (const bench::IsaLimits& limits : out.machine.isas)
+        out.bounds.push_back({limits.isa, bench::port_bound(out.ops, limits), runners.ns("P " + limits.isa)});
+    return out;
+}
+
+}  // namespace swivel::tools
