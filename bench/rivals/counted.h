@@ -56,6 +56,7 @@ inline Counted flip_sign(Counted x, Counted sign)
 {
     return counted(tally.selects, std::signbit(sign.value) ? -x.value : x.value);
 }
+inline Counted power_of_two(Counted x) { return counted(tally.selects, swivel::power_of_two(x.value)); }
 
 inline CountedMask operator<(Counted a, Counted b) { return compared(a.value < b.value); }
 inline CountedMask operator<=(Counted a, Counted b) { return compared(a.value <= b.value); }
@@ -72,6 +73,11 @@ inline bool all(CountedMask mask) { return combined(mask.value).value; }
 inline Counted select(CountedMask mask, Counted a, Counted b)
 {
     return counted(tally.selects, mask.value ? a.value : b.value);
+}
+inline CountedBits select(CountedMask mask, CountedBits a, CountedBits b)
+{
+    ++tally.selects;
+    return mask.value ? a : b;
 }
 inline CountedBits bits_where(CountedMask mask, std::uint32_t bits)
 {

@@ -15,8 +15,8 @@ OpCounts count_ops()
                                         swivel::vector(number(0.2), number(-1), number(0.1)), number(0.3),
                                         number(0.26)};
     tally = {};
-    const swivel::ArmPose<Counted> pose = swivel::solve_arm(goal, CountedMask{true});
-    swivel::hemisphere(pose.shoulder);
+    const swivel::Rotor<Counted> shoulder = swivel::solve_plain(goal).pose.shoulder;
+    swivel::with_sign_of(shoulder.at<swivel::kScalar>(), shoulder);
     return tally;
 }
 
