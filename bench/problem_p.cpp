@@ -4,10 +4,13 @@
 // instruction set in each level of memory, and by the rivals at each level of flags, on the same arms within the level
 // 2 cache.
 #include <cstdio>
+#include <cstring>
+#include <memory>
 #include <stdexcept>
 
 #include "bench/rivals/check.h"
 #include "bench/rivals/contenders.h"
+#include "bench/rivals/probe.h"
 #include "bench/suite.h"
 
 namespace bench {
@@ -21,15 +24,29 @@ void require_right(const std::string& name, std::span<const Limb> limbs, const P
     if (!(worst < kRightWithin)) throw std::runtime_error(name + " does not solve these arms; nothing is measured");
 }
 
+// The same rows by hand, into rows of its own: they must be the crowd's to the bit.
+void add_by_hand(const std::shared_ptr<swivel::Crowd>& crowd, std::size_t arm_count, const std::string& isa)
+{
+    const swivel_rows in = swivel_input_rows(crowd->get()), own = swivel_result_rows(crowd->get());
+    const auto rows = std::make_shared<Columns<1>>(std::size_t{own.block_count} * own.row_count * SWIVEL_LANES);
+    const auto solve = [crowd, in, rows, by_hand = probe_of(isa.c_str()).solve_by_hand] {
+        return by_hand(in.base, (*rows)[0], in.block_count);
+    };
+    if (!solve() || std::memcmp((*rows)[0], own.base, rows->count() * sizeof(float)) != 0)
+        throw std::runtime_error("hand/" + isa + " does not give swivel's bits; nothing is measured");
+    add("hand/" + isa, arm_count, Clock::cpu, [solve]() -> Work { return [solve] { solve(); }; });
+}
+
 }  // namespace
 
 void add_problem_p(Suite& suite)
 {
     const std::vector<Limb> limbs = random_limbs(arms_within(1, 0));
     for (const std::string& isa : suite.isas) {
-        swivel::Crowd crowd = make_crowd(0, limbs.size(), limbs);
-        solve_all(crowd, isa);
-        require_right(isa, limbs, poses_of(crowd));
+        const auto crowd = std::make_shared<swivel::Crowd>(make_crowd(0, limbs.size(), limbs));
+        solve_all(*crowd, isa);
+        require_right(isa, limbs, poses_of(*crowd));
+        add_by_hand(crowd, limbs.size(), isa);
         for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
             add_solve(suite, "P/" + isa + "/" + kMemoryLevels[level], isa, 0, arms_within(level, 0));
     }

@@ -150,7 +150,7 @@ SWIVEL_INLINE Mask<T> solve_plain_step(const Rows<T, Features>& rows, const Shar
     const Rotations<T> q = rotations_of<Features>(arm.pose, shared, load_hand(rows));
     store_rest(rows, arm.pose);
     Mask<T> holds = arm.holds & store_plain(rows, SWIVEL_SHOULDER, q.shoulder);
-    if constexpr (joints) holds = holds & store_plain(rows, SWIVEL_ELBOW, q.elbow);
+    if constexpr (joints) rows.store_rotor(SWIVEL_ELBOW, hemisphere(q.elbow));  // folded arms turn by pi
     if constexpr (with_hand) holds = holds & store_plain(rows, SWIVEL_WRIST, q.wrist);
     if constexpr (world || with_hand) holds = holds & seen.plain;
     return holds;

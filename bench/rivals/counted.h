@@ -17,9 +17,10 @@ inline thread_local OpCounts tally;
 
 struct Counted {
     float value = 0;
+    bool is_unit = false;  // the constant 1: products with it are left out by every compiler
 
     Counted() = default;
-    explicit Counted(double x) : value(static_cast<float>(x)) {}
+    explicit Counted(double x) : value(static_cast<float>(x)), is_unit(x == 1) {}
 };
 struct CountedMask {
     bool value;
@@ -31,7 +32,9 @@ struct CountedBits {
 inline Counted counted(int& count, float result)
 {
     ++count;
-    return Counted(double{result});
+    Counted x;
+    x.value = result;
+    return x;
 }
 inline CountedMask compared(bool result)
 {
@@ -46,7 +49,11 @@ inline CountedMask combined(bool result)
 
 inline Counted operator+(Counted a, Counted b) { return counted(tally.additions, a.value + b.value); }
 inline Counted operator-(Counted a, Counted b) { return counted(tally.additions, a.value - b.value); }
-inline Counted operator*(Counted a, Counted b) { return counted(tally.multiplications, a.value * b.value); }
+inline Counted operator*(Counted a, Counted b)
+{
+    if (a.is_unit || b.is_unit) return a.is_unit ? b : a;
+    return counted(tally.multiplications, a.value * b.value);
+}
 inline Counted operator/(Counted a, Counted b) { return counted(tally.divisions, a.value / b.value); }
 inline Counted operator-(Counted a) { return counted(tally.selects, -a.value); }
 inline Counted sqrt(Counted x) { return counted(tally.roots, std::sqrt(x.value)); }

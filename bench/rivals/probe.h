@@ -23,6 +23,9 @@ struct Probe {
     // which there are no more, past the caches.
     void (*copy_rows)(const float* input, std::size_t input_rows, float* results, std::size_t result_rows,
                       std::size_t block_count);
+    // Problem P for the rows of a crowd without features, by hand (hand.cpp). False if one of the arms is out of the
+    // ordinary: then its step's results mean nothing.
+    bool (*solve_by_hand)(const float* input, float* results, std::size_t block_count);
 };
 
 // Of an instruction set that swivel_isa_at() names.
@@ -39,6 +42,7 @@ void copy(const float* from, float* to, std::size_t count);
 void copy_streamed(const float* from, float* to, std::size_t count);
 void copy_rows(const float* input, std::size_t input_rows, float* results, std::size_t result_rows,
                std::size_t block_count);
+bool solve_by_hand(const float* input, float* results, std::size_t block_count);
 
 }  // namespace SWIVEL_ISA
 #endif

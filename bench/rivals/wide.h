@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One register of the instruction set that this file is compiled for, and the few operations that probes and copies
-// need of it. SWIVEL_PROBE_SCALAR: one float.
+// One register of the instruction set that this file is compiled for, and the few operations that probes, copies and
+// the kernel by hand need of it. SWIVEL_PROBE_SCALAR: one float.
 #pragma once
 
 #include <cmath>
@@ -50,6 +50,43 @@ inline Wide root(Wide x) { return vsqrtq_f32(x); }
 inline Wide load(const float* from) { return vld1q_f32(from); }
 inline void store(float* to, Wide x) { vst1q_f32(to, x); }
 inline void stream(float* to, Wide x) { vst1q_f32(to, x); }
+#endif
+
+// What comparisons of registers give, and the bits of their numbers.
+#if defined(SWIVEL_PROBE_SCALAR) || !(defined(__x86_64__) || defined(__aarch64__))
+using Mask = bool;
+inline Wide select(Mask mask, Wide a, Wide b) { return mask ? a : b; }
+inline Mask less(Wide a, Wide b) { return a < b; }
+inline Mask less_equal(Wide a, Wide b) { return a <= b; }
+inline bool all(Mask mask) { return mask; }
+inline Wide size_of(Wide x) { return std::fabs(x); }
+inline Wide signed_as(Wide size, Wide sign) { return std::copysign(size, sign); }
+inline Wide flipped_as(Wide x, Wide sign) { return std::signbit(sign) ? -x : x; }
+#elif defined(__AVX512F__)
+using Mask = __mmask16;
+inline Wide select(Mask mask, Wide a, Wide b) { return _mm512_mask_blend_ps(mask, b, a); }
+inline Mask less(Wide a, Wide b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+inline Mask less_equal(Wide a, Wide b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+inline bool all(Mask mask) { return mask == 0xffff; }
+inline Wide size_of(Wide x) { return _mm512_andnot_ps(broadcast(-0.0f), x); }
+inline Wide flipped_as(Wide x, Wide sign) { return _mm512_xor_ps(x, _mm512_and_ps(broadcast(-0.0f), sign)); }
+inline Wide signed_as(Wide size, Wide sign) { return _mm512_or_ps(size, _mm512_and_ps(broadcast(-0.0f), sign)); }
+#else
+using Mask = decltype(Wide{} < Wide{});
+inline Wide select(Mask mask, Wide a, Wide b) { return mask ? a : b; }
+inline Mask less(Wide a, Wide b) { return a < b; }
+inline Mask less_equal(Wide a, Wide b) { return a <= b; }
+inline Mask sign_bits(Wide x) { return reinterpret_cast<Mask>(x) & reinterpret_cast<Mask>(broadcast(-0.0f)); }
+inline Wide size_of(Wide x) { return reinterpret_cast<Wide>(reinterpret_cast<Mask>(x) ^ sign_bits(x)); }
+inline Wide flipped_as(Wide x, Wide s) { return reinterpret_cast<Wide>(reinterpret_cast<Mask>(x) ^ sign_bits(s)); }
+inline Wide signed_as(Wide x, Wide s) { return reinterpret_cast<Wide>(reinterpret_cast<Mask>(x) | sign_bits(s)); }
+#if defined(__AVX2__)
+inline bool all(Mask mask) { return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) == 0xff; }
+#elif defined(__x86_64__)
+inline bool all(Mask mask) { return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) == 0xf; }
+#else
+inline bool all(Mask mask) { return vminvq_u32(reinterpret_cast<uint32x4_t>(mask)) != 0; }
+#endif
 #endif
 
 inline constexpr unsigned kWide = sizeof(Wide) / sizeof(float);
