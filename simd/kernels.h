@@ -17,6 +17,7 @@ struct SolveRun {
     std::uint32_t block_count;
     float pole_is_point;  // 1, or 0 for poles that are directions; used with SWIVEL_WORLD
     const swivel_binding* binding;
+    bool prefetch;  // rows come from memory: call for those of later blocks
 };
 
 struct Kernels {
