@@ -10,7 +10,7 @@ namespace swivel {
 
 namespace {
 
-template <int C>
+template <std::size_t C>
 struct In {
     static void four(const char* values, std::size_t stride, float* lanes)
     {
@@ -19,7 +19,7 @@ struct In {
     static void one(const char* value, float* lane) { value_to_rows<C>(value, lane); }
 };
 
-template <int C>
+template <std::size_t C>
 struct Out {
     static void four(char* values, std::size_t stride, const float* lanes)
     {
@@ -42,7 +42,7 @@ void copy_blocks(const FieldRows& rows, std::size_t first, std::size_t limb_coun
     }
 }
 
-template <template <int> class Copy, class Byte>
+template <template <std::size_t> class Copy, class Byte>
 void copy(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
 {
     switch (rows.component_count) {

@@ -11,7 +11,8 @@
 // carries the forearm towards +y (e2). The elbow lies on the pole's side of the line from shoulder to wrist.
 //
 // LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
-// results -> swivel_crowd_destroy(). After creation swivel allocates nothing; oneTBB, inside swivel_solve(), may.
+// results, or swivel_solve_frame() for all three -> swivel_crowd_destroy(). After creation swivel allocates nothing;
+// oneTBB, inside swivel_solve() and swivel_solve_frame(), may.
 //
 // LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
 // to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
@@ -209,7 +210,8 @@ SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
 
 // Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data: consecutive floats for
 // each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any.
-// Costs about as much as a solve; rows are the fast way.
+// Values must not overlap the crowd's own memory. All fields together cost up to about a solve, less while the values
+// are in cache; rows cost nothing, and swivel_solve_frame() does not fetch them twice.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
@@ -223,37 +225,37 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
 SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
 
 // One group's values in the caller's own arrays, as engines keep them: one limb's value `stride` bytes after the one
-// before, the group's first limb at `data`; consecutive floats in each value (uint32_t for flags), any alignment.
+// before, from the group's first limb at `data`; consecutive floats in each (uint32_t for flags), of any alignment.
+// Units and meanings are the fields'. A stride beside null data is ignored.
 typedef struct swivel_frame {
     // Null data: the rows keep what they hold. Stride 0: one value for the whole group.
     swivel_in target, pole, lengths, parent_position, parent_rotation, parent_scale, hand;
-    // Null data: not written. With data null a stride is ignored.
+    // Null data: not written.
     swivel_out shoulder, elbow, wrist, flags;
 } swivel_frame;
 
 // A whole frame in one pass: swivel_write() of every input given, swivel_solve(), swivel_read() of every output given,
-// with the same bits, a few blocks at a time, so that rows are copied and solved while they are in the nearest cache.
-// frames has one frame for each group, in the order of the crowd's; it is read during the call and not kept. Rows hold
-// inputs and results afterwards, as after the separate calls. Nothing outside the values is read or written.
+// with the same bits, a few blocks at a time, so that their rows stay in the nearest cache from copy to copy. Rows hold
+// inputs and results afterwards. frames has one frame for each group, in the crowd's order, and is not kept.
 //
-// Inputs and outputs may lie in one buffer, such as a pose that is read and written, and may even be the same bytes: a
-// limb's inputs are read before its outputs are written. Other limbs' inputs may be read later, in any order, so no
-// output of a limb may overlap an input of another limb (nor an input of stride 0 in a group of several), nor any other
-// output, nor the crowd's own memory. Inputs may overlap each other.
+// No byte beside the values is read or written. Inputs may overlap each other. A limb's inputs are read before its
+// outputs are written, so its outputs may overlap its own inputs: a pose may be read and written in place. Another
+// limb's inputs may be read later, on any thread, so no limb's output may overlap another's input (an input of stride 0
+// is every limb's), nor any output another output, nor any value the crowd's own memory.
 //
-// On the calling thread's oneTBB arena if built with it. For arms in one array of structures, of 4 floats a rotation:
+// Fails for missing frames, for a field given that this crowd does not have, and for a stride smaller than a value. On
+// the calling thread's oneTBB arena if built with it. For arms of characters kept as structures,
+// with SWIVEL_JOINTS, in a crowd of one group:
 //     swivel_frame frame = {0};
-//     frame.target = (swivel_in){goals[0].wrist, sizeof goals[0]};
-//     frame.pole = (swivel_in){goals[0].elbow, sizeof goals[0]};
-//     frame.parent_rotation = (swivel_in){poses[0].clavicle_world, sizeof poses[0]};
-//     frame.shoulder = (swivel_out){poses[0].shoulder, sizeof poses[0]};
-//     frame.elbow = (swivel_out){poses[0].elbow, sizeof poses[0]};
-//     swivel_solve_frame(crowd, &frame);
+//     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
+//     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
+//     frame.shoulder = (swivel_out){&characters[0].joints[UPPER_ARM].rotation, sizeof characters[0]};
+//     frame.elbow = (swivel_out){&characters[0].joints[FOREARM].rotation, sizeof characters[0]};
+//     status = swivel_solve_frame(crowd, &frame);
 SWIVEL_API swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames);
-// The same for a range of blocks on the calling thread, as swivel_solve_blocks(): the limbs of a group in these blocks
-// are the 16 from 16 * (block - the group's first) on, as far as the group goes. Frames of groups without a block in
-// the range are not looked at. Never allocates, never uses oneTBB; ranges that do not overlap may run on several
-// threads at once, with the same frames.
+// The same for the limbs of a range of blocks, on the calling thread; nothing of other limbs is read or written, and
+// frames of groups without a block in the range are not looked at. Never allocates, never uses oneTBB; ranges that do
+// not overlap may run on several threads at once, with the same frames. The floating-point environment is restored.
 SWIVEL_API swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames,
                                                    uint32_t first_block, uint32_t block_count);
 

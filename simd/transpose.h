@@ -21,15 +21,15 @@
 namespace swivel {
 
 // One limb's value of C components to or from its lane; components are a row, SWIVEL_LANES floats, apart.
-template <int C>
+template <std::size_t C>
 void value_to_rows(const char* value, float* lane)
 {
-    for (int c = 0; c < C; ++c) std::memcpy(lane + c * SWIVEL_LANES, value + c * sizeof(float), sizeof(float));
+    for (std::size_t c = 0; c < C; ++c) std::memcpy(lane + c * SWIVEL_LANES, value + c * sizeof(float), sizeof(float));
 }
-template <int C>
+template <std::size_t C>
 void value_from_rows(const float* lane, char* value)
 {
-    for (int c = 0; c < C; ++c) std::memcpy(value + c * sizeof(float), lane + c * SWIVEL_LANES, sizeof(float));
+    for (std::size_t c = 0; c < C; ++c) std::memcpy(value + c * sizeof(float), lane + c * SWIVEL_LANES, sizeof(float));
 }
 
 // ---- four words in a register; zip_low is a0 b0 a1 b1, zip_high a2 b2 a3 b3
@@ -84,7 +84,7 @@ inline Words zip_high(Words a, Words b) { return vzip2q_u32(a, b); }
 
 #if defined(__SSE2__) || defined(__aarch64__)
 
-template <int C>
+template <std::size_t C>
 void four_values_to_rows(const char* values, std::size_t stride, float* lanes)
 {
     const char *const v0 = values, *const v1 = v0 + stride, *const v2 = v1 + stride, *const v3 = v2 + stride;
@@ -108,7 +108,7 @@ void four_values_to_rows(const char* values, std::size_t stride, float* lanes)
     }
 }
 
-template <int C>
+template <std::size_t C>
 void four_values_from_rows(const float* lanes, char* values, std::size_t stride)
 {
     char *const v0 = values, *const v1 = v0 + stride, *const v2 = v1 + stride, *const v3 = v2 + stride;
@@ -138,12 +138,12 @@ void four_values_from_rows(const float* lanes, char* values, std::size_t stride)
 
 #else
 
-template <int C>
+template <std::size_t C>
 void four_values_to_rows(const char* values, std::size_t stride, float* lanes)
 {
     for (std::size_t n = 0; n < 4; ++n) value_to_rows<C>(values + n * stride, lanes + n);
 }
-template <int C>
+template <std::size_t C>
 void four_values_from_rows(const float* lanes, char* values, std::size_t stride)
 {
     for (std::size_t n = 0; n < 4; ++n) value_from_rows<C>(lanes + n, values + n * stride);

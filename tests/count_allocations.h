@@ -9,6 +9,10 @@
 #include <cstddef>
 #include <cstdlib>
 
+#if defined(__x86_64__)
+#include <mm_malloc.h>  // clang's declares posix_memalign without noexcept, which it allows before a definition only
+#endif
+
 #if defined(__SANITIZE_ADDRESS__)
 // As in <sanitizer/allocator_interface.h>, which g++'s package leaves out.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),

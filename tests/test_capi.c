@@ -26,6 +26,7 @@ int main(void)
 {
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
     const swivel_in target_in = {target, 0}, pole_in = {pole, 0}, lengths_in = {lengths, 0};
+    swivel_frame frame;
     swivel_group_def group;
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
@@ -36,6 +37,7 @@ int main(void)
     int passed = 0, lines = 0, c;
 
     memset(&group, 0, sizeof group);
+    memset(&frame, 0, sizeof frame);
     group.limb_count = 1;
     def.group_count = 1;
     def.groups = &group;
@@ -51,6 +53,11 @@ int main(void)
     for (c = 0; c < 3; ++c) check(fabs(wrist[c] - (double)target[c]) < 1e-6, "the wrist is on its target");
     check(swivel_residuals(crowd, 0, 0, 1, distance_out) == SWIVEL_OK && distance < 1e-6, "residual");
     check(swivel_read(crowd, SWIVEL_FLAGS, 0, 0, 1, flags_out) == SWIVEL_OK && flags == SWIVEL_REACHED, "flags");
+    frame.target = target_in;
+    frame.flags = flags_out;
+    flags = 0;
+    check(swivel_solve_frame(crowd, &frame) == SWIVEL_OK && flags == SWIVEL_REACHED, "a whole frame");
+    check(swivel_solve_frame_blocks(crowd, &frame, 0, 1) == SWIVEL_OK, "a block of it");
     swivel_crowd_destroy(crowd);
 
     check(swivel_verify(200, 1, count_line, &lines, &passed) == SWIVEL_OK && passed && lines > 0, "verify");
