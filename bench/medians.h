@@ -30,7 +30,10 @@ public:
             if (!alone && run.aggregate_name != "median") continue;
             const double ns = run.counters.at("time/arm") * 1e9;
             ns_[run.run_name.function_name] = ns;
-            std::printf("%-40s %10.2f ns an arm, +- %.1f %%\n", run.run_name.function_name.c_str(), ns, spread);
+            std::printf("%-40s %10.2f ns an arm, +- %.1f %%", run.run_name.function_name.c_str(), ns, spread);
+            if (const auto bytes = run.counters.find("bytes/arm"); bytes != run.counters.end())
+                std::printf(", %.0f bytes an arm", bytes->second.value);
+            std::puts("");
         }
         std::fflush(stdout);
     }
