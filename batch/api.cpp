@@ -215,12 +215,15 @@ swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** cr
     *crowd = place_crowd(*def, arena);
     (*crowd)->release = release;
     (*crowd)->user = def->user;
+    begin_schedule(**crowd);
     return SWIVEL_OK;
 }
 
 void swivel_crowd_destroy(swivel_crowd* crowd)
 {
-    if (crowd && crowd->release) crowd->release(crowd->arena, crowd->arena_bytes, crowd->user);
+    if (!crowd) return;
+    end_schedule(*crowd);
+    if (crowd->release) crowd->release(crowd->arena, crowd->arena_bytes, crowd->user);
 }
 
 swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, float lengths[2])

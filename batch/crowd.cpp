@@ -71,7 +71,8 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                                         arena,
                                                         layout.end,
                                                         nullptr,
-                                                        nullptr};
+                                                        nullptr,
+                                                        {}};
 
     fill_field(*crowd, SWIVEL_TARGET, {0, 0, 2});
     fill_field(*crowd, SWIVEL_POLE, {0, -1, 0});

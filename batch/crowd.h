@@ -27,6 +27,7 @@ struct swivel_crowd {
     std::size_t arena_bytes;
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
     void* user;
+    alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
 };
 
 namespace swivel {

@@ -32,11 +32,15 @@ void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32
                   std::uint32_t block_count);
 
 // Solves all blocks, in chunks on the caller's oneTBB arena, or on this thread in a build without oneTBB.
-void solve_all(const swivel_crowd& crowd, const Kernels& kernels);
+void solve_all(swivel_crowd& crowd, const Kernels& kernels);
 
 // The same, with the caller's values copied in before and out after, a frame for each group. Frames are checked.
 void solve_frame_blocks(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames,
                         std::uint32_t first_block, std::uint32_t block_count);
-void solve_frame_all(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames);
+void solve_frame_all(swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames);
+
+// A crowd's memory of which thread solved which chunk: from its creation to its end.
+void begin_schedule(swivel_crowd& crowd);
+void end_schedule(swivel_crowd& crowd);
 
 }  // namespace swivel
