@@ -25,6 +25,7 @@ enum class Op {
     flip_the_sign,
     lower,
     higher,
+    power_below,
     choose,  // bits
     less,
     less_equal,
@@ -36,6 +37,7 @@ enum class Op {
     not_less,
     is_number,  // masks, as words
     words_or,
+    choose_words,
     constant,
     any_less,  // over all lanes of a step, the same word in each
     all_less,
@@ -85,6 +87,8 @@ SWIVEL_INLINE void apply(Op op, const T& a, const T& b, const T& c, Store store)
             return store(lo(a, b));
         case Op::higher:
             return store(hi(a, b));
+        case Op::power_below:
+            return store(power_of_two(a));
         case Op::choose:
             return store(select(c < T(0), a, b));
         case Op::less:
@@ -107,6 +111,8 @@ SWIVEL_INLINE void apply(Op op, const T& a, const T& b, const T& c, Store store)
             return store(bits_where(a == a, kWord));
         case Op::words_or:
             return store(bits_where(a < b, kWord) | bits_where(a < c, kOther));
+        case Op::choose_words:
+            return store(select(a < b, bits<T>(kWord), bits<T>(kOther)));
         case Op::constant:
             return store(T(kConstant));
         case Op::any_less:
