@@ -228,10 +228,11 @@ SWIVEL_INLINE constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
     return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return scalar * m.template at<B>(); });
 }
 
-template <table::Product Kind, class T, BladeSet A, BladeSet B>
-SWIVEL_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
+// Some blades of a product, all of which it has; and all of it.
+template <table::Product Kind, BladeSet Part, class T, BladeSet A, BladeSet B>
+SWIVEL_INLINE constexpr auto product_part(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    return for_each_blade<T, table::product_blades(Kind, A, B)>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
+    return for_each_blade<T, Part>([&]<Blade Out>() SWIVEL_INLINE_LAMBDA {
         constexpr table::Terms terms = table::terms(Kind, A, B, Out);
         const auto term = [&]<std::size_t N>() SWIVEL_INLINE_LAMBDA {
             return a.template at<terms.term[N].a>() * b.template at<terms.term[N].b>();
@@ -246,6 +247,11 @@ SWIVEL_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
         };
         return add_up(std::make_index_sequence<terms.count - 1>{});
     });
+}
+template <table::Product Kind, class T, BladeSet A, BladeSet B>
+SWIVEL_INLINE constexpr auto product(const Mv<T, A>& a, const Mv<T, B>& b)
+{
+    return product_part<Kind, table::product_blades(Kind, A, B)>(a, b);
 }
 // Geometric product.
 template <class T, BladeSet A, BladeSet B>
@@ -269,8 +275,7 @@ SWIVEL_INLINE constexpr auto dot(const Mv<T, A>& a, const Mv<T, B>& b)
 template <class T, BladeSet A, BladeSet B>
 SWIVEL_INLINE constexpr T scalar_product(const Mv<T, A>& a, const Mv<T, B>& b)
 {
-    constexpr BladeSet scalar = blades(kScalar);
-    return part<scalar>(product<table::Product::geometric>(a, b)).c[0];
+    return product_part<table::Product::geometric, blades(kScalar)>(a, b).c[0];
 }
 
 // Reverse: the order of each blade's vectors turned round.

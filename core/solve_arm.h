@@ -44,14 +44,15 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
             second = select(larger_first, triangle.smaller, triangle.larger);
     const auto lift = flip_sign(first, frame.start) * unit<T, kScalar>() + second * unit<T, kI>();
 
-    const T without_twist = frame.middle_half2 * triangle.lift2, half2 = without_twist * frame.twist_len2;
+    const T half2 = (frame.middle_half2 * frame.twist_len2) * triangle.lift2;  // the lift comes last
     const Rotor<T> shoulder = (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * lift);
 
     // It holds for numbers whose squares and products stay normal floats, for poles off the line, and for bones of
     // which neither swallows the other.
     const T pole1 = length1(goal.pole), far = goal.upper + goal.fore, shortest2 = far - abs(goal.upper - goal.fore);
-    const Mask<T> holds = (lo(lo(wrist2, pole1), lo(shortest2, T(1e4) * without_twist)) >= T(kPlainLeast)) &
-                          ((wrist2 + pole1) + far <= T(kPlainMost)) & (normal_length > T(kPoleOff) * (length * pole1));
+    const Mask<T> holds =
+        (lo(lo(wrist2, pole1), lo(shortest2, T(1e4) * (frame.middle_half2 * triangle.lift2))) >= T(kPlainLeast)) &
+        ((wrist2 + pole1) + far <= T(kPlainMost)) & (normal_length > T(kPoleOff) * (length * pole1));
     return {{shoulder, triangle.cos_half, triangle.sin_half,
              select(reach.too_far, bits<T>(flag::clamped_far),
                     select(reach.too_near, bits<T>(flag::clamped_near), bits<T>(flag::reached))),
