@@ -48,7 +48,7 @@ inline bool solve(const float* in, float* out)
     // The lift, and the root that takes off all lengths.
     const Mask larger_first = less_equal(broadcast(0), flipped_as(p - m, wz));
     const Wide l0 = flipped_as(select(larger_first, larger, smaller), wz), l1 = select(larger_first, smaller, larger);
-    const Wide without_turn = (length * height) * lift2, half2 = without_turn * (large * large + s * s);
+    const Wide half2 = (length * height) * (large * large + s * s) * lift2;
     const Wide scale = broadcast(0.707106781186547524f) / root(half2);
     const Wide w = scale * (fw * l0 - fx * l1), x = scale * (fx * l0 + fw * l1);
     const Wide y = scale * (fy * l0 + fz * l1), z = scale * (fz * l0 - fy * l1);
@@ -62,7 +62,8 @@ inline bool solve(const float* in, float* out)
     store(out + 96, select(less(far, length), flag(8), select(less(length, near), flag(16), flag(1))));
 
     const Wide pole1 = size_of(px) + size_of(py) + size_of(pz);
-    const Wide least = less_of(less_of(wrist2, pole1), less_of(far - near, broadcast(1e4f) * without_turn));
+    const Wide least =
+        less_of(less_of(wrist2, pole1), less_of(far - near, broadcast(1e4f) * ((length * height) * lift2)));
     const Wide most = wrist2 + pole1 + far;
     const Mask plain = less_equal(broadcast(1e-9f), least) & less_equal(most, broadcast(1e9f));
     const Mask defined = less(broadcast(1e-3f) * (length * pole1), normal_length);
