@@ -65,8 +65,8 @@ set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
 
 # ---- core: formulas and the standard library; the oracle shares nothing with them
-may_include(core "core/(isa|num|algebra|conformal|arm|reach|swivel_plane|solve_arm|space|pipeline)[.]h$"
-            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|arm|reach|swivel_plane|solve_arm|space)[.]h\"")
+may_include(core "core/(isa|num|algebra|conformal|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
+            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|arm|reach|frame_rotor|solve_arm|space)[.]h\"")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
