@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The C entry points: check the arguments, call in, turn outcomes into statuses.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -12,8 +14,10 @@
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
+#include "batch/unpack.h"
 #include "core/arm.h"
 #include "simd/dispatch.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -24,7 +28,8 @@ static_assert(flag::reached == SWIVEL_REACHED && flag::clamped_far == SWIVEL_CLA
 
 namespace {
 
-constexpr std::uint32_t kAllFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
+constexpr std::uint32_t kAllFeatures =
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT;
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 constexpr std::size_t kArenaAlignment = 64;
 
@@ -99,7 +104,7 @@ swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swive
     if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
     if (input && !is_input(field))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
-    const std::uint32_t component_count = field_row_count(crowd.features, field);
+    const std::uint32_t component_count = field_component_count(crowd.features, field);
     if (component_count == 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with %s", group, name,
                     field == SWIVEL_HAND || field == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
@@ -116,7 +121,13 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
     swivel_status status = SWIVEL_OK;
     for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
         const auto check_member = [&](swivel_field field, const auto& values) {
-            if (values.data && status == SWIVEL_OK)
+            if (!values.data || status != SWIVEL_OK) return;
+            if (is_packed(crowd, field))
+                status = fail(SWIVEL_INVALID_ARGUMENT,
+                              "group %u, %s: a frame does not take results out of a crowd with SWIVEL_COMPACT; use "
+                              "swivel_read() or swivel_compact_rows()",
+                              g, field_name(field));
+            else
                 status = check_values(crowd, g, field, values.data, values.stride, is_input(field));
         };
         for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
@@ -255,8 +266,20 @@ swivel_rows swivel_input_rows(swivel_crowd* crowd)
 }
 swivel_rows swivel_result_rows(swivel_crowd* crowd)
 {
-    return {crowd->results, crowd->block_count, crowd->result_row_count};
+    return {crowd->results, crowd->block_count, crowd->results ? crowd->result_row_count : 0};
 }
+swivel_words swivel_compact_rows(swivel_crowd* crowd)
+{
+    return {crowd->words, crowd->block_count, crowd->words ? crowd->result_row_count : 0};
+}
+
+void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4])
+{
+    const FloatEnv env;
+    const std::array<float, 4> q = unpack_rotation(words, word_stride);
+    std::copy(q.begin(), q.end(), xyzw);
+}
+float swivel_unpack_half(uint16_t word) { return unpack_half(word); }
 
 swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
                            swivel_in values)
@@ -276,7 +299,10 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
     if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, false);
         status != SWIVEL_OK)
         return status;
-    copy_out(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
+    if (is_packed(*crowd, field))
+        unpack_out(*crowd, crowd->groups[group], field, first, limb_count, values);
+    else
+        copy_out(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 

@@ -25,11 +25,10 @@ struct Layout {
     explicit Layout(const swivel_crowd_def& def) : block_count(0)
     {
         for (std::uint32_t g = 0; g < def.group_count; ++g) block_count += blocks_of(def.groups[g]);
-        const std::size_t row_bytes = std::size_t{block_count} * SWIVEL_LANES * sizeof(float);
         groups = aligned(sizeof(swivel_crowd));
         input = groups + aligned(def.group_count * sizeof(Group));
-        results = input + row_bytes * input_row_count(def.features);
-        end = results + row_bytes * result_row_count(def.features);
+        results = input + block_count * kInputRowBytes * input_row_count(def.features);
+        end = results + aligned(block_count * result_row_bytes(def.features) * result_row_count(def.features));
     }
 };
 
@@ -60,6 +59,8 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
         first_block += block_count;
     }
 
+    const bool compact = def.features & SWIVEL_COMPACT;
+    char* const results = base + layout.results;
     swivel_crowd* const crowd = new (base) swivel_crowd{def.features,
                                                         def.group_count,
                                                         layout.block_count,
@@ -67,7 +68,8 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                                         result_row_count(def.features),
                                                         groups,
                                                         reinterpret_cast<float*>(base + layout.input),
-                                                        reinterpret_cast<float*>(base + layout.results),
+                                                        compact ? nullptr : reinterpret_cast<float*>(results),
+                                                        compact ? reinterpret_cast<std::uint16_t*>(results) : nullptr,
                                                         arena,
                                                         layout.end,
                                                         nullptr,

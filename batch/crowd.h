@@ -22,7 +22,8 @@ struct swivel_crowd {
     std::uint32_t group_count, block_count;
     std::uint32_t input_row_count, result_row_count;
     swivel::Group* groups;
-    float *input, *results;
+    float *input, *results;  // results: null in a compact crowd, which has words instead
+    std::uint16_t* words;
     void* arena;
     std::size_t arena_bytes;
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "batch/unpack.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -17,6 +18,7 @@ struct Reader {
     double operator()(swivel_field field, std::uint32_t component) const { return lane(field, component); }
     float lane(swivel_field field, std::uint32_t component) const
     {
+        if (is_packed(crowd, field)) return unpack_value(crowd, field, limb)[component];
         const float* rows = is_input(field) ? crowd.input : crowd.results;
         const std::uint32_t row_count = is_input(field) ? crowd.input_row_count : crowd.result_row_count;
         return rows[row_offset(limb, row_count, field_first_row(crowd.features, field) + component)];

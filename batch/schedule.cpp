@@ -7,6 +7,7 @@
 #include <new>
 
 #include "simd/float_env.h"
+#include "simd/rows.h"
 
 #ifdef SWIVEL_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
@@ -37,8 +38,7 @@ void in_chunks([[maybe_unused]] swivel_crowd& crowd, const Work& work)
     // Rows of a quarter of a level 2 cache of 512 KiB: some microseconds of work. Crowds of one chunk would only lose
     // by being shared: up to 2,000 arms two threads were no faster than one, with chunks of any size.
     constexpr std::size_t kChunkBytes = 128 * 1024;
-    const std::size_t block_bytes = (crowd.input_row_count + crowd.result_row_count) * SWIVEL_LANES * sizeof(float);
-    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes);
+    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes(crowd.features));
     if (crowd.block_count > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;

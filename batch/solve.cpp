@@ -3,6 +3,8 @@
 // One run of blocks: which kernel, on which rows, with which binding.
 #include "batch/solve.h"
 
+#include <algorithm>
+
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -16,15 +18,33 @@ constexpr std::uint32_t kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL
 // from a cache, prefetching costs up to 3 %; where from memory, it takes 5 to 15 % off.
 constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 
-SolveRun run_of(const swivel_crowd& crowd, const Group& group, std::uint32_t first_block, std::uint32_t block_count)
+// Result rows of a compact crowd live on the stack until they are packed: so many blocks' stay in the nearest cache.
+constexpr std::uint32_t kPackBlocks = 8;
+constexpr std::uint32_t kMostResultRows = result_row_count(SWIVEL_JOINTS | SWIVEL_WITH_HAND);
+
+SolveRun run_of(const swivel_crowd& crowd, const Group& group, float* results, std::uint32_t first_block,
+                std::uint32_t block_count)
 {
-    const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
-    return {crowd.input + row_offset(limb, crowd.input_row_count, 0),
-            crowd.results + row_offset(limb, crowd.result_row_count, 0),
+    return {crowd.input + row_offset(std::size_t{first_block} * SWIVEL_LANES, crowd.input_row_count, 0),
+            results,
             block_count,
             crowd.features & SWIVEL_POLE_DIRECTION ? 0.0f : 1.0f,
             &group.binding,
             crowd.arena_bytes > kCachedBytes};
+}
+
+void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
+                   std::uint32_t block_count)
+{
+    alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
+    const auto pack = kernels.pack[(crowd.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS];
+    for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {
+        const std::uint32_t block = first_block + done, count = std::min(kPackBlocks, block_count - done);
+        const SolveRun run = run_of(crowd, group, results, block, count);
+        kernels.solve[crowd.features & kFormulaFeatures](run);
+        pack({results, crowd.words + row_offset(std::size_t{block} * SWIVEL_LANES, crowd.result_row_count, 0), count,
+              run.prefetch});
+    }
 }
 
 }  // namespace
@@ -32,7 +52,10 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, std::uint32_t fir
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count)
 {
-    kernels.solve[crowd.features & kFormulaFeatures](run_of(crowd, group, first_block, block_count));
+    if (crowd.features & SWIVEL_COMPACT) return solve_compact(crowd, kernels, group, first_block, block_count);
+    float* const results =
+        crowd.results + row_offset(std::size_t{first_block} * SWIVEL_LANES, crowd.result_row_count, 0);
+    kernels.solve[crowd.features & kFormulaFeatures](run_of(crowd, group, results, first_block, block_count));
 }
 
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,

@@ -34,6 +34,20 @@
 //   SWIVEL_WRIST               4     WITH_HAND       hand relative to forearm, or local rotation with JOINTS
 //   SWIVEL_FLAGS               1     always          SWIVEL_REACHED..., as uint32_t
 //
+// COMPACT RESULTS. With SWIVEL_COMPACT a result row is 16 uint16_t, 32 bytes, word r of limb i at
+// base[((i / 16) * row_count + r) * 16 + i % 16] of swivel_compact_rows(), the fields in the same order:
+//   SWIVEL_SHOULDER, SWIVEL_WRIST, and SWIVEL_ELBOW with JOINTS: 3 words, the quaternion's smallest three components.
+//       The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is
+//       word0 >> 15 | (word1 >> 15) << 1. The other three, in the order x, y, z, w, are
+//       ((word & 32767) - 16384) / (16383 * sqrt 2), of the one of q and -q whose component left out is positive: that
+//       one is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0. Three words of 0, as at creation, are four
+//       zeros.
+//   SWIVEL_ELBOW without JOINTS: 2 words, cos and sin as IEEE half floats, rounded to nearest.
+//   SWIVEL_FLAGS: 2 words, the low and the high half of the uint32_t.
+// A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of it, for
+// any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes a core up to half as
+// long as solving, so it pays where memory is short or its bandwidth shared, or where results are sent on.
+//
 // Without JOINTS the elbow's quaternion is (-sin, 0, 0, cos), and hand = parent * shoulder * elbow * wrist.
 // With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS the binding says how it lies there.
 //
@@ -97,6 +111,7 @@ typedef enum swivel_feature {
     SWIVEL_JOINTS = 1u << 1,          // results are the skeleton's own local rotations, through the group's binding
     SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
     SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
+    SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -171,6 +186,12 @@ typedef struct swivel_rows {
     uint32_t row_count;
 } swivel_rows;
 
+typedef struct swivel_words {
+    uint16_t* base;  // borrowed as well
+    uint32_t block_count;
+    uint32_t row_count;
+} swivel_words;
+
 // The version the library was built as: compare with SWIVEL_VERSION. Any thread.
 SWIVEL_API uint32_t swivel_version(void);
 // What a status means, in a few words. Any thread.
@@ -199,19 +220,30 @@ SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
 // A group that does not exist has 0 limbs.
-// First row of a field in its blocks, and its number of rows: 0 if this crowd does not have the field.
+// First row of a field in its blocks, and its number of rows: 0 if this crowd does not have the field. Rows of words,
+// for results of a crowd with SWIVEL_COMPACT.
 SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field);
 SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field);
 
 // Direct access to rows: the fast way in and out. Padding lanes of inputs may hold anything and are left alone; those
-// of results are overwritten and mean nothing.
+// of results are overwritten and mean nothing. With SWIVEL_COMPACT results are compact rows, otherwise result rows; the
+// other has a null base and no rows.
 SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
+SWIVEL_API swivel_words swivel_compact_rows(swivel_crowd* crowd);
+
+// Words of COMPACT RESULTS as numbers, the same as swivel_read() gives. A rotation's three words lie word_stride words
+// apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0 as under RESULTS, or four zeros. Words
+// that no solve wrote may give a quaternion of another length. Any thread.
+SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
+// The value of any half float, exactly. Any thread.
+SWIVEL_API float swivel_unpack_half(uint16_t word);
 
 // Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data: consecutive floats for
 // each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any.
 // Values must not overlap the crowd's own memory. All fields together cost up to about a solve, less while the values
-// are in cache; rows cost nothing, and swivel_solve_frame() does not fetch them twice.
+// are in cache; rows cost nothing, and swivel_solve_frame() does not fetch them twice. Results of a crowd
+// with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb after the other.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
@@ -243,9 +275,10 @@ typedef struct swivel_frame {
 // limb's inputs may be read later, on any thread, so no limb's output may overlap another's input (an input of stride 0
 // is every limb's), nor any output another output, nor any value the crowd's own memory.
 //
-// Fails for missing frames, for a field given that this crowd does not have, and for a stride smaller than a value. On
-// the calling thread's oneTBB arena if built with it. For arms of characters kept as structures,
-// with SWIVEL_JOINTS, in a crowd of one group:
+// Fails for missing frames, for a field given that this crowd does not have, for a stride smaller than a value, and for
+// outputs of a crowd with SWIVEL_COMPACT, whose results are read with swivel_read() or where they lie. On the calling
+// thread's oneTBB arena if built with it. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of
+// one group:
 //     swivel_frame frame = {0};
 //     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
 //     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};

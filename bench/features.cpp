@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Crowds with features, rows in and rows out: resident (world targets to local rotations) with each instruction set,
-// the other sets of features with the best; within the level 2 cache, and resident also in memory.
+// the other sets of features with the best; within the level 2 cache, resident and compact results also in memory.
 #include "bench/suite.h"
 
 namespace bench {
@@ -12,6 +12,10 @@ void add_features(Suite& suite)
         add_solve(suite, "resident/" + isa + "/L2", isa, kResident, arms_within(1, kResident));
     add_solve(suite, "resident/" + suite.best_isa() + "/memory", suite.best_isa(), kResident,
               arms_within(3, kResident));
+    // As many arms as without: the memory saved is the point.
+    for (const std::uint32_t features : {std::uint32_t{0}, kResident})
+        add_solve(suite, (features == 0 ? "compact/" : "resident_compact/") + suite.best_isa() + "/memory",
+                  suite.best_isa(), features | SWIVEL_COMPACT, arms_within(3, features));
 
     struct Named {
         const char* name;
@@ -20,7 +24,8 @@ void add_features(Suite& suite)
     for (const auto& [name, features] :
          {Named{"world", SWIVEL_WORLD}, Named{"joints", SWIVEL_JOINTS}, Named{"hand", SWIVEL_WITH_HAND},
           Named{"world+hand", SWIVEL_WORLD | SWIVEL_WITH_HAND}, Named{"joints+hand", SWIVEL_JOINTS | SWIVEL_WITH_HAND},
-          Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}})
+          Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"compact", SWIVEL_COMPACT},
+          Named{"resident+compact", kResident | SWIVEL_COMPACT}})
         add_solve(suite, std::string("features/") + name + "/" + suite.best_isa(), suite.best_isa(), features,
                   arms_within(1, features));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the suite's files share: the machine, the crowds that several benchmarks solve, and how one is added. Names have
-// slashes, so that --benchmark_filter picks families: P/, features/, resident/, frame/, copy/, threads/...
+// slashes, so that --benchmark_filter picks families: P/, features/, resident/, compact/, frame/, copy/, threads/...
 #pragma once
 
 #include <functional>

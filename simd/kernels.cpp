@@ -7,6 +7,7 @@
 #include "core/solve_arm.h"
 #include "core/space.h"
 #include "simd/lanes.h"
+#include "simd/pack.h"
 #include "simd/rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -240,9 +241,13 @@ void solve(const SolveRun& run)
     solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
 }
 
+using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;
+
 }  // namespace
 
 extern const Kernels kernels;
-const Kernels kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>}};
+const Kernels kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>},
+                      {pack<PackNumber, 0>, pack<PackNumber, SWIVEL_JOINTS>, pack<PackNumber, SWIVEL_WITH_HAND>,
+                       pack<PackNumber, SWIVEL_JOINTS | SWIVEL_WITH_HAND>}};
 
 }  // namespace swivel::inline SWIVEL_ISA

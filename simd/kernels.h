@@ -20,9 +20,19 @@ struct SolveRun {
     bool prefetch;  // rows come from memory: call for those of later blocks
 };
 
+// Results of a run of blocks, to be packed into the words of a compact crowd.
+struct PackRun {
+    const float* results;  // result rows of the run's first block
+    std::uint16_t* words;  // compact rows of the same block
+    std::uint32_t block_count;
+    bool prefetch;  // words go to memory: call for those of later blocks
+};
+
 struct Kernels {
     // By the features that change the formula: SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND.
     void (*solve[8])(const SolveRun& run);
+    // By the features that change the result rows: (SWIVEL_JOINTS | SWIVEL_WITH_HAND) / SWIVEL_JOINTS.
+    void (*pack[4])(const PackRun& run);
 };
 
 }  // namespace swivel

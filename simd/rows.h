@@ -15,9 +15,27 @@ inline constexpr std::uint32_t kInputFieldCount = SWIVEL_SHOULDER;
 
 constexpr bool is_input(swivel_field field) { return field < SWIVEL_SHOULDER; }
 
+// Rows of a result field of a compact crowd, whose rows are words; rotations take the smallest three components.
+constexpr std::uint32_t compact_row_count(std::uint32_t features, swivel_field field)
+{
+    switch (field) {
+        case SWIVEL_SHOULDER:
+            return 3;
+        case SWIVEL_ELBOW:
+            return features & SWIVEL_JOINTS ? 3 : 2;
+        case SWIVEL_WRIST:
+            return features & SWIVEL_WITH_HAND ? 3 : 0;
+        case SWIVEL_FLAGS:
+            return 2;
+        default:
+            return 0;
+    }
+}
+
 // Rows of a field; 0 if crowds with these features do not have it.
 constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field field)
 {
+    if ((features & SWIVEL_COMPACT) && !is_input(field)) return compact_row_count(features, field);
     switch (field) {
         case SWIVEL_TARGET:
         case SWIVEL_POLE:
@@ -42,6 +60,12 @@ constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field fie
         default:
             return 0;
     }
+}
+
+// Floats, or the one uint32_t, of a field's value as callers read and write it; 0 likewise.
+constexpr std::uint32_t field_component_count(std::uint32_t features, swivel_field field)
+{
+    return field_row_count(features & ~std::uint32_t{SWIVEL_COMPACT}, field);
 }
 
 // What messages call a field: its enumerator in small letters. Null for a number that is no field.
@@ -73,7 +97,18 @@ constexpr std::uint32_t result_row_count(std::uint32_t features)
     return field_first_row(features, SWIVEL_FLAGS) + field_row_count(features, SWIVEL_FLAGS);
 }
 
-// Where row `row` of limb `limb` lies in storage of row_count rows a block.
+// Bytes of a row, and of a block.
+inline constexpr std::size_t kInputRowBytes = SWIVEL_LANES * sizeof(float);
+constexpr std::size_t result_row_bytes(std::uint32_t features)
+{
+    return SWIVEL_LANES * (features & SWIVEL_COMPACT ? sizeof(std::uint16_t) : sizeof(float));
+}
+constexpr std::size_t block_bytes(std::uint32_t features)
+{
+    return input_row_count(features) * kInputRowBytes + result_row_count(features) * result_row_bytes(features);
+}
+
+// Where row `row` of limb `limb` lies in storage of row_count rows a block, in floats or words.
 constexpr std::size_t row_offset(std::size_t limb, std::uint32_t row_count, std::uint32_t row)
 {
     return ((limb / SWIVEL_LANES) * row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES;

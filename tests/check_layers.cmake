@@ -65,29 +65,30 @@ set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
 
 # ---- core: formulas and the standard library; the oracle shares nothing with them
-may_include(core "core/(isa|num|algebra|conformal|arm|reach|swivel_plane|solve_arm|space|pipeline)[.]h$"
-            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|arm|reach|swivel_plane|solve_arm|space)[.]h\"")
+may_include(core "core/(isa|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
+            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
 
-# ---- simd: kernels.cpp sees formulas and lanes, the rest sees neither
+# ---- simd: kernels.cpp and its pack.h see formulas and lanes, the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|pack|rows)[.]h\"")
+may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
             "${standard}|\"simd/(dispatch|kernels)[.]h\"|\"batch/swivel[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"batch/swivel[.]h\"")
 
-# ---- batch: never lanes; only rig, edge, verify and the flags in api.cpp know core
+# ---- batch: never lanes; only rig, edge, unpack, verify and the flags in api.cpp know core
 set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<std(def|int)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
 may_include(batch "batch/(crowd|frame|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
-may_include(batch "batch/(rig|edge|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|edge|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<std(def|int)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver

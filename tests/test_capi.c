@@ -34,6 +34,8 @@ int main(void)
     const swivel_out none = {NULL, 0}, wrist_out = {wrist, sizeof wrist}, distance_out = {&distance, sizeof distance};
     uint32_t flags = 0;
     const swivel_out flags_out = {&flags, sizeof flags};
+    swivel_words words;
+    float shoulder[4];
     int passed = 0, lines = 0, c;
 
     memset(&group, 0, sizeof group);
@@ -58,6 +60,18 @@ int main(void)
     flags = 0;
     check(swivel_solve_frame(crowd, &frame) == SWIVEL_OK && flags == SWIVEL_REACHED, "a whole frame");
     check(swivel_solve_frame_blocks(crowd, &frame, 0, 1) == SWIVEL_OK, "a block of it");
+    swivel_crowd_destroy(crowd);
+
+    def.features = SWIVEL_COMPACT;
+    check(swivel_crowd_create(&def, &crowd) == SWIVEL_OK && swivel_solve(crowd) == SWIVEL_OK,
+          "a compact crowd at rest");
+    if (crowd == NULL) return 1;
+    words = swivel_compact_rows(crowd);
+    check(words.block_count == 1 && words.row_count == 7, "its rows");
+    swivel_unpack_rotation(words.base, SWIVEL_LANES, shoulder);
+    check(shoulder[0] == 0 && shoulder[1] == 0 && shoulder[2] == 0 && shoulder[3] == 1, "its shoulder");
+    check(swivel_unpack_half(words.base[3 * SWIVEL_LANES]) == 1, "its elbow");
+    check(words.base[5 * SWIVEL_LANES] == SWIVEL_REACHED && words.base[6 * SWIVEL_LANES] == 0, "its flags");
     swivel_crowd_destroy(crowd);
 
     check(swivel_verify(200, 1, count_line, &lines, &passed) == SWIVEL_OK && passed && lines > 0, "verify");

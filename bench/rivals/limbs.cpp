@@ -155,7 +155,8 @@ std::size_t row_bytes(std::uint32_t features)
 {
     const swivel_group_def group{1, binding()};
     const swivel::Crowd crowd(features, {&group, 1});
-    return sizeof(float) * (swivel_input_rows(crowd.get()).row_count + swivel_result_rows(crowd.get()).row_count);
+    return sizeof(float) * (swivel_input_rows(crowd.get()).row_count + swivel_result_rows(crowd.get()).row_count) +
+           sizeof(std::uint16_t) * swivel_compact_rows(crowd.get()).row_count;
 }
 
 std::size_t arms_within(std::size_t memory_level, std::uint32_t features)

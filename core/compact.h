@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Rotations and half flexions in 16-bit words, rounded by float arithmetic alone: adding a large number leaves an
+// integer, or a half float's digits, in the low bits of the sum, rounded to nearest and ties to even. The words stay in
+// the bits of a T; whoever stores them cuts them out. swivel.h documents the words and how to read them.
+#pragma once
+
+#include "core/conformal.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// Steps of a component in -1/sqrt 2 to 1/sqrt 2: 15 bits, 0 in the middle.
+inline constexpr double kCompactSteps = 16383 * 1.41421356237309505;
+inline constexpr int kCompactZero = 16384, kCompactTopBit = 32768;
+
+// A rotation's three words, in the low 16 bits of each.
+template <class T>
+struct CompactRotation {
+    T first, second, third;
+};
+
+// A number in the middle of [2^23, 2^24): there floats are the integers, and the low 16 bits of s + it are s rounded.
+inline constexpr double kIntegers = 12582912;
+
+// The smallest three of a unit quaternion q: the component of largest size (the first, if equal) is left out. It is
+// positive in one of q and -q; the other three are that one's.
+template <class T>
+SWIVEL_INLINE constexpr CompactRotation<T> compact_rotation(const Rotor<T>& q)
+{
+    const T x = q.template at<kI>(), y = q.template at<kJ>(), z = q.template at<kK>(), w = q.template at<kScalar>();
+    const T size_x = abs(x), size_y = abs(y), size_z = abs(z), size_w = abs(w);
+    const Mask<T> y_of_xy = size_y > size_x, w_of_zw = size_w > size_z;
+    const Mask<T> of_zw = hi(size_z, size_w) > hi(size_x, size_y), of_xy = !of_zw;
+    const T largest = select(of_zw, select(w_of_zw, w, z), select(y_of_xy, y, x));
+
+    // In the order x, y, z, w without it: the index of the largest is y_of_xy or 2 + w_of_zw.
+    const T first = select(of_zw | y_of_xy, x, y), second = select(of_zw, y, z), third = select(of_zw & w_of_zw, z, w);
+    const Mask<T> odd = (of_zw & w_of_zw) | (of_xy & y_of_xy);
+    const T plain = T(kIntegers + kCompactZero), marked = T(kIntegers + kCompactZero + kCompactTopBit);
+    const T steps = flip_sign(T(kCompactSteps), largest);
+    return {steps * first + select(odd, marked, plain), steps * second + select(of_zw, marked, plain),
+            steps * third + plain};
+}
+
+// v in 0..1 as a half float, in bits kHalfBit to kHalfBit + 15. With v in [2^e, 2^(e+1)) a half's last digit is worth
+// 2^(e-10), but no less than 2^-24; as much as that of a float in [m, 2m). Of a float's exponent, biased by 127, the
+// half, biased by 15, has the lowest six bits, so 2^-48 does for 2^-112, and no denormal floats arise, which are slow.
+// A denormal half is its digits under exponent bits 0, as 2 has them.
+inline constexpr int kHalfBit = 13;
+template <class T>
+SWIVEL_INLINE constexpr T compact_half(const T& v)
+{
+    const T m = hi(power_of_two(v) * T(8192), T(0.5));
+    const T rounded = (v + m) - m;
+    return select(rounded < T(0x1p-14), T(2) + rounded * T(0x1p15), rounded * T(0x1p-48));
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

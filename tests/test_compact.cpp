@@ -1,0 +1,568 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: the words of a compact crowd are its results as swivel.h documents them, to the bit on every instruction
+// set and block range, no further from the float results than stated, and nothing else of the crowd changes. Packing
+// and unpacking are held against a second implementation, in long double, made from the documentation.
+#include "core/compact.h"
+
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_isa_scope.h"
+#include "tests/test_random.h"
+#include "tools/swivel/golden_crowd.h"
+
+#ifdef __x86_64__
+#include <xmmintrin.h>
+#endif
+
+using namespace swivel;
+using namespace swivel::test;
+using swivel::tools::golden_crowd;
+using swivel::tools::is_feature_set;
+using swivel::tools::kFeatureSets;
+
+namespace {
+
+using Words = std::vector<std::uint16_t>;
+using Words3 = std::array<std::uint16_t, 3>;
+
+const long double kSteps = 16383 * std::sqrt(2.0L);
+
+std::size_t word_count(const swivel_words& rows)
+{
+    return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES;
+}
+Words words_of(const Crowd& crowd)
+{
+    const swivel_words rows = swivel_compact_rows(crowd.get());
+    return {rows.base, rows.base + word_count(rows)};
+}
+std::uint16_t word_of(const Crowd& crowd, swivel_field field, std::uint32_t limb, std::uint32_t word)
+{
+    const swivel_words rows = swivel_compact_rows(crowd.get());
+    const std::uint32_t row = swivel_field_first_row(crowd.get(), field) + word;
+    return rows.base[(std::size_t{limb / 16} * rows.row_count + row) * 16 + limb % 16];
+}
+
+// ---- the documentation in long double
+
+// Whether these are the words of q. Where a component lies in the middle of two integers, within what its product
+// rounds by in float (2^-11 of a step: products are below 2^14), either will do.
+bool are_words_of(const Words3& words, const Float4& q)
+{
+    std::size_t left_out = 0;
+    for (std::size_t n = 1; n < 4; ++n)
+        if (std::fabs(q[n]) > std::fabs(q[left_out])) left_out = n;
+    const long double sign = std::signbit(q[left_out]) ? -1 : 1;
+    bool right = words[0] >> 15 == (left_out & 1) && words[1] >> 15 == left_out >> 1 && words[2] >> 15 == 0;
+    for (std::size_t n = 0, word = 0; n < 4; ++n) {
+        if (n == left_out) continue;
+        const long double exact = sign * q[n] * kSteps + 16384;
+        right = right && std::fabs((words[word++] & 32767) - exact) <= 0.5L + 0.001L;
+    }
+    return right;
+}
+std::array<long double, 4> from_words(const Words3& words)
+{
+    std::array<long double, 4> q{};
+    const std::size_t left_out = std::size_t{words[0]} >> 15 | std::size_t{words[1]} >> 15 << 1;
+    long double rest = 1;
+    for (std::size_t n = 0, word = 0; n < 4; ++n) {
+        if (n == left_out) continue;
+        q[n] = ((words[word++] & 32767) - 16384) / kSteps;
+        rest -= q[n] * q[n];
+    }
+    q[left_out] = std::sqrt(rest);
+    long double leading = 0;
+    for (const std::size_t n : {3u, 0u, 1u, 2u})
+        if (leading == 0) leading = q[n];
+    for (long double& c : q) c = leading < 0 ? -c : c;
+    return q;
+}
+
+// The value of a half float that is not negative and finite.
+long double half_value(std::uint32_t half)
+{
+    const int exponent = static_cast<int>(half >> 10);
+    return exponent == 0 ? std::ldexp(static_cast<long double>(half), -24)
+                         : std::ldexp(1024.0L + (half & 1023), exponent - 25);
+}
+
+Words3 pack(const Float4& q)
+{
+    const CompactRotation<float> words = compact_rotation(rotor(q[0], q[1], q[2], q[3]));
+    const auto low = [](float word) { return static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(word) & 0xffff); };
+    return {low(words.first), low(words.second), low(words.third)};
+}
+Float4 unpack(const Words3& words)
+{
+    Float4 q;
+    swivel_unpack_rotation(words.data(), 1, q.data());
+    return q;
+}
+std::uint32_t pack_half(float v) { return std::bit_cast<std::uint32_t>(compact_half(v)) >> kHalfBit & 0xffff; }
+
+double angle_between(const Float4& a, const Float4& b)
+{
+    return 4 * std::asin(distance(quat(a).normalized(), quat(b).normalized()) / 2);
+}
+
+// A quaternion's bound, in radians. A component that is kept is off by half a step h = 1/(2 * 16383 * sqrt 2); the one
+// left out, c = sqrt(1 - |s|^2) >= 1/2, by |s|/c <= sqrt 3 times what the three s are off by, at most sqrt 3 h. Both
+// together: sqrt 3 h * sqrt(1 + 3). A rotation turns by twice that. 1.002: the product is rounded in float, by 2^-11 of
+// a step, and so is the result. 3.5e-6: what a length off by 1e-6 does by the same chain.
+const double kAngle = 1.002 * 4 * std::sqrt(3) / (2 * 16383 * std::sqrt(2)) + 3.5e-6;
+// A half float is off by 2^-11 of its value, so half a flexion by 2 cos sin * 2^-11, and a flexion by at most 2^-10.
+constexpr double kFlexion = 0x1p-10;
+
+// The same inputs in a crowd with and one without SWIVEL_COMPACT, neither solved.
+struct Twins {
+    Crowd floats, compact;
+
+    Twins(std::uint32_t features, std::uint32_t limb_count)
+        : floats(golden_crowd(features, limb_count)), compact(golden_crowd(features | SWIVEL_COMPACT, limb_count))
+    {
+        const swivel_rows from = swivel_input_rows(floats.get()), to = swivel_input_rows(compact.get());
+        REQUIRE(from.row_count == to.row_count);
+        REQUIRE(from.block_count == to.block_count);
+        std::memcpy(to.base, from.base, std::size_t{from.block_count} * from.row_count * SWIVEL_LANES * sizeof(float));
+    }
+    void solve()
+    {
+        floats.solve();
+        compact.solve();
+    }
+};
+
+// Calls check(features) for each set that a crowd can have, without SWIVEL_COMPACT.
+template <class Check>
+void for_each_feature_set(const Check& check)
+{
+    for (std::uint32_t features = 0; features < kFeatureSets; ++features) {
+        INFO("features " << features);
+        if (is_feature_set(features)) check(features);
+    }
+}
+
+std::vector<swivel_field> rotations_of(std::uint32_t features)
+{
+    std::vector<swivel_field> fields{SWIVEL_SHOULDER};
+    if (features & SWIVEL_JOINTS) fields.push_back(SWIVEL_ELBOW);
+    if (features & SWIVEL_WITH_HAND) fields.push_back(SWIVEL_WRIST);
+    return fields;
+}
+
+}  // namespace
+
+TEST_CASE("any unit quaternion: its words are the documentation's, and lead back to it")
+{
+    rc::prop("random quaternions", [] {
+        Float4 q{};
+        double len2 = 0;
+        for (float& c : q) {
+            c = static_cast<float>(*rc::gen::inRange(-1000, 1001));
+            len2 += double{c} * c;
+        }
+        RC_PRE(len2 > 0);
+        for (float& c : q) c = static_cast<float>(c / std::sqrt(len2));
+        const Words3 words = pack(q);
+        RC_ASSERT(are_words_of(words, q));
+        RC_ASSERT(angle_between(unpack(words), q) <= kAngle);
+    });
+    Random random{7};
+    double worst = 0;
+    for (int n = 0; n < 300000; ++n) {
+        // Any, and those of nearly equal components, which lose most.
+        const Quaterniond equal(n & 2 ? 0.5 : -0.5, 0.5, n & 4 ? 0.5 : -0.5, 0.5);
+        Quaterniond any = random.rotation();
+        any.coeffs() *= n % 2 ? 1 : 1e-3;
+        const Float4 q = floats(n % 2 ? any : Quaterniond(any.coeffs() + equal.coeffs()).normalized());
+        const Words3 words = pack(q);
+        const Float4 back = unpack(words);
+        REQUIRE(are_words_of(words, q));
+        REQUIRE(is_unit(back));
+        REQUIRE(is_in_hemisphere(back));
+        const std::array<long double, 4> exact = from_words(words);
+        for (std::size_t c = 0; c < 4; ++c) REQUIRE(std::fabs(back[c] - exact[c]) <= 0x1p-24L);
+        worst = std::max(worst, angle_between(back, q));
+    }
+    CHECK(worst <= kAngle);
+    CHECK(worst > 0.9 * kAngle);  // the bound is near what happens
+    CHECK(kAngle <= 1.54e-4);     // as swivel.h says
+}
+
+TEST_CASE("of components of equal size the first is left out; q and -q have the same words")
+{
+    const float r = std::sqrt(0.5f), h = 0.5f, t = std::sqrt(1 / 3.0f);
+    const auto left_out = [](const Words3& words) { return words[0] >> 15 | (words[1] >> 15) << 1; };
+    const struct {
+        Float4 q;
+        int first;
+    } cases[] = {{{h, h, h, h}, 0}, {{0, t, t, t}, 1}, {{0, 0, r, r}, 2}, {{0, 0, 0, 1}, 3},
+                 {{r, 0, 0, r}, 0}, {{r, r, 0, 0}, 0}, {{0, r, 0, r}, 1}, {{t, 0, t, t}, 0},
+                 {{0, r, r, 0}, 1}, {{1, 0, 0, 0}, 0}, {{0, 1, 0, 0}, 1}, {{0, 0, 1, 0}, 2}};
+    for (const auto& [size, first] : cases)
+        for (unsigned signs = 0; signs < 16; ++signs) {
+            Float4 q = size, negative;
+            for (unsigned c = 0; c < 4; ++c) q[c] = signs >> c & 1 ? -q[c] : q[c];
+            for (unsigned c = 0; c < 4; ++c) negative[c] = -q[c];
+            INFO(q[0] << " " << q[1] << " " << q[2] << " " << q[3]);
+            CHECK(left_out(pack(q)) == first);
+            CHECK(are_words_of(pack(q), q));
+            CHECK(pack(q) == pack(negative));
+            CHECK(is_in_hemisphere(unpack(pack(q))));
+            CHECK(is_unit(unpack(pack(q))));
+            CHECK(angle_between(unpack(pack(q)), q) <= kAngle);
+        }
+    CHECK(unpack(pack({0, 0, 0, 1})) == Float4{0, 0, 0, 1});
+    CHECK(unpack(pack({-1, 0, 0, -0.0f})) == Float4{1, 0, 0, 0});
+    CHECK(unpack({0, 0, 0}) == Float4{0, 0, 0, 0});
+    for (const int any : {0x0000, 0x0001, 0x7fff, 0x8000, 0xffff}) {  // words that no solve wrote give numbers, too
+        const auto word = static_cast<std::uint16_t>(any);
+        for (const float c : unpack({word, 1, word})) CHECK(std::isfinite(c));
+    }
+}
+
+TEST_CASE("every half float in 0..1, its neighbours and the ties between two")
+{
+    for (std::uint32_t half = 0; half <= 0x3c00; ++half) {
+        const float value = static_cast<float>(half_value(half));
+        INFO("half " << half << ", " << value);
+        REQUIRE(swivel_unpack_half(static_cast<std::uint16_t>(half)) == value);
+        REQUIRE(pack_half(value) == half);
+        if (half == 0x3c00) break;
+        const float tie = static_cast<float>((half_value(half) + half_value(half + 1)) / 2);
+        REQUIRE(pack_half(tie) == half + (half & 1));
+        REQUIRE(pack_half(std::nextafterf(tie, 0)) == half);
+        REQUIRE(pack_half(std::nextafterf(tie, 1)) == half + 1);
+    }
+    CHECK(pack_half(-0.0f) == 0);
+    CHECK(pack_half(1e-45f) == 0);
+    CHECK(pack_half(1.0000002f) == 0x3c00);  // sizes of unit vectors are so much above 1
+    for (std::uint32_t half = 0; half < 0x8000; ++half) {
+        const float value = swivel_unpack_half(static_cast<std::uint16_t>(half)),
+                    negative = swivel_unpack_half(static_cast<std::uint16_t>(half | 0x8000));
+        REQUIRE(std::bit_cast<std::uint32_t>(negative) == (std::bit_cast<std::uint32_t>(value) | 0x80000000u));
+        if (half < 0x7c00)
+            REQUIRE(value == half_value(half));
+        else
+            REQUIRE((half == 0x7c00 ? std::isinf(value) : std::isnan(value)));
+    }
+}
+
+TEST_CASE("a compact crowd's words are those of the float results, for every set of features")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas()) {
+        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+        for_each_feature_set([&](std::uint32_t features) {
+            Twins twins(features, 200);
+            twins.solve();
+            for (std::uint32_t group = 0; group < 3; ++group) {
+                const std::uint32_t first = swivel_group_first_limb(twins.compact.get(), group);
+                const auto flags = read<std::uint32_t>(twins.floats, SWIVEL_FLAGS, group);
+                CHECK(read<std::uint32_t>(twins.compact, SWIVEL_FLAGS, group) == flags);
+                for (std::uint32_t n = 0; n < flags.size(); ++n) {
+                    REQUIRE(word_of(twins.compact, SWIVEL_FLAGS, first + n, 0) == (flags[n] & 0xffff));
+                    REQUIRE(word_of(twins.compact, SWIVEL_FLAGS, first + n, 1) == flags[n] >> 16);
+                }
+                for (const swivel_field field : rotations_of(features)) {
+                    const auto values = read<Float4>(twins.floats, field, group),
+                               unpacked = read<Float4>(twins.compact, field, group);
+                    for (std::uint32_t n = 0; n < values.size(); ++n) {
+                        Words3 words;
+                        for (std::uint32_t w = 0; w < 3; ++w) words[w] = word_of(twins.compact, field, first + n, w);
+                        REQUIRE(are_words_of(words, values[n]));
+                        REQUIRE(words == pack(values[n]));
+                        REQUIRE(unpacked[n] == unpack(words));
+                        REQUIRE(is_unit(unpacked[n]));
+                        REQUIRE(is_in_hemisphere(unpacked[n]));
+                        REQUIRE(angle_between(unpacked[n], values[n]) <= kAngle);
+                    }
+                }
+                if (features & SWIVEL_JOINTS) continue;
+                const auto values = read<Float2>(twins.floats, SWIVEL_ELBOW, group),
+                           unpacked = read<Float2>(twins.compact, SWIVEL_ELBOW, group);
+                for (std::uint32_t n = 0; n < values.size(); ++n)
+                    for (std::uint32_t c = 0; c < 2; ++c) {
+                        const std::uint16_t half = word_of(twins.compact, SWIVEL_ELBOW, first + n, c);
+                        REQUIRE(half == pack_half(values[n][c]));
+                        REQUIRE(unpacked[n][c] == swivel_unpack_half(half));
+                        REQUIRE(std::fabs(unpacked[n][c] - values[n][c]) <=
+                                std::max(0x1p-11f * values[n][c], 0x1p-25f));
+                    }
+            }
+        });
+    }
+}
+
+TEST_CASE("the words are the same on every instruction set, in every block range, and no other block is touched")
+{
+    const IsaScope scope;
+    for_each_feature_set([&](std::uint32_t features) {
+        REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
+        Crowd whole = golden_crowd(features | SWIVEL_COMPACT, 200);
+        whole.solve();
+        const Words expected = words_of(whole);
+        const std::uint32_t blocks = swivel_block_count(whole.get());
+        const std::size_t block_words = expected.size() / blocks;
+        for (const std::string& isa : runnable_isas()) {
+            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+            for (const auto& [first, count] :
+                 {std::pair{0u, 1u}, {1u, 3u}, {2u, 8u}, {3u, 9u}, {12u, 2u}, {4u, 17u}, {5u, 0u}, {0u, blocks}}) {
+                INFO(isa << ", blocks " << first << " + " << count);
+                Crowd crowd = golden_crowd(features | SWIVEL_COMPACT, 200);
+                const swivel_words rows = swivel_compact_rows(crowd.get());
+                std::fill_n(rows.base, expected.size(), std::uint16_t{0xa5c3});
+                crowd.solve_blocks(first, count);
+                const Words words = words_of(crowd);
+                std::size_t wrong = 0;
+                for (std::size_t n = 0; n < words.size(); ++n) {
+                    const bool inside = n / block_words >= first && n / block_words < first + count;
+                    wrong += words[n] != (inside ? expected[n] : 0xa5c3);
+                }
+                CHECK(wrong == 0);
+            }
+        }
+    });
+    for (const std::string& isa : runnable_isas()) {  // ten chunks and more, and rows that come from memory
+        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+        for (const std::uint32_t limb_count : {20000u, 500000u}) {
+            Crowd crowd = golden_crowd(SWIVEL_COMPACT, limb_count),
+                  by_blocks = golden_crowd(SWIVEL_COMPACT, limb_count);
+            crowd.solve();
+            for (std::uint32_t block = 0, end = swivel_block_count(crowd.get()); block < end; block += 777)
+                by_blocks.solve_blocks(block, std::min(777u, end - block));
+            CHECK(words_of(crowd) == words_of(by_blocks));
+        }
+    }
+}
+
+#ifdef __x86_64__
+TEST_CASE("words and what is read from them do not depend on the caller's floating-point environment")
+{
+    const auto solve_and_read = [] {
+        Crowd crowd = golden_crowd(SWIVEL_COMPACT | SWIVEL_WITH_HAND, 300);
+        crowd.solve();
+        return std::tuple{words_of(crowd), read<Float4>(crowd, SWIVEL_SHOULDER), read<Float2>(crowd, SWIVEL_ELBOW),
+                          unpack({12345, 23456, 3456}), swivel_unpack_half(1)};
+    };
+    const auto expected = solve_and_read();
+    const unsigned before = _mm_getcsr();
+    _mm_setcsr(before | 0xe040);  // towards zero, denormals flushed and taken for zeros
+    const auto got = solve_and_read();
+    _mm_setcsr(before);
+    CHECK(got == expected);
+}
+#endif
+
+TEST_CASE("wrists of random arms stay within the stated distance of the float crowd's")
+{
+    // A shoulder off by kAngle moves the wrist by that times its distance, an elbow by that times the forearm.
+    const struct {
+        std::uint32_t features;
+        double bound;
+    } cases[] = {{0, kAngle + kFlexion}, {SWIVEL_JOINTS, 2 * kAngle}, {SWIVEL_JOINTS | SWIVEL_WITH_HAND, 2 * kAngle}};
+    CHECK(kAngle + kFlexion <= 1.13e-3);  // as swivel.h says
+    CHECK(2 * kAngle <= 3.1e-4);
+    for (const auto& [features, bound] : cases) {
+        Twins twins(features, 60000);
+        Random random{features + 1};
+        std::vector<Float3> targets(60000), poles(60000);
+        std::vector<Float2> lengths(60000);
+        for (std::size_t n = 0; n < targets.size(); ++n) {
+            const double upper = n % 2 ? 1 : random.spread(1e-3, 1), fore = n % 2 ? random.spread(1e-3, 1) : 1;
+            const double reach = random.between(0.9 * std::fabs(upper - fore), 1.1 * (upper + fore));
+            const Vector3d to = random.direction();
+            targets[n] = floats(Vector3d(reach * to));
+            poles[n] = floats(Vector3d(to + random.across(to)));
+            lengths[n] = {static_cast<float>(upper), static_cast<float>(fore)};
+        }
+        for (Crowd* crowd : {&twins.floats, &twins.compact}) {
+            crowd->write(SWIVEL_TARGET, 0, targets);
+            crowd->write(SWIVEL_POLE, 0, poles);
+            crowd->write(SWIVEL_LENGTHS, 0, lengths);
+        }
+        twins.solve();
+        std::vector<std::array<double, 3>> wrists(60000), packed(60000);
+        std::vector<double> off(60000), packed_off(60000);
+        twins.floats.wrists(0, wrists);
+        twins.compact.wrists(0, packed);
+        twins.floats.residuals(0, off);
+        twins.compact.residuals(0, packed_off);
+        const auto shoulders = read<Float4>(twins.floats, SWIVEL_SHOULDER),
+                   packed_shoulders = read<Float4>(twins.compact, SWIVEL_SHOULDER);
+        double worst = 0, worst_angle = 0, worst_residual = 0;
+        for (std::size_t n = 0; n < wrists.size(); ++n) {
+            const Vector3d a(wrists[n].data()), b(packed[n].data());
+            worst = std::max(worst, (a - b).norm() / (double{lengths[n][0]} + lengths[n][1]));
+            worst_residual = std::max(worst_residual, std::fabs(packed_off[n] - off[n]));
+            worst_angle = std::max(worst_angle, angle_between(shoulders[n], packed_shoulders[n]));
+        }
+        INFO("features " << features);
+        CHECK(worst_angle <= kAngle);
+        CHECK(worst <= bound);
+        CHECK(worst > 0.3 * bound);
+        CHECK(worst_residual <= bound);
+        CHECK(worst_residual > 0.1 * bound);
+    }
+}
+
+TEST_CASE("forward kinematics are those of the unpacked values")
+{
+    Twins twins(0, 500);
+    twins.solve();
+    const auto shoulders = read<Float4>(twins.compact, SWIVEL_SHOULDER);
+    const auto elbows = read<Float2>(twins.compact, SWIVEL_ELBOW),
+               lengths = read<Float2>(twins.compact, SWIVEL_LENGTHS);
+    const auto flags = read<std::uint32_t>(twins.compact, SWIVEL_FLAGS);
+    std::vector<std::array<double, 3>> wrists(500), joints(500);
+    twins.compact.wrists(0, wrists);
+    twins.compact.elbows(0, joints);
+    std::size_t seen = 0;
+    for (std::size_t n = 0; n < 500; ++n) {
+        if (flags[n] & SWIVEL_BAD_INPUT) continue;
+        const Arm arm{{}, {}, lengths[n]};
+        const Pose pose{shoulders[n], elbows[n], flags[n]};
+        REQUIRE((pose.wrist_point(arm) - Vector3d(wrists[n].data())).norm() <= 1e-12 * arm.length());
+        REQUIRE((pose.elbow_point(arm) - Vector3d(joints[n].data())).norm() <= 1e-12 * arm.length());
+        ++seen;
+    }
+    CHECK(seen > 300);
+}
+
+TEST_CASE("rows of a compact crowd: words for results, floats for inputs, half the memory")
+{
+    const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
+    for_each_feature_set([&](std::uint32_t features) {
+        const Crowd crowd(features | SWIVEL_COMPACT, groups), floats(features, groups);
+        const bool joints = features & SWIVEL_JOINTS, hand = features & SWIVEL_WITH_HAND;
+        const std::uint32_t sizes[] = {3, joints ? 3u : 2u, hand ? 3u : 0u, 2};
+        std::uint32_t row = 0;
+        for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+            const auto field = static_cast<swivel_field>(f);
+            if (field < SWIVEL_SHOULDER) {
+                CHECK(swivel_field_row_count(crowd.get(), field) == swivel_field_row_count(floats.get(), field));
+                continue;
+            }
+            const std::uint32_t size = sizes[f - SWIVEL_SHOULDER];
+            CHECK(swivel_field_row_count(crowd.get(), field) == size);
+            if (size) CHECK(swivel_field_first_row(crowd.get(), field) == row);
+            row += size;
+        }
+        const swivel_words rows = swivel_compact_rows(crowd.get());
+        CHECK(rows.row_count == row);
+        CHECK(rows.block_count == 7);
+        CHECK(reinterpret_cast<std::uintptr_t>(rows.base) % 64 == 0);
+        CHECK(words_of(crowd) == Words(word_count(rows)));  // zeros
+        CHECK(read<Float4>(crowd, SWIVEL_SHOULDER, 3)[39] == Float4{});
+        CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS, 3)[39] == 0);
+
+        CHECK(swivel_result_rows(crowd.get()).base == nullptr);
+        CHECK(swivel_result_rows(crowd.get()).row_count == 0);
+        CHECK(swivel_compact_rows(floats.get()).base == nullptr);
+        CHECK(swivel_compact_rows(floats.get()).row_count == 0);
+
+        swivel_crowd_def def = def_of(groups[0]);
+        def.groups = groups;
+        def.group_count = 4;
+        def.features = features;
+        const std::size_t float_bytes = swivel_crowd_bytes(&def);
+        def.features |= SWIVEL_COMPACT;
+        const std::size_t bytes = swivel_crowd_bytes(&def), blocks = 7;
+        CHECK(bytes % 64 == 0);
+        const std::size_t saved = blocks * SWIVEL_LANES * (swivel_result_rows(floats.get()).row_count * 4 - row * 2);
+        CHECK(float_bytes - bytes == saved / 64 * 64);
+
+        // The caller's memory: not a byte outside it is touched.
+        std::vector<unsigned char> room(bytes + 192, 0xa5);
+        const std::size_t start = 128 - reinterpret_cast<std::uintptr_t>(room.data()) % 64;
+        def.memory = room.data() + start;
+        def.memory_bytes = bytes;
+        {
+            Crowd in_place(def);
+            in_place.solve();
+        }
+        for (std::size_t n = 0; n < room.size(); ++n)
+            if (n < start || n >= start + bytes) REQUIRE(room[n] == 0xa5);
+    });
+}
+
+TEST_CASE("padding lanes of inputs may hold anything and reach no one's words")
+{
+    for_each_feature_set([&](std::uint32_t features) {
+        Crowd crowd = golden_crowd(features | SWIVEL_COMPACT, 21),
+              poisoned = golden_crowd(features | SWIVEL_COMPACT, 21);
+        const swivel_rows in = swivel_input_rows(poisoned.get());
+        for (std::uint32_t row = 0; row < 2 * in.row_count; ++row)
+            if (row >= in.row_count) std::fill_n(in.base + row * SWIVEL_LANES + 5, 11, kNan);
+        crowd.solve();
+        poisoned.solve();
+        for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS})
+            for (std::uint32_t word = 0; word < swivel_field_row_count(crowd.get(), field); ++word)
+                for (std::uint32_t limb = 0; limb < 21; ++limb)
+                    REQUIRE(word_of(crowd, field, limb, word) == word_of(poisoned, field, limb, word));
+    });
+}
+
+TEST_CASE("values are read into any stride and alignment, and nothing beside them")
+{
+    Crowd crowd = golden_crowd(SWIVEL_COMPACT | SWIVEL_WITH_HAND, 100);
+    crowd.solve();
+    for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_TARGET}) {
+        const std::size_t bytes = field == SWIVEL_ELBOW    ? 8
+                                  : field == SWIVEL_FLAGS  ? 4
+                                  : field == SWIVEL_TARGET ? 12
+                                                           : 16;
+        std::vector<unsigned char> plain(bytes * 40), spread(3 + 41 * 40, 0xee);
+        REQUIRE(swivel_read(crowd.get(), field, 1, 3, 40, {plain.data(), bytes}) == SWIVEL_OK);
+        REQUIRE(swivel_read(crowd.get(), field, 1, 3, 40, {spread.data() + 3, 41}) == SWIVEL_OK);
+        for (std::size_t n = 0; n < spread.size(); ++n) {
+            const bool value = n >= 3 && (n - 3) % 41 < bytes;
+            REQUIRE(spread[n] == (value ? plain[(n - 3) / 41 * bytes + (n - 3) % 41] : 0xee));
+        }
+        CHECK_REFUSED(swivel_read(crowd.get(), field, 1, 3, 40, {plain.data(), bytes - 1}), SWIVEL_INVALID_ARGUMENT);
+    }
+    Float4 value;
+    CHECK_REFUSED(swivel_write(crowd.get(), SWIVEL_SHOULDER, 0, 0, 1, {&value, 16}), SWIVEL_INVALID_ARGUMENT);
+    const Crowd no_hand = crowd_of(SWIVEL_COMPACT, 3);
+    CHECK_REFUSED(swivel_read(no_hand.get(), SWIVEL_WRIST, 0, 0, 1, {&value, 16}), SWIVEL_INVALID_ARGUMENT);
+}
+
+TEST_CASE("frames take inputs, and refuse to take results out")
+{
+    Crowd crowd = crowd_of(SWIVEL_COMPACT, 50), expected = crowd_of(SWIVEL_COMPACT, 50);
+    std::vector<Float3> targets(50);
+    Random random{3};
+    for (Float3& target : targets) target = floats(random.direction());
+    swivel_frame frame{};
+    frame.target = {targets.data(), sizeof targets[0]};
+    expected.write(SWIVEL_TARGET, 0, targets);
+    expected.solve();
+
+    std::vector<Float4> values(50, Float4{9, 9, 9, 9});
+    for (swivel_out swivel_frame::*const output :
+         {&swivel_frame::shoulder, &swivel_frame::elbow, &swivel_frame::wrist, &swivel_frame::flags}) {
+        swivel_frame refused = frame;
+        refused.*output = {values.data(), sizeof values[0]};
+        const auto before = all_words(crowd);
+        CHECK_REFUSED(swivel_solve_frame(crowd.get(), &refused), SWIVEL_INVALID_ARGUMENT);
+        CHECK_REFUSED(swivel_solve_frame_blocks(crowd.get(), &refused, 0, 1), SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::string(swivel_last_error()).find("SWIVEL_COMPACT") != std::string::npos);
+        CHECK(all_words(crowd) == before);
+        CHECK(words_of(crowd) == Words(words_of(crowd).size()));
+    }
+    CHECK(values == std::vector<Float4>(50, Float4{9, 9, 9, 9}));
+    crowd.solve_frame({&frame, 1});
+    CHECK(words_of(crowd) == words_of(expected));
+    Crowd by_blocks = crowd_of(SWIVEL_COMPACT, 50);
+    for (const std::uint32_t block : {1u, 0u, 3u, 2u}) by_blocks.solve_frame_blocks({&frame, 1}, block, 1);
+    CHECK(words_of(by_blocks) == words_of(expected));
+}
