@@ -21,15 +21,17 @@ inline namespace SWIVEL_ISA {
 
 // Vectors are no longer than kHuge; a shorter one than kTiny counts as zero.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
-// Between these are the bones, poles and squared wrists of ordinary arms: nothing in the formula leaves the normal
-// floats.
-inline constexpr double kPlainLeast = 1e-9, kPlainMost = 1e9;
+// Between these lie the poles, the squared wrists and twice the shorter bones of plain arms, and below the most the
+// longer bones; solve_arm.h's product of all squared lengths, half2, then stays a normal float. With wrists w, poles p
+// and distances d, half2 is about (d/L2)^2 w^2 (p sin)^2: at least 1e-13 (1e-9 1e-3)^2, as kLeastLift bounds (d/L2)^2
+// w^2, and at most 5e15 kPlainMost^3, as the digits of bones allow d/L2 up to 1.6e7.
+inline constexpr double kPlainLeast = 1e-9, kPlainMost = 1e7, kLeastLift = 1e-13;
 // The sine of a pole's angle to the target's line: a closer one does not say where the elbow goes, its digits are
 // noise.
 inline constexpr double kPoleOff = 1e-3;
 // In arm lengths: a shorter bone is lost in the digits of the other; no wrist comes nearer to the shoulder; a wrist
-// this far away is out of reach; and so far away is a pole put that even the nearest wrist's products with it stay
-// normal floats.
+// this far away is out of reach by any rounding; and so far away is a pole put that half2 of even the nearest wrist,
+// 1e-24 times its square, stays a normal float.
 inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9, kOutOfReach = 4, kPoleAway = 1e6;
 
 template <class T>

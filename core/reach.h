@@ -16,10 +16,10 @@ struct Reach {
     Mask<T> too_far, too_near;
 };
 
+// near = |L1-L2|, far = L1+L2.
 template <class T>
-SWIVEL_INLINE constexpr Reach<T> clamp_reach(const T& wanted, const T& upper, const T& fore)
+SWIVEL_INLINE constexpr Reach<T> clamp_reach(const T& wanted, const T& near, const T& far)
 {
-    const T far = upper + fore, near = abs(upper - fore);
     return {lo(hi(wanted, near), far), wanted > far, wanted < near};
 }
 
@@ -32,14 +32,14 @@ struct ArmTriangle {
     T cos_lift;  // only its sign counts: not negative where the larger is the cosine
 };
 
-// distance: within the shell and not 0. With the perimeter's differences, a = (d-(L1-L2)) (d+(L1-L2)),
-// b = (L1+L2-d) (L1+L2+d), p = (d+(L1-L2)) (L1+L2+d), m = (d-(L1-L2)) (L1+L2-d), all >= 0, and a + b = 4 L1 L2:
+// distance: within the shell and not 0; far = L1+L2, diff = L1-L2. With the perimeter's differences, a = (d-(L1-L2))
+// (d+(L1-L2)), b = (L1+L2-d) (L1+L2+d), p = (d+(L1-L2)) (L1+L2+d), m = (d-(L1-L2)) (L1+L2-d), all >= 0, and a + b = 4
+// L1 L2:
 //   cos^2(flexion/2) = a / (a+b),   sin^2(flexion/2) = b / (a+b),
 //   cos^2(lift/2)    = p / (p+m),   sin^2(lift/2)    = m / (p+m),   so they are as p to sqrt(pm) = sqrt(ab) to m.
 template <class T>
-SWIVEL_INLINE constexpr ArmTriangle<T> arm_triangle(const T& distance, const T& upper, const T& fore)
+SWIVEL_INLINE constexpr ArmTriangle<T> arm_triangle(const T& distance, const T& far, const T& diff)
 {
-    const T far = upper + fore, diff = upper - fore;
     const T longer = far + distance, shorter = far - distance, ahead = distance + diff, behind = distance - diff;
     const T a = behind * ahead, b = shorter * longer, p = ahead * longer, m = behind * shorter;
     const T per_sum = T(1) / (a + b);

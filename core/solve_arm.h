@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The production formula: an arm's rotors from its wrist target, pole and lengths, exact to single precision for every
-// reach and every ratio of bones. It takes the lecture's five steps (pipeline.h) in an order that shortens them: the
-// middle line and the twist lay a frame along the target's line (frame_rotor.h), and the elbow's triangle (reach.h)
-// lifts the upper arm out of it. Every length is taken off in one root at the end. Source: D. Hildenbrand, Inverse
-// Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in conformal.h.
+// reach and every ratio of bones that its digits can tell. It takes the lecture's five steps (pipeline.h) in an order
+// that shortens them: the middle line and the twist lay a frame along the target's line (frame_rotor.h), and the
+// elbow's triangle (reach.h) lifts the upper arm out of it. Every length is taken off in one root at the end. Source:
+// D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in conformal.h.
 //
 // The formula has no guards; it says for which arms it holds. The others, rare, are given a tame goal with the same
 // pose first: bad numbers the arm at rest, so no NaN is left; a target on the shoulder the direction e3; a pole that
@@ -29,8 +29,9 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
     const T wrist2 = len2(goal.wrist), length = sqrt(wrist2);
 
     // Steps 1 and 2: how far the wrist is, and the triangle of the bones.
-    const Reach<T> reach = clamp_reach(length, goal.upper, goal.fore);
-    const ArmTriangle<T> triangle = arm_triangle(reach.distance, goal.upper, goal.fore);
+    const T far = goal.upper + goal.fore, diff = goal.upper - goal.fore, near = abs(diff);
+    const Reach<T> reach = clamp_reach(length, near, far);
+    const ArmTriangle<T> triangle = arm_triangle(reach.distance, far, diff);
 
     // Steps 3 to 5, for the target's line in the swivel plane through the pole.
     const Vector<T> normal = cross(goal.wrist, goal.pole);
@@ -49,9 +50,10 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
 
     // It holds for numbers whose squares and products stay normal floats, for poles off the line, and for bones of
     // which neither swallows the other.
-    const T pole1 = length1(goal.pole), far = goal.upper + goal.fore, shortest2 = far - abs(goal.upper - goal.fore);
+    const T pole1 = length1(goal.pole), shortest2 = far - near;
     const Mask<T> holds =
-        (lo(lo(wrist2, pole1), lo(shortest2, T(1e4) * (frame.middle_half2 * triangle.lift2))) >= T(kPlainLeast)) &
+        (lo(lo(wrist2, pole1), lo(shortest2, T(kPlainLeast / kLeastLift) * (frame.middle_half2 * triangle.lift2))) >=
+         T(kPlainLeast)) &
         ((wrist2 + pole1) + far <= T(kPlainMost)) & (normal_length > T(kPoleOff) * (length * pole1));
     return {{shoulder, triangle.cos_half, triangle.sin_half,
              select(reach.too_far, bits<T>(flag::clamped_far),
@@ -84,10 +86,10 @@ SWIVEL_INLINE constexpr TameArm<T> tamed(const ArmGoal<T>& asked, const Mask<T>&
     const T length = sqrt(select(on_shoulder, T(1), wrist2));
     const Vector<T> line = select(on_shoulder, axes.bone, (T(1) / length) * wrist);
 
-    // Bones of about length 1, in the same ratio to the last bit: the flexion of a folded arm hangs on it. One that the
-    // other swallows is straight with it, along the line.
+    // Bones of about length 1, in the same ratio to the last bit. One that the other swallows is straight with it,
+    // along the line.
     const T wanted = select(on_shoulder, T(0), length), far = upper + fore;
-    const Reach<T> reach = clamp_reach(wanted, upper, fore);
+    const Reach<T> reach = clamp_reach(wanted, abs(upper - fore), far);
     const T shrink = T(1) / power_of_two(select(far > T(0), far, T(1)));
     const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
     const T distance = select(one_bone, T(kOutOfReach), lo(hi(wanted * shrink, T(kNearest)), T(kOutOfReach)));

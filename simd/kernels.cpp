@@ -192,7 +192,8 @@ SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Fe
 }
 
 // Calls for the rows of the block that is solved some blocks after this one: 8 is far enough for memory to answer, and
-// their rows still fit a level 1 cache of 32 KiB. Beyond the crowd's end nothing is read.
+// their rows still fit a level 1 cache of 32 KiB. Moves no values: past the run's end, or the crowd's, it is only in
+// vain.
 template <std::uint32_t Features>
 SWIVEL_INLINE void prefetch_rows(const float* input, const float* results)
 {
@@ -218,9 +219,10 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
     for (; block + blocks <= run.block_count; block += blocks) {
-        for (std::uint32_t n = 0; run.prefetch && n < blocks; ++n)
-            prefetch_rows<Features>(input + row_offset(n * SWIVEL_LANES, input_row_count(Features), 0),
-                                    results + row_offset(n * SWIVEL_LANES, result_row_count(Features), 0));
+        if (run.prefetch)
+            for (std::uint32_t n = 0; n < blocks; ++n)
+                prefetch_rows<Features>(input + row_offset(n * SWIVEL_LANES, input_row_count(Features), 0),
+                                        results + row_offset(n * SWIVEL_LANES, result_row_count(Features), 0));
         for (std::uint32_t lane = 0; lane < SWIVEL_LANES; lane += lanes) {
             const Rows<T, Features> rows{input + lane, results + lane};
             if (!all(solve_plain_step(rows, shared))) [[unlikely]]

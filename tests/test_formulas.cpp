@@ -4,7 +4,6 @@
 // production formula equals the lecture's steps, and in single precision it puts the wrist on its target to 1e-6 of the
 // arm, for every reach, every ratio of bones to 1000 : 1 and every pole down to 1.1e-3 off the line. Forward kinematics
 // is Eigen's.
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -18,82 +17,12 @@
 #include "core/reference.h"
 #include "core/solve_arm.h"
 #include "swivel/swivel.h"
-#include "tests/test_random.h"
+#include "tests/formula_arm.h"
 
 namespace {
 
 using namespace swivel;
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
-using swivel::test::Random;
-
-template <class T>
-Vector<T> mv(const Vector3d& v)
-{
-    return vector(static_cast<T>(v.x()), static_cast<T>(v.y()), static_cast<T>(v.z()));
-}
-template <class T>
-Vector3d eigen(const Vector<T>& v)
-{
-    return {v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>()};
-}
-template <class T>
-Quaterniond eigen(const Rotor<T>& q)
-{
-    return {q.template at<kScalar>(), q.template at<kI>(), q.template at<kJ>(), q.template at<kK>()};
-}
-Quaterniond eigen(const double (&q)[4]) { return {q[3], q[0], q[1], q[2]}; }
-
-double distance(const Quaterniond& a, const Quaterniond& b)  // q and -q are one
-{
-    return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
-}
-
-struct Arm {
-    Vector3d wrist, pole;
-    double upper, fore;
-
-    double length() const { return upper + fore; }
-    Vector3d normal() const { return wrist.cross(pole).normalized(); }
-    // By the law of cosines: along the line by the elbow's foot, and away from it towards the pole.
-    Vector3d elbow() const
-    {
-        const double d = wrist.norm();
-        const double along = (d * d + upper * upper - fore * fore) / (2 * d);
-        const double away = std::sqrt(std::max(0.0, upper * upper - along * along));
-        return along / d * wrist + away * normal().cross(wrist).normalized();
-    }
-};
-
-template <class T>
-ArmPose<T> solve(const Arm& arm)
-{
-    const ArmGoal<T> goal{mv<T>(arm.wrist), mv<T>(arm.pole), static_cast<T>(arm.upper), static_cast<T>(arm.fore)};
-    return solve_arm(goal, Mask<T>(true));
-}
-
-template <class T>
-Quaterniond elbow_rotation(const ArmPose<T>& pose)
-{
-    return Quaterniond(pose.cos_half, -static_cast<double>(pose.sin_half), 0, 0);
-}
-template <class T>
-Vector3d elbow_place(const ArmPose<T>& pose, const Arm& arm)
-{
-    return eigen(pose.shoulder).normalized() * Vector3d(0, 0, arm.upper);
-}
-template <class T>
-Vector3d wrist_place(const ArmPose<T>& pose, const Arm& arm)
-{
-    return elbow_place(pose, arm) +
-           eigen(pose.shoulder).normalized() * (elbow_rotation(pose).normalized() * Vector3d(0, 0, arm.fore));
-}
-
-Arm rounded(const Arm& arm)  // to floats, so that both precisions see the same arm
-{
-    return {arm.wrist.cast<float>().cast<double>(), arm.pole.cast<float>().cast<double>(),
-            static_cast<float>(arm.upper), static_cast<float>(arm.fore)};
-}
+using namespace swivel::test;
 
 // Far from where the lecture's formulas divide by zero or lose digits.
 Arm regular_arm(Random& random)
@@ -317,7 +246,7 @@ TEST_CASE("lengths times a power of two give the same arm")
         const auto everyday = [](Random& random) { return rounded(regular_arm(random)); };
         for_arms(seed, everyday, [=](const Arm& arm) { check_sizes(arm, {0x1p-10, 0x1p-3, 0x1p1, 0x1p10}); });
     });
-    // Outside the lengths that solve_arm.h calls ordinary, aim and pole are made unit vectors first: other roundings.
+    // Arms that are not plain (arm.h: kPlainLeast, kPlainMost) are made tame first: other roundings.
     rc::prop("any arm, sizes from 2^-30 to 2^40: the same wrist", [](std::uint64_t seed) {
         for_arms(seed, any_arm, [](const Arm& arm) {
             const Vector3d wrist = wrist_place(solve<float>(arm), arm);

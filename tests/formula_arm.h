@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// An arm in Eigen's terms, solved by the library's formulas over any number type, and where its elbow and wrist then
+// are.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/solve_arm.h"
+#include "tests/test_random.h"
+
+namespace swivel::test {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+template <class T>
+Vector<T> mv(const Vector3d& v)
+{
+    return vector(static_cast<T>(v.x()), static_cast<T>(v.y()), static_cast<T>(v.z()));
+}
+template <class T>
+Vector3d eigen(const Vector<T>& v)
+{
+    return {v.template at<kE1>(), v.template at<kE2>(), v.template at<kE3>()};
+}
+template <class T>
+Quaterniond eigen(const Rotor<T>& q)
+{
+    return {q.template at<kScalar>(), q.template at<kI>(), q.template at<kJ>(), q.template at<kK>()};
+}
+inline Quaterniond eigen(const double (&q)[4]) { return {q[3], q[0], q[1], q[2]}; }
+
+inline double distance(const Quaterniond& a, const Quaterniond& b)  // q and -q are one
+{
+    return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
+}
+
+struct Arm {
+    Vector3d wrist, pole;
+    double upper, fore;
+
+    double length() const { return upper + fore; }
+    Vector3d normal() const { return wrist.cross(pole).normalized(); }
+    // By the law of cosines: along the line by the elbow's foot, and away from it towards the pole.
+    Vector3d elbow() const
+    {
+        const double d = wrist.norm();
+        const double along = (d * d + upper * upper - fore * fore) / (2 * d);
+        const double away = std::sqrt(std::max(0.0, upper * upper - along * along));
+        return along / d * wrist + away * normal().cross(wrist).normalized();
+    }
+};
+
+template <class T>
+ArmPose<T> solve(const Arm& arm)
+{
+    const ArmGoal<T> goal{mv<T>(arm.wrist), mv<T>(arm.pole), static_cast<T>(arm.upper), static_cast<T>(arm.fore)};
+    return solve_arm(goal, Mask<T>(true));
+}
+
+template <class T>
+Quaterniond elbow_rotation(const ArmPose<T>& pose)
+{
+    return Quaterniond(pose.cos_half, -static_cast<double>(pose.sin_half), 0, 0);
+}
+template <class T>
+Vector3d elbow_place(const ArmPose<T>& pose, const Arm& arm)
+{
+    return eigen(pose.shoulder).normalized() * Vector3d(0, 0, arm.upper);
+}
+template <class T>
+Vector3d wrist_place(const ArmPose<T>& pose, const Arm& arm)
+{
+    return elbow_place(pose, arm) +
+           eigen(pose.shoulder).normalized() * (elbow_rotation(pose).normalized() * Vector3d(0, 0, arm.fore));
+}
+
+inline Arm rounded(const Arm& arm)  // to floats, so that both precisions see the same arm
+{
+    return {arm.wrist.cast<float>().cast<double>(), arm.pole.cast<float>().cast<double>(),
+            static_cast<float>(arm.upper), static_cast<float>(arm.fore)};
+}
+
+}  // namespace swivel::test
