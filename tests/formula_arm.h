@@ -39,8 +39,8 @@ inline double distance(const Quaterniond& a, const Quaterniond& b)  // q and -q 
 }
 
 struct Arm {
-    Vector3d wrist, pole;
-    double upper, fore;
+    Vector3d wrist = Vector3d::Zero(), pole = Vector3d::Zero();
+    double upper = 0, fore = 0;
 
     double length() const { return upper + fore; }
     Vector3d normal() const { return wrist.cross(pole).normalized(); }
