@@ -23,7 +23,7 @@
 //   SWIVEL_TARGET              3     always          wrist position: arm frame, or world with WORLD
 //   SWIVEL_POLE                3     always          pole point, or a direction with POLE_DIRECTION
 //   SWIVEL_LENGTHS             2     always          upper arm, forearm (before the parent's scale)
-//   SWIVEL_PARENT_POSITION     3     WORLD           where the shoulder is, in the world
+//   SWIVEL_PARENT_POSITION     3     WORLD           where the shoulder itself is, in the world (not its parent joint)
 //   SWIVEL_PARENT_ROTATION     4     WORLD           world rotation of the shoulder's parent joint
 //   SWIVEL_PARENT_SCALE        1     WORLD           uniform scale of the parent, > 0
 //   SWIVEL_HAND                4     WITH_HAND       wanted hand orientation: arm frame, or world with WORLD
@@ -51,8 +51,8 @@
 // Without JOINTS the elbow's quaternion is (-sin, 0, 0, cos), and hand = parent * shoulder * elbow * wrist.
 // With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS the binding says how it lies there.
 //
-// COST. Ordinary arms are solved fastest: bones between 1e-9 and 1e7 of a ratio below 1e6, wrists between 3e-5 and 3e3
-// from the shoulder, poles no further than 1e7 and off the target's line, all as the parent sees them, whose scale is
+// COST. Ordinary arms are solved fastest: bones between 1e-9 and 3e7 of a ratio below 1e6, wrists between 3e-5 and 5e3
+// from the shoulder, poles no further than 3e7 and off the target's line, all as the parent sees them, whose scale is
 // within 1e-5..1e5 and whose quaternion's squared length within 0.5..2. An arm outside of that is solved as exactly,
 // but the 4 to 32 limbs of its step take about four times as long.
 //

@@ -46,14 +46,14 @@ inline swivel_crowd_def def_of(const swivel_group_def& group)
     return def;
 }
 
-// The whole of a crowd's rows.
+// The whole of a crowd's rows; without the results of a compact one.
 inline std::vector<std::uint32_t> all_words(const Crowd& crowd)
 {
     std::vector<std::uint32_t> words;
     for (const swivel_rows rows : {swivel_input_rows(crowd.get()), swivel_result_rows(crowd.get())}) {
         const std::size_t count = std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES, at = words.size();
         words.resize(at + count);
-        std::memcpy(words.data() + at, rows.base, count * sizeof(float));
+        if (count > 0) std::memcpy(words.data() + at, rows.base, count * sizeof(float));
     }
     return words;
 }

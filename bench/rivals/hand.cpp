@@ -65,7 +65,7 @@ inline bool solve(const float* in, float* out)
     const Wide least =
         less_of(less_of(wrist2, pole1), less_of(far - near, broadcast(1e4f) * ((length * height) * lift2)));
     const Wide most = wrist2 + pole1 + far;
-    const Mask plain = less_equal(broadcast(1e-9f), least) & less_equal(most, broadcast(1e7f));
+    const Mask plain = less_equal(broadcast(1e-9f), least) & less_equal(most, broadcast(3.5e7f));
     const Mask defined = less(broadcast(1e-3f) * (length * pole1), normal_length);
     return all(plain & defined & less(broadcast(0), size_of(w)));
 }
