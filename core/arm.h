@@ -23,8 +23,8 @@ inline namespace SWIVEL_ISA {
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
 // Between these lie the poles, the squared wrists and twice the shorter bones of plain arms, and below the most the
 // longer bones; solve_arm.h's product of all squared lengths, half2, then stays a normal float. With wrists w, poles p
-// and distances d, half2 is about (d/L2)^2 w^2 (p sin)^2: at least 1e-13 (1e-9 1e-3)^2, as kLeastLift bounds (d/L2)^2
-// w^2, and at most 5e15 kPlainMost^3, as the digits of bones allow d/L2 up to 1.6e7.
+// and distances d, half2 is a quarter to one times (d/L2)^2 w^2 (p sin)^2: at least 0.25 1e-13 (1e-9 1e-3)^2, as
+// kLeastLift bounds (d/L2)^2 w^2, and at most 5e15 kPlainMost^3, as the digits of bones allow d/L2 up to 1.6e7.
 inline constexpr double kPlainLeast = 1e-9, kPlainMost = 3.5e7, kLeastLift = 1e-13;
 // The sine of a pole's angle to the target's line: a closer one does not say where the elbow goes, its digits are
 // noise.

@@ -18,8 +18,8 @@ struct FrameRotor {
     T start;                     // only its sign counts: e3's
 };
 
-// line: of this length, per_length2 = 1 / length^2. normal: orthogonal to it but for rounding, of this length, not
-// zero.
+// line: of this length, and per_length2 about 1 / length^2: it keeps the numbers in range and falls out with the
+// rotor's length. normal: orthogonal to the line but for rounding, of this length, not zero.
 template <class T>
 SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, const T& length, const T& per_length2,
                                                        const Vector<T>& normal, const T& normal_length)
@@ -29,7 +29,7 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
     const Vector<T> middle = part<blades(kE1, kE2)>(line) + copysign(height, start) * unit<T, kE3>();
 
     // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of
-    // e1, e2: n' ~ c e1 + s e2. Here all is times height / length^2.
+    // e1, e2: n' ~ c e1 + s e2. Here all is times height per_length2.
     const Vector<T> n = per_length2 * normal;
     const T along = flip_sign(n.template at<kE3>(), start);  // n.m / length, as n is orthogonal to the line
     const T c = along * line.template at<kE1>() - height * n.template at<kE1>();
@@ -49,7 +49,8 @@ template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector<T>& normal)
 {
     const T length2 = len2(line);
-    const FrameRotor<T> frame = frame_from_start(line, sqrt(length2), T(1) / length2, normal, sqrt(len2(normal)));
+    const FrameRotor<T> frame =
+        frame_from_start(line, sqrt(length2), per_power_of_two(length2), normal, sqrt(len2(normal)));
     const Rotor<T> q = (T(1) / sqrt((frame.middle_half2 + frame.middle_half2) * frame.twist_len2)) * frame.from_start;
     return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(q), q);
 }

@@ -36,7 +36,8 @@ SWIVEL_INLINE double copysign(double x, double sign) { return std::copysign(x, s
 SWIVEL_INLINE float flip_sign(float x, float sign) { return std::signbit(sign) ? -x : x; }
 SWIVEL_INLINE double flip_sign(double x, double sign) { return std::signbit(sign) ? -x : x; }
 
-// The largest power of two that is not above x > 0, a normal number; it divides without rounding.
+// For x > 0, a normal number: the largest power of two that is not above it; and half of one by that power, so that the
+// product with x is at least 1/2 and under 1 (x up to 2^125). Products with either are not rounded.
 SWIVEL_INLINE float power_of_two(float x)
 {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7f800000u);
@@ -44,6 +45,14 @@ SWIVEL_INLINE float power_of_two(float x)
 SWIVEL_INLINE double power_of_two(double x)
 {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u);
+}
+SWIVEL_INLINE float per_power_of_two(float x)
+{
+    return std::bit_cast<float>(0x7e800000u - (std::bit_cast<std::uint32_t>(x) & 0x7f800000u));
+}
+SWIVEL_INLINE double per_power_of_two(double x)
+{
+    return std::bit_cast<double>(0x7fd0000000000000u - (std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u));
 }
 
 SWIVEL_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }

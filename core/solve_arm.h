@@ -36,7 +36,7 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
     // Steps 3 to 5, for the target's line in the swivel plane through the pole.
     const Vector<T> normal = cross(goal.wrist, goal.pole);
     const T normal_length = sqrt(len2(normal));
-    const FrameRotor<T> frame = frame_from_start(goal.wrist, length, T(1) / wrist2, normal, normal_length);
+    const FrameRotor<T> frame = frame_from_start(goal.wrist, length, per_power_of_two(wrist2), normal, normal_length);
 
     // The upper arm is lifted off the line by a turn about the normal, at rest e1: cos + sin i, or after the turn by pi
     // that starts from -e3, i (cos + sin i) = -sin + cos i.
@@ -90,7 +90,7 @@ SWIVEL_INLINE constexpr TameArm<T> tamed(const ArmGoal<T>& asked, const Mask<T>&
     // along the line.
     const T wanted = select(on_shoulder, T(0), length), far = upper + fore;
     const Reach<T> reach = clamp_reach(wanted, abs(upper - fore), far);
-    const T shrink = T(1) / power_of_two(select(far > T(0), far, T(1)));
+    const T shrink = per_power_of_two(select(far > T(0), far, T(1)));
     const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
     const T distance = select(one_bone, T(kOutOfReach), lo(hi(wanted * shrink, T(kNearest)), T(kOutOfReach)));
 

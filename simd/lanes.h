@@ -141,6 +141,15 @@ SWIVEL_INLINE Lanes<A, R> power_of_two(const Lanes<A, R>& a)
     const Batch exponent(std::bit_cast<float>(0x7f800000u));
     return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] & exponent; });
 }
+template <class A, int R>
+SWIVEL_INLINE Lanes<A, R> per_power_of_two(const Lanes<A, R>& a)
+{
+    using Words = xsimd::batch<std::int32_t, A>;
+    return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA {
+        const Words exponent = xsimd::bitwise_cast<Words>(a.r[n]) & Words(0x7f800000);
+        return xsimd::bitwise_cast<xsimd::batch<float, A>>(Words(0x7e800000) - exponent);
+    });
+}
 
 template <class A, int R>
 SWIVEL_INLINE LanesMask<A, R> operator&(const LanesMask<A, R>& a, const LanesMask<A, R>& b)

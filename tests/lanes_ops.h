@@ -26,6 +26,7 @@ enum class Op {
     lower,
     higher,
     power_below,
+    per_power_below,
     choose,  // bits
     less,
     less_equal,
@@ -89,6 +90,8 @@ SWIVEL_INLINE void apply(Op op, const T& a, const T& b, const T& c, Store store)
             return store(hi(a, b));
         case Op::power_below:
             return store(power_of_two(a));
+        case Op::per_power_below:
+            return store(per_power_of_two(a));
         case Op::choose:
             return store(select(c < T(0), a, b));
         case Op::less:

@@ -157,6 +157,7 @@ TEST_CASE("float's own operations are what their names say")
         CHECK(expected(Op::minus, x, 0, 0) == (w ^ 0x80000000u));
         CHECK(expected(Op::absolute, x, 0, 0) == (w & 0x7fffffffu));
         CHECK(expected(Op::power_below, x, 0, 0) == (w & 0x7f800000u));
+        CHECK(expected(Op::per_power_below, x, 0, 0) == 0x7e800000u - (w & 0x7f800000u));
         CHECK(expected(Op::is_number, x, 0, 0) == (is_nan(w) ? 0 : kWord));
         for (const std::uint32_t v : awkward()) {
             const float y = std::bit_cast<float>(v);
@@ -175,6 +176,8 @@ TEST_CASE("float's own operations are what their names say")
     CHECK(expected(Op::choose, 1, 2, -1) == word(1));
     CHECK(expected(Op::choose, 1, 2, nan) == word(2));
     CHECK(expected(Op::power_below, 13.7f, 0, 0) == word(8));
+    CHECK(expected(Op::per_power_below, 13.7f, 0, 0) == word(0.0625f));
+    CHECK(expected(Op::per_power_below, 0.3f, 0, 0) == word(2));
     CHECK(expected(Op::choose_words, 1, 2, 0) == kWord);
     CHECK(expected(Op::choose_words, 1, nan, 0) == kOther);
     CHECK(expected(Op::constant, 0, 0, 0) == word(0.1f));

@@ -64,6 +64,11 @@ inline Counted flip_sign(Counted x, Counted sign)
     return counted(tally.selects, std::signbit(sign.value) ? -x.value : x.value);
 }
 inline Counted power_of_two(Counted x) { return counted(tally.selects, swivel::power_of_two(x.value)); }
+inline Counted per_power_of_two(Counted x)
+{
+    ++tally.selects;  // its subtraction of words
+    return counted(tally.selects, swivel::per_power_of_two(x.value));
+}
 
 inline CountedMask operator<(Counted a, Counted b) { return compared(a.value < b.value); }
 inline CountedMask operator<=(Counted a, Counted b) { return compared(a.value <= b.value); }

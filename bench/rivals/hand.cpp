@@ -21,7 +21,7 @@ inline bool solve(const float* in, float* out)
     const Wide px = load(in + 48), py = load(in + 64), pz = load(in + 80);
     const Wide upper = load(in + 96), fore = load(in + 112);
 
-    const Wide wrist2 = wx * wx + wy * wy + wz * wz, length = root(wrist2), per_wrist2 = broadcast(1) / wrist2;
+    const Wide wrist2 = wx * wx + wy * wy + wz * wz, length = root(wrist2), per_wrist2 = per_power_of_two(wrist2);
 
     // The reach and the triangle.
     const Wide far = upper + fore, diff = upper - fore, near = size_of(diff);

@@ -62,6 +62,10 @@ inline bool all(Mask mask) { return mask; }
 inline Wide size_of(Wide x) { return std::fabs(x); }
 inline Wide signed_as(Wide size, Wide sign) { return std::copysign(size, sign); }
 inline Wide flipped_as(Wide x, Wide sign) { return std::signbit(sign) ? -x : x; }
+inline Wide per_power_of_two(Wide x)
+{
+    return __builtin_bit_cast(float, 0x7e800000 - (__builtin_bit_cast(int, x) & 0x7f800000));
+}
 #elif defined(__AVX512F__)
 using Mask = __mmask16;
 inline Wide select(Mask mask, Wide a, Wide b) { return _mm512_mask_blend_ps(mask, b, a); }
@@ -71,6 +75,11 @@ inline bool all(Mask mask) { return mask == 0xffff; }
 inline Wide size_of(Wide x) { return _mm512_andnot_ps(broadcast(-0.0f), x); }
 inline Wide flipped_as(Wide x, Wide sign) { return _mm512_xor_ps(x, _mm512_and_ps(broadcast(-0.0f), sign)); }
 inline Wide signed_as(Wide size, Wide sign) { return _mm512_or_ps(size, _mm512_and_ps(broadcast(-0.0f), sign)); }
+inline Wide per_power_of_two(Wide x)
+{
+    const __m512i exponent = _mm512_and_si512(_mm512_castps_si512(x), _mm512_set1_epi32(0x7f800000));
+    return _mm512_castsi512_ps(_mm512_sub_epi32(_mm512_set1_epi32(0x7e800000), exponent));
+}
 #else
 using Mask = decltype(Wide{} < Wide{});
 inline Wide select(Mask mask, Wide a, Wide b) { return mask ? a : b; }
@@ -80,6 +89,10 @@ inline Mask sign_bits(Wide x) { return reinterpret_cast<Mask>(x) & reinterpret_c
 inline Wide size_of(Wide x) { return reinterpret_cast<Wide>(reinterpret_cast<Mask>(x) ^ sign_bits(x)); }
 inline Wide flipped_as(Wide x, Wide s) { return reinterpret_cast<Wide>(reinterpret_cast<Mask>(x) ^ sign_bits(s)); }
 inline Wide signed_as(Wide x, Wide s) { return reinterpret_cast<Wide>(reinterpret_cast<Mask>(x) | sign_bits(s)); }
+inline Wide per_power_of_two(Wide x)
+{
+    return reinterpret_cast<Wide>(0x7e800000 - (reinterpret_cast<Mask>(x) & 0x7f800000));
+}
 #if defined(__AVX2__)
 inline bool all(Mask mask) { return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) == 0xff; }
 #elif defined(__x86_64__)
