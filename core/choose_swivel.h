@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+//
+// The swivel that is taken: the wish, if the limits allow it; else the nearest end of an allowed arc; else, where no
+// swivel is allowed, the one that violates the limits least. The wish is phi = 0, so near means a large cosine. The
+// lane-wise choice among a fixed list of candidates, each of which costs one root: no angle, no search.
+#pragma once
+
+#include "core/limits.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+struct ChosenSwivel {
+    Turned<T> swivel;
+    Mask<T> allowed;  // false: no swivel is, this one violates the limits least
+};
+
+// The nearest end of an allowed arc, where there is one.
+template <class T>
+SWIVEL_INLINE constexpr ChosenSwivel<T> nearest_end(const Limits<T>& limits)
+{
+    OnCircle<T> edge[kMostEdges];
+    const int count = edges(limits, false, edge);
+    Turned<T> best{T(-1), T(0)};
+    T nearest = T(-2);
+    for (int n = 0; n < count; ++n) {
+        const Crossings<T> ends = crossings(edge[n]);
+        for (const Turned<T>* end : {&ends.first, &ends.second}) {
+            const Mask<T> better = ends.exist & (end->cos > nearest) & (room(limits, *end) >= T(kNoRoom));
+            best = select(better, *end, best);
+            nearest = select(better, end->cos, nearest);
+        }
+    }
+    return {best, nearest >= T(-1.5)};
+}
+
+// The swivel at which the limits have the most room, though it is less than none: the room is the least of lines and
+// the most of such alternatives, so it peaks where a line does or where two lines are equal, or one the other's
+// negative in another alternative.
+template <class T>
+SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
+{
+    OnCircle<T> edge[kMostEdges];
+    const int count = edges(limits, true, edge);
+    Turned<T> best{T(1), T(0)};
+    T most = room(limits, best);
+    const auto consider = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_INLINE_LAMBDA {
+        const T left = room(limits, swivel);
+        const Mask<T> better = exists & (left > most);
+        best = select(better, swivel, best);
+        most = select(better, left, most);
+    };
+    for (int n = 0; n < count; ++n) {
+        const T r2 = edge[n].a * edge[n].a + edge[n].b * edge[n].b;
+        const Mask<T> exists = r2 > T(kFlat2);
+        const T per_r = T(1) / sqrt(select(exists, r2, T(1)));
+        const Turned<T> peak{per_r * edge[n].a, per_r * edge[n].b};
+        consider(peak, exists);
+        consider({-peak.cos, -peak.sin}, exists);
+        for (int m = 0; m < n; ++m)
+            for (const OnCircle<T>& difference : {edge[n] - edge[m], edge[n] + edge[m]}) {
+                const Crossings<T> equal = crossings(difference);
+                consider(equal.first, equal.exist);
+                consider(equal.second, equal.exist);
+            }
+    }
+    return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
+}
+
+template <class T>
+SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
+{
+    const Turned<T> wish{T(1), T(0)};
+    const Mask<T> granted = room(limits, wish) >= T(kNoRoom);
+    if (all(granted)) return {wish, granted};
+    const ChosenSwivel<T> end = nearest_end(limits);
+    const Mask<T> allowed = granted | end.allowed;
+    const Turned<T> near = select(granted, wish, end.swivel);
+    if (all(allowed)) return {near, allowed};
+    const ChosenSwivel<T> least = least_violation(limits);
+    const Mask<T> any_allowed = allowed | least.allowed;
+    return {select(allowed, near, least.swivel), any_allowed};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+//
+// Joint limits on the swivel's circle. For a given target every limit says that some a cos phi + b sin phi + c is not
+// negative: it is a line in (cos phi, sin phi), in units of a cosine. A box of Euler angles is a list of alternatives,
+// each of several lines. How much room a limit leaves at a swivel is the least over its lines, and the most over its
+// alternatives; it is allowed where that room is not negative. Nothing here forms an angle.
+//
+// Sources: swivel-angle intervals, D. Tolani, A. Goswami, N. Badler, Real-time inverse kinematics techniques for
+// anthropomorphic limbs (2000); swing and twist, the rotor's own components.
+#pragma once
+
+#include "core/swivel_circle.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// Less room than this is a violation: what rounding leaves at the end of an allowed arc is about half of it.
+inline constexpr double kNoRoom = -5e-7;
+
+// A range of angles: its middle and half its width, which is 0 to pi.
+template <class T>
+struct Range {
+    Turned<T> middle, half;
+};
+
+// An axis carried by the arm stays within a cone about a fixed one. Also the other way round.
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> cone_limit(const Vector<T>& fixed, const Vector<T>& moving, const T& cos_opening)
+{
+    return inner(fixed, moving) - constant(cos_opening);
+}
+
+// The twist of a rotor about an axis, whose components w and s (along the axis) are given, stays within a range. With
+// tau the twist and beta the swing, w^2 - s^2 = cos^2(beta/2) cos tau and 2 w s = cos^2(beta/2) sin tau, so the room is
+// cos^2(beta/2) (cos(tau - middle) - cos half).
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> twist_limit(const OnHalfCircle<T>& w, const OnHalfCircle<T>& s,
+                                                const Range<T>& range)
+{
+    const OnCircle<T> ww = w * w, ss = s * s, ws = w * s;
+    return range.middle.cos * (ww - ss) + (range.middle.sin + range.middle.sin) * ws - range.half.cos * (ww + ss);
+}
+
+// x in sine direction past a turn: the sine of what (x, y) is past `turn`, times the length of (x, y).
+template <class N, class T>
+SWIVEL_INLINE constexpr N past(const Turned<T>& turn, const N& x, const N& y)
+{
+    return turn.cos * y - turn.sin * x;
+}
+template <class N, class T>
+SWIVEL_INLINE constexpr N along(const Turned<T>& turn, const N& x, const N& y)
+{
+    return turn.cos * x + turn.sin * y;
+}
+
+// A range's ends. A range wider than pi needs one of them only.
+template <class T>
+struct Ends {
+    Turned<T> low, high, middle;
+    Mask<T> wide;
+};
+template <class T>
+SWIVEL_INLINE constexpr Ends<T> ends(const Range<T>& range)
+{
+    const Turned<T> m = range.middle, h = range.half;
+    return {{along(h, m.cos, m.sin), past(h, m.cos, m.sin)},
+            {along(m, h.cos, -h.sin), m.sin * h.cos + m.cos * h.sin},
+            m,
+            h.cos < T(0)};
+}
+// How much room a direction (x, y) of any length has between the ends; sign -1: the opposite direction.
+template <class T>
+SWIVEL_INLINE constexpr T room_between(const Ends<T>& ends, const T& x, const T& y, const T& sign)
+{
+    const T past_low = sign * past(ends.low, x, y), before_high = -(sign * past(ends.high, x, y));
+    const T narrow = lo(lo(past_low, before_high), sign * along(ends.middle, x, y));
+    return select(ends.wide, hi(past_low, before_high), narrow);
+}
+
+// What the sine of an angle may be in a range, where its cosine is positive, or negative: from low to high, or what is
+// not between high and low.
+template <class T>
+struct Sines {
+    T low, high;
+    Mask<T> beyond;
+};
+template <class T>
+SWIVEL_INLINE constexpr T room_between(const Sines<T>& sines, const T& sine)
+{
+    const T past_low = sine - sines.low, before_high = sines.high - sine;
+    return select(sines.beyond, hi(past_low, before_high), lo(past_low, before_high));
+}
+// entry, leave: the range's ends in the order in which the sine grows; inside: whether they have this sign of the
+// cosine. A wide range with both ends on the other side has all of this one, a narrow one nothing.
+template <class T>
+SWIVEL_INLINE constexpr Sines<T> sines(const Turned<T>& entry, const Mask<T>& entry_inside, const Turned<T>& leave,
+                                       const Mask<T>& leave_inside, const Mask<T>& wide)
+{
+    const T outside_low = select(leave_inside | wide, T(-2), T(2));
+    const Mask<T> beyond = wide & entry_inside & leave_inside;
+    return {select(entry_inside, entry.sin, outside_low), select(leave_inside, leave.sin, T(2)), beyond};
+}
+
+// A rotation by a first angle about one axis, a middle one about the next and a last one about the third, each axis as
+// the rotations before have left it, and the range of each angle. The middle angle's cosine may have either sign: with
+// the other one, first and last angle are half a turn off.
+template <class T>
+struct EulerBox {
+    OnCircle<T> sine;                                      // of the middle angle
+    OnCircle<T> first_cos, first_sin, last_cos, last_sin;  // times the middle angle's cosine
+    Ends<T> first, last;
+    Sines<T> front, back;  // of the middle angle, for either sign of its cosine
+};
+
+template <class T>
+SWIVEL_INLINE constexpr T room(const EulerBox<T>& box, const Turned<T>& swivel)
+{
+    const T sine = box.sine.at(swivel);
+    const T first_cos = box.first_cos.at(swivel), first_sin = box.first_sin.at(swivel);
+    const T last_cos = box.last_cos.at(swivel), last_sin = box.last_sin.at(swivel);
+    const auto room_with = [&](const Sines<T>& sines, const T& sign) SWIVEL_INLINE_LAMBDA {
+        return lo(room_between(sines, sine), lo(room_between(box.first, first_cos, first_sin, sign),
+                                                room_between(box.last, last_cos, last_sin, sign)));
+    };
+    return hi(room_with(box.front, T(1)), room_with(box.back, T(-1)));
+}
+
+// Orders of axes: which the first, middle and last are, 0 to 2, and whether they are in cyclic order.
+struct EulerOrder {
+    int first, middle, last;
+    bool cyclic;
+};
+inline constexpr EulerOrder kEulerOrders[] = {{0, 1, 2, true},  {0, 2, 1, false}, {1, 2, 0, true},
+                                              {1, 0, 2, false}, {2, 0, 1, true},  {2, 1, 0, false}};
+
+// entry(row, column): that entry of the rotation's matrix, R = R_first R_middle R_last. With the axes p, q, r in cyclic
+// order, R_pr = sin middle, (R_rr, -R_qr) = cos middle (cos, sin) of the first, (R_pp, -R_pq) of the last; in the
+// other order the sines change sign.
+template <class T, class Entry>
+SWIVEL_INLINE constexpr EulerBox<T> euler_box(const EulerOrder& order, const Entry& entry, const Range<T>& first,
+                                              const Range<T>& middle, const Range<T>& last)
+{
+    const T sign = T(order.cyclic ? 1 : -1);
+    const Ends<T> m = ends(middle);
+    const Mask<T> low_front = m.low.cos >= T(0), high_front = m.high.cos >= T(0);
+    return {sign * entry(order.first, order.last),
+            entry(order.last, order.last),
+            -sign * entry(order.middle, order.last),
+            entry(order.first, order.first),
+            -sign * entry(order.first, order.middle),
+            ends(first),
+            ends(last),
+            sines(m.low, low_front, m.high, high_front, m.wide),
+            sines(m.high, !high_front, m.low, !low_front, m.wide)};
+}
+
+// All limits of an arm whose swivel is free, at most kMostLines of them alone and one box for each joint.
+inline constexpr int kMostLines = 5, kMostBoxes = 2, kMostEdges = kMostLines + 10 * kMostBoxes;
+template <class T>
+struct Limits {
+    OnCircle<T> line[kMostLines];
+    int line_count = 0;
+    EulerBox<T> box[kMostBoxes];
+    int box_count = 0;
+};
+
+template <class T>
+SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
+{
+    T least = T(2);
+    for (int n = 0; n < limits.line_count; ++n) least = lo(limits.line[n].at(swivel), least);
+    for (int n = 0; n < limits.box_count; ++n) least = lo(room(limits.box[n], swivel), least);
+    return least;
+}
+
+// The edges of all limits: what is allowed changes only where one of them crosses zero. middles: with those lines, too,
+// that only matter where nothing is allowed.
+template <class T>
+SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, OnCircle<T> (&edge)[kMostEdges])
+{
+    int count = 0;
+    for (int n = 0; n < limits.line_count; ++n) edge[count++] = limits.line[n];
+    for (int n = 0; n < limits.box_count; ++n) {
+        const EulerBox<T>& box = limits.box[n];
+        for (const T* sine : {&box.front.low, &box.front.high, &box.back.low, &box.back.high})
+            if (any(abs(*sine) <= T(1))) edge[count++] = box.sine - constant(*sine);
+        for (const Turned<T>* end : {&box.first.low, &box.first.high})
+            edge[count++] = past(*end, box.first_cos, box.first_sin);
+        for (const Turned<T>* end : {&box.last.low, &box.last.high})
+            edge[count++] = past(*end, box.last_cos, box.last_sin);
+        if (middles) {
+            edge[count++] = along(box.first.middle, box.first_cos, box.first_sin);
+            edge[count++] = along(box.last.middle, box.last_cos, box.last_sin);
+        }
+    }
+    return count;
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// What is left free when the target and both bones are given: the swivel phi, the arm's turn about the line from the
+// shoulder to the target. In the line's own frame, e3 along it, that is the rotor cos(phi/2) + sin(phi/2) k, so every
+// coordinate of whatever turns with the arm, and every product of two components of its rotor, is
+// a cos phi + b sin phi + c. No angle is formed: a turn is the pair (cos, sin).
+#pragma once
+
+#include "core/conformal.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// What varies by less than this, squared, over the whole circle does not vary.
+inline constexpr double kFlat2 = 1e-14;
+
+// (cos, sin) of a turn.
+template <class T>
+struct Turned {
+    T cos, sin;
+};
+
+template <class T>
+SWIVEL_INLINE constexpr Turned<T> select(const Mask<T>& mask, const Turned<T>& a, const Turned<T>& b)
+{
+    return {select(mask, a.cos, b.cos), select(mask, a.sin, b.sin)};
+}
+
+// A turn's half along the rotor first + second k, times a positive number.
+template <class T>
+SWIVEL_INLINE constexpr auto half_turn(const Turned<T>& turn)
+{
+    const T large = T(1) + abs(turn.cos);
+    const Mask<T> obtuse = turn.cos < T(0);
+    return select(obtuse, abs(turn.sin), large) * unit<T, kScalar>() +
+           select(obtuse, copysign(large, turn.sin), turn.sin) * unit<T, kK>();
+}
+
+// A number that goes as a cos phi + b sin phi + c.
+template <class T>
+struct OnCircle {
+    T a, b, c;
+
+    SWIVEL_INLINE constexpr T at(const Turned<T>& swivel) const { return a * swivel.cos + b * swivel.sin + c; }
+};
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> operator+(const OnCircle<T>& x, const OnCircle<T>& y)
+{
+    return {x.a + y.a, x.b + y.b, x.c + y.c};
+}
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> operator-(const OnCircle<T>& x, const OnCircle<T>& y)
+{
+    return {x.a - y.a, x.b - y.b, x.c - y.c};
+}
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> operator*(const T& s, const OnCircle<T>& x)
+{
+    return {s * x.a, s * x.b, s * x.c};
+}
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> constant(const T& c)
+{
+    return {T(0), T(0), c};
+}
+
+// fixed . moving, both as the line's frame has them at phi = 0; only moving turns.
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> inner(const Vector<T>& fixed, const Vector<T>& moving)
+{
+    const T f1 = fixed.template at<kE1>(), f2 = fixed.template at<kE2>(), f3 = fixed.template at<kE3>();
+    const T m1 = moving.template at<kE1>(), m2 = moving.template at<kE2>(), m3 = moving.template at<kE3>();
+    return {f1 * m1 + f2 * m2, f2 * m1 - f1 * m2, f3 * m3};
+}
+
+// A rotor component that goes as at_0 cos(phi/2) + at_pi sin(phi/2), and the product of two.
+template <class T>
+struct OnHalfCircle {
+    T at_0, at_pi;
+};
+template <class T>
+SWIVEL_INLINE constexpr OnCircle<T> operator*(const OnHalfCircle<T>& x, const OnHalfCircle<T>& y)
+{
+    const T both_0 = x.at_0 * y.at_0, both_pi = x.at_pi * y.at_pi;
+    return {T(0.5) * (both_0 - both_pi), T(0.5) * (x.at_0 * y.at_pi + x.at_pi * y.at_0), T(0.5) * (both_0 + both_pi)};
+}
+
+// Where x crosses zero: two turns, one root. x.a^2 + x.b^2 = r2 and x.c: there are none where r2 < c^2.
+template <class T>
+struct Crossings {
+    Turned<T> first, second;
+    Mask<T> exist;
+};
+template <class T>
+SWIVEL_INLINE constexpr Crossings<T> crossings(const OnCircle<T>& x)
+{
+    const T r2 = x.a * x.a + x.b * x.b, rest2 = r2 - x.c * x.c;
+    const Mask<T> exist = (rest2 >= T(0)) & (r2 > T(kFlat2));
+    const T root = sqrt(select(exist, rest2, T(0))), per_r2 = T(1) / select(exist, r2, T(1));
+    const T ac = -(x.a * x.c), bc = -(x.b * x.c), ar = x.a * root, br = x.b * root;
+    return {{per_r2 * (ac - br), per_r2 * (bc + ar)}, {per_r2 * (ac + br), per_r2 * (bc - ar)}, exist};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

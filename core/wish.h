@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// Where the elbow shall be: the normal of the swivel plane that a goal wishes for, and how far it may move in a frame.
+// A wish that does not say (within kPoleOff of the line) is replaced by the first of the previous normal, the incoming
+// pose's, the rest hinge e1 and e2 that does.
+#pragma once
+
+#include "core/limb_goal.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// v without its part along the unit vector u.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> across(const Vector<T>& v, const Vector<T>& u)
+{
+    return v - scalar_product(v, u) * u;
+}
+// v of unit length, u where v is shorter than kTiny.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> unit_or(const Vector<T>& v, const Vector<T>& u)
+{
+    const T length2 = len2(v);
+    const Mask<T> none = !(length2 >= T(kTiny2));
+    return select(none, u, (T(1) / sqrt(select(none, T(1), length2))) * v);
+}
+
+// The normal of the swivel plane that the goal wishes for, across the line.
+template <class T>
+struct WishedNormal {
+    Vector<T> normal;  // unit
+    Mask<T> undefined;
+};
+template <class T>
+SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const LimbGoal<T>& goal,
+                                                      const Vector<T>& line)
+{
+    const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
+    const auto is_off = [](const Vector<T>& normal)
+                            SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff); };
+    // The stand-ins, the best last.
+    Vector<T> instead = select(is_off(across(hinge, line)), across(hinge, line), across(other, line));
+    const auto prefer = [&](const Vector<T>& normal)
+                            SWIVEL_INLINE_LAMBDA { instead = select(is_off(normal), normal, instead); };
+    Vector<T> was = instead;
+    if (use.incoming) {
+        was = across(sandwich(goal.incoming.shoulder, hinge), line);
+        prefer(was);
+    }
+    if (use.continuity) prefer(across(goal.continuity.previous_normal, line));
+
+    const Vector<T> zero = vector(T(0), T(0), T(0));
+    const Vector<T> wish = use.wish == Wish::incoming ? was
+                           : use.wish == Wish::normal ? across(unit_or(goal.arm.pole, zero), line)
+                                                      : cross(line, unit_or(goal.arm.pole, zero));
+    const Mask<T> undefined = !is_off(wish);
+    Vector<T> normal = normalise(select(undefined, instead, wish));
+    normal = normalise(across(normal, line));
+    if (use.angle) {
+        const T per_length = T(1) / sqrt(goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin);
+        normal = (per_length * goal.angle.cos) * normal + (per_length * goal.angle.sin) * cross(line, normal);
+    }
+    if (use.weights) {
+        const Vector<T> from = unit_or(was, normal), between = from + goal.weights.pole * (normal - from);
+        const Vector<T> blend = select(is_off(between), between, from);
+        normal = select(is_off(was), normalise(blend), normal);
+    }
+    return {normal, undefined};
+}
+
+// The normal no further from the previous one than the frame's most swivel.
+template <class T>
+struct SteppedNormal {
+    Vector<T> normal, previous;  // previous: carried to the new line
+    Mask<T> has_previous, limited;
+};
+template <class T>
+SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& state, const Vector<T>& wish,
+                                                        const Vector<T>& line)
+{
+    const Vector<T> carried = across(state.previous_normal, line);
+    const Mask<T> has_previous = len2(carried) > T(kPoleOff * kPoleOff);
+    const Vector<T> previous = normalise(select(has_previous, carried, wish));
+    const T cos_step = scalar_product(previous, wish), sin_step = scalar_product(cross(previous, wish), line);
+    const Mask<T> limited = has_previous & (cos_step < state.most.cos);
+    const Vector<T> stepped = state.most.cos * previous + copysign(state.most.sin, sin_step) * cross(line, previous);
+    return {select(limited, stepped, wish), previous, has_previous, limited};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: joint limits hold. No swivel that comes back violates a limit by more than 1e-6 where one is allowed, it
+// is as near to the wish as a scan of the whole circle finds, and where none is allowed that is said. The judge works
+// in angles (limit_oracle.h).
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "core/limb.h"
+#include "tests/formula_arm.h"
+#include "tests/limit_oracle.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+struct LimitedArm {
+    Arm arm;
+    Quaterniond hand;
+    LimitUse use;
+    Vector3d shoulder_axis, hand_axis, twist_axis;
+    double shoulder_cos, hand_cos;
+    AngleRange humeral, forearm, hand_twist;
+    AngleBox shoulder_box, wrist_box;
+};
+
+template <class T>
+Range<T> formula_range(const AngleRange& range)
+{
+    const auto turned = [](double x) { return Turned<T>{static_cast<T>(std::cos(x)), static_cast<T>(std::sin(x))}; };
+    Range<T> out{turned(range.middle), turned(range.half)};
+    out.half.sin = std::fabs(out.half.sin);
+    return out;
+}
+AngleRange rounded_range(const AngleRange& range)
+{
+    const Range<float> r = formula_range<float>(range);
+    return {std::atan2(double{r.middle.sin}, double{r.middle.cos}), std::atan2(double{r.half.sin}, double{r.half.cos})};
+}
+Vector3d rounded(const Vector3d& v) { return v.cast<float>().cast<double>(); }
+double rounded(double x) { return static_cast<float>(x); }
+
+AngleRange random_range(Random& random, double least)
+{
+    return rounded_range({random.between(-kPi, kPi), random.spread(least, kPi)});
+}
+AngleBox random_box(Random& random, const EulerOrder& order)
+{
+    AngleBox box{{order.first, order.middle, order.last}, {}};
+    const double least = random.below(4) ? 0.1 : 0.004;
+    for (AngleRange& range : box.range) range = random_range(random, least);
+    if (random.below(2)) box.range[1] = rounded_range({random.between(-0.5, 0.5), random.spread(least, 1)});
+    return box;
+}
+
+LimitedArm random_arm(Random& random)
+{
+    LimitedArm a;
+    const double upper = random.between(0.2, 0.4), fore = upper * random.between(0.6, 1.6);
+    const double near = std::fabs(upper - fore), far = upper + fore;
+    const Vector3d line = random.direction();
+    a.arm = rounded(Arm{random.between(near + 0.02 * (far - near), far) * line,
+                        random.between(-1, 1) * line + random.spread(0.05, 1) * random.across(line), upper, fore});
+    a.hand = random.rotation();
+    a.hand.coeffs() = a.hand.coeffs().cast<float>().cast<double>();
+    a.hand.normalize();
+    const auto axis = [&] { return rounded(random.direction()); };
+    a.shoulder_axis = axis(), a.hand_axis = axis(), a.twist_axis = axis();
+    a.shoulder_cos = rounded(random.between(-0.99, 0.99)), a.hand_cos = rounded(random.between(-0.99, 0.95));
+    a.humeral = random_range(random, 0.05), a.forearm = random_range(random, 0.05);
+    a.hand_twist = random_range(random, 0.05);
+    const std::uint32_t kinds = random.word();
+    a.use.shoulder_cone = kinds & 1, a.use.humeral_twist = kinds & 2;
+    a.use.hand_cone = kinds & 4 && kinds & 8, a.use.forearm_twist = kinds & 16 && kinds & 32;
+    a.use.hand_twist = kinds & 64 && kinds & 128, a.use.shoulder_box = kinds & 256 && kinds & 512;
+    a.use.wrist_box = kinds & 1024 && kinds & 2048;
+    a.use.shoulder_order = kEulerOrders[random.below(6)], a.use.wrist_order = kEulerOrders[random.below(6)];
+    a.shoulder_box = random_box(random, a.use.shoulder_order), a.wrist_box = random_box(random, a.use.wrist_order);
+    return a;
+}
+
+template <class T>
+LimbPose<T> solve(const LimitedArm& a)
+{
+    LimbUse use;
+    use.hand = true;
+    use.limits = a.use;
+    LimbGoal<T> goal{};
+    goal.arm = {mv<T>(a.arm.wrist), mv<T>(a.arm.pole), static_cast<T>(a.arm.upper), static_cast<T>(a.arm.fore)};
+    goal.hand = rotor(static_cast<T>(a.hand.x()), static_cast<T>(a.hand.y()), static_cast<T>(a.hand.z()),
+                      static_cast<T>(a.hand.w()));
+    JointLimits<T>& limits = goal.limits;
+    limits.shoulder_cone = {mv<T>(a.shoulder_axis), static_cast<T>(a.shoulder_cos)};
+    limits.hand_cone = {mv<T>(a.hand_axis), static_cast<T>(a.hand_cos)};
+    limits.humeral_twist = formula_range<T>(a.humeral);
+    limits.forearm_twist = formula_range<T>(a.forearm);
+    limits.hand_twist = {mv<T>(a.twist_axis), formula_range<T>(a.hand_twist)};
+    for (int n = 0; n < 3; ++n) {
+        limits.shoulder_box[n] = formula_range<T>(a.shoulder_box.range[n]);
+        limits.wrist_box[n] = formula_range<T>(a.wrist_box.range[n]);
+    }
+    return solve_limb(use, goal);
+}
+
+// The arm at a swivel from the wish, in double, from its elbow's place.
+struct ArmAt {
+    Quaterniond shoulder, wrist;
+};
+ArmAt arm_at(const LimitedArm& a, double swivel)
+{
+    const Vector3d line = a.arm.wrist.normalized();
+    const Eigen::AngleAxisd turn(swivel, line);
+    const double d = std::min(a.arm.wrist.norm(), a.arm.length());
+    const double along = (d * d + a.arm.upper * a.arm.upper - a.arm.fore * a.arm.fore) / (2 * d);
+    const double away = std::sqrt(std::max(0.0, a.arm.upper * a.arm.upper - along * along));
+    const Vector3d normal = turn * a.arm.normal();
+    const Vector3d bone = (along * line + away * normal.cross(line)).normalized();
+    Eigen::Matrix3d r;
+    r << normal, bone.cross(normal), bone;
+    const Quaterniond shoulder(r);
+    const double cosine =
+        (d * d - a.arm.upper * a.arm.upper - a.arm.fore * a.arm.fore) / (2 * a.arm.upper * a.arm.fore);
+    const Quaterniond elbow(Eigen::AngleAxisd(-std::acos(std::clamp(cosine, -1.0, 1.0)), Vector3d::UnitX()));
+    return {shoulder, (shoulder * elbow).conjugate() * a.hand};
+}
+
+double violation(const LimitedArm& a, const ArmAt& at)
+{
+    double worst = -1;
+    const auto broken = [&](double by) { worst = std::max(worst, by); };
+    const Vector3d e3 = Vector3d::UnitZ();
+    if (a.use.shoulder_cone) broken(cone_violation(a.shoulder_axis, a.shoulder_cos, at.shoulder * e3));
+    if (a.use.humeral_twist) broken(twist_violation(e3, a.humeral, at.shoulder));
+    if (a.use.shoulder_box) broken(box_violation(a.shoulder_box, at.shoulder.toRotationMatrix()));
+    if (a.use.hand_cone) broken(cone_violation(e3, a.hand_cos, at.wrist * a.hand_axis));
+    if (a.use.forearm_twist) broken(twist_violation(e3, a.forearm, at.wrist));
+    if (a.use.hand_twist) broken(twist_violation(a.twist_axis, a.hand_twist, at.wrist));
+    if (a.use.wrist_box) broken(box_violation(a.wrist_box, at.wrist.toRotationMatrix()));
+    return worst;
+}
+
+// The swivel that a pose took, from the wish, -pi to pi.
+template <class T>
+double swivel_of(const LimitedArm& a, const LimbPose<T>& pose)
+{
+    const Vector3d line = a.arm.wrist.normalized(), wish = a.arm.normal();
+    const Vector3d normal = eigen(pose.arm.shoulder).normalized() * Vector3d::UnitX();
+    return std::atan2(wish.cross(normal).dot(line), wish.dot(normal));
+}
+
+struct Scan {
+    int steps = 0, allowed = 0;
+    double best = kPi;      // the least swivel allowed, without sign
+    double half_width = 0;  // of the arc it belongs to
+};
+Scan scan(const LimitedArm& a, int steps)
+{
+    Scan out{steps};
+    std::vector<char> ok(static_cast<std::size_t>(steps));
+    int nearest = -1;
+    for (int n = 0; n < steps; ++n) {
+        const double swivel = 2 * kPi * n / steps;
+        ok[static_cast<std::size_t>(n)] = violation(a, arm_at(a, swivel)) <= 0;
+        if (!ok[static_cast<std::size_t>(n)]) continue;
+        ++out.allowed;
+        const double size = std::min(swivel, 2 * kPi - swivel);
+        if (nearest < 0 || size < out.best) out.best = size, nearest = n;
+    }
+    if (nearest < 0) return out;
+    int width = 1;
+    for (const int way : {1, -1})
+        for (int n = nearest + way; width < steps && ok[static_cast<std::size_t>((n + steps) % steps)]; n += way)
+            ++width;
+    out.half_width = kPi * width / steps;
+    return out;
+}
+
+template <class T>
+void check_against_scan(std::uint64_t seed, int arms, int steps)
+{
+    Random random{seed};
+    int feasible = 0, moved = 0, infeasible = 0;
+    for (int n = 0; n < arms; ++n) {
+        const LimitedArm a = random_arm(random);
+        const LimbPose<T> pose = solve<T>(a);
+        const bool said = !(pose.arm.flags & flag::infeasible);
+        const double swivel = swivel_of(a, pose), by = violation(a, arm_at(a, swivel));
+        const Scan seen = scan(a, steps);
+        INFO("arm " << n << ", swivel " << swivel << ", violation " << by << ", scan: " << seen.allowed
+                    << " allowed, best " << seen.best << ", half width " << seen.half_width);
+        if (seen.allowed > 1) CHECK(said);
+        if (said) CHECK(by <= 1e-6);
+        if (said && seen.allowed > 0) {
+            const double arc = seen.half_width > 5e-4 ? 1e-6 / std::sin(std::min(seen.half_width, kPi / 2)) : 1e-3;
+            CHECK(std::fabs(swivel) <= seen.best + 1e-5 + arc);
+        }
+        feasible += said, moved += said && std::fabs(swivel) > 1e-4, infeasible += !said;
+    }
+    CAPTURE(feasible, moved, infeasible);WARN(feasible<<" "<<moved<<" "<<infeasible);
+    CHECK(moved > arms / 10);
+    CHECK(infeasible > arms / 20);
+}
+
+}  // namespace
+
+TEST_CASE("limits against a scan of the whole circle")
+{
+    SECTION("double") { check_against_scan<double>(1, 2000, 4000); }
+    SECTION("float") { check_against_scan<float>(2, 3000, 10000); }
+}
