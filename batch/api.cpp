@@ -10,6 +10,7 @@
 
 #include "batch/edge.h"
 #include "batch/frame.h"
+#include "batch/joint_angles.h"
 #include "batch/rig.h"
 #include "batch/solve.h"
 #include "batch/status.h"
@@ -22,14 +23,53 @@
 
 using namespace swivel;
 
-static_assert(flag::reached == SWIVEL_REACHED && flag::clamped_far == SWIVEL_CLAMPED_FAR &&
+static_assert(flag::reached == SWIVEL_REACHED && flag::softened == SWIVEL_SOFTENED &&
+              flag::stretched == SWIVEL_STRETCHED && flag::clamped_far == SWIVEL_CLAMPED_FAR &&
               flag::clamped_near == SWIVEL_CLAMPED_NEAR && flag::swivel_undefined == SWIVEL_SWIVEL_UNDEFINED &&
+              flag::limited_flexion == SWIVEL_LIMITED_FLEXION &&
+              flag::limited_shoulder_cone == SWIVEL_LIMITED_SHOULDER_CONE &&
+              flag::limited_humeral_twist == SWIVEL_LIMITED_HUMERAL_TWIST &&
+              flag::limited_shoulder_box == SWIVEL_LIMITED_SHOULDER_BOX &&
+              flag::limited_hand_cone == SWIVEL_LIMITED_HAND_CONE &&
+              flag::limited_forearm_twist == SWIVEL_LIMITED_FOREARM_TWIST &&
+              flag::limited_hand_twist == SWIVEL_LIMITED_HAND_TWIST &&
+              flag::limited_wrist_box == SWIVEL_LIMITED_WRIST_BOX && flag::limited_step == SWIVEL_LIMITED_STEP &&
+              flag::infeasible == SWIVEL_INFEASIBLE && flag::jumped == SWIVEL_JUMPED &&
               flag::bad_input == SWIVEL_BAD_INPUT);
 
 namespace {
 
-constexpr std::uint32_t kAllFeatures =
-    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT;
+constexpr std::uint32_t kAllFeatures = 8 * SWIVEL_TWIST_BONES - 1;
+
+// Features that mean something only beside another, or not beside another.
+struct FeatureRule {
+    std::uint32_t feature, other;
+    bool together;
+    const char* text;
+};
+constexpr FeatureRule kFeatureRules[] = {
+    {SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, true,
+     "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both"},
+    {SWIVEL_POLE_NORMAL, SWIVEL_POLE_DIRECTION, false,
+     "SWIVEL_POLE_NORMAL and SWIVEL_POLE_DIRECTION exclude each other; a pole is one of them"},
+    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_DIRECTION, false,
+     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_DIRECTION exclude each other; with the first there are no poles"},
+    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_NORMAL, false,
+     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_NORMAL exclude each other; with the first there are no poles"},
+    {SWIVEL_POLE_INCOMING, SWIVEL_WITH_INCOMING, true, "SWIVEL_POLE_INCOMING needs SWIVEL_WITH_INCOMING"},
+    {SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, true,
+     "SWIVEL_WITH_WEIGHTS needs SWIVEL_WITH_INCOMING, the pose to blend with"},
+    {SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
+    {SWIVEL_LIMIT_HAND_CONE, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_CONE needs SWIVEL_WITH_HAND"},
+    {SWIVEL_LIMIT_FOREARM_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
+    {SWIVEL_LIMIT_HAND_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_TWIST needs SWIVEL_WITH_HAND"},
+    {SWIVEL_LIMIT_WRIST_BOX, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_WRIST_BOX needs SWIVEL_WITH_HAND"},
+    {7 * SWIVEL_TWIST_BONES, SWIVEL_WITH_HAND, true,
+     "SWIVEL_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
+    {SWIVEL_COMPACT, 7 * SWIVEL_TWIST_BONES, false, "SWIVEL_COMPACT has no words for SWIVEL_TWIST_BONES"},
+    {SWIVEL_COMPACT, SWIVEL_WITH_REACH, false, "SWIVEL_COMPACT has no word for SWIVEL_WITH_REACH's stretch"},
+    {SWIVEL_COMPACT, SWIVEL_WITH_STEP, false, "SWIVEL_COMPACT does not keep SWIVEL_WITH_STEP's normal"},
+};
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 constexpr std::size_t kArenaAlignment = 64;
 
@@ -52,13 +92,18 @@ swivel_status check(const swivel_crowd_def* def)
                     sizeof(swivel_crowd_def));
     if (def->features & ~kAllFeatures)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
-    if ((def->features & SWIVEL_POLE_DIRECTION) && !(def->features & SWIVEL_WORLD))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both");
+    for (const FeatureRule& rule : kFeatureRules)
+        if ((def->features & rule.feature) && !(def->features & rule.other) == rule.together)
+            return fail(SWIVEL_INVALID_ARGUMENT, "%s", rule.text);
     if (def->group_count == 0 || !def->groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def->allocate != !def->release)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
+    for (const auto& [order, name] :
+         {std::pair{def->shoulder_order, "shoulder_order"}, std::pair{def->wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", name,
+                        static_cast<int>(order));
     std::uint64_t limb_count = 0;
     for (std::uint32_t g = 0; g < def->group_count; ++g) {
         if (def->groups[g].limb_count == 0)
@@ -106,8 +151,8 @@ swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swive
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
     const std::uint32_t component_count = field_component_count(crowd.features, field);
     if (component_count == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with %s", group, name,
-                    field == SWIVEL_HAND || field == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
+                    kFields[field].without ? "out" : "", needed_feature(crowd.features, field));
     return check_stride(group, name, data, stride, component_count * sizeof(float), input);
 }
 
@@ -346,6 +391,51 @@ swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame*
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
     solve_frame_blocks(*crowd, *isa->kernels, frames, first_block, block_count);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (!(crowd->features & SWIVEL_WITH_STEP)) return SWIVEL_OK;
+    const float zero[3] = {};
+    copy_in(rows_of(*crowd, crowd->groups[group], SWIVEL_NORMAL), first, limb_count, {zero, 0});
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
+                                  uint32_t capacity, uint32_t* arc_count)
+{
+    if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
+    if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
+    if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
+    *arc_count = allowed_arcs(*crowd, *find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                  swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
+                                  swivel_out angles)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    for (const auto& [order, name] :
+         {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
+                        name, static_cast<int>(order));
+    if (family != 0 && family != 1)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
+    if (const swivel_status status =
+            check_stride(group, "angles", angles.data, angles.stride, 7 * sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
+    const FloatEnv env;
+    const Group& g = crowd->groups[group];
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const std::size_t limb = std::size_t{g.first_block} * SWIVEL_LANES + first + n;
+        const JointAngles seven = joint_angles(arm_rotors(*crowd, g, limb), shoulder_order, wrist_order, family);
+        std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
+    }
     return SWIVEL_OK;
 }
 

@@ -66,6 +66,9 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                                         layout.block_count,
                                                         input_row_count(def.features),
                                                         result_row_count(def.features),
+                                                        {},
+                                                        def.shoulder_order,
+                                                        def.wrist_order,
                                                         groups,
                                                         reinterpret_cast<float*>(base + layout.input),
                                                         compact ? nullptr : reinterpret_cast<float*>(results),
@@ -76,12 +79,31 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                                         nullptr,
                                                         {}};
 
+    for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f)
+        crowd->first_row[f] = static_cast<std::uint16_t>(
+            field_first_row(def.features & ~std::uint32_t{SWIVEL_COMPACT}, static_cast<swivel_field>(f)));
+
     fill_field(*crowd, SWIVEL_TARGET, {0, 0, 2});
     fill_field(*crowd, SWIVEL_POLE, {0, -1, 0});
     fill_field(*crowd, SWIVEL_LENGTHS, {1, 1});
     fill_field(*crowd, SWIVEL_PARENT_ROTATION, {0, 0, 0, 1});
     fill_field(*crowd, SWIVEL_PARENT_SCALE, {1});
     fill_field(*crowd, SWIVEL_HAND, {0, 0, 0, 1});
+
+    // What changes nothing: no turn, all of the goal, no limit. A range: its middle 0, half its width pi.
+    fill_field(*crowd, SWIVEL_ANGLE, {1, 0});
+    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
+        fill_field(*crowd, q, {0, 0, 0, 1});
+    fill_field(*crowd, SWIVEL_WEIGHTS, {1, 1, 1});
+    fill_field(*crowd, SWIVEL_REACH, {0, 0, 1, 0});
+    fill_field(*crowd, SWIVEL_MOST_SWIVEL, {-1, 0});
+    fill_field(*crowd, SWIVEL_FLEXION_LIMIT, {1, 0});
+    for (const swivel_field cone : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) fill_field(*crowd, cone, {0, 0, 1, -1});
+    for (const swivel_field twist : {SWIVEL_HUMERAL_TWIST, SWIVEL_FOREARM_TWIST})
+        fill_field(*crowd, twist, {1, 0, -1, 0});
+    fill_field(*crowd, SWIVEL_HAND_TWIST, {0, 0, 1, 1, 0, -1, 0});
+    for (const swivel_field box : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX})
+        fill_field(*crowd, box, {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0});
     return crowd;
 }
 

@@ -21,6 +21,8 @@ struct swivel_crowd {
     std::uint32_t features;
     std::uint32_t group_count, block_count;
     std::uint32_t input_row_count, result_row_count;
+    std::uint16_t first_row[SWIVEL_FIELD_COUNT];  // of each field, among input or result rows of floats
+    swivel_euler_order shoulder_order, wrist_order;
     swivel::Group* groups;
     float *input, *results;  // results: null in a compact crowd, which has words instead
     std::uint16_t* words;

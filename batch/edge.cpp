@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "batch/unpack.h"
+#include "core/solve_arm.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -54,11 +55,28 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
     const Rotor<double> upper_w = base * read.rotor_of(SWIVEL_SHOULDER);
     const Rotor<double> fore_w = upper_w * elbow;
     const Vector<double> e3 = vector(0.0, 0.0, 1.0);
-    const Vector<double> elbow_w =
-        shoulder + (scale * read(SWIVEL_LENGTHS, 0)) * sandwich(upper_w * upper_from_arm, e3);
-    const Vector<double> wrist_w = elbow_w + (scale * read(SWIVEL_LENGTHS, 1)) * sandwich(fore_w * fore_from_arm, e3);
+    const double size = crowd.features & SWIVEL_WITH_REACH ? scale * read(SWIVEL_STRETCH, 0) : scale;
+    const Vector<double> elbow_w = shoulder + (size * read(SWIVEL_LENGTHS, 0)) * sandwich(upper_w * upper_from_arm, e3);
+    const Vector<double> wrist_w = elbow_w + (size * read(SWIVEL_LENGTHS, 1)) * sandwich(fore_w * fore_from_arm, e3);
     const Rotor<double> hand_w = crowd.features & SWIVEL_WITH_HAND ? fore_w * read.rotor_of(SWIVEL_WRIST) : fore_w;
     return {elbow_w, wrist_w, hand_w};
+}
+
+ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb)
+{
+    const Reader read{crowd, limb};
+    const bool joints = crowd.features & SWIVEL_JOINTS, hand = crowd.features & SWIVEL_WITH_HAND;
+    const Rotor<double> one = rotor(0.0, 0.0, 0.0, 1.0);
+    const Rotor<double> wrist = hand ? read.rotor_of(SWIVEL_WRIST) : one;
+    if (!joints)
+        return {read.rotor_of(SWIVEL_SHOULDER),
+                normalise(rotor(-read(SWIVEL_ELBOW, 1), 0.0, 0.0, read(SWIVEL_ELBOW, 0))), hemisphere(wrist)};
+    const swivel_binding& b = group.binding;
+    const Rotor<double> upper = rotor_of(b.upper_from_arm), fore = rotor_of(b.fore_from_arm);
+    const Rotor<double> hand_from_arm = ~fore * rotor_of(b.wrist_rest);
+    return {~rotor_of(b.parent_from_arm) * read.rotor_of(SWIVEL_SHOULDER) * upper,
+            hemisphere(~upper * read.rotor_of(SWIVEL_ELBOW) * fore),
+            hand ? hemisphere(~fore * wrist * ~hand_from_arm) : one};
 }
 
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
@@ -68,7 +86,10 @@ double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
     const double scale = crowd.features & SWIVEL_WORLD ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
     const double length = scale * (read(SWIVEL_LENGTHS, 0) + read(SWIVEL_LENGTHS, 1));
     if (!(length > 0)) return 0;
-    return std::sqrt(len2(forward(crowd, group, limb).wrist - read.vector_of(SWIVEL_TARGET))) / length;
+    const LimbPose pose = forward(crowd, group, limb);
+    Vector<double> end = pose.wrist;
+    if (crowd.features & SWIVEL_WITH_EFFECTOR) end = end + scale * sandwich(pose.hand, read.vector_of(SWIVEL_EFFECTOR));
+    return std::sqrt(len2(end - read.vector_of(SWIVEL_TARGET))) / length;
 }
 
 }  // namespace swivel

@@ -15,7 +15,13 @@ struct LimbPose {
 
 LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
-// |wrist - target| / (scale * (upper + fore)); 0 for a limb of no length or with bad input.
+// What the joints add to the rest pose, in the arm frame: of unit length, the elbow and the wrist with w >= 0.
+struct ArmRotors {
+    Rotor<double> shoulder, elbow, wrist;
+};
+ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb);
+
+// |wrist - target| / (scale * (upper + fore)), or the effector's distance; 0 for a limb of no length or with bad input.
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
 }  // namespace swivel

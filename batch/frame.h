@@ -19,6 +19,12 @@ inline constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
     {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
     {SWIVEL_HAND, &swivel_frame::hand},
+    {SWIVEL_EFFECTOR, &swivel_frame::effector},
+    {SWIVEL_ANGLE, &swivel_frame::angle},
+    {SWIVEL_INCOMING_SHOULDER, &swivel_frame::incoming_shoulder},
+    {SWIVEL_INCOMING_ELBOW, &swivel_frame::incoming_elbow},
+    {SWIVEL_INCOMING_WRIST, &swivel_frame::incoming_wrist},
+    {SWIVEL_WEIGHTS, &swivel_frame::weights},
 };
 
 struct FrameOutput {
@@ -26,10 +32,9 @@ struct FrameOutput {
     swivel_out swivel_frame::*member;
 };
 inline constexpr FrameOutput kFrameOutputs[] = {
-    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
-    {SWIVEL_ELBOW, &swivel_frame::elbow},
-    {SWIVEL_WRIST, &swivel_frame::wrist},
-    {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_TWIST, &swivel_frame::twist},
 };
 
 }  // namespace swivel

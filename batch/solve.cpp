@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::uint32_t kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
 
+// With any of these a crowd's limbs are whole ones, for which there is one kernel (simd/limb_step.h).
+constexpr std::uint32_t kLimbFeatures =
+    ~std::uint32_t{SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT};
+
 // Rows of more bytes than this come from memory at each solve: it is a common size of level 3 caches. Where they come
 // from a cache, prefetching costs up to 3 %; where from memory, it takes 5 to 15 % off.
 constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
@@ -33,6 +37,29 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, float* results, s
             crowd.arena_bytes > kCachedBytes};
 }
 
+LimbRun limb_run_of(const swivel_crowd& crowd, const SolveRun& run)
+{
+    return {run.input,
+            run.results,
+            run.block_count,
+            crowd.input_row_count,
+            crowd.words ? result_row_count(crowd.features & ~std::uint32_t{SWIVEL_COMPACT}) : crowd.result_row_count,
+            crowd.features,
+            crowd.shoulder_order,
+            crowd.wrist_order,
+            run.binding,
+            crowd.first_row};
+}
+
+// Solves a run of blocks with the kernel that the crowd's features ask for.
+void solve_run(const swivel_crowd& crowd, const Kernels& kernels, const SolveRun& run)
+{
+    if (crowd.features & kLimbFeatures)
+        kernels.solve_limbs(limb_run_of(crowd, run));
+    else
+        kernels.solve[crowd.features & kFormulaFeatures](run);
+}
+
 void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                    std::uint32_t block_count)
 {
@@ -41,7 +68,7 @@ void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Grou
     for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {
         const std::uint32_t block = first_block + done, count = std::min(kPackBlocks, block_count - done);
         const SolveRun run = run_of(crowd, group, results, block, count);
-        kernels.solve[crowd.features & kFormulaFeatures](run);
+        solve_run(crowd, kernels, run);
         pack({results, crowd.words + row_offset(std::size_t{block} * SWIVEL_LANES, crowd.result_row_count, 0), count,
               run.prefetch});
     }
@@ -55,7 +82,18 @@ void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group&
     if (crowd.features & SWIVEL_COMPACT) return solve_compact(crowd, kernels, group, first_block, block_count);
     float* const results =
         crowd.results + row_offset(std::size_t{first_block} * SWIVEL_LANES, crowd.result_row_count, 0);
-    kernels.solve[crowd.features & kFormulaFeatures](run_of(crowd, group, results, first_block, block_count));
+    solve_run(crowd, kernels, run_of(crowd, group, results, first_block, block_count));
+}
+
+std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
+                           swivel_arc* arcs, std::uint32_t capacity)
+{
+    const FloatEnv env;
+    float* const results = crowd.words ? nullptr
+                                       : crowd.results + row_offset(std::size_t{group.first_block} * SWIVEL_LANES,
+                                                                    crowd.result_row_count, 0);
+    const SolveRun run = run_of(crowd, group, results, group.first_block, group.block_count);
+    return scalar.allowed_arcs(limb_run_of(crowd, run), limb, arcs, capacity);
 }
 
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,

@@ -27,6 +27,11 @@ void for_each_group(const swivel_crowd& crowd, std::uint32_t first_block, std::u
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count);
 
+// The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
+// build's kernels.
+std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
+                           swivel_arc* arcs, std::uint32_t capacity);
+
 // Solves blocks first_block ... first_block + block_count - 1 on this thread.
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
                   std::uint32_t block_count);

@@ -42,9 +42,12 @@ void copy_blocks(const FieldRows& rows, std::size_t first, std::size_t limb_coun
     }
 }
 
+// Long values go four components at a time.
 template <template <std::size_t> class Copy, class Byte>
-void copy(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
+void copy(FieldRows rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
 {
+    for (; rows.component_count > 4; rows.component_count -= 4, rows.base += 4 * SWIVEL_LANES, values += 16)
+        copy_blocks<Copy<4>>(rows, first, limb_count, values, stride);
     switch (rows.component_count) {
         case 1:
             return copy_blocks<Copy<1>>(rows, first, limb_count, values, stride);

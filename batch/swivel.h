@@ -27,12 +27,60 @@
 //   SWIVEL_PARENT_ROTATION     4     WORLD           world rotation of the shoulder's parent joint
 //   SWIVEL_PARENT_SCALE        1     WORLD           uniform scale of the parent, > 0
 //   SWIVEL_HAND                4     WITH_HAND       wanted hand orientation: arm frame, or world with WORLD
+//   and those of THE WHOLE LIMB below
 // RESULT ROWS, in this order
 //   SWIVEL_SHOULDER            4     always          rotation in the arm frame, or the joint's local one with JOINTS
 //   SWIVEL_ELBOW               2     no JOINTS       cos and sin of half the flexion, both >= 0
 //                              4     JOINTS          the joint's local rotation
 //   SWIVEL_WRIST               4     WITH_HAND       hand relative to forearm, or local rotation with JOINTS
 //   SWIVEL_FLAGS               1     always          SWIVEL_REACHED..., as uint32_t
+//   and those of THE WHOLE LIMB
+//
+// THE WHOLE LIMB. What else may be asked of a limb, each part with a feature of its own: what is off costs nothing. All
+// of it is lane by lane, so every limb may have its own. Angles go in as cosines and sines; swivel_range(),
+// swivel_cone(), swivel_flexion() and swivel_turn() make them. FEATURE is SWIVEL_ and the feature's name.
+//
+//   more input rows            rows  FEATURE              meaning
+//   SWIVEL_EFFECTOR            3     WITH_EFFECTOR        the target is for this point of the hand (its own frame)
+//   SWIVEL_ANGLE               2     WITH_ANGLE           cos, sin: turns the elbow on from the pole's side
+//   SWIVEL_INCOMING_SHOULDER   4     WITH_INCOMING        the pose so far: local rotations with JOINTS, else in the
+//   SWIVEL_INCOMING_ELBOW      4     WITH_INCOMING        arm frame, forearm to upper arm, hand to forearm; always
+//   SWIVEL_INCOMING_WRIST      4     and WITH_HAND        whole quaternions
+//   SWIVEL_WEIGHTS             3     WITH_WEIGHTS         of position, hand, pole: 0 the incoming pose's, 1 the goal's
+//   SWIVEL_REACH               4     WITH_REACH           soft zone far, soft zone near, most stretch, least distance
+//   SWIVEL_MOST_SWIVEL         2     WITH_STEP            cos, sin of how far the swivel may turn in one solve, 0..pi
+//   SWIVEL_FLEXION_LIMIT       2     LIMIT_FLEXION        cos of half the least flexion, cos of half the largest
+//   SWIVEL_SHOULDER_CONE       4     LIMIT_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
+//   SWIVEL_HUMERAL_TWIST       4     LIMIT_HUMERAL_TWIST  range of the upper arm's twist about itself
+//   SWIVEL_SHOULDER_BOX        12    LIMIT_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
+//   SWIVEL_HAND_CONE           4     LIMIT_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
+//   SWIVEL_FOREARM_TWIST       4     LIMIT_FOREARM_TWIST  range of the hand's twist about the forearm
+//   SWIVEL_HAND_TWIST          7     LIMIT_HAND_TWIST     unit axis of the hand; range of its twist about it
+//   SWIVEL_WRIST_BOX           12    LIMIT_WRIST_BOX      ranges of the wrist's Euler angles
+//   more result rows
+//   SWIVEL_STRETCH             1     WITH_REACH           factor for both bone lengths, 1 or more
+//   SWIVEL_NORMAL              3     WITH_STEP            unit normal of the swivel plane, arm frame; kept for the next
+//   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
+//
+// Effector: in the unit of the bones, before the parent's scale. Angle: about the line from shoulder to wrist by the
+// right hand, of any length but zero. Incoming pose: says where the elbow goes where the pole does not; results take
+// its hemisphere instead of w >= 0. Reach: soft zones and least distance are shares 0..1 of both bones' length, the
+// stretch is 1..1000. A range is cos and sin of its middle, cos and sin of half its width, which is 0..pi.
+//
+// Limits are about the rest pose and have the arm frame's axes at rest: bones along +z, hinge +x. Where the wish breaks
+// a limit, the nearest swivel that keeps all of them is taken; where none does, the one that violates them least. Joint
+// limits win over MOST_SWIVEL, and that over the wish. The elbow's flexion does not depend on the swivel: its limit
+// narrows the reach, and the wrist stops short. Softened at a reach R over a width s, a wanted distance d becomes
+// d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; mirrored at the near end. Stretch makes up for what
+// is missing, up to the most.
+//
+// The hand's twist about the forearm is shared over n twist bones, children of the forearm: bone i of 1..n turns by
+// i / (n + 1) of it (within 0.12 degrees), about the forearm's axis, relative to rest: its local rotation is this
+// quaternion times its rest rotation with JOINTS, and this quaternion in the arm frame without.
+//
+// With WITH_STEP the plane's normal is carried from solve to solve, across each new line; swivel_reset() forgets it,
+// after a teleport. Without it results depend on the frame's own inputs alone, and the swivel is continuous but for
+// targets passing through the shoulder, poles passing through the line, and limits whose nearest swivel changes sides.
 //
 // COMPACT RESULTS. With SWIVEL_COMPACT a result row is 16 uint16_t, 32 bytes, word r of limb i at
 // base[((i / 16) * row_count + r) * 16 + i % 16] of swivel_compact_rows(), the fields in the same order:
@@ -104,12 +152,25 @@ typedef enum swivel_status {
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
     SWIVEL_REACHED = 1u << 0,       // the wrist is at the target
+    SWIVEL_SOFTENED = 1u << 1,      // in a soft zone of reach, so the wrist is not quite at the target
+    SWIVEL_STRETCHED = 1u << 2,     // SWIVEL_STRETCH is above 1
     SWIVEL_CLAMPED_FAR = 1u << 3,   // target out of reach: the wrist is at the nearest reachable point, arm straight
     SWIVEL_CLAMPED_NEAR = 1u << 4,  // target too near: the wrist is at the nearest reachable point, arm folded
     SWIVEL_SWIVEL_UNDEFINED =
-        1u << 5,                  // pole along the target within sin 1e-3, of no length, or target on the shoulder
-    SWIVEL_BAD_INPUT = 1u << 30,  // see VALID INPUT; the limb has its rest pose
-    // bits 1, 2 (softened, stretched) and 6 to 29 (limits, continuity) are kept for later releases and are 0
+        1u << 5,                       // pole along the target within sin 1e-3, of no length, or target on the shoulder
+    SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
+    SWIVEL_LIMITED_SHOULDER_CONE = 1u << 7,  // this and the next: the limit forbids the swivel wished for
+    SWIVEL_LIMITED_HUMERAL_TWIST = 1u << 8,
+    SWIVEL_LIMITED_SHOULDER_BOX = 1u << 9,
+    SWIVEL_LIMITED_HAND_CONE = 1u << 10,
+    SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
+    SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
+    SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
+    SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last one
+    SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
+    SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
+    SWIVEL_BAD_INPUT = 1u << 30,     // see VALID INPUT; the limb has its rest pose
+    // bits 17 to 29 are kept for later releases and are 0
 } swivel_flag;
 
 // What a crowd takes and gives; fixed at creation. Whatever is off costs neither memory nor time.
@@ -118,7 +179,25 @@ typedef enum swivel_feature {
     SWIVEL_JOINTS = 1u << 1,          // results are the skeleton's own local rotations, through the group's binding
     SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
     SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
-    SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less
+    SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less; not with WITH_REACH, WITH_STEP
+    // THE WHOLE LIMB
+    SWIVEL_WITH_EFFECTOR = 1u << 5,
+    SWIVEL_WITH_ANGLE = 1u << 6,
+    SWIVEL_POLE_NORMAL = 1u << 7,  // poles are normals of the swivel plane: cross(line from shoulder to wrist, pole)
+    SWIVEL_WITH_INCOMING = 1u << 8,
+    SWIVEL_POLE_INCOMING = 1u << 9,  // no poles: the elbow goes as in the incoming pose. Needs WITH_INCOMING
+    SWIVEL_WITH_WEIGHTS = 1u << 10,
+    SWIVEL_WITH_REACH = 1u << 11,
+    SWIVEL_WITH_STEP = 1u << 12,
+    SWIVEL_LIMIT_FLEXION = 1u << 13,
+    SWIVEL_LIMIT_SHOULDER_CONE = 1u << 14,
+    SWIVEL_LIMIT_HUMERAL_TWIST = 1u << 15,
+    SWIVEL_LIMIT_SHOULDER_BOX = 1u << 16,
+    SWIVEL_LIMIT_HAND_CONE = 1u << 17,
+    SWIVEL_LIMIT_FOREARM_TWIST = 1u << 18,
+    SWIVEL_LIMIT_HAND_TWIST = 1u << 19,
+    SWIVEL_LIMIT_WRIST_BOX = 1u << 20,
+    SWIVEL_TWIST_BONES = 1u << 21,  // times the number of twist bones, 1 to 7
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -129,10 +208,29 @@ typedef enum swivel_field {
     SWIVEL_PARENT_ROTATION,
     SWIVEL_PARENT_SCALE,
     SWIVEL_HAND,
+    SWIVEL_EFFECTOR,
+    SWIVEL_ANGLE,
+    SWIVEL_INCOMING_SHOULDER,
+    SWIVEL_INCOMING_ELBOW,
+    SWIVEL_INCOMING_WRIST,
+    SWIVEL_WEIGHTS,
+    SWIVEL_REACH,
+    SWIVEL_MOST_SWIVEL,
+    SWIVEL_FLEXION_LIMIT,
+    SWIVEL_SHOULDER_CONE,
+    SWIVEL_HUMERAL_TWIST,
+    SWIVEL_SHOULDER_BOX,
+    SWIVEL_HAND_CONE,
+    SWIVEL_FOREARM_TWIST,
+    SWIVEL_HAND_TWIST,
+    SWIVEL_WRIST_BOX,
     SWIVEL_SHOULDER,
     SWIVEL_ELBOW,
     SWIVEL_WRIST,
     SWIVEL_FLAGS,
+    SWIVEL_STRETCH,
+    SWIVEL_NORMAL,
+    SWIVEL_TWIST,
     SWIVEL_FIELD_COUNT
 } swivel_field;
 
@@ -156,6 +254,16 @@ typedef struct swivel_chain {
                      // taken from the rest pose, which then must be bent by more than sin 1e-3
 } swivel_chain;
 
+// The axes of three rotations that make one, each about the axis as the ones before have left it: R = Rx Ry Rz is XYZ.
+typedef enum swivel_euler_order {
+    SWIVEL_XYZ,
+    SWIVEL_XZY,
+    SWIVEL_YZX,
+    SWIVEL_YXZ,
+    SWIVEL_ZXY,
+    SWIVEL_ZYX,
+} swivel_euler_order;
+
 typedef struct swivel_group_def {
     uint32_t limb_count;     // 1 or more
     swivel_binding binding;  // used with SWIVEL_JOINTS, otherwise ignored
@@ -173,6 +281,7 @@ typedef struct swivel_crowd_def {
     void* (*allocate)(size_t bytes, size_t alignment, void* user);
     void (*release)(void* memory, size_t bytes, void* user);
     void* user;
+    swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
 } swivel_crowd_def;
 
 typedef struct swivel_crowd swivel_crowd;
@@ -269,8 +378,9 @@ SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first
 typedef struct swivel_frame {
     // Null data: the rows keep what they hold. Stride 0: one value for the whole group.
     swivel_in target, pole, lengths, parent_position, parent_rotation, parent_scale, hand;
+    swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights;
     // Null data: not written.
-    swivel_out shoulder, elbow, wrist, flags;
+    swivel_out shoulder, elbow, wrist, flags, stretch, twist;
 } swivel_frame;
 
 // A whole frame in one pass: swivel_write() of every input given, swivel_solve(), swivel_read() of every output given,
@@ -299,12 +409,52 @@ SWIVEL_API swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_fr
 SWIVEL_API swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames,
                                                    uint32_t first_block, uint32_t block_count);
 
+// Forgets the swivel carried from solve to solve, of limbs of a group: the next one is not limited by
+// SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_STEP.
+SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
+
+// An arc of swivels, as cos and sin of its ends, turning from one to the other by the right hand about the line from
+// shoulder to wrist; 0 is the swivel wished for. The whole circle is one arc with equal ends.
+typedef struct swivel_arc {
+    float from[2], to[2];
+} swivel_arc;
+
+// The swivels that a limb's limits allow for its inputs as they are now, in their order around the circle: at most
+// capacity of them are stored, *arc_count says how many there are. None for bad input. limb is counted within the
+// group. Takes some microseconds; no allocation.
+SWIVEL_API swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
+                                             uint32_t capacity, uint32_t* arc_count);
+
+// The joint angles of the results in radians, about the rest pose and the arm frame's axes: for each limb 7 doubles,
+// three of the shoulder in its order, the flexion, three of the wrist (0 without SWIVEL_WITH_HAND). Of the two triples
+// that give a rotation family 0 has the middle angle within -pi/2..pi/2, family 1 the other; at its ends the last angle
+// is 0. This is an output for people and files: no solve uses it, and its last digits may differ between C libraries.
+SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first,
+                                             uint32_t limb_count, swivel_euler_order shoulder_order,
+                                             swivel_euler_order wrist_order, int family, swivel_out angles);
+
+// Values of limit and step fields, from angles in radians. Any thread; no allocation. All but swivel_turn() fail with
+// SWIVEL_INVALID_ARGUMENT, and leave the values alone, for what is not finite or not in the range given here.
+// A range from least to most, least <= most, no wider than 2 pi: one of the three of a box, or a twist's.
+SWIVEL_API swivel_status swivel_range(double least, double most, float range[4]);
+// An axis of any length but zero and the largest angle to it, 0 to pi.
+SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
+// The elbow's least and largest flexion, 0 <= least <= most <= pi.
+SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion[2]);
+// Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MOST_SWIVEL.
+SWIVEL_API void swivel_turn(double angle, float turn[2]);
+// The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side, whose arm frame is the mirror
+// image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton. order: of boxes, else ignored.
+// from and to have the field's components and may be the same; values of other fields are copied. Fails for a field or
+// an order that does not exist. Any thread; no allocation.
+SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
+
 // Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or
 // 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
-// How far the wrist of each limb is from its target: one double, in arm lengths (upper + fore, scaled). 0 for a limb of
-// no length or with bad input.
+// How far the wrist, or the effector, of each limb is from its target: one double, in arm lengths (upper + fore,
+// scaled). 0 for a limb of no length or with bad input.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 

@@ -19,14 +19,15 @@ struct ChosenSwivel {
 template <class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> nearest_end(const Limits<T>& limits)
 {
-    OnCircle<T> edge[kMostEdges];
+    Edge<T> edge[kMostEdges];
     const int count = edges(limits, false, edge);
     Turned<T> best{T(-1), T(0)};
     T nearest = T(-2);
     for (int n = 0; n < count; ++n) {
-        const Crossings<T> ends = crossings(edge[n]);
+        const Crossings<T> ends = crossings(edge[n].line);
+        const Mask<T> exist = ends.exist & edge[n].live;
         for (const Turned<T>* end : {&ends.first, &ends.second}) {
-            const Mask<T> better = ends.exist & (end->cos > nearest) & (room(limits, *end) >= T(kNoRoom));
+            const Mask<T> better = exist & (end->cos > nearest) & (room(limits, *end) >= T(kNoRoom));
             best = select(better, *end, best);
             nearest = select(better, end->cos, nearest);
         }
@@ -40,7 +41,7 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> nearest_end(const Limits<T>& limits)
 template <class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
 {
-    OnCircle<T> edge[kMostEdges];
+    Edge<T> edge[kMostEdges];
     const int count = edges(limits, true, edge);
     Turned<T> best{T(1), T(0)};
     T most = room(limits, best);
@@ -51,17 +52,19 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
         most = select(better, left, most);
     };
     for (int n = 0; n < count; ++n) {
-        const T r2 = edge[n].a * edge[n].a + edge[n].b * edge[n].b;
-        const Mask<T> exists = r2 > T(kFlat2);
-        const T per_r = T(1) / sqrt(select(exists, r2, T(1)));
-        const Turned<T> peak{per_r * edge[n].a, per_r * edge[n].b};
-        consider(peak, exists);
-        consider({-peak.cos, -peak.sin}, exists);
+        const OnCircle<T>& line = edge[n].line;
+        const T r2 = line.a * line.a + line.b * line.b;
+        const Mask<T> peaks = edge[n].live & (r2 > T(kFlat2));
+        const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
+        const Turned<T> peak{per_r * line.a, per_r * line.b};
+        consider(peak, peaks);
+        consider({-peak.cos, -peak.sin}, peaks);
         for (int m = 0; m < n; ++m)
-            for (const OnCircle<T>& difference : {edge[n] - edge[m], edge[n] + edge[m]}) {
+            for (const OnCircle<T>& difference : {line - edge[m].line, line + edge[m].line}) {
                 const Crossings<T> equal = crossings(difference);
-                consider(equal.first, equal.exist);
-                consider(equal.second, equal.exist);
+                const Mask<T> exist = equal.exist & edge[n].live & edge[m].live;
+                consider(equal.first, exist);
+                consider(equal.second, exist);
             }
     }
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends

@@ -57,7 +57,7 @@ struct SwivellingArm {
 template <class T>
 struct SwivelLimits {
     Limits<T> limits;
-    std::uint32_t line_flag[kMostLines], box_flag[kMostBoxes];
+    std::uint32_t line_flag[kMostLines] = {}, box_flag[kMostBoxes] = {};
 };
 
 // The component of a rotor that turns about the axis: the rotor's scalar part with the axis' own rotor of pi taken out.

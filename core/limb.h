@@ -13,14 +13,13 @@
 
 #include "core/choose_swivel.h"
 #include "core/frame_rotor.h"
-#include "core/reach.h"
-#include "core/soft_reach.h"
+#include "core/limb_bones.h"
 #include "core/wish.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
 template <class T>
-struct LimbPose {
+struct SolvedLimb {
     ArmPose<T> arm;
     Rotor<T> wrist;
     Vector<T> normal;  // of the swivel plane, unit
@@ -53,12 +52,13 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
 {
     WristGoal<T> wrist{one<T>(), goal.arm.wrist};
     if (use.hand) wrist.hand = normalise(goal.hand);
-    const Rotor<T> fore = goal.incoming.shoulder * goal.incoming.elbow;  // meaningless without an incoming pose
-    if (use.hand && use.weights) wrist.hand = blended(fore * goal.incoming.wrist, wrist.hand, goal.weights.hand);
+    if (use.hand && use.weights)
+        wrist.hand =
+            blended(goal.incoming.shoulder * goal.incoming.elbow * goal.incoming.wrist, wrist.hand, goal.weights.hand);
     if (use.effector) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
     if (use.weights) {
         const Vector<T> was = sandwich(goal.incoming.shoulder, vector(T(0), T(0), goal.arm.upper)) +
-                              sandwich(fore, vector(T(0), T(0), goal.arm.fore));
+                              sandwich(goal.incoming.shoulder * goal.incoming.elbow, vector(T(0), T(0), goal.arm.fore));
         wrist.place = was + goal.weights.position * (wrist.place - was);
     }
     return wrist;
@@ -77,99 +77,71 @@ SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
     return flags;
 }
 
+// A limb whose goal is understood and whose swivel is still free; phi = 0 is the wish, limited by the frame's most
+// swivel.
 template <class T>
-SWIVEL_INLINE constexpr LimbPose<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal)
-{
-    const Mask<T> valid = is_valid(use, goal);
-    const WristGoal<T> wrist = wrist_goal(use, goal);
+struct PlacedLimb {
+    SwivellingArm<T> arm;
+    Vector<T> line, normal;  // unit: to the wrist, and of the swivel plane at phi = 0
+    SteppedNormal<T> step;   // only with continuity
+    PlacedBones<T> bones;
+    Bits<T> flags;
+};
 
-    // The target's line, and sizes of about 1.
+template <class T>
+SWIVEL_INLINE constexpr PlacedLimb<T> place_limb(const LimbUse& use, const LimbGoal<T>& goal)
+{
+    PlacedLimb<T> limb;
+    const WristGoal<T> wrist = wrist_goal(use, goal);
     const T wrist2 = len2(wrist.place);
     const Mask<T> on_shoulder = wrist2 < T(kTiny2);
-    const Vector<T> line = unit_or(wrist.place, vector(T(0), T(0), T(1)));
-    const T upper = goal.arm.upper, fore = goal.arm.fore, sum = upper + fore;
-    const T shrink = per_power_of_two(select(sum > T(0), sum, T(1)));
-    const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * sum);
-    const T long_upper = upper * shrink, long_fore = fore * shrink, far = long_upper + long_fore,
-            near = abs(long_upper - long_fore);
-    const T wanted = select(on_shoulder, T(0), sqrt(select(on_shoulder, T(1), wrist2))) * shrink;
+    limb.line = unit_or(wrist.place, vector(T(0), T(0), T(1)));
+    limb.bones = place_bones(use, goal, select(on_shoulder, T(0), sqrt(select(on_shoulder, T(1), wrist2))));
 
-    // How far it reaches.
-    ReachRange<T> range{near, far, T(0), T(0), T(1)};
-    Bits<T> flags = bits<T>(0);
-    if (use.limits.flexion) {
-        const T product4 = T(4) * (long_upper * long_fore), near2 = near * near;
-        const auto at_flexion = [&](const T& cos_half) SWIVEL_INLINE_LAMBDA {
-            return lo(hi(sqrt(near2 + product4 * (cos_half * cos_half)), near), far);
-        };
-        const T& least = goal.limits.flexion.cos;
-        const T& most = goal.limits.flexion.sin;
-        range.far = select(least < T(1), at_flexion(least), far);
-        range.near = select(most > T(0), at_flexion(most), near);
-        flags = flags |
-                bits_where(((wanted > range.far) & (range.far < far)) | ((wanted < range.near) & (range.near > near)),
-                           flag::limited_flexion);
+    const WishedNormal<T> wish = wished_normal(use, goal, limb.line);
+    limb.normal = wish.normal;
+    limb.flags = limb.bones.flags | bits_where(wish.undefined | on_shoulder, flag::swivel_undefined);
+    if (use.continuity) {
+        limb.step = stepped_normal(goal.continuity, limb.normal, limb.line);
+        limb.normal = limb.step.normal;
+        limb.flags = limb.flags | bits_where(limb.step.limited, flag::limited_step);
     }
-    if (use.reach) {
-        range.near = lo(hi(goal.reach.least_distance * far, range.near), range.far);
-        range.soft_far = goal.reach.soft_far * far;
-        range.soft_near = goal.reach.soft_near * far;
-        range.most_stretch = goal.reach.most_stretch;
-    }
-    const SoftReach<T> reach = soft_reach(wanted, range);
-    flags = flags | bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
-            bits_where(reach.softened, flag::softened) | bits_where(reach.stretch > T(1), flag::stretched) |
-            bits_where(!(reach.too_far | reach.too_near | reach.softened), flag::reached);
-
-    // Steps 1 and 2: the triangle of the bones, as a turn about e1 that lifts the upper arm off the line. A bone that
-    // the other swallows is straight with it.
-    const T half_upper = select(one_bone, T(0.5), long_upper), half_fore = select(one_bone, T(0.5), long_fore);
-    const T both = half_upper + half_fore, difference = half_upper - half_fore;
-    const T distance = select(one_bone, both, lo(hi(hi(reach.distance, T(kNearest)), abs(difference)), both));
-    const ArmTriangle<T> triangle = arm_triangle(distance, both, difference);
-    const T per_lift = T(1) / sqrt(triangle.lift2);
-    const Mask<T> larger_first = triangle.cos_lift >= T(0);
-    const Rotor<T> lift = rotor(per_lift * select(larger_first, triangle.smaller, triangle.larger), T(0), T(0),
-                                per_lift * select(larger_first, triangle.larger, triangle.smaller));
-    const Rotor<T> elbow = rotor(-triangle.sin_half, T(0), T(0), triangle.cos_half);
 
     // Steps 3 to 5: the frame along the line, its e1 the swivel plane's normal.
-    const WishedNormal<T> wish = wished_normal(use, goal, line);
-    Vector<T> normal = wish.normal;
-    SteppedNormal<T> step{};
-    if (use.continuity) {
-        step = stepped_normal(goal.continuity, normal, line);
-        normal = step.normal;
-        flags = flags | bits_where(step.limited, flag::limited_step);
-    }
-    const Rotor<T> frame = frame_rotor(line, normal);
-    flags = flags | bits_where(wish.undefined | on_shoulder, flag::swivel_undefined);
+    const Rotor<T> elbow = rotor(-limb.bones.sin_half, T(0), T(0), limb.bones.cos_half);
+    limb.arm = {frame_rotor(limb.line, limb.normal), limb.bones.lift, elbow, wrist.hand};
+    return limb;
+}
 
-    // The swivel that the joint limits allow.
-    Rotor<T> shoulder = frame * lift;
+// good: false where the caller already knows the input to be bad.
+template <class T>
+SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
+{
+    const Mask<T> valid = good & is_valid(use, goal);
+    const PlacedLimb<T> limb = place_limb(use, goal);
+    Rotor<T> shoulder = limb.arm.from_line * limb.arm.to_arm;
+    Vector<T> normal = limb.normal;
+    Bits<T> flags = limb.flags;
     if (use.limits.on_swivel()) {
-        const SwivelLimits<T> limits =
-            swivel_limits(use.limits, goal.limits, SwivellingArm<T>{frame, lift, elbow, wrist.hand});
+        const SwivelLimits<T> limits = swivel_limits(use.limits, goal.limits, limb.arm);
         const ChosenSwivel<T> chosen = choose_swivel(limits.limits);
         flags = flags | broken(limits) | bits_where(!chosen.allowed, flag::infeasible);
-        shoulder = frame * half_turn(chosen.swivel) * lift;
-        normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(line, normal);
-        if (use.continuity)
-            flags = flags | bits_where(step.has_previous &
-                                           (scalar_product(step.previous, normal) < goal.continuity.most.cos - T(1e-6)),
-                                       flag::jumped);
+        shoulder = limb.arm.from_line * half_turn(chosen.swivel) * limb.arm.to_arm;
+        normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);
+        if (use.continuity) {
+            const T cos_step = scalar_product(limb.step.previous, normal);
+            flags = flags |
+                    bits_where(limb.step.has_previous & (cos_step < goal.continuity.most.cos - T(1e-6)), flag::jumped);
+        }
     }
     shoulder = normalise(shoulder);
 
-    LimbPose<T> pose;
-    pose.arm.shoulder = select(valid, shoulder, one<T>());
-    pose.arm.cos_half = select(valid, triangle.cos_half, T(1));
-    pose.arm.sin_half = select(valid, triangle.sin_half, T(0));
-    pose.arm.flags = select(valid, flags, bits<T>(flag::bad_input));
-    pose.arm.valid = valid;
-    pose.stretch = select(valid, reach.stretch, T(1));
+    SolvedLimb<T> pose;
+    pose.arm = {select(valid, shoulder, one<T>()), select(valid, limb.bones.cos_half, T(1)),
+                select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(flag::bad_input)), valid};
+    pose.stretch = select(valid, limb.bones.stretch, T(1));
     pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
-    if (use.hand) pose.wrist = select(valid, normalise(~(shoulder * elbow) * wrist.hand), one<T>());
+    if (use.hand) pose.wrist = select(valid, normalise(~(shoulder * limb.arm.elbow) * limb.arm.hand), one<T>());
     return pose;
 }
 

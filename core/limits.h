@@ -172,24 +172,32 @@ SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
     return least;
 }
 
-// The edges of all limits: what is allowed changes only where one of them crosses zero. middles: with those lines, too,
-// that only matter where nothing is allowed.
+// The edges of all limits: what is allowed changes only where one of them crosses zero. live: where it is an edge at
+// all.
 template <class T>
-SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, OnCircle<T> (&edge)[kMostEdges])
+struct Edge {
+    OnCircle<T> line;
+    Mask<T> live;
+};
+// middles: with those lines, too, that only matter where nothing is allowed. Edges that are live in no lane are left
+// out.
+template <class T>
+SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, Edge<T> (&edge)[kMostEdges])
 {
     int count = 0;
-    for (int n = 0; n < limits.line_count; ++n) edge[count++] = limits.line[n];
+    const Mask<T> always = T(0) == T(0);
+    for (int n = 0; n < limits.line_count; ++n) edge[count++] = {limits.line[n], always};
     for (int n = 0; n < limits.box_count; ++n) {
         const EulerBox<T>& box = limits.box[n];
         for (const T* sine : {&box.front.low, &box.front.high, &box.back.low, &box.back.high})
-            if (any(abs(*sine) <= T(1))) edge[count++] = box.sine - constant(*sine);
+            if (const Mask<T> live = abs(*sine) <= T(1); any(live)) edge[count++] = {box.sine - constant(*sine), live};
         for (const Turned<T>* end : {&box.first.low, &box.first.high})
-            edge[count++] = past(*end, box.first_cos, box.first_sin);
+            edge[count++] = {past(*end, box.first_cos, box.first_sin), always};
         for (const Turned<T>* end : {&box.last.low, &box.last.high})
-            edge[count++] = past(*end, box.last_cos, box.last_sin);
+            edge[count++] = {past(*end, box.last_cos, box.last_sin), always};
         if (middles) {
-            edge[count++] = along(box.first.middle, box.first_cos, box.first_sin);
-            edge[count++] = along(box.last.middle, box.last_cos, box.last_sin);
+            edge[count++] = {along(box.first.middle, box.first_cos, box.first_sin), always};
+            edge[count++] = {along(box.last.middle, box.last_cos, box.last_sin), always};
         }
     }
     return count;

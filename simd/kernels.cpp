@@ -7,6 +7,7 @@
 #include "core/solve_arm.h"
 #include "core/space.h"
 #include "simd/lanes.h"
+#include "simd/limb_step.h"
 #include "simd/pack.h"
 #include "simd/rows.h"
 
@@ -243,12 +244,31 @@ void solve(const SolveRun& run)
     solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
 }
 
+// For one limb at a time, so one build of it is enough.
+std::uint32_t store_arcs([[maybe_unused]] const LimbRun& run, [[maybe_unused]] std::size_t limb,
+                         [[maybe_unused]] swivel_arc* arcs, [[maybe_unused]] std::uint32_t capacity)
+{
+    if constexpr (std::is_same_v<SWIVEL_ARCH, float>) {
+        const AllowedArcs<float> allowed = allowed_arcs_of(run, limb);
+        const auto count = static_cast<std::uint32_t>(allowed.count);
+        for (std::uint32_t n = 0; n < count && n < capacity; ++n) {
+            const Arc<float>& arc = allowed.arc[n];
+            arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
+        }
+        return count;
+    } else {
+        return 0;
+    }
+}
+
 using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;
 
 }  // namespace
 
 extern const Kernels kernels;
 const Kernels kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>},
+                      solve_limbs<KernelNumber<SWIVEL_ARCH, 1>::type>,
+                      store_arcs,
                       {pack<PackNumber, 0>, pack<PackNumber, SWIVEL_JOINTS>, pack<PackNumber, SWIVEL_WITH_HAND>,
                        pack<PackNumber, SWIVEL_JOINTS | SWIVEL_WITH_HAND>}};
 

@@ -20,6 +20,17 @@ struct SolveRun {
     bool prefetch;  // rows come from memory: call for those of later blocks
 };
 
+// The same for crowds of whole limbs (simd/limb_step.h), whose features the kernel is told.
+struct LimbRun {
+    const float* input;
+    float* results;
+    std::uint32_t block_count, input_row_count, result_row_count;
+    std::uint32_t features;
+    swivel_euler_order shoulder_order, wrist_order;
+    const swivel_binding* binding;
+    const std::uint16_t* first_row;  // of each field, among input or result rows
+};
+
 // Results of a run of blocks, to be packed into the words of a compact crowd.
 struct PackRun {
     const float* results;  // result rows of the run's first block
@@ -31,6 +42,9 @@ struct PackRun {
 struct Kernels {
     // By the features that change the formula: SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND.
     void (*solve[8])(const SolveRun& run);
+    void (*solve_limbs)(const LimbRun& run);
+    // Of one limb of a run: stores up to capacity arcs, returns how many there are. In the scalar build alone.
+    std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, swivel_arc* arcs, std::uint32_t capacity);
     // By the features that change the result rows: (SWIVEL_JOINTS | SWIVEL_WITH_HAND) / SWIVEL_JOINTS.
     void (*pack[4])(const PackRun& run);
 };

@@ -4,6 +4,7 @@
 // only place that knows.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -32,34 +33,89 @@ constexpr std::uint32_t compact_row_count(std::uint32_t features, swivel_field f
     }
 }
 
+// What every field is called in messages, its rows, and the features that a crowd must have for it, and must not.
+struct FieldLayout {
+    const char* name;
+    std::uint32_t row_count, needs, without = 0;
+};
+constexpr FieldLayout kFields[] = {
+    {"target", 3, 0},
+    {"pole", 3, 0, SWIVEL_POLE_INCOMING},
+    {"lengths", 2, 0},
+    {"parent_position", 3, SWIVEL_WORLD},
+    {"parent_rotation", 4, SWIVEL_WORLD},
+    {"parent_scale", 1, SWIVEL_WORLD},
+    {"hand", 4, SWIVEL_WITH_HAND},
+    {"effector", 3, SWIVEL_WITH_EFFECTOR},
+    {"angle", 2, SWIVEL_WITH_ANGLE},
+    {"incoming_shoulder", 4, SWIVEL_WITH_INCOMING},
+    {"incoming_elbow", 4, SWIVEL_WITH_INCOMING},
+    {"incoming_wrist", 4, SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND},
+    {"weights", 3, SWIVEL_WITH_WEIGHTS},
+    {"reach", 4, SWIVEL_WITH_REACH},
+    {"most_swivel", 2, SWIVEL_WITH_STEP},
+    {"flexion_limit", 2, SWIVEL_LIMIT_FLEXION},
+    {"shoulder_cone", 4, SWIVEL_LIMIT_SHOULDER_CONE},
+    {"humeral_twist", 4, SWIVEL_LIMIT_HUMERAL_TWIST},
+    {"shoulder_box", 12, SWIVEL_LIMIT_SHOULDER_BOX},
+    {"hand_cone", 4, SWIVEL_LIMIT_HAND_CONE},
+    {"forearm_twist", 4, SWIVEL_LIMIT_FOREARM_TWIST},
+    {"hand_twist", 7, SWIVEL_LIMIT_HAND_TWIST},
+    {"wrist_box", 12, SWIVEL_LIMIT_WRIST_BOX},
+    {"shoulder", 4, 0},
+    {"elbow", 2, 0},  // or 4, see below
+    {"wrist", 4, SWIVEL_WITH_HAND},
+    {"flags", 1, 0},
+    {"stretch", 1, SWIVEL_WITH_REACH},
+    {"normal", 3, SWIVEL_WITH_STEP},
+    {"twist", 0, 0},  // see below
+};
+static_assert(sizeof kFields / sizeof *kFields == SWIVEL_FIELD_COUNT);
+
+// The feature's name that a crowd lacks, or has too much, for a field that it does not have.
+constexpr const char* needed_feature(std::uint32_t features, swivel_field field)
+{
+    constexpr const char* names[] = {
+        "SWIVEL_WORLD",
+        "SWIVEL_JOINTS",
+        "SWIVEL_WITH_HAND",
+        "SWIVEL_POLE_DIRECTION",
+        "SWIVEL_COMPACT",
+        "SWIVEL_WITH_EFFECTOR",
+        "SWIVEL_WITH_ANGLE",
+        "SWIVEL_POLE_NORMAL",
+        "SWIVEL_WITH_INCOMING",
+        "SWIVEL_POLE_INCOMING",
+        "SWIVEL_WITH_WEIGHTS",
+        "SWIVEL_WITH_REACH",
+        "SWIVEL_WITH_STEP",
+        "SWIVEL_LIMIT_FLEXION",
+        "SWIVEL_LIMIT_SHOULDER_CONE",
+        "SWIVEL_LIMIT_HUMERAL_TWIST",
+        "SWIVEL_LIMIT_SHOULDER_BOX",
+        "SWIVEL_LIMIT_HAND_CONE",
+        "SWIVEL_LIMIT_FOREARM_TWIST",
+        "SWIVEL_LIMIT_HAND_TWIST",
+        "SWIVEL_LIMIT_WRIST_BOX",
+    };
+    if (field == SWIVEL_TWIST) return "SWIVEL_TWIST_BONES";
+    const FieldLayout& layout = kFields[field];
+    const std::uint32_t wrong = (layout.needs & ~features) | (layout.without & features);
+    return wrong ? names[std::countr_zero(wrong)] : "";
+}
+
+constexpr std::uint32_t twist_bone_count(std::uint32_t features) { return features / SWIVEL_TWIST_BONES % 8; }
+
 // Rows of a field; 0 if crowds with these features do not have it.
 constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field field)
 {
+    const auto n = static_cast<std::uint32_t>(field);
+    if (n >= SWIVEL_FIELD_COUNT) return 0;
     if ((features & SWIVEL_COMPACT) && !is_input(field)) return compact_row_count(features, field);
-    switch (field) {
-        case SWIVEL_TARGET:
-        case SWIVEL_POLE:
-            return 3;
-        case SWIVEL_LENGTHS:
-            return 2;
-        case SWIVEL_PARENT_POSITION:
-            return features & SWIVEL_WORLD ? 3 : 0;
-        case SWIVEL_PARENT_ROTATION:
-            return features & SWIVEL_WORLD ? 4 : 0;
-        case SWIVEL_PARENT_SCALE:
-            return features & SWIVEL_WORLD ? 1 : 0;
-        case SWIVEL_HAND:
-        case SWIVEL_WRIST:
-            return features & SWIVEL_WITH_HAND ? 4 : 0;
-        case SWIVEL_SHOULDER:
-            return 4;
-        case SWIVEL_ELBOW:
-            return features & SWIVEL_JOINTS ? 4 : 2;
-        case SWIVEL_FLAGS:
-            return 1;
-        default:
-            return 0;
-    }
+    if (field == SWIVEL_ELBOW && (features & SWIVEL_JOINTS)) return 4;
+    if (field == SWIVEL_TWIST) return 4 * twist_bone_count(features);
+    const FieldLayout& layout = kFields[n];
+    return (features & layout.needs) == layout.needs && !(features & layout.without) ? layout.row_count : 0;
 }
 
 // Floats, or the one uint32_t, of a field's value as callers read and write it; 0 likewise.
@@ -68,16 +124,11 @@ constexpr std::uint32_t field_component_count(std::uint32_t features, swivel_fie
     return field_row_count(features & ~std::uint32_t{SWIVEL_COMPACT}, field);
 }
 
-// What messages call a field: its enumerator in small letters. Null for a number that is no field.
+// What messages call a field; null for a number that is no field.
 constexpr const char* field_name(swivel_field field)
 {
-    constexpr const char* names[] = {
-        "target", "pole",     "lengths", "parent_position", "parent_rotation", "parent_scale",
-        "hand",   "shoulder", "elbow",   "wrist",           "flags",
-    };
-    static_assert(sizeof names / sizeof *names == SWIVEL_FIELD_COUNT);
     const auto n = static_cast<std::uint32_t>(field);
-    return n < SWIVEL_FIELD_COUNT ? names[n] : nullptr;
+    return n < SWIVEL_FIELD_COUNT ? kFields[n].name : nullptr;
 }
 
 // First row of a field among the input rows, or among the result rows.
@@ -90,11 +141,13 @@ constexpr std::uint32_t field_first_row(std::uint32_t features, swivel_field fie
 }
 constexpr std::uint32_t input_row_count(std::uint32_t features)
 {
-    return field_first_row(features, SWIVEL_HAND) + field_row_count(features, SWIVEL_HAND);
+    constexpr auto last = static_cast<swivel_field>(SWIVEL_SHOULDER - 1);
+    return field_first_row(features, last) + field_row_count(features, last);
 }
 constexpr std::uint32_t result_row_count(std::uint32_t features)
 {
-    return field_first_row(features, SWIVEL_FLAGS) + field_row_count(features, SWIVEL_FLAGS);
+    constexpr auto last = static_cast<swivel_field>(SWIVEL_FIELD_COUNT - 1);
+    return field_first_row(features, last) + field_row_count(features, last);
 }
 
 // Bytes of a row, and of a block.

@@ -74,21 +74,22 @@ may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
 
 # ---- simd: kernels.cpp and its pack.h see formulas and lanes, the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|pack|rows)[.]h\"")
+may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|limb_step|pack|rows)[.]h\"")
+may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(allowed_arcs|forearm_twist|limb|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
             "${standard}|\"simd/(dispatch|kernels)[.]h\"|\"batch/swivel[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"batch/swivel[.]h\"")
 
-# ---- batch: never lanes; only rig, edge, unpack, verify and the flags in api.cpp know core
+# ---- batch: never lanes; only rig, edge, joint_angles, unpack, verify and the flags in api.cpp know core
 set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<std(def|int)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
 may_include(batch "batch/(crowd|frame|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
-may_include(batch "batch/(rig|edge|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|edge|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<std(def|int)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver
@@ -109,7 +110,8 @@ foreach(folder core simd batch)
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
   must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
   # ---- only + - * / sqrt, comparisons, selects and sign bits
-  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" ${nowhere} "no trigonometry here")
+  must_not_say(${folder} "[^a-zA-Z_](a?(sin|cos|tan)h?|atan2|sincos)f?[ \t]*[(]" "batch/(joint_)?angles[.]cpp$"
+               "no trigonometry here")
   must_not_say(${folder} "[^a-zA-Z_](exp|exp2|log|log2|log10|pow|cbrt)f?[ \t]*[(]" ${nowhere} "not correctly rounded everywhere")
   must_not_say(${folder} "[^a-zA-Z]_*(builtin_)?(fma|fmaf|fms|fnma|rsqrt|reciprocal|mm[0-9]*_rcp[a-z0-9_]*|mm[0-9]*_rsqrt[a-z0-9_]*)[ \t]*[(]"
                ${nowhere} "its bits differ between CPUs")

@@ -35,7 +35,7 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     refuse(&def);
     def.size = sizeof def - 1;
     refuse(&def);
-    for (std::uint32_t bit = 5; bit < 32; ++bit) {
+    for (std::uint32_t bit = 21; bit < 32; ++bit) {
         def = good;
         def.features = 1u << bit;
         refuse(&def);
@@ -46,6 +46,30 @@ TEST_CASE("a def that breaks its contract makes no crowd")
         def.features = features | SWIVEL_POLE_DIRECTION;
         refuse(&def);
     }
+    for (const std::uint32_t features : {
+             SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL,
+             SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
+             SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
+             int{SWIVEL_POLE_INCOMING},
+             int{SWIVEL_WITH_WEIGHTS},
+             int{SWIVEL_WITH_EFFECTOR},
+             int{SWIVEL_LIMIT_HAND_CONE},
+             int{SWIVEL_LIMIT_FOREARM_TWIST},
+             int{SWIVEL_LIMIT_HAND_TWIST},
+             int{SWIVEL_LIMIT_WRIST_BOX},
+             SWIVEL_COMPACT | SWIVEL_WITH_REACH,
+             SWIVEL_COMPACT | SWIVEL_WITH_STEP,
+         }) {
+        def = good;
+        def.features = static_cast<std::uint32_t>(features);
+        refuse(&def);
+    }
+    def = good;
+    def.shoulder_order = static_cast<swivel_euler_order>(6);
+    refuse(&def);
+    def = good;
+    def.wrist_order = static_cast<swivel_euler_order>(-1);
+    refuse(&def);
     def = good;
     def.group_count = 0;
     refuse(&def);

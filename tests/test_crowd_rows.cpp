@@ -23,17 +23,11 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
         }
         const bool world = features & SWIVEL_WORLD, joints = features & SWIVEL_JOINTS,
                    hand = features & SWIVEL_WITH_HAND;
-        const std::uint32_t sizes[SWIVEL_FIELD_COUNT] = {3,
-                                                         3,
-                                                         2,
-                                                         world ? 3u : 0u,
-                                                         world ? 4u : 0u,
-                                                         world ? 1u : 0u,
-                                                         hand ? 4u : 0u,
-                                                         4,
-                                                         joints ? 4u : 2u,
-                                                         hand ? 4u : 0u,
-                                                         1};
+        std::uint32_t sizes[SWIVEL_FIELD_COUNT] = {3, 3, 2, world ? 3u : 0u, world ? 4u : 0u, world ? 1u : 0u};
+        sizes[SWIVEL_HAND] = sizes[SWIVEL_WRIST] = hand ? 4 : 0;
+        sizes[SWIVEL_SHOULDER] = 4;
+        sizes[SWIVEL_ELBOW] = joints ? 4 : 2;
+        sizes[SWIVEL_FLAGS] = 1;
         std::uint32_t row = 0;
         for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
             const auto field = static_cast<swivel_field>(f);

@@ -84,7 +84,7 @@ LimitedArm random_arm(Random& random)
 }
 
 template <class T>
-LimbPose<T> solve(const LimitedArm& a)
+SolvedLimb<T> solve(const LimitedArm& a)
 {
     LimbUse use;
     use.hand = true;
@@ -103,7 +103,7 @@ LimbPose<T> solve(const LimitedArm& a)
         limits.shoulder_box[n] = formula_range<T>(a.shoulder_box.range[n]);
         limits.wrist_box[n] = formula_range<T>(a.wrist_box.range[n]);
     }
-    return solve_limb(use, goal);
+    return solve_limb(use, goal, Mask<T>(true));
 }
 
 // The arm at a swivel from the wish, in double, from its elbow's place.
@@ -145,7 +145,7 @@ double violation(const LimitedArm& a, const ArmAt& at)
 
 // The swivel that a pose took, from the wish, -pi to pi.
 template <class T>
-double swivel_of(const LimitedArm& a, const LimbPose<T>& pose)
+double swivel_of(const LimitedArm& a, const SolvedLimb<T>& pose)
 {
     const Vector3d line = a.arm.wrist.normalized(), wish = a.arm.normal();
     const Vector3d normal = eigen(pose.arm.shoulder).normalized() * Vector3d::UnitX();
@@ -186,7 +186,7 @@ void check_against_scan(std::uint64_t seed, int arms, int steps)
     int feasible = 0, moved = 0, infeasible = 0;
     for (int n = 0; n < arms; ++n) {
         const LimitedArm a = random_arm(random);
-        const LimbPose<T> pose = solve<T>(a);
+        const SolvedLimb<T> pose = solve<T>(a);
         const bool said = !(pose.arm.flags & flag::infeasible);
         const double swivel = swivel_of(a, pose), by = violation(a, arm_at(a, swivel));
         const Scan seen = scan(a, steps);
@@ -200,7 +200,8 @@ void check_against_scan(std::uint64_t seed, int arms, int steps)
         }
         feasible += said, moved += said && std::fabs(swivel) > 1e-4, infeasible += !said;
     }
-    CAPTURE(feasible, moved, infeasible);WARN(feasible<<" "<<moved<<" "<<infeasible);
+    CAPTURE(feasible, moved, infeasible);
+    WARN(feasible << " " << moved << " " << infeasible);
     CHECK(moved > arms / 10);
     CHECK(infeasible > arms / 20);
 }

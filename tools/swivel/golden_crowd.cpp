@@ -61,11 +61,61 @@ swivel_binding binding_of(std::uint32_t group)
     return bind(chain).binding;
 }
 
+// Pairs scaled to unit length, as cosine and sine; what cannot be stays bad. upper: with a sine of 0 or more.
+void make_turn(float* pair, bool upper)
+{
+    const float length = std::sqrt(pair[0] * pair[0] + pair[1] * pair[1]);
+    if (upper) pair[1] = std::fabs(pair[1]);
+    if (length > 0) pair[0] /= length, pair[1] /= length;
+}
+void make_unit(float* v)
+{
+    const float length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int n = 0; n < 3; ++n) v[n] /= length;
+}
+
+template <std::size_t N, class Shape>
+void write_shaped(Crowd& crowd, std::uint32_t group, swivel_field field, Random& random, Shape shape)
+{
+    if (swivel_field_row_count(crowd.get(), field) == 0) return;
+    auto values = numbers<N>(random, swivel_group_limb_count(crowd.get(), group), 1);
+    for (auto& value : values) shape(value.data());
+    crowd.write(field, group, values);
+}
+
+// What whole limbs have beside: numbers of the shape that is asked for, except where they are hard.
+void write_limb(Crowd& crowd, std::uint32_t group, Random& random)
+{
+    const auto as_they_are = [](float*) {};
+    const auto range = [](float* x) { make_turn(x, false), make_turn(x + 2, true); };
+    const auto box = [&](float* x) { range(x), range(x + 4), range(x + 8); };
+    write_shaped<3>(crowd, group, SWIVEL_EFFECTOR, random, [](float* x) { x[0] *= 0.25f; });
+    write_shaped<2>(crowd, group, SWIVEL_ANGLE, random, as_they_are);
+    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
+        write_shaped<4>(crowd, group, q, random, as_they_are);
+    write_shaped<3>(crowd, group, SWIVEL_WEIGHTS, random, [](float* x) {
+        for (int n = 0; n < 3; ++n) x[n] = std::fabs(x[n]);
+    });
+    write_shaped<4>(crowd, group, SWIVEL_REACH, random, [](float* x) {
+        for (int n = 0; n < 4; ++n) x[n] = std::fabs(x[n]) * 0.25f;
+        x[2] += 1;
+    });
+    write_shaped<2>(crowd, group, SWIVEL_MOST_SWIVEL, random, [](float* x) { make_turn(x, true); });
+    write_shaped<2>(crowd, group, SWIVEL_FLEXION_LIMIT, random,
+                    [](float* x) { x[0] = 0.5f + 0.5f * std::fabs(x[0]), x[1] = 0.5f * std::fabs(x[1]); });
+    for (const swivel_field cone : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE})
+        write_shaped<4>(crowd, group, cone, random, make_unit);
+    for (const swivel_field twist : {SWIVEL_HUMERAL_TWIST, SWIVEL_FOREARM_TWIST})
+        write_shaped<4>(crowd, group, twist, random, range);
+    write_shaped<7>(crowd, group, SWIVEL_HAND_TWIST, random, [&](float* x) { make_unit(x), range(x + 3); });
+    for (const swivel_field b : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX}) write_shaped<12>(crowd, group, b, random, box);
+}
+
 void write_group(Crowd& crowd, std::uint32_t features, std::uint32_t group, Random& random)
 {
     const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
     crowd.write(SWIVEL_TARGET, group, numbers<3>(random, count, 2));
-    crowd.write(SWIVEL_POLE, group, numbers<3>(random, count, 2));
+    if (!(features & SWIVEL_POLE_INCOMING)) crowd.write(SWIVEL_POLE, group, numbers<3>(random, count, 2));
     auto lengths = numbers<2>(random, count, 1);
     for (std::uint32_t limb = 0; limb < count; ++limb)
         for (float& length : lengths[limb])
@@ -79,6 +129,7 @@ void write_group(Crowd& crowd, std::uint32_t features, std::uint32_t group, Rand
         crowd.write(SWIVEL_PARENT_SCALE, group, scales);
     }
     if (features & SWIVEL_WITH_HAND) crowd.write(SWIVEL_HAND, group, numbers<4>(random, count, 1));
+    write_limb(crowd, group, random);
 }
 
 }  // namespace
@@ -89,15 +140,33 @@ Crowd golden_crowd(std::uint32_t features, std::uint32_t limb_count)
 {
     const swivel_group_def groups[] = {
         {limb_count, binding_of(0)}, {limb_count / 2 + 1, binding_of(1)}, {7, binding_of(2)}};
-    Crowd crowd(features, groups);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.features = features;
+    def.groups = groups;
+    def.group_count = 3;
+    def.shoulder_order = SWIVEL_YXZ;
+    def.wrist_order = SWIVEL_ZXY;
+    Crowd crowd(def);
     Random random{features};
     for (std::uint32_t group = 0; group < 3; ++group) write_group(crowd, features, group, random);
     return crowd;
 }
 
+void write_golden_targets(Crowd& crowd, std::uint64_t seed)
+{
+    Random random{~seed};
+    for (std::uint32_t group = 0; group < 3; ++group) {
+        const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
+        crowd.write(SWIVEL_TARGET, group, numbers<3>(random, count, 2));
+        if (swivel_field_row_count(crowd.get(), SWIVEL_POLE))
+            crowd.write(SWIVEL_POLE, group, numbers<3>(random, count, 2));
+    }
+}
+
 std::uint64_t digest(const Crowd& crowd, std::uint64_t hash)
 {
-    for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS}) {
+    for (int f = SWIVEL_SHOULDER; f < SWIVEL_FIELD_COUNT; ++f) {
+        const auto field = static_cast<swivel_field>(f);
         const std::uint32_t rows = swivel_field_row_count(crowd.get(), field);
         for (std::uint32_t group = 0; rows != 0 && group < 3; ++group) {
             const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);

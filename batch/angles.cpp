@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+//
+// Values of limit fields from angles, and for the body's other side. The only place of the library, with the joint
+// angles, where trigonometry is allowed: before a solve, never in it.
+#include <cmath>
+#include <numbers>
+
+#include "batch/status.h"
+#include "batch/swivel.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSlack = 1e-6;  // angles that were floats once
+
+void store_turn(double angle, float* turn)
+{
+    turn[0] = static_cast<float>(std::cos(angle));
+    turn[1] = static_cast<float>(std::sin(angle));
+}
+// Of 0 to pi: neither end may round to a sine below 0.
+void store_half_turn(double angle, float* turn)
+{
+    store_turn(std::fmin(std::fmax(angle, 0), kPi), turn);
+    turn[1] = std::fabs(turn[1]);
+}
+
+// A range as a mirror sees it: its middle turned the other way.
+void mirror_range(const float* from, float* to)
+{
+    const float middle_cos = from[0], middle_sin = from[1], half_cos = from[2], half_sin = from[3];
+    to[0] = middle_cos;
+    to[1] = -middle_sin;
+    to[2] = half_cos;
+    to[3] = half_sin;
+}
+
+// The axes of an order's three angles, 0 to 2.
+constexpr int kAxes[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+
+}  // namespace
+
+swivel_status swivel_range(double least, double most, float range[4])
+{
+    if (!range) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: range is null");
+    if (!std::isfinite(least) || !std::isfinite(most))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", least, most);
+    if (least > most) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", least, most);
+    if (most - least > 2 * kPi + kSlack)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is wider than a whole turn, 2 pi", least, most);
+    store_turn(0.5 * (least + most), range);
+    store_half_turn(0.5 * (most - least), range + 2);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_cone(const double axis[3], double most, float cone[4])
+{
+    if (!axis || !cone) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: %s is null", axis ? "cone" : "axis");
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    if (!(length > 0) || !std::isfinite(length))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: axis (%g, %g, %g) has no direction", axis[0], axis[1],
+                    axis[2]);
+    if (!(most >= 0 && most <= kPi + kSlack))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi", most);
+    for (int n = 0; n < 3; ++n) cone[n] = static_cast<float>(axis[n] / length);
+    cone[3] = static_cast<float>(std::cos(std::fmin(most, kPi)));
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_flexion(double least, double most, float flexion[2])
+{
+    if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
+    if (!(least >= 0 && least <= most && most <= kPi + kSlack))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: %g to %g is not a range within 0 to pi", least, most);
+    flexion[0] = static_cast<float>(std::cos(0.5 * least));
+    flexion[1] = most >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * most));
+    return SWIVEL_OK;
+}
+
+void swivel_turn(double angle, float turn[2]) { store_turn(angle, turn); }
+
+// The arm frame of the other side is the mirror image with its hinge turned over: coordinates of vectors change sign
+// along the hinge, turns about the two other axes change their sense.
+swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to)
+{
+    if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
+    if (!field_name(field)) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
+    if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
+    float value[12] = {};
+    const std::uint32_t count = kFields[field].row_count;
+    for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
+    switch (field) {
+        case SWIVEL_ANGLE:
+            value[1] = -value[1];
+            break;
+        case SWIVEL_SHOULDER_CONE:
+        case SWIVEL_HAND_CONE:
+            value[0] = -value[0];
+            break;
+        case SWIVEL_HUMERAL_TWIST:
+        case SWIVEL_FOREARM_TWIST:
+            mirror_range(value, value);
+            break;
+        case SWIVEL_HAND_TWIST:  // the axis' image times -1 turns the other way, so its own image keeps the range's
+                                 // sense
+            value[0] = -value[0];
+            mirror_range(value + 3, value + 3);
+            break;
+        case SWIVEL_SHOULDER_BOX:
+        case SWIVEL_WRIST_BOX:
+            for (int n = 0; n < 3; ++n)
+                if (kAxes[order][n] != 0) mirror_range(value + 4 * n, value + 4 * n);
+            break;
+        default:
+            break;
+    }
+    for (std::uint32_t n = 0; n < count; ++n) to[n] = value[n];
+    return SWIVEL_OK;
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// The swivels that a limb's limits allow, as arcs: what IKAN calls psi intervals, without an angle. For one limb, at
+// rest; the solver itself needs only the nearest end.
+#pragma once
+
+#include <algorithm>
+
+#include "core/limb.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+struct Arc {
+    Turned<T> from, to;  // by the right hand about the line; equal for the whole circle
+};
+inline constexpr int kMostArcs = 2 * kMostEdges;
+template <class T>
+struct AllowedArcs {
+    Arc<T> arc[kMostArcs];
+    int count = 0;
+};
+
+// Grows with the angle from 0 to 2 pi: 0 to 4.
+template <class T>
+constexpr T around(const Turned<T>& turn)
+{
+    const T size = abs(turn.cos) + abs(turn.sin), x = turn.cos / size;
+    return turn.sin >= T(0) ? T(1) - x : T(3) + x;
+}
+// In the middle of the way from a to b.
+template <class T>
+Turned<T> between(const Turned<T>& a, const Turned<T>& b)
+{
+    // b as a sees it, half of that turn, and back; half of almost a whole turn is almost half a turn.
+    const T cos = a.cos * b.cos + a.sin * b.sin, sin = a.cos * b.sin - a.sin * b.cos;
+    const T c = sqrt(hi(T(0), T(0.5) * (T(1) + cos))), s = sqrt(hi(T(0), T(0.5) * (T(1) - cos)));
+    const T half_cos = sin >= T(0) ? c : -c;
+    return {a.cos * half_cos - a.sin * s, a.sin * half_cos + a.cos * s};
+}
+
+template <class T>
+AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
+{
+    Edge<T> edge[kMostEdges];
+    const int edge_count = edges(limits, false, edge);
+    Turned<T> end[2 * kMostEdges];
+    int count = 0;
+    for (int n = 0; n < edge_count; ++n)
+        if (const Crossings<T> ends = crossings(edge[n].line); ends.exist && edge[n].live)
+            end[count++] = ends.first, end[count++] = ends.second;
+    std::sort(end, end + count, [](const Turned<T>& a, const Turned<T>& b) { return around(a) < around(b); });
+
+    AllowedArcs<T> arcs;
+    const auto allowed = [&](const Turned<T>& swivel) { return room(limits, swivel) >= T(kNoRoom); };
+    if (count == 0) {
+        if (allowed({T(1), T(0)})) arcs.arc[arcs.count++] = {{T(-1), T(0)}, {T(-1), T(0)}};
+        return arcs;
+    }
+    // From end to end: what is allowed in the middle is allowed all the way. Neighbours join.
+    for (int n = 0; n < count; ++n) {
+        const Turned<T>&from = end[n], &to = end[(n + 1) % count];
+        const bool whole = count == 1 || (n + 1 == count && around(from) == around(end[0]));
+        if (!allowed(whole ? Turned<T>{-from.cos, -from.sin} : between(from, to))) continue;
+        if (arcs.count > 0 && n > 0 && arcs.arc[arcs.count - 1].to.cos == from.cos &&
+            arcs.arc[arcs.count - 1].to.sin == from.sin)
+            arcs.arc[arcs.count - 1].to = to;
+        else
+            arcs.arc[arcs.count++] = {from, to};
+    }
+    // The last one may join the first.
+    Arc<T>&first = arcs.arc[0], &last = arcs.arc[arcs.count > 0 ? arcs.count - 1 : 0];
+    if (arcs.count > 1 && last.to.cos == first.from.cos && last.to.sin == first.from.sin) {
+        first.from = last.from;
+        --arcs.count;
+    }
+    return arcs;
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// The bones of a whole limb for a wanted distance from shoulder to wrist: how far they reach, how the elbow bends, and
+// how the upper arm is lifted off the line to the wrist.
+#pragma once
+
+#include "core/limb_goal.h"
+#include "core/reach.h"
+#include "core/soft_reach.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+struct PlacedBones {
+    Rotor<T> lift;         // from the line to the upper arm, about e1
+    T cos_half, sin_half;  // of the flexion
+    T stretch;
+    Bits<T> flags;
+};
+
+// The distances that the elbow's flexion allows: with flexion theta, d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
+template <class T>
+SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const Turned<T>& limit, const T& upper, const T& fore,
+                                                    const T& near, const T& far)
+{
+    const T near2 = near * near, product4 = T(4) * (upper * fore);
+    const auto distance = [&](const T& cos_half) SWIVEL_INLINE_LAMBDA {
+        return lo(hi(sqrt(near2 + product4 * (cos_half * cos_half)), near), far);
+    };
+    return {select(limit.sin > T(0), distance(limit.sin), near), select(limit.cos < T(1), distance(limit.cos), far),
+            T(0), T(0), T(1)};
+}
+
+// wanted: the distance from shoulder to wrist, 0 or more.
+template <class T>
+SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const LimbGoal<T>& goal, const T& wanted)
+{
+    // Sizes of about 1, to the last bit in the same ratios.
+    const T sum = goal.arm.upper + goal.arm.fore, shrink = per_power_of_two(select(sum > T(0), sum, T(1)));
+    const T upper = goal.arm.upper * shrink, fore = goal.arm.fore * shrink, far = upper + fore,
+            near = abs(upper - fore), distance = wanted * shrink;
+
+    ReachRange<T> range{near, far, T(0), T(0), T(1)};
+    Bits<T> flags = bits<T>(0);
+    if (use.limits.flexion) {
+        range = flexion_range(goal.limits.flexion, upper, fore, near, far);
+        const Mask<T> too_straight = (distance > range.far) & (range.far < far),
+                      too_bent = (distance < range.near) & (range.near > near);
+        flags = bits_where(too_straight | too_bent, flag::limited_flexion);
+    }
+    if (use.reach) {
+        range.near = lo(hi(goal.reach.least_distance * far, range.near), range.far);
+        range.soft_far = goal.reach.soft_far * far;
+        range.soft_near = goal.reach.soft_near * far;
+        range.most_stretch = goal.reach.most_stretch;
+    }
+    const SoftReach<T> reach = soft_reach(distance, range);
+    flags = flags | bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
+            bits_where(reach.softened, flag::softened) | bits_where(reach.stretch > T(1), flag::stretched) |
+            bits_where(!(reach.too_far | reach.too_near | reach.softened), flag::reached);
+
+    // Steps 1 and 2 of the lecture: the triangle of the bones. One that the other swallows is straight with it.
+    const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
+    const T first = select(one_bone, T(0.5), upper), second = select(one_bone, T(0.5), fore);
+    const T both = first + second, difference = first - second;
+    const T side = select(one_bone, both, lo(hi(hi(reach.distance, T(kNearest)), abs(difference)), both));
+    const ArmTriangle<T> triangle = arm_triangle(side, both, difference);
+    const T per_lift = T(1) / sqrt(triangle.lift2);
+    const Mask<T> larger_first = triangle.cos_lift >= T(0);
+    const Rotor<T> lift = rotor(per_lift * select(larger_first, triangle.smaller, triangle.larger), T(0), T(0),
+                                per_lift * select(larger_first, triangle.larger, triangle.smaller));
+    return {lift, triangle.cos_half, triangle.sin_half, reach.stretch, flags};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: whatever else is asked of a limb, forward kinematics by Eigen finds it done: effectors, hands, turns of
+// the swivel, planes, incoming poses and blends with them.
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/formula_limb.h"
+#include "tests/limit_oracle.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+// How far a direction is from the plane's wanted normal.
+double off(const Vector3d& hinge, const Vector3d& normal) { return (hinge - normal).norm(); }
+
+template <class Check>
+void for_arms(std::uint64_t seed, Check check)
+{
+    Random random{seed};
+    for (int n = 0; n < 200; ++n) check(random, random_reachable(random));
+}
+
+struct Incoming {
+    Quaterniond shoulder, elbow, wrist;
+
+    Vector3d wrist_place(const Arm& arm) const
+    {
+        return shoulder * Vector3d(0, 0, arm.upper) + shoulder * elbow * Vector3d(0, 0, arm.fore);
+    }
+};
+Incoming random_incoming(Random& random)
+{
+    return {random.rotation(),
+            Quaterniond(Eigen::AngleAxisd(-random.between(0.3, 2.5), Vector3d::UnitX())) *
+                Quaterniond(Eigen::AngleAxisd(random.between(-0.3, 0.3), Vector3d::UnitZ())),
+            random.rotation()};
+}
+template <class T>
+IncomingPose<T> incoming_of(const Incoming& pose)
+{
+    return {mv<T>(pose.shoulder), mv<T>(pose.elbow), mv<T>(pose.wrist)};
+}
+
+}  // namespace
+
+TEST_CASE("everything on and at rest changes nothing")
+{
+    LimbUse all;
+    all.hand = all.effector = all.angle = all.incoming = all.weights = all.reach = all.continuity = true;
+    LimitUse& limits = all.limits;
+    limits.flexion = limits.shoulder_cone = limits.hand_cone = limits.humeral_twist = limits.forearm_twist =
+        limits.hand_twist = limits.shoulder_box = limits.wrist_box = true;
+    rc::prop("the arm is the plain solver's", [&](std::uint64_t seed) {
+        for_arms(seed, [&](Random&, const Arm& arm) {
+            const Solved<float> got = solve(all, limb_goal<float>(arm));
+            const ArmPose<float> plain = solve<float>(arm);
+            RC_ASSERT((got.elbow - elbow_place(plain, arm)).norm() <= 2e-6 * arm.length());
+            RC_ASSERT((got.wrist - wrist_place(plain, arm)).norm() <= 1e-6 * arm.length());
+            RC_ASSERT(got.pose.arm.flags == flag::reached);
+        });
+    });
+}
+
+TEST_CASE("effectors and hands")
+{
+    rc::prop("the effector is at the target, the hand as wanted", [](std::uint64_t seed) {
+        LimbUse use;
+        use.hand = use.effector = true;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const Quaterniond hand = random.rotation();
+            const Vector3d effector = random.between(0, 0.3) * random.direction();
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.arm.wrist = mv<float>(Vector3d(arm.wrist + hand * effector));
+            goal.hand = mv<float>(Quaterniond(random.spread(0.1, 10) * hand.coeffs()));
+            goal.effector = mv<float>(effector);
+            const Solved<float> got = solve(use, goal);
+            RC_ASSERT((got.wrist + got.hand * effector - eigen(goal.arm.wrist)).norm() <= 2e-6 * arm.length());
+            RC_ASSERT(distance(got.hand, hand) <= 1e-6);
+        });
+    });
+}
+
+TEST_CASE("where the elbow goes")
+{
+    rc::prop("a turn from the pole's side, by the right hand about the line to the wrist", [](std::uint64_t seed) {
+        LimbUse use;
+        use.angle = true;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const double angle = random.between(-kPi, kPi), size = random.spread(1e-3, 1e3);
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.angle = {static_cast<float>(size * std::cos(angle)), static_cast<float>(size * std::sin(angle))};
+            const Vector3d want = Eigen::AngleAxisd(angle, arm.wrist.normalized()) * arm.normal();
+            RC_ASSERT(off(solve(use, goal).hinge, want) <= 3e-6);
+        });
+    });
+    rc::prop("a plane's normal", [](std::uint64_t seed) {
+        LimbUse use;
+        use.wish = Wish::normal;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            const Vector3d line = arm.wrist.normalized(), tilted = arm.normal() + random.between(-2, 2) * line;
+            goal.arm.pole = mv<float>(Vector3d(random.spread(1e-3, 1e3) * tilted));
+            RC_ASSERT(off(solve(use, goal).hinge, arm.normal()) <= 3e-6);
+        });
+    });
+    rc::prop("as in the incoming pose", [](std::uint64_t seed) {
+        LimbUse use;
+        use.incoming = true, use.wish = Wish::incoming;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const Incoming pose = random_incoming(random);
+            const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
+            const Vector3d across = hinge - hinge.dot(line) * line;
+            if (across.norm() < 0.05) return;
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.incoming = incoming_of<float>(pose);
+            RC_ASSERT(off(solve(use, goal).hinge, across.normalized()) <= 1e-5);
+        });
+    });
+    rc::prop("where the pole does not say: the incoming pose, or the previous normal first", [](std::uint64_t seed) {
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            LimbUse use;
+            use.incoming = true;
+            const Incoming pose = random_incoming(random);
+            const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
+            const Vector3d across = hinge - hinge.dot(line) * line, previous = random.across(line);
+            if (across.norm() < 0.05) return;
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.arm.pole = mv<float>(Vector3d(random.between(-2, 2) * line));
+            goal.incoming = incoming_of<float>(pose);
+            const Solved<float> by_pose = solve(use, goal);
+            RC_ASSERT(off(by_pose.hinge, across.normalized()) <= 1e-5);
+            RC_ASSERT(by_pose.pose.arm.flags == (flag::reached | flag::swivel_undefined));
+            use.continuity = true;
+            goal.continuity.previous_normal = mv<float>(previous);
+            RC_ASSERT(off(solve(use, goal).hinge, previous) <= 1e-5);
+        });
+    });
+}
+
+TEST_CASE("weights blend with the incoming pose")
+{
+    LimbUse use;
+    use.hand = use.incoming = use.weights = true;
+    rc::prop("0 keeps its wrist, hand and swivel", [&](std::uint64_t seed) {
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            Incoming pose = random_incoming(random);
+            pose.elbow =
+                Quaterniond(Eigen::AngleAxisd(-random.between(0.3, 2.5), Vector3d::UnitX()));  // the hinge alone
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.incoming = incoming_of<float>(pose);
+            goal.hand = mv<float>(random.rotation());
+            goal.weights = {0, 0, 0};
+            const Solved<float> got = solve(use, goal);
+            RC_ASSERT((got.wrist - pose.wrist_place(arm)).norm() <= 2e-6 * arm.length());
+            RC_ASSERT((got.elbow - pose.shoulder * Vector3d(0, 0, arm.upper)).norm() <= 1e-5 * arm.length());
+            RC_ASSERT(distance(got.hand, pose.shoulder * pose.elbow * pose.wrist) <= 3e-6);
+        });
+    });
+    rc::prop("between: the wrist on the straight way, the hand and the swivel between the two",
+             [&](std::uint64_t seed) {
+                 for_arms(seed, [&](Random& random, const Arm& arm) {
+                     const Incoming pose = random_incoming(random);
+                     const Quaterniond hand = random.rotation(), hand_was = pose.shoulder * pose.elbow * pose.wrist;
+                     LimbGoal<float> goal = limb_goal<float>(arm);
+                     goal.incoming = incoming_of<float>(pose);
+                     goal.hand = mv<float>(hand);
+                     const double w = static_cast<float>(random.unit());
+                     goal.weights = {static_cast<float>(w), static_cast<float>(w), 1};
+                     const Solved<float> got = solve(use, goal);
+                     const Vector3d was = pose.wrist_place(arm), place = was + w * (arm.wrist - was);
+                     if (got.pose.arm.flags & flag::reached)
+                         RC_ASSERT((got.wrist - place).norm() <= 3e-6 * arm.length());
+                     const double whole = hand_was.angularDistance(hand);
+                     if (whole > 3) return;
+                     RC_ASSERT(std::fabs(hand_was.angularDistance(got.hand) + got.hand.angularDistance(hand) - whole) <=
+                               1e-4);
+                 });
+             });
+    rc::prop("half of a pole's weight: the middle of the two planes", [&](std::uint64_t seed) {
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const Incoming pose = random_incoming(random);
+            const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
+            const Vector3d was = (hinge - hinge.dot(line) * line).normalized(), middle = was + arm.normal();
+            if ((hinge - hinge.dot(line) * line).norm() < 0.05 || middle.norm() < 0.1) return;
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.incoming = incoming_of<float>(pose);
+            goal.weights = {1, 1, 0.5f};
+            RC_ASSERT(off(solve(use, goal).hinge, middle.normalized()) <= 1e-4);
+        });
+    });
+}
+
+TEST_CASE("the elbow's flexion stays within its limit")
+{
+    rc::prop("the wrist stops short, and the limit is said", [](std::uint64_t seed) {
+        LimbUse use;
+        use.limits.flexion = true;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const double least = random.between(0, 1.5), most = random.between(least, 3.1);
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.limits.flexion = {static_cast<float>(std::cos(least / 2)), static_cast<float>(std::cos(most / 2))};
+            const Solved<float> got = solve(use, goal);
+            const double flexion = 2 * std::atan2(double{got.pose.arm.sin_half}, double{got.pose.arm.cos_half});
+            RC_ASSERT(flexion >= least - 1e-3 && flexion <= most + 1e-3);
+            const double free = 2 * std::atan2(double{solve<float>(arm).sin_half}, double{solve<float>(arm).cos_half});
+            const bool inside = free > least + 1e-3 && free < most - 1e-3;
+            if (inside) RC_ASSERT(got.pose.arm.flags == flag::reached);
+            if (free < least - 1e-3)
+                RC_ASSERT(got.pose.arm.flags == (flag::clamped_far | flag::limited_flexion) &&
+                          std::fabs(flexion - least) <= 1e-3);
+            if (free > most + 1e-3)
+                RC_ASSERT(got.pose.arm.flags == (flag::clamped_near | flag::limited_flexion) &&
+                          std::fabs(flexion - most) <= 1e-3);
+        });
+    });
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: with a largest swivel for each frame the elbow never swivels further in one, whatever target and pole
+// do; only joint limits make it jump, and that is said. Without it the elbow jumps where swivel.h says, and only there.
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/formula_limb.h"
+#include "tests/limit_oracle.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+// How far a normal has swivelled since the one before, carried across the new line.
+double step(const Vector3d& before, const Vector3d& now, const Vector3d& line)
+{
+    const Vector3d carried = before - before.dot(line) * line;
+    return std::atan2(carried.cross(now).norm(), carried.dot(now));
+}
+
+using Path = std::vector<Arm>;
+constexpr int kFrames = 400;
+
+template <class Place>
+Path path(Place place)
+{
+    Path arms;
+    for (int n = 0; n <= kFrames; ++n) arms.push_back(rounded(place(2.0 * n / kFrames - 1)));  // t from -1 to 1
+    return arms;
+}
+
+// Paths through everything that is hard; t = 0 is the hard place.
+struct NamedPath {
+    const char* name;
+    Path path;
+};
+std::vector<NamedPath> hard_paths()
+{
+    const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
+    return {
+        {"through the straight arm", path([&](double t) {
+             return Arm{(0.6 - 0.1 * t) * z + 0.05 * t * x, y, 0.3, 0.3};
+         })},
+        {"through the folded arm", path([&](double t) {
+             return Arm{0.2 * t * z + 1e-3 * x + 2e-3 * y, Vector3d(x + y), 0.3, 0.3};
+         })},
+        {"folded, unequal bones", path([&](double t) {
+             return Arm{(0.1 + 0.1 * t) * z + 0.01 * x, y, 0.35, 0.25};
+         })},
+        {"across the pole", path([&](double t) {
+             return Arm{0.4 * (z + 0.5 * t * x + 1e-4 * y).normalized(), z, 0.3, 0.3};
+         })},
+        {"across the pole's opposite", path([&](double t) {
+             return Arm{-0.4 * (z + 0.5 * t * x + 1e-4 * y).normalized(), z, 0.3, 0.3};
+         })},
+        {"exactly over the pole", path([&](double t) {
+             return Arm{0.4 * (z + 0.5 * t * x).normalized(), z, 0.3, 0.3};
+         })},
+        {"the pole leaps over the arm", path([&](double t) {
+             return Arm{0.4 * z, Vector3d(t < 0 ? x : -x) + 0.1 * y, 0.3, 0.3};
+         })},
+    };
+}
+
+struct Run {
+    double largest = 0;  // swivel in a frame
+    int largest_frame = 0;
+    int limited = 0, jumped = 0, undefined = 0;
+};
+Run run(const Path& arms, LimbUse use, double most, const JointLimits<float>* limits = nullptr)
+{
+    Run out;
+    Vector3d before;
+    Vector<float> normal = vector(0.0f, 0.0f, 0.0f);
+    for (std::size_t n = 0; n < arms.size(); ++n) {
+        LimbGoal<float> goal = limb_goal<float>(arms[n]);
+        goal.continuity = {normal, turned<float>(most)};
+        if (limits) goal.limits = *limits;
+        const Solved<float> got = solve(use, goal);
+        if (n > 0) {
+            const double by = step(before, got.hinge, arms[n].wrist.normalized());
+            if (by > out.largest) out.largest = by, out.largest_frame = static_cast<int>(n);
+            out.limited += (got.pose.arm.flags & flag::limited_step) != 0;
+            out.jumped += (got.pose.arm.flags & flag::jumped) != 0;
+        }
+        out.undefined += (got.pose.arm.flags & flag::swivel_undefined) != 0;
+        before = got.hinge, normal = got.pose.normal;
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("the swivel of a frame stays under the limit on every hard path")
+{
+    LimbUse use;
+    use.continuity = true;
+    for (const NamedPath& hard : hard_paths())
+        for (const double most : {0.02, 0.1, 0.5}) {
+            INFO(hard.name << ", most " << most);
+            const Run got = run(hard.path, use, most);
+            CHECK(got.largest <= most + 1e-5);
+            CHECK(got.jumped == 0);
+        }
+}
+
+TEST_CASE("without the limit the elbow jumps where it is said to, and only there")
+{
+    for (const NamedPath& hard : hard_paths()) {
+        INFO(hard.name);
+        const Run got = run(hard.path, {}, kPi);
+        const std::string name = hard.name;
+        const bool passes_shoulder = name == "through the folded arm";
+        const bool passes_pole = name.find("pole") != std::string::npos;
+        if (passes_shoulder || passes_pole)
+            CHECK(std::abs(got.largest_frame - kFrames / 2) <= 2);
+        else
+            CHECK(got.largest <= 0.05);
+    }
+}
+
+TEST_CASE("random walks of target and pole stay under the limit, and follow the pole within it")
+{
+    rc::prop("with nothing else", [](std::uint64_t seed) {
+        Random random{seed};
+        LimbUse use;
+        use.continuity = true;
+        const double most = random.between(0.01, 1);
+        Path arms;
+        Vector3d wrist = 0.4 * random.direction(), pole = random.direction();
+        for (int n = 0; n < 300; ++n) {
+            wrist += 0.05 * random.direction(), pole += 0.2 * random.direction();
+            arms.push_back(rounded(Arm{wrist, pole, 0.3, 0.25}));
+        }
+        const Run got = run(arms, use, most);
+        RC_ASSERT(got.largest <= most + 2e-5);
+        for (int n = 0; n < 400; ++n) arms.push_back(arms.back());  // time to come to rest at the pole
+        LimbGoal<float> last = limb_goal<float>(arms.back());
+        Vector<float> normal = vector(0.0f, 0.0f, 0.0f);
+        Solved<float> at_rest{};
+        for (const Arm& arm : arms) {
+            LimbGoal<float> goal = limb_goal<float>(arm);
+            goal.continuity = {normal, turned<float>(most)};
+            at_rest = solve(use, goal);
+            normal = at_rest.pose.normal;
+        }
+        const double sine = arms.back().wrist.normalized().cross(arms.back().pole.normalized()).norm();
+        if (sine > 0.05) RC_ASSERT((at_rest.hinge - solve(LimbUse{}, last).hinge).norm() <= 1e-5);
+    });
+}
+
+TEST_CASE("joint limits win over the largest swivel, and say so")
+{
+    LimbUse use;
+    use.continuity = use.limits.shoulder_cone = true;
+    const Arm arm = rounded(Arm{{0, 0, 0.4}, {1, 0, 0}, 0.3, 0.3});
+    LimbGoal<float> goal = limb_goal<float>(arm);
+    const Solved<float> free = solve(use, goal);
+    goal.continuity = {free.pose.normal, turned<float>(0.1)};
+    goal.limits.shoulder_cone = {vector(-1.0f, 0.0f, 0.0f), 0.5f};  // the elbow has to go to the other side
+    const Solved<float> got = solve(use, goal);
+    CHECK((got.pose.arm.flags & flag::jumped) != 0);
+    CHECK((got.pose.arm.flags & flag::limited_shoulder_cone) != 0);
+    CHECK(got.elbow.normalized().x() <= -0.5 + 1e-6);
+    CHECK((free.pose.arm.flags & flag::jumped) == 0);
+}
