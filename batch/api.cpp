@@ -8,6 +8,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "batch/check.h"
 #include "batch/edge.h"
 #include "batch/frame.h"
 #include "batch/rig.h"
@@ -29,7 +30,7 @@ static_assert(flag::reached == SWIVEL_REACHED && flag::clamped_far == SWIVEL_CLA
 namespace {
 
 constexpr std::uint32_t kAllFeatures =
-    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT;
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET;
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 constexpr std::size_t kArenaAlignment = 64;
 
@@ -73,7 +74,10 @@ swivel_status check(const swivel_crowd_def* def)
     return SWIVEL_OK;
 }
 
-// A range of limbs of a group.
+}  // namespace
+
+namespace swivel {
+
 swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
@@ -96,19 +100,50 @@ swivel_status check_stride(std::uint32_t group, const char* name, const void* da
     return SWIVEL_OK;
 }
 
-// The caller's values of a field, to be read if they are input.
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
-                           std::size_t stride, bool input)
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input)
 {
     const char* const name = field_name(field);
     if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
     if (input && !is_input(field))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
-    const std::uint32_t component_count = field_component_count(crowd.features, field);
-    if (component_count == 0)
+    if (field_component_count(crowd.features, field) == 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with %s", group, name,
                     field == SWIVEL_HAND || field == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
-    return check_stride(group, name, data, stride, component_count * sizeof(float), input);
+    return SWIVEL_OK;
+}
+
+swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
+        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
+                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
+    return SWIVEL_OK;
+}
+
+const Isa* usable_isa(swivel_status& status)
+{
+    const Isa* isa = current_isa();
+    if (isa) return isa;
+    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
+    const bool built = forced && find_isa(forced);
+    status = fail(built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA,
+                  "SWIVEL_FORCE_ISA=%s names an instruction set that %s; unset it, or see swivel info",
+                  forced ? forced : "", built ? "this CPU does not run" : "this build does not have");
+    return nullptr;
+}
+
+}  // namespace swivel
+
+namespace {
+
+// The caller's values of a field, to be read if they are input: components of component_bytes each.
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
+                           std::size_t stride, bool input, std::size_t component_bytes = sizeof(float))
+{
+    if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
+    return check_stride(group, field_name(field), data, stride,
+                        field_component_count(crowd.features, field) * component_bytes, input);
 }
 
 // A range of blocks, and the frames of the groups it touches: those of other groups are not looked at.
@@ -134,28 +169,6 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
         for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
     });
     return status;
-}
-
-swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
-{
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
-    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
-        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
-                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
-    return SWIVEL_OK;
-}
-
-// The kernels to solve with; or null, with the reason in status and last_error().
-const Isa* usable_isa(swivel_status& status)
-{
-    const Isa* isa = current_isa();
-    if (isa) return isa;
-    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
-    const bool built = forced && find_isa(forced);
-    status = fail(built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA,
-                  "SWIVEL_FORCE_ISA=%s names an instruction set that %s; unset it, or see swivel info",
-                  forced ? forced : "", built ? "this CPU does not run" : "this build does not have");
-    return nullptr;
 }
 
 void store(const swivel_out& out, std::size_t n, const Vector<double>& v)

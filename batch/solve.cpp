@@ -22,40 +22,45 @@ constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 constexpr std::uint32_t kPackBlocks = 8;
 constexpr std::uint32_t kMostResultRows = result_row_count(SWIVEL_JOINTS | SWIVEL_WITH_HAND);
 
-SolveRun run_of(const swivel_crowd& crowd, const Group& group, float* results, std::uint32_t first_block,
-                std::uint32_t block_count)
-{
-    return {crowd.input + row_offset(std::size_t{first_block} * SWIVEL_LANES, crowd.input_row_count, 0),
-            results,
-            block_count,
-            crowd.features & SWIVEL_POLE_DIRECTION ? 0.0f : 1.0f,
-            &group.binding,
-            crowd.arena_bytes > kCachedBytes};
-}
-
 void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                    std::uint32_t block_count)
 {
     alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
-    const auto pack = kernels.pack[(crowd.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS];
+    const bool prefetch = crowd.arena_bytes > kCachedBytes;
     for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {
         const std::uint32_t block = first_block + done, count = std::min(kPackBlocks, block_count - done);
-        const SolveRun run = run_of(crowd, group, results, block, count);
-        kernels.solve[crowd.features & kFormulaFeatures](run);
-        pack({results, crowd.words + row_offset(std::size_t{block} * SWIVEL_LANES, crowd.result_row_count, 0), count,
-              run.prefetch});
+        const std::size_t limb = std::size_t{block} * SWIVEL_LANES;
+        solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0), results, count,
+                   prefetch);
+        pack_rows(crowd, kernels, results, crowd.words + row_offset(limb, crowd.result_row_count, 0), count, prefetch);
     }
 }
 
 }  // namespace
 
+void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
+                float* results, std::uint32_t block_count, bool prefetch)
+{
+    const float pole_is_point = crowd.features & SWIVEL_POLE_DIRECTION ? 0.0f : 1.0f;
+    kernels.solve[crowd.features & kFormulaFeatures](
+        {input, results, block_count, pole_is_point, &group.binding, prefetch});
+}
+
+void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
+               std::uint32_t block_count, bool prefetch)
+{
+    kernels.pack[(crowd.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS](
+        {results, words, block_count, prefetch});
+}
+
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count)
 {
     if (crowd.features & SWIVEL_COMPACT) return solve_compact(crowd, kernels, group, first_block, block_count);
-    float* const results =
-        crowd.results + row_offset(std::size_t{first_block} * SWIVEL_LANES, crowd.result_row_count, 0);
-    kernels.solve[crowd.features & kFormulaFeatures](run_of(crowd, group, results, first_block, block_count));
+    const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
+    solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0),
+               crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count,
+               crowd.arena_bytes > kCachedBytes);
 }
 
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,

@@ -12,7 +12,7 @@
 //
 // LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
 // results, or swivel_solve_frame() for all three -> swivel_crowd_destroy(). After creation swivel allocates nothing;
-// oneTBB, inside swivel_solve() and swivel_solve_frame(), may.
+// oneTBB, inside the calls that solve on it, may.
 //
 // LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
 // to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
@@ -68,9 +68,9 @@
 // zero is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
-// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks()
-// and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take it const while nothing else
-// runs on it.
+// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks(),
+// swivel_solve_active_blocks() and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take
+// it const while nothing else runs on it.
 #pragma once
 
 #include <stddef.h>
@@ -119,6 +119,7 @@ typedef enum swivel_feature {
     SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
     SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
     SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less
+    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), swivel_solve_budget()
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -262,6 +263,52 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
 // uses oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of
 // the caller is restored.
 SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
+
+// CHOICE. Not every limb need be solved each frame. The calls below solve those chosen: they get the bits that
+// swivel_solve() would give them, every other limb keeps its results bit for bit. Blocks without a chosen limb are not
+// read; lanes past a group's end mean nothing, as always.
+//
+// Cost goes with blocks rather than limbs: a block chosen whole takes as long as in swivel_solve(), one chosen in part
+// 1.2 to 2.5 times as long, and one or two limbs of a block up to that of the block. Half or more of a crowd picked
+// limb by limb at random is better solved by swivel_solve(); one in ten so takes half to all of its time, one in a
+// hundred a tenth; the same limbs as neighbours take their share. On the calling thread's oneTBB arena if built with it
+// and there is enough to do; swivel allocates nothing.
+//
+// Chosen by bits: limb i of LAYOUT is bit i % 32 of active_words[i / 32], word_count of them, which must be
+// (swivel_block_count() + 1) / 2. Bits of padding lanes, and past the last block, are ignored.
+SWIVEL_API swivel_status swivel_solve_active(swivel_crowd* crowd, const uint32_t* active_words, uint32_t word_count);
+// The same for the limbs of a range of blocks, on the calling thread; words are still those of the whole crowd, of
+// which the range's are read. Never allocates, never uses oneTBB; ranges that do not overlap may run on several threads
+// at once, with the same words. The floating-point environment is restored.
+SWIVEL_API swivel_status swivel_solve_active_blocks(swivel_crowd* crowd, const uint32_t* active_words,
+                                                    uint32_t word_count, uint32_t first_block, uint32_t block_count);
+// Chosen by a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
+// once. limbs may be null if limb_count is 0. Fails for an index that is out of range or a padding lane, before
+// anything is solved. Beside the limbs it looks at one bit for each limb of the crowd.
+SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* limbs, uint32_t limb_count);
+
+// Chosen by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb costs
+// about as much as its block: at most most_blocks of them, SWIVEL_LANES limbs each, fewer at a group's end. Each call
+// adds the largest priority among a block's limbs to the block's urgency, 0 at creation, and picks the most urgent
+// blocks, of equals the lower; the urgency of those picked is 0 again. So over time a block is picked about as often as
+// its priority says, blocks of equal priority take turns, and none starves: urgency only grows until it is the largest.
+// Limbs of characters that matter together belong side by side. A block whose limbs all have priority 0 is not picked
+// in this call and keeps its urgency. Other ways to solve change no urgency.
+//
+// priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
+// one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
+// and NaN as 0. Not kept; must not overlap the crowd's own memory.
+//
+// Sets the bits of the picked blocks' limbs in active_words, laid out as above, and clears all others, for
+// swivel_solve_active() or the caller's own threads. *chosen_count, unless null, becomes how many limbs these are. Who
+// is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the calling
+// thread, which takes 1 to 2 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
+// SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
+SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
+                                       uint32_t* active_words, uint32_t word_count, uint32_t* chosen_count);
+// swivel_choose() and swivel_solve_active() in one; *solved_count, unless null, becomes how many limbs were solved.
+SWIVEL_API swivel_status swivel_solve_budget(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
+                                             uint32_t* solved_count);
 
 // One group's values in the caller's own arrays, as engines keep them: one limb's value `stride` bytes after the one
 // before, from the group's first limb at `data`; consecutive floats in each (uint32_t for flags), of any alignment.

@@ -102,6 +102,33 @@ public:
 
     void solve() { check(swivel_solve(crowd_)); }
     void solve_blocks(std::uint32_t first, std::uint32_t count) { check(swivel_solve_blocks(crowd_, first, count)); }
+    // One bit for each limb, 32 in a word.
+    void solve_active(std::span<const std::uint32_t> words)
+    {
+        check(swivel_solve_active(crowd_, words.data(), count(words)));
+    }
+    void solve_active_blocks(std::span<const std::uint32_t> words, std::uint32_t first, std::uint32_t block_count)
+    {
+        check(swivel_solve_active_blocks(crowd_, words.data(), count(words), first, block_count));
+    }
+    void solve_list(std::span<const std::uint32_t> limbs)
+    {
+        check(swivel_solve_list(crowd_, limbs.data(), count(limbs)));
+    }
+    // One entry of priorities for each group. Both return how many limbs were chosen.
+    std::uint32_t choose(std::span<const swivel_in> priorities, std::uint32_t most_blocks,
+                         std::span<std::uint32_t> words)
+    {
+        std::uint32_t chosen = 0;
+        check(swivel_choose(crowd_, for_all_groups(priorities), most_blocks, words.data(), count(words), &chosen));
+        return chosen;
+    }
+    std::uint32_t solve_budget(std::span<const swivel_in> priorities, std::uint32_t most_blocks)
+    {
+        std::uint32_t solved = 0;
+        check(swivel_solve_budget(crowd_, for_all_groups(priorities), most_blocks, &solved));
+        return solved;
+    }
     // One frame for each group.
     void solve_frame(std::span<const swivel_frame> frames)
     {
@@ -142,11 +169,11 @@ private:
         return static_cast<std::uint32_t>(std::ranges::size(values));
     }
 
-    // Null, which the call refuses, if they are too few: then there are limbs in a group past the last frame's.
-    const swivel_frame* for_all_groups(std::span<const swivel_frame> frames) const
+    // Null, which the call refuses, if they are too few: then there are limbs in a group past the last one's.
+    template <class Each>
+    const Each* for_all_groups(std::span<const Each> each) const
     {
-        const auto frame_count = static_cast<std::uint32_t>(frames.size());
-        return swivel_group_limb_count(crowd_, frame_count) == 0 ? frames.data() : nullptr;
+        return swivel_group_limb_count(crowd_, count(each)) == 0 ? each.data() : nullptr;
     }
 
     swivel_crowd* crowd_ = nullptr;

@@ -36,6 +36,7 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     def.size = sizeof def - 1;
     refuse(&def);
     for (std::uint32_t bit = 5; bit < 32; ++bit) {
+        if (1u << bit == SWIVEL_BUDGET) continue;
         def = good;
         def.features = 1u << bit;
         refuse(&def);
