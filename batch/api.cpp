@@ -155,6 +155,7 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
                     crowd.group_count);
     swivel_status status = SWIVEL_OK;
     for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
+        const swivel_in& origin = frames[g].origin;
         const auto check_member = [&](swivel_field field, const auto& values) {
             if (!values.data || status != SWIVEL_OK) return;
             if (is_packed(crowd, field))
@@ -163,8 +164,11 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
                               "swivel_read() or swivel_compact_rows()",
                               g, field_name(field));
             else
-                status = check_values(crowd, g, field, values.data, values.stride, is_input(field));
+                status = check_values(crowd, g, field, values.data, values.stride, is_input(field),
+                                      origin.data && is_position(field) ? sizeof(double) : sizeof(float));
         };
+        if (origin.data && status == SWIVEL_OK)
+            status = check_stride(g, "origin", origin.data, origin.stride, 3 * sizeof(double), true);
         for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
         for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
     });
@@ -302,6 +306,29 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t gro
         status != SWIVEL_OK)
         return status;
     copy_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                                   uint32_t limb_count, swivel_in values, swivel_in origins)
+{
+    swivel_status status = check(crowd, group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
+    if (status != SWIVEL_OK) return status;
+    if (!is_position(field))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, %s: not a position; doubles are for target, pole and parent_position", group,
+                    field_name(field));
+    if (origins.data && !has_origin(crowd->features, field))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, %s: a direction has no origin, and SWIVEL_POLE_DIRECTION makes it one; give null", group,
+                    field_name(field));
+    status = check_values(*crowd, group, field, values.data, values.stride, true, sizeof(double));
+    if (status == SWIVEL_OK && origins.data)
+        status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
+    if (status != SWIVEL_OK) return status;
+    const FloatEnv env;
+    copy_doubles_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values, origins);
     return SWIVEL_OK;
 }
 

@@ -67,6 +67,14 @@
 // RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not
 // zero is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
 //
+// FAR FROM THE ORIGIN. Results depend on differences of positions only, but a float 1e7 units out is good to half a
+// unit. So positions may be given as doubles, with an origin near the arm that is taken off in double before they are
+// rounded: swivel_write_doubles(), or swivel_frame's origin. The three fields of a limb that are positions
+// (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_PARENT_POSITION) must be given from the same origin. Which one
+// does not matter while it is some arm lengths away: a position is rounded to 6e-8 of its distance from its origin. The
+// shoulder's place, or the character's, will do. Rotations need no origin; swivel_forward()'s positions are from it,
+// too.
+//
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 // THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks(),
 // swivel_solve_active_blocks() and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take
@@ -257,6 +265,16 @@ SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, u
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                      uint32_t limb_count, swivel_out values);
 
+// The same for positions in double: SWIVEL_TARGET, SWIVEL_POLE and SWIVEL_PARENT_POSITION, 3 consecutive doubles for
+// each limb. The limb's origin, 3 doubles as well (stride 0: one for all), is subtracted in double and the difference
+// rounded to the row's float, once, to nearest; see FAR FROM THE ORIGIN. Null data of origins: nothing is subtracted.
+// Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one. A difference no float holds
+// becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each other, but not the crowd's
+// own memory. Fails like swivel_write(), and for fields that are no positions. One thread; no allocation; up to twice
+// swivel_write()'s time. The floating-point environment is restored.
+SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                                              uint32_t limb_count, swivel_in values, swivel_in origins);
+
 // Solves every limb, on the calling thread's oneTBB arena if built with it.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
 // Solves a range of blocks on the calling thread; blocks outside are neither read nor written. Never allocates, never
@@ -318,6 +336,11 @@ typedef struct swivel_frame {
     swivel_in target, pole, lengths, parent_position, parent_rotation, parent_scale, hand;
     // Null data: not written.
     swivel_out shoulder, elbow, wrist, flags;
+    // With data: target, pole and parent_position hold 3 doubles each and are taken from this origin, 3 doubles as
+    // well, as by swivel_write_doubles(); a pole that is a direction is doubles, too, but has no origin. A position
+    // left out keeps its rows, which must be from the same origin. May be parent_position itself: then all is from the
+    // shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
+    swivel_in origin;
 } swivel_frame;
 
 // A whole frame in one pass: swivel_write() of every input given, swivel_solve(), swivel_read() of every output given,

@@ -58,6 +58,23 @@ concept FieldValue = holds_words<std::remove_cv_t<Value>>();
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 
+// The same for positions in double: a struct or array of plain doubles.
+template <class Value>
+constexpr bool holds_doubles()
+{
+    if constexpr (std::is_arithmetic_v<Value>)
+        return std::same_as<Value, double>;
+    else if constexpr (std::is_array_v<Value>)
+        return holds_doubles<std::remove_cv_t<std::remove_extent_t<Value>>>();
+    else if constexpr (requires { typename Value::value_type; })
+        return std::is_trivially_copyable_v<Value> && holds_doubles<std::remove_cv_t<typename Value::value_type>>();
+    else
+        return std::is_trivially_copyable_v<Value>;
+}
+template <class Range>
+concept DoubleRange = std::ranges::contiguous_range<Range> &&
+    holds_doubles<std::remove_cv_t<std::ranges::range_value_t<Range>>>();
+
 // Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group
 // on, each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by
 // size.
@@ -93,6 +110,14 @@ public:
     {
         check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
+    }
+    // Positions in double, from origins as in swivel.h: {&origin, 0} is one for all.
+    template <DoubleRange R>
+    void write_doubles(swivel_field field, std::uint32_t group, const R& values, swivel_in origins = {},
+                       std::uint32_t first = 0)
+    {
+        const swivel_in in{std::ranges::data(values), value_bytes<R>};
+        check(swivel_write_doubles(crowd_, field, group, first, count(values), in, origins));
     }
     template <FieldRange R>
     void read(swivel_field field, std::uint32_t group, R&& values, std::uint32_t first = 0) const

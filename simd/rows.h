@@ -68,6 +68,16 @@ constexpr std::uint32_t field_component_count(std::uint32_t features, swivel_fie
     return field_row_count(features & ~std::uint32_t{SWIVEL_COMPACT}, field);
 }
 
+// Fields that are positions, and those of them that an origin is taken from: not poles that are directions.
+constexpr bool is_position(swivel_field field)
+{
+    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+}
+constexpr bool has_origin(std::uint32_t features, swivel_field field)
+{
+    return is_position(field) && !(field == SWIVEL_POLE && (features & SWIVEL_POLE_DIRECTION));
+}
+
 // What messages call a field: its enumerator in small letters. Null for a number that is no field.
 constexpr const char* field_name(swivel_field field)
 {
