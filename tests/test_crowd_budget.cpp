@@ -229,6 +229,21 @@ TEST_CASE("what is not wanted waits with what it had")
     CHECK(chosen({1, 1, 1}, 2) == "ac");
 }
 
+TEST_CASE("a list after a budget is solved alone")
+{
+    const swivel_group_def group = group_of(100);
+    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    const float priority = 1;
+    const swivel_in priorities{&priority, 0};
+    CHECK(crowd.solve_budget({&priorities, 1}, 3) == 48);
+    poison_results(crowd);
+    const Results before(crowd);
+    const std::uint32_t limb = 7;
+    crowd.solve_list({&limb, 1});
+    const Results after(crowd);
+    for (std::uint32_t n = 0; n < 100; ++n) CHECK(after.same(before, n) == (n != limb));
+}
+
 TEST_CASE("a crowd without the feature has no budget, with it no other bits")
 {
     const swivel_group_def group = group_of(100);

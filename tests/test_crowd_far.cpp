@@ -85,42 +85,41 @@ std::vector<std::uint32_t> results(const Crowd& crowd)
 
 }  // namespace
 
-TEST_CASE("an exact shift of everything gives the bits of home, whichever way it is given")
+TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whichever way they are given")
 {
     const std::uint32_t count = 200;
-    const Vector3d shift(kFar, -kFar, 0.5 * kFar);
-    for (const std::uint32_t features : kFeatureSets) {
-        INFO("features " << features);
-        const swivel_group_def group = group_of(count);
-        Crowd home(features, {&group, 1}), far(features, {&group, 1}), framed(features, {&group, 1});
-        Random random{features};
-        std::vector<FarLimb> limbs;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            const Limb limb = grid_limb(random, features);
-            write_limb(home, 0, n, limb);
-            const Vector3d pole = vec(limb.pole);
-            limbs.push_back({doubles(shift + vec(limb.target)),
-                             doubles(features & SWIVEL_POLE_DIRECTION ? pole : Vector3d(shift + pole)),
-                             doubles(shift + vec(limb.position)), doubles(shift), limb});
-            write_rest(framed, n, limb);
-        }
-        home.solve();
-        write_far(far, features, limbs);
-        far.solve();
-        CHECK(all_words(far) == all_words(home));
-        CHECK(results(far) == results(home));
+    for (const std::uint32_t features : kFeatureSets)
+        for (const bool one_for_all : {false, true}) {
+            INFO("features " << features << ", one for all " << one_for_all);
+            const swivel_group_def group = group_of(count);
+            Crowd home(features, {&group, 1}), far(features, {&group, 1}), framed(features, {&group, 1});
+            Random random{features};
+            std::vector<FarLimb> limbs;
+            for (std::uint32_t n = 0; n < count; ++n) {
+                const Limb limb = grid_limb(random, features);
+                write_limb(home, 0, n, limb);
+                const Vector3d shift = Vector3d(kFar, -kFar, 0.5 * kFar) + (one_for_all ? 0 : n) * Vector3d(1, 7, -9);
+                const Vector3d pole = vec(limb.pole);
+                limbs.push_back({doubles(shift + vec(limb.target)),
+                                 doubles(features & SWIVEL_POLE_DIRECTION ? pole : Vector3d(shift + pole)),
+                                 doubles(shift + vec(limb.position)), doubles(shift), limb});
+                write_rest(framed, n, limb);
+            }
+            home.solve();
+            write_far(far, features, limbs);
+            far.solve();
+            CHECK(all_words(far) == all_words(home));
+            CHECK(results(far) == results(home));
 
-        swivel_frame frame{};
-        frame.target = {&limbs[0].target, sizeof limbs[0]};
-        frame.pole = {&limbs[0].pole, sizeof limbs[0]};
-        frame.parent_position = {&limbs[0].position, sizeof limbs[0]};
-        for (const swivel_in origin : {swivel_in{&limbs[0].origin, sizeof limbs[0]}, swivel_in{&limbs[0].origin, 0}}) {
-            frame.origin = origin;
+            swivel_frame frame{};
+            frame.target = {&limbs[0].target, sizeof limbs[0]};
+            frame.pole = {&limbs[0].pole, sizeof limbs[0]};
+            frame.parent_position = {&limbs[0].position, sizeof limbs[0]};
+            frame.origin = {&limbs[0].origin, one_for_all ? 0 : sizeof limbs[0]};
             framed.solve_frame({&frame, 1});
             CHECK(all_words(framed) == all_words(home));
             CHECK(results(framed) == results(home));
         }
-    }
 }
 
 TEST_CASE("without a world the origin is the shoulder's place")
