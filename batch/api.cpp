@@ -8,6 +8,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "batch/check.h"
 #include "batch/edge.h"
 #include "batch/frame.h"
 #include "batch/joint_angles.h"
@@ -39,7 +40,7 @@ static_assert(flag::reached == SWIVEL_REACHED && flag::softened == SWIVEL_SOFTEN
 
 namespace {
 
-constexpr std::uint32_t kAllFeatures = 8 * SWIVEL_TWIST_BONES - 1;
+constexpr std::uint32_t kAllFeatures = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_BUDGET;
 
 // Features that mean something only beside another, or not beside another.
 struct FeatureRule {
@@ -118,7 +119,10 @@ swivel_status check(const swivel_crowd_def* def)
     return SWIVEL_OK;
 }
 
-// A range of limbs of a group.
+}  // namespace
+
+namespace swivel {
+
 swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
@@ -141,44 +145,16 @@ swivel_status check_stride(std::uint32_t group, const char* name, const void* da
     return SWIVEL_OK;
 }
 
-// The caller's values of a field, to be read if they are input.
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
-                           std::size_t stride, bool input)
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input)
 {
     const char* const name = field_name(field);
     if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
     if (input && !is_input(field))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
-    const std::uint32_t component_count = field_component_count(crowd.features, field);
-    if (component_count == 0)
+    if (field_component_count(crowd.features, field) == 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
                     kFields[field].without ? "out" : "", needed_feature(crowd.features, field));
-    return check_stride(group, name, data, stride, component_count * sizeof(float), input);
-}
-
-// A range of blocks, and the frames of the groups it touches: those of other groups are not looked at.
-swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, std::uint32_t first_block,
-                           std::uint32_t block_count)
-{
-    if (!frames)
-        return fail(SWIVEL_INVALID_ARGUMENT, "frames are missing; give one for each of this crowd's %u groups",
-                    crowd.group_count);
-    swivel_status status = SWIVEL_OK;
-    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
-        const auto check_member = [&](swivel_field field, const auto& values) {
-            if (!values.data || status != SWIVEL_OK) return;
-            if (is_packed(crowd, field))
-                status = fail(SWIVEL_INVALID_ARGUMENT,
-                              "group %u, %s: a frame does not take results out of a crowd with SWIVEL_COMPACT; use "
-                              "swivel_read() or swivel_compact_rows()",
-                              g, field_name(field));
-            else
-                status = check_values(crowd, g, field, values.data, values.stride, is_input(field));
-        };
-        for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
-        for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
-    });
-    return status;
+    return SWIVEL_OK;
 }
 
 swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
@@ -190,7 +166,6 @@ swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block,
     return SWIVEL_OK;
 }
 
-// The kernels to solve with; or null, with the reason in status and last_error().
 const Isa* usable_isa(swivel_status& status)
 {
     const Isa* isa = current_isa();
@@ -201,6 +176,48 @@ const Isa* usable_isa(swivel_status& status)
                   "SWIVEL_FORCE_ISA=%s names an instruction set that %s; unset it, or see swivel info",
                   forced ? forced : "", built ? "this CPU does not run" : "this build does not have");
     return nullptr;
+}
+
+}  // namespace swivel
+
+namespace {
+
+// The caller's values of a field, to be read if they are input: components of component_bytes each.
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
+                           std::size_t stride, bool input, std::size_t component_bytes = sizeof(float))
+{
+    if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
+    return check_stride(group, field_name(field), data, stride,
+                        field_component_count(crowd.features, field) * component_bytes, input);
+}
+
+// A range of blocks, and the frames of the groups it touches: those of other groups are not looked at.
+swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, std::uint32_t first_block,
+                           std::uint32_t block_count)
+{
+    if (!frames)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frames are missing; give one for each of this crowd's %u groups",
+                    crowd.group_count);
+    swivel_status status = SWIVEL_OK;
+    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
+        const swivel_in& origin = frames[g].origin;
+        const auto check_member = [&](swivel_field field, const auto& values) {
+            if (!values.data || status != SWIVEL_OK) return;
+            if (is_packed(crowd, field))
+                status = fail(SWIVEL_INVALID_ARGUMENT,
+                              "group %u, %s: a frame does not take results out of a crowd with SWIVEL_COMPACT; use "
+                              "swivel_read() or swivel_compact_rows()",
+                              g, field_name(field));
+            else
+                status = check_values(crowd, g, field, values.data, values.stride, is_input(field),
+                                      origin.data && is_position(field) ? sizeof(double) : sizeof(float));
+        };
+        if (origin.data && status == SWIVEL_OK)
+            status = check_stride(g, "origin", origin.data, origin.stride, 3 * sizeof(double), true);
+        for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
+        for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
+    });
+    return status;
 }
 
 void store(const swivel_out& out, std::size_t n, const Vector<double>& v)
@@ -334,6 +351,29 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t gro
         status != SWIVEL_OK)
         return status;
     copy_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                                   uint32_t limb_count, swivel_in values, swivel_in origins)
+{
+    swivel_status status = check(crowd, group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
+    if (status != SWIVEL_OK) return status;
+    if (!is_position(field))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, %s: not a position; doubles are for target, pole and parent_position", group,
+                    field_name(field));
+    if (origins.data && !has_origin(crowd->features, field))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, %s: a direction has no origin, and SWIVEL_POLE_DIRECTION makes it one; give null", group,
+                    field_name(field));
+    status = check_values(*crowd, group, field, values.data, values.stride, true, sizeof(double));
+    if (status == SWIVEL_OK && origins.data)
+        status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
+    if (status != SWIVEL_OK) return status;
+    const FloatEnv env;
+    copy_doubles_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values, origins);
     return SWIVEL_OK;
 }
 

@@ -20,13 +20,15 @@ std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_coun
 
 struct Layout {
     std::uint32_t block_count;
-    std::size_t groups, input, results, end;  // byte offsets in the arena
+    std::size_t groups, chosen, urgency, input, results, end;  // byte offsets in the arena
 
     explicit Layout(const swivel_crowd_def& def) : block_count(0)
     {
         for (std::uint32_t g = 0; g < def.group_count; ++g) block_count += blocks_of(def.groups[g]);
         groups = aligned(sizeof(swivel_crowd));
-        input = groups + aligned(def.group_count * sizeof(Group));
+        chosen = groups + aligned(def.group_count * sizeof(Group));
+        urgency = chosen + aligned(mask_word_count(block_count) * sizeof(std::uint32_t));
+        input = urgency + (def.features & SWIVEL_BUDGET ? aligned(block_count * sizeof(float)) : 0);
         results = input + block_count * kInputRowBytes * input_row_count(def.features);
         end = results + aligned(block_count * result_row_bytes(def.features) * result_row_count(def.features));
     }
@@ -59,25 +61,28 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
         first_block += block_count;
     }
 
-    const bool compact = def.features & SWIVEL_COMPACT;
+    const bool compact = def.features & SWIVEL_COMPACT, budget = def.features & SWIVEL_BUDGET;
     char* const results = base + layout.results;
-    swivel_crowd* const crowd = new (base) swivel_crowd{def.features,
-                                                        def.group_count,
-                                                        layout.block_count,
-                                                        input_row_count(def.features),
-                                                        result_row_count(def.features),
-                                                        {},
-                                                        def.shoulder_order,
-                                                        def.wrist_order,
-                                                        groups,
-                                                        reinterpret_cast<float*>(base + layout.input),
-                                                        compact ? nullptr : reinterpret_cast<float*>(results),
-                                                        compact ? reinterpret_cast<std::uint16_t*>(results) : nullptr,
-                                                        arena,
-                                                        layout.end,
-                                                        nullptr,
-                                                        nullptr,
-                                                        {}};
+    swivel_crowd* const crowd =
+        new (base) swivel_crowd{def.features,
+                                def.group_count,
+                                layout.block_count,
+                                input_row_count(def.features),
+                                result_row_count(def.features),
+                                {},
+                                def.shoulder_order,
+                                def.wrist_order,
+                                groups,
+                                reinterpret_cast<float*>(base + layout.input),
+                                compact ? nullptr : reinterpret_cast<float*>(results),
+                                compact ? reinterpret_cast<std::uint16_t*>(results) : nullptr,
+                                arena,
+                                layout.end,
+                                nullptr,
+                                nullptr,
+                                {},
+                                reinterpret_cast<std::uint32_t*>(base + layout.chosen),
+                                budget ? reinterpret_cast<float*>(base + layout.urgency) : nullptr};
 
     for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f)
         crowd->first_row[f] = static_cast<std::uint16_t>(

@@ -31,9 +31,14 @@ struct swivel_crowd {
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
     void* user;
     alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
+    std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (chosen.cpp)
+    float* urgency;                          // of each block; null without SWIVEL_BUDGET (budget.cpp)
 };
 
 namespace swivel {
+
+// Words of one bit for each lane.
+inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
 
 // Bytes of the arena. The def must be valid.
 std::size_t crowd_bytes(const swivel_crowd_def& def);

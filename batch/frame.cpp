@@ -23,11 +23,19 @@ constexpr std::uint32_t kRunBlocks = 8;
 // close.
 constexpr std::size_t kCopyLimbs = 2 * SWIVEL_LANES;
 
+// Values from limb first on.
+swivel_in from(const swivel_in& values, std::size_t first)
+{
+    if (!values.data) return values;
+    return {static_cast<const char*>(values.data) + first * values.stride, values.stride};
+}
+
 // The copies of one group's frame, its null members left out.
 struct Copies {
     struct In {
         FieldRows rows;
-        swivel_in values;
+        swivel_in values, origin;
+        bool doubles;
     } in[kInputFieldCount];
     struct Out {
         FieldRows rows;
@@ -39,7 +47,9 @@ struct Copies {
     {
         for (const FrameInput& input : kFrameInputs)
             if (const swivel_in& values = frame.*input.member; values.data)
-                in[in_count++] = {rows_of(crowd, group, input.field), values};
+                in[in_count++] = {rows_of(crowd, group, input.field), values,
+                                  has_origin(crowd.features, input.field) ? frame.origin : swivel_in{},
+                                  frame.origin.data && is_position(input.field)};
         for (const FrameOutput& output : kFrameOutputs)
             if (const swivel_out& values = frame.*output.member; values.data)
                 out[out_count++] = {rows_of(crowd, group, output.field), values};
@@ -48,8 +58,11 @@ struct Copies {
     void read(std::size_t first, std::size_t limb_count) const
     {
         for (std::size_t n = 0; n < in_count; ++n) {
-            const auto& [data, stride] = in[n].values;
-            copy_in(in[n].rows, first, limb_count, {static_cast<const char*>(data) + first * stride, stride});
+            const swivel_in values = from(in[n].values, first);
+            if (in[n].doubles)
+                copy_doubles_in(in[n].rows, first, limb_count, values, from(in[n].origin, first));
+            else
+                copy_in(in[n].rows, first, limb_count, values);
         }
     }
     void write(std::size_t first, std::size_t limb_count) const

@@ -4,6 +4,7 @@
 // so that its rows are in that core's cache. The only file that knows oneTBB.
 #include "batch/solve.h"
 
+#include <algorithm>
 #include <new>
 
 #include "simd/float_env.h"
@@ -30,16 +31,16 @@ Partitioner& partitioner_of(swivel_crowd& crowd)
 }
 #endif
 
-// Calls work(first_block, block_count) until all blocks are done.
+// Calls work(first_block, block_count) until all blocks are done, of which busy_block_count have something to do.
 template <class Work>
-void in_chunks([[maybe_unused]] swivel_crowd& crowd, const Work& work)
+void in_chunks([[maybe_unused]] swivel_crowd& crowd, [[maybe_unused]] std::uint32_t busy_block_count, const Work& work)
 {
 #ifdef SWIVEL_WITH_TBB
     // Rows of a quarter of a level 2 cache of 512 KiB: some microseconds of work. Crowds of one chunk would only lose
     // by being shared: up to 2,000 arms two threads were no faster than one, with chunks of any size.
     constexpr std::size_t kChunkBytes = 128 * 1024;
     const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes(crowd.features));
-    if (crowd.block_count > chunk) {
+    if (busy_block_count > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;
         // Of its own: a cancelled context of the caller's must not leave blocks out.
@@ -72,12 +73,22 @@ void end_schedule([[maybe_unused]] swivel_crowd& crowd)
 
 void solve_all(swivel_crowd& crowd, const Kernels& kernels)
 {
-    in_chunks(crowd, [&](std::uint32_t first, std::uint32_t count) { solve_blocks(crowd, kernels, first, count); });
+    in_chunks(crowd, crowd.block_count,
+              [&](std::uint32_t first, std::uint32_t count) { solve_blocks(crowd, kernels, first, count); });
+}
+
+void solve_chosen_all(swivel_crowd& crowd, const Kernels& kernels, const std::uint32_t* words)
+{
+    const auto is_busy = [](std::uint32_t word) { return word > 0; };
+    const auto busy = std::count_if(words, words + mask_word_count(crowd.block_count), is_busy);
+    in_chunks(crowd, 2 * static_cast<std::uint32_t>(busy), [&](std::uint32_t first, std::uint32_t count) {
+        solve_chosen_blocks(crowd, kernels, words, first, count);
+    });
 }
 
 void solve_frame_all(swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames)
 {
-    in_chunks(crowd, [&](std::uint32_t first, std::uint32_t count) {
+    in_chunks(crowd, crowd.block_count, [&](std::uint32_t first, std::uint32_t count) {
         solve_frame_blocks(crowd, kernels, frames, first, count);
     });
 }

@@ -32,6 +32,13 @@ void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group&
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
                            swivel_arc* arcs, std::uint32_t capacity);
 
+// The steps of that, on rows wherever they lie: blocks of input rows to result rows of floats, and these, in a compact
+// crowd, to words. prefetch: the rows come from memory, or the words go there, and later blocks follow.
+void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
+                float* results, std::uint32_t block_count, bool prefetch);
+void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
+               std::uint32_t block_count, bool prefetch);
+
 // Solves blocks first_block ... first_block + block_count - 1 on this thread.
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
                   std::uint32_t block_count);
@@ -43,6 +50,12 @@ void solve_all(swivel_crowd& crowd, const Kernels& kernels);
 void solve_frame_blocks(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames,
                         std::uint32_t first_block, std::uint32_t block_count);
 void solve_frame_all(swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames);
+
+// Solves the limbs whose bits are set in words, one bit for each lane of the crowd, in a range of blocks on this
+// thread, or in all blocks; others keep their results. Bits of padding lanes are ignored.
+void solve_chosen_blocks(const swivel_crowd& crowd, const Kernels& kernels, const std::uint32_t* words,
+                         std::uint32_t first_block, std::uint32_t block_count);
+void solve_chosen_all(swivel_crowd& crowd, const Kernels& kernels, const std::uint32_t* words);
 
 // A crowd's memory of which thread solved which chunk: from its creation to its end.
 void begin_schedule(swivel_crowd& crowd);

@@ -2,6 +2,7 @@
 #include "batch/streams.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "simd/rows.h"
 #include "simd/transpose.h"
@@ -74,6 +75,25 @@ FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field fi
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
     copy<In>(rows, first, limb_count, static_cast<const char*>(values.data), values.stride);
+}
+
+// One limb at a time: a register of doubles holds two, and values are three.
+void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values,
+                     swivel_in origins)
+{
+    constexpr double nowhere[3] = {0, 0, 0};
+    const char* value = static_cast<const char*>(values.data);
+    const char* origin = static_cast<const char*>(origins.data ? origins.data : nowhere);
+    const std::size_t origin_stride = origins.data ? origins.stride : 0;
+    float* const base = rows.base;  // the compiler cannot know that values do not overlap `rows`
+    const std::uint32_t row_count = rows.row_count;
+    for (std::size_t n = 0; n < limb_count; ++n, value += values.stride, origin += origin_stride) {
+        double at[3], from[3];
+        std::memcpy(at, value, sizeof at);
+        std::memcpy(from, origin, sizeof from);
+        float* const lane = base + row_offset(first + n, row_count, 0);
+        for (std::size_t c = 0; c < 3; ++c) lane[c * SWIVEL_LANES] = static_cast<float>(at[c] - from[c]);
+    }
 }
 
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)

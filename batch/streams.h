@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Copies between rows and the caller's strided data, 4 bytes a component, bit for bit.
+// Copies between rows and the caller's strided data, 4 bytes a component, bit for bit; positions from doubles, too.
 #pragma once
 
 #include "batch/crowd.h"
@@ -17,6 +17,10 @@ FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field fi
 
 // Values of limbs first ... first + limb_count - 1 of the group; data is limb first's.
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values);
+// The same from 3 doubles each, less the limb's origin unless origins' data is null, rounded in the floating-point
+// environment that the caller has set (FloatEnv).
+void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values,
+                     swivel_in origins);
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values);
 
 }  // namespace swivel

@@ -12,7 +12,7 @@
 //
 // LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
 // results, or swivel_solve_frame() for all three -> swivel_crowd_destroy(). After creation swivel allocates nothing;
-// oneTBB, inside swivel_solve() and swivel_solve_frame(), may.
+// oneTBB, inside the calls that solve on it, may.
 //
 // LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
 // to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
@@ -115,10 +115,18 @@
 // RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not
 // zero is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
 //
+// FAR FROM THE ORIGIN. Results depend on differences of positions only, but a float 1e7 units out is good to half a
+// unit. So positions may be given as doubles, with an origin near the arm that is taken off in double before they are
+// rounded: swivel_write_doubles(), or swivel_frame's origin. The three fields of a limb that are positions
+// (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_PARENT_POSITION) must be given from the same origin. Which one
+// does not matter while it is some arm lengths away: a position is rounded to 6e-8 of its distance from its origin. The
+// shoulder's place, or the character's, will do. Rotations need no origin; swivel_forward()'s positions are from it,
+// too.
+//
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
-// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks()
-// and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take it const while nothing else
-// runs on it.
+// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks(),
+// swivel_solve_active_blocks() and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take
+// it const while nothing else runs on it.
 #pragma once
 
 #include <stddef.h>
@@ -198,6 +206,7 @@ typedef enum swivel_feature {
     SWIVEL_LIMIT_HAND_TWIST = 1u << 19,
     SWIVEL_LIMIT_WRIST_BOX = 1u << 20,
     SWIVEL_TWIST_BONES = 1u << 21,  // times the number of twist bones, 1 to 7
+    SWIVEL_BUDGET = 1u << 29,       // how long blocks wait is remembered: swivel_choose(), swivel_solve_budget()
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -365,12 +374,68 @@ SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, u
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                      uint32_t limb_count, swivel_out values);
 
+// The same for positions in double: SWIVEL_TARGET, SWIVEL_POLE and SWIVEL_PARENT_POSITION, 3 consecutive doubles for
+// each limb. The limb's origin, 3 doubles as well (stride 0: one for all), is subtracted in double and the difference
+// rounded to the row's float, once, to nearest; see FAR FROM THE ORIGIN. Null data of origins: nothing is subtracted.
+// Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one. A difference no float holds
+// becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each other, but not the crowd's
+// own memory. Fails like swivel_write(), and for fields that are no positions. One thread; no allocation; up to twice
+// swivel_write()'s time. The floating-point environment is restored.
+SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+                                              uint32_t limb_count, swivel_in values, swivel_in origins);
+
 // Solves every limb, on the calling thread's oneTBB arena if built with it.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
 // Solves a range of blocks on the calling thread; blocks outside are neither read nor written. Never allocates, never
 // uses oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of
 // the caller is restored.
 SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
+
+// CHOICE. Not every limb need be solved each frame. The calls below solve those chosen: they get the bits that
+// swivel_solve() would give them, every other limb keeps its results bit for bit. Blocks without a chosen limb are not
+// read; lanes past a group's end mean nothing, as always.
+//
+// Cost goes with blocks rather than limbs: a block chosen whole takes as long as in swivel_solve(), one chosen in part
+// 1.2 to 2.5 times as long, and one or two limbs of a block up to that of the block. Half or more of a crowd picked
+// limb by limb at random is better solved by swivel_solve(); one in ten so takes half to all of its time, one in a
+// hundred a tenth; the same limbs as neighbours take their share. On the calling thread's oneTBB arena if built with it
+// and there is enough to do; swivel allocates nothing.
+//
+// Chosen by bits: limb i of LAYOUT is bit i % 32 of active_words[i / 32], word_count of them, which must be
+// (swivel_block_count() + 1) / 2. Bits of padding lanes, and past the last block, are ignored.
+SWIVEL_API swivel_status swivel_solve_active(swivel_crowd* crowd, const uint32_t* active_words, uint32_t word_count);
+// The same for the limbs of a range of blocks, on the calling thread; words are still those of the whole crowd, of
+// which the range's are read. Never allocates, never uses oneTBB; ranges that do not overlap may run on several threads
+// at once, with the same words. The floating-point environment is restored.
+SWIVEL_API swivel_status swivel_solve_active_blocks(swivel_crowd* crowd, const uint32_t* active_words,
+                                                    uint32_t word_count, uint32_t first_block, uint32_t block_count);
+// Chosen by a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
+// once. limbs may be null if limb_count is 0. Fails for an index that is out of range or a padding lane, before
+// anything is solved. Beside the limbs it looks at one bit for each limb of the crowd.
+SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* limbs, uint32_t limb_count);
+
+// Chosen by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb costs
+// about as much as its block: at most most_blocks of them, SWIVEL_LANES limbs each, fewer at a group's end. Each call
+// adds the largest priority among a block's limbs to the block's urgency, 0 at creation, and picks the most urgent
+// blocks, of equals the lower; the urgency of those picked is 0 again. So over time a block is picked about as often as
+// its priority says, blocks of equal priority take turns, and none starves: urgency only grows until it is the largest.
+// Limbs of characters that matter together belong side by side. A block whose limbs all have priority 0 is not picked
+// in this call and keeps its urgency. Other ways to solve change no urgency.
+//
+// priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
+// one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
+// and NaN as 0. Not kept; must not overlap the crowd's own memory.
+//
+// Sets the bits of the picked blocks' limbs in active_words, laid out as above, and clears all others, for
+// swivel_solve_active() or the caller's own threads. *chosen_count, unless null, becomes how many limbs these are. Who
+// is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the calling
+// thread, which takes 1 to 2 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
+// SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
+SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
+                                       uint32_t* active_words, uint32_t word_count, uint32_t* chosen_count);
+// swivel_choose() and swivel_solve_active() in one; *solved_count, unless null, becomes how many limbs were solved.
+SWIVEL_API swivel_status swivel_solve_budget(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
+                                             uint32_t* solved_count);
 
 // One group's values in the caller's own arrays, as engines keep them: one limb's value `stride` bytes after the one
 // before, from the group's first limb at `data`; consecutive floats in each (uint32_t for flags), of any alignment.
@@ -381,6 +446,11 @@ typedef struct swivel_frame {
     swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights;
     // Null data: not written.
     swivel_out shoulder, elbow, wrist, flags, stretch, twist;
+    // With data: target, pole and parent_position hold 3 doubles each and are taken from this origin, 3 doubles as
+    // well, as by swivel_write_doubles(); a pole that is a direction is doubles, too, but has no origin. A position
+    // left out keeps its rows, which must be from the same origin. May be parent_position itself: then all is from the
+    // shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
+    swivel_in origin;
 } swivel_frame;
 
 // A whole frame in one pass: swivel_write() of every input given, swivel_solve(), swivel_read() of every output given,

@@ -58,6 +58,23 @@ concept FieldValue = holds_words<std::remove_cv_t<Value>>();
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 
+// The same for positions in double: a struct or array of plain doubles.
+template <class Value>
+constexpr bool holds_doubles()
+{
+    if constexpr (std::is_arithmetic_v<Value>)
+        return std::same_as<Value, double>;
+    else if constexpr (std::is_array_v<Value>)
+        return holds_doubles<std::remove_cv_t<std::remove_extent_t<Value>>>();
+    else if constexpr (requires { typename Value::value_type; })
+        return std::is_trivially_copyable_v<Value> && holds_doubles<std::remove_cv_t<typename Value::value_type>>();
+    else
+        return std::is_trivially_copyable_v<Value>;
+}
+template <class Range>
+concept DoubleRange = std::ranges::contiguous_range<Range> &&
+    holds_doubles<std::remove_cv_t<std::ranges::range_value_t<Range>>>();
+
 // Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group
 // on, each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by
 // size.
@@ -94,6 +111,14 @@ public:
         check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
     }
+    // Positions in double, from origins as in swivel.h: {&origin, 0} is one for all.
+    template <DoubleRange R>
+    void write_doubles(swivel_field field, std::uint32_t group, const R& values, swivel_in origins = {},
+                       std::uint32_t first = 0)
+    {
+        const swivel_in in{std::ranges::data(values), value_bytes<R>};
+        check(swivel_write_doubles(crowd_, field, group, first, count(values), in, origins));
+    }
     template <FieldRange R>
     void read(swivel_field field, std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
@@ -102,6 +127,33 @@ public:
 
     void solve() { check(swivel_solve(crowd_)); }
     void solve_blocks(std::uint32_t first, std::uint32_t count) { check(swivel_solve_blocks(crowd_, first, count)); }
+    // One bit for each limb, 32 in a word.
+    void solve_active(std::span<const std::uint32_t> words)
+    {
+        check(swivel_solve_active(crowd_, words.data(), count(words)));
+    }
+    void solve_active_blocks(std::span<const std::uint32_t> words, std::uint32_t first, std::uint32_t block_count)
+    {
+        check(swivel_solve_active_blocks(crowd_, words.data(), count(words), first, block_count));
+    }
+    void solve_list(std::span<const std::uint32_t> limbs)
+    {
+        check(swivel_solve_list(crowd_, limbs.data(), count(limbs)));
+    }
+    // One entry of priorities for each group. Both return how many limbs were chosen.
+    std::uint32_t choose(std::span<const swivel_in> priorities, std::uint32_t most_blocks,
+                         std::span<std::uint32_t> words)
+    {
+        std::uint32_t chosen = 0;
+        check(swivel_choose(crowd_, for_all_groups(priorities), most_blocks, words.data(), count(words), &chosen));
+        return chosen;
+    }
+    std::uint32_t solve_budget(std::span<const swivel_in> priorities, std::uint32_t most_blocks)
+    {
+        std::uint32_t solved = 0;
+        check(swivel_solve_budget(crowd_, for_all_groups(priorities), most_blocks, &solved));
+        return solved;
+    }
     // One frame for each group.
     void solve_frame(std::span<const swivel_frame> frames)
     {
@@ -142,11 +194,11 @@ private:
         return static_cast<std::uint32_t>(std::ranges::size(values));
     }
 
-    // Null, which the call refuses, if they are too few: then there are limbs in a group past the last frame's.
-    const swivel_frame* for_all_groups(std::span<const swivel_frame> frames) const
+    // Null, which the call refuses, if they are too few: then there are limbs in a group past the last one's.
+    template <class Each>
+    const Each* for_all_groups(std::span<const Each> each) const
     {
-        const auto frame_count = static_cast<std::uint32_t>(frames.size());
-        return swivel_group_limb_count(crowd_, frame_count) == 0 ? frames.data() : nullptr;
+        return swivel_group_limb_count(crowd_, count(each)) == 0 ? each.data() : nullptr;
     }
 
     swivel_crowd* crowd_ = nullptr;

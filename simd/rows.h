@@ -124,6 +124,17 @@ constexpr std::uint32_t field_component_count(std::uint32_t features, swivel_fie
     return field_row_count(features & ~std::uint32_t{SWIVEL_COMPACT}, field);
 }
 
+// Fields that are positions, and those of them that an origin is taken from: not poles that are directions
+// or normals.
+constexpr bool is_position(swivel_field field)
+{
+    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+}
+constexpr bool has_origin(std::uint32_t features, swivel_field field)
+{
+    return is_position(field) && !(field == SWIVEL_POLE && (features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL)));
+}
+
 // What messages call a field; null for a number that is no field.
 constexpr const char* field_name(swivel_field field)
 {

@@ -35,7 +35,8 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     refuse(&def);
     def.size = sizeof def - 1;
     refuse(&def);
-    for (std::uint32_t bit = 21; bit < 32; ++bit) {
+    for (std::uint32_t bit = 24; bit < 32; ++bit) {
+        if (1u << bit == SWIVEL_BUDGET) continue;
         def = good;
         def.features = 1u << bit;
         refuse(&def);

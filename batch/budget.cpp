@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Picks the most urgent blocks by their floats' bits, which for positive numbers are in the same order: counts of how
+// many blocks have which leading digits give the least urgency that is picked, without sorting and without memory.
+#include "batch/budget.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "batch/lane_mask.h"
+#include "simd/float_env.h"
+
+namespace swivel {
+
+namespace {
+
+constexpr float kMostPriority = 1e15f;  // as for lengths; urgency stays finite for 3e23 calls
+
+// The largest priority of a block's limbs, within 0 ... kMostPriority. NaN fails every comparison.
+float largest(const char* priority, std::size_t stride, std::uint32_t limb_count)
+{
+    float most = 0;
+    for (std::uint32_t n = 0; n < limb_count; ++n, priority += stride) {
+        float each;
+        std::memcpy(&each, priority, sizeof each);
+        most = each > most ? each : most;
+    }
+    return most < kMostPriority ? most : kMostPriority;
+}
+
+// Adds priorities to the urgency of a group's blocks. That of blocks that are not wanted now becomes negative, or 0.
+// Returns how many are wanted.
+std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& priorities)
+{
+    const char* at = static_cast<const char*>(priorities.data);
+    std::uint32_t wanted = 0;
+    for (std::uint32_t block = group.first_block; block < group.first_block + group.block_count; ++block) {
+        const float priority = largest(at, priorities.stride, limb_count_of(group, block));
+        const float waited = urgency[block] < 0 ? -urgency[block] : urgency[block];
+        urgency[block] = priority > 0 ? waited + priority : -waited;
+        wanted += priority > 0;
+        at += SWIVEL_LANES * priorities.stride;
+    }
+    return wanted;
+}
+
+// An urgency as a number to pick by: above 0 for blocks that are wanted, 0 for others.
+std::uint32_t key_of(float urgency) { return urgency > 0 ? std::bit_cast<std::uint32_t>(urgency) : 0; }
+
+// Blocks of a larger key are picked, and equal_count blocks of just this key, in the crowd's order.
+struct Limit {
+    std::uint32_t key, equal_count;
+};
+
+// The most_blocks largest of the keys, of which more than that are above 0; found digit by digit, the leading one
+// first.
+Limit find_limit(const swivel_crowd& crowd, std::uint32_t most_blocks)
+{
+    constexpr std::uint32_t kMostBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
+    std::uint32_t prefix = 0, left = most_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
+    for (const std::uint32_t shift : {20u, 10u, 0u}) {
+        std::uint32_t counts[1u << kMostBits] = {}, digit = (1u << (known - shift)) - 1;
+        for (std::uint32_t block = 0; block < crowd.block_count; ++block) {
+            const std::uint32_t key = key_of(crowd.urgency[block]);
+            if (key >> known == prefix) ++counts[key >> shift & digit];
+        }
+        for (; counts[digit] < left; --digit) left -= counts[digit];
+        prefix = prefix << (known - shift) | digit;
+        known = shift;
+    }
+    return {prefix, left};
+}
+
+}  // namespace
+
+std::uint32_t choose(swivel_crowd& crowd, const swivel_in* priorities, std::uint32_t most_blocks, std::uint32_t* words)
+{
+    const FloatEnv env;
+    std::uint32_t wanted = 0, limb_count = 0;
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g)
+        wanted += add_urgency(crowd.urgency, crowd.groups[g], priorities[g]);
+    std::fill_n(words, mask_word_count(crowd.block_count), 0u);
+    if (most_blocks == 0) return 0;
+    Limit limit = wanted > most_blocks ? find_limit(crowd, most_blocks) : Limit{0, 0};
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+        const Group& group = crowd.groups[g];
+        for (std::uint32_t block = group.first_block; block < group.first_block + group.block_count; ++block) {
+            const std::uint32_t key = key_of(crowd.urgency[block]);
+            const bool equal = key == limit.key && limit.equal_count > 0;
+            if (key <= limit.key && !equal) continue;
+            limit.equal_count -= equal;
+            add_lanes(words, block, lanes_of_limbs(group, block));
+            limb_count += limb_count_of(group, block);
+            crowd.urgency[block] = 0;
+        }
+    }
+    return limb_count;
+}
+
+}  // namespace swivel

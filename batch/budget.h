@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+//
+// Who is solved within a budget: blocks gather urgency while they wait, and the most urgent are picked.
+#pragma once
+
+#include "batch/crowd.h"
+
+namespace swivel {
+
+// What swivel_choose() promises, arguments already checked: an entry of priorities for each group, words for every
+// block. Returns how many limbs were picked.
+std::uint32_t choose(swivel_crowd& crowd, const swivel_in* priorities, std::uint32_t most_blocks, std::uint32_t* words);
+
+}  // namespace swivel

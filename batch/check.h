@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// The checks of arguments that the files of entry points share. Each fails with a line, or gives SWIVEL_OK.
+#pragma once
+
+#include <cstddef>
+
+#include "batch/crowd.h"
+#include "simd/dispatch.h"
+
+namespace swivel {
+
+// A range of limbs of a group.
+swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
+
+// A caller's array, named in the line.
+swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
+                           std::size_t value_bytes, bool may_repeat);
+
+// A field that the crowd has and, if input, that goes into it.
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);
+
+// A range of blocks.
+swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count);
+
+// The kernels to solve with; or null, with the reason in status and last_error().
+const Isa* usable_isa(swivel_status& status);
+
+}  // namespace swivel

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Masks of a crowd's lanes: one bit for each, 32 in a word, so that a word is two blocks.
+#pragma once
+
+#include "batch/crowd.h"
+
+namespace swivel {
+
+using LaneMask = std::uint32_t;  // of one block: the low SWIVEL_LANES bits
+inline constexpr LaneMask kAllLanes = (1u << SWIVEL_LANES) - 1;
+
+inline LaneMask lanes_of(const std::uint32_t* words, std::uint32_t block)
+{
+    return words[block / 2] >> block % 2 * SWIVEL_LANES & kAllLanes;
+}
+
+inline void add_lanes(std::uint32_t* words, std::uint32_t block, LaneMask lanes)
+{
+    words[block / 2] |= lanes << block % 2 * SWIVEL_LANES;
+}
+
+// How many lanes of a group's block are limbs, the others padding; and which.
+inline std::uint32_t limb_count_of(const Group& group, std::uint32_t block)
+{
+    const std::uint32_t left = group.limb_count - (block - group.first_block) * SWIVEL_LANES;
+    return left < SWIVEL_LANES ? left : std::uint32_t{SWIVEL_LANES};
+}
+inline LaneMask lanes_of_limbs(const Group& group, std::uint32_t block)
+{
+    return kAllLanes >> (SWIVEL_LANES - limb_count_of(group, block));
+}
+
+}  // namespace swivel

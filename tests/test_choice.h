@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of chosen limbs share: crowds of ordinary, hard and bad arms, their results limb by limb whatever the
+// rows hold, and masks.
+#pragma once
+
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_limb.h"
+
+namespace swivel::test {
+
+inline std::uint32_t mask_words(const Crowd& crowd) { return (swivel_block_count(crowd.get()) + 1) / 2; }
+inline std::uint32_t lane_count(const Crowd& crowd) { return swivel_block_count(crowd.get()) * SWIVEL_LANES; }
+inline bool is_set(const std::vector<std::uint32_t>& words, std::uint32_t limb)
+{
+    return words[limb / 32] >> limb % 32 & 1;
+}
+inline void set(std::vector<std::uint32_t>& words, std::uint32_t limb) { words[limb / 32] |= 1u << limb % 32; }
+
+// One in eight out of reach or of bad input.
+inline void write_arms(Crowd& crowd, std::uint32_t features, std::uint32_t group_count, Random& random)
+{
+    for (std::uint32_t group = 0; group < group_count; ++group)
+        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n) {
+            const auto bone = [&] { return static_cast<float>(random.spread(0.2, 5)); };
+            Limb limb = random_limb(random, features, {bone(), bone()});
+            const std::uint32_t kind = random.below(16);
+            if (kind == 0) limb.target[random.below(3)] *= 100;
+            if (kind == 1) limb.pole[random.below(3)] = kNan;
+            write_limb(crowd, group, n, limb);
+        }
+}
+
+// Every lane's results as 16- or 32-bit words, lane after lane.
+struct Results {
+    std::uint32_t row_count;
+    std::vector<std::uint32_t> words;
+
+    explicit Results(const Crowd& crowd)
+    {
+        const swivel_rows rows = swivel_result_rows(crowd.get());
+        const swivel_words compact = swivel_compact_rows(crowd.get());
+        row_count = compact.base ? compact.row_count : rows.row_count;
+        for (std::size_t limb = 0; limb < lane_count(crowd); ++limb)
+            for (std::uint32_t row = 0; row < row_count; ++row) {
+                const std::size_t at = (limb / 16 * row_count + row) * 16 + limb % 16;
+                std::uint32_t word = 0;
+                if (compact.base)
+                    word = compact.base[at];
+                else
+                    std::memcpy(&word, rows.base + at, sizeof word);
+                words.push_back(word);
+            }
+    }
+    bool same(const Results& other, std::uint32_t limb) const
+    {
+        const std::size_t at = std::size_t{limb} * row_count;
+        return std::equal(&words[at], &words[at] + row_count, &other.words[at]);
+    }
+};
+
+// Fills all results with what no solve leaves, a new pattern for each word.
+inline void poison_results(Crowd& crowd)
+{
+    const swivel_rows rows = swivel_result_rows(crowd.get());
+    for (std::uint32_t n = 0; n < rows.block_count * rows.row_count * SWIVEL_LANES; ++n) {
+        const std::uint32_t word = 0x7fa00000u + n;  // a signalling NaN
+        std::memcpy(rows.base + n, &word, sizeof word);
+    }
+    const swivel_words compact = swivel_compact_rows(crowd.get());
+    for (std::uint32_t n = 0; n < compact.block_count * compact.row_count * SWIVEL_LANES; ++n)
+        compact.base[n] = static_cast<std::uint16_t>(0x8000u + n);
+}
+
+// The lanes that are limbs.
+inline std::vector<std::uint32_t> all_limbs(const Crowd& crowd, std::uint32_t group_count)
+{
+    std::vector<std::uint32_t> limbs;
+    for (std::uint32_t group = 0; group < group_count; ++group)
+        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
+            limbs.push_back(swivel_group_first_limb(crowd.get(), group) + n);
+    return limbs;
+}
+
+// Whole blocks, none, a few limbs or many of them, in turns; bits of padding lanes, too.
+inline std::vector<std::uint32_t> random_mask(const Crowd& crowd, Random& random)
+{
+    std::vector<std::uint32_t> words(mask_words(crowd));
+    double share = 0;
+    for (std::uint32_t limb = 0; limb < words.size() * 32; ++limb) {
+        if (limb % 16 == 0 && random.below(3) == 0) {
+            const double shares[] = {0, 0, 1, 1, 0.05, 0.15, 0.5, 0.95};
+            share = shares[random.below(8)];
+        }
+        if (random.unit() < share) set(words, limb);
+    }
+    return words;
+}
+
+}  // namespace swivel::test

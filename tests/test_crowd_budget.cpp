@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: within a budget the most urgent blocks are solved, as a plain list sorted by urgency says; none starves;
+// who is solved depends on priorities and history alone; what is off costs nothing.
+#include "tests/test_choice.h"
+#include "tests/test_isa_scope.h"
+
+#include <rapidcheck/catch.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#endif
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+// The contract, with a sort.
+struct Model {
+    std::vector<std::vector<std::uint32_t>> blocks;  // the limbs of each
+    std::vector<float> urgency;
+
+    Model(const Crowd& crowd, std::uint32_t group_count)
+        : blocks(swivel_block_count(crowd.get())), urgency(blocks.size())
+    {
+        for (const std::uint32_t limb : all_limbs(crowd, group_count)) blocks[limb / 16].push_back(limb);
+    }
+    // priority: of each lane.
+    std::vector<std::uint32_t> choose(const std::vector<float>& priority, std::uint32_t most_blocks)
+    {
+        std::vector<std::uint32_t> order;
+        for (std::uint32_t block = 0; block < blocks.size(); ++block) {
+            float most = 0;
+            for (const std::uint32_t limb : blocks[block])
+                if (!std::isnan(priority[limb])) most = std::max(most, std::min(priority[limb], 1e15f));
+            if (most > 0) order.push_back(block);
+            urgency[block] += most;
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return urgency[a] > urgency[b]; });
+        order.resize(std::min<std::size_t>(order.size(), most_blocks));
+        std::vector<std::uint32_t> words((blocks.size() + 1) / 2);
+        for (const std::uint32_t block : order) {
+            urgency[block] = 0;
+            for (const std::uint32_t limb : blocks[block]) set(words, limb);
+        }
+        return words;
+    }
+};
+
+// A priority for each lane, and the streams of the groups into them; the second has one for all.
+struct Priorities {
+    std::vector<float> lanes;
+    std::vector<swivel_in> streams;
+
+    Priorities(const Crowd& crowd, std::uint32_t group_count, Random& random) : lanes(lane_count(crowd))
+    {
+        for (float& lane : lanes) {
+            const float hard[] = {0, 0, 0, -1, kNan, kInf, -kInf, 1e-42f, 3e38f, -0.0f};
+            lane = random.below(30) ? static_cast<float>(random.below(4)) * 0.25f : hard[random.below(10)];
+            if (random.below(4) == 0) lane = static_cast<float>(random.spread(1e-3, 1e3));
+        }
+        for (std::uint32_t group = 0; group < group_count; ++group) {
+            float* const first = &lanes[swivel_group_first_limb(crowd.get(), group)];
+            if (group == 1) std::fill_n(first, swivel_group_limb_count(crowd.get(), group), *first);
+            streams.push_back({first, group == 1 ? 0 : sizeof(float)});
+        }
+    }
+};
+
+// Results without those of padding lanes, which mean nothing.
+std::vector<std::uint32_t> limb_words(const Crowd& crowd, std::uint32_t group_count)
+{
+    const Results results(crowd);
+    std::vector<std::uint32_t> words;
+    for (const std::uint32_t limb : all_limbs(crowd, group_count)) {
+        const auto first = results.words.begin() + std::ptrdiff_t{limb} * results.row_count;
+        words.insert(words.end(), first, first + results.row_count);
+    }
+    return words;
+}
+
+std::uint32_t bit_count(const std::vector<std::uint32_t>& words)
+{
+    std::uint32_t count = 0;
+    for (std::uint32_t limb = 0; limb < words.size() * 32; ++limb) count += is_set(words, limb);
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("the most urgent blocks are picked, of equals the lower")
+{
+    rc::prop("random groups, priorities and budgets", [](std::uint64_t seed) {
+        Random random{seed};
+        std::vector<swivel_group_def> groups;
+        for (std::uint32_t n = 1 + random.below(3); n > 0; --n) groups.push_back(group_of(1 + random.below(700)));
+        const auto group_count = static_cast<std::uint32_t>(groups.size());
+        Crowd crowd(SWIVEL_BUDGET, groups);
+        Model model(crowd, group_count);
+        std::vector<std::uint32_t> words(mask_words(crowd), 0xdeadbeef);
+        for (int call = 0; call < 30; ++call) {
+            const Priorities priorities(crowd, group_count, random);
+            const std::uint32_t most = random.below(4) ? random.below(swivel_block_count(crowd.get()) + 2) : 0;
+            const std::vector<std::uint32_t> expected = model.choose(priorities.lanes, most);
+            const std::uint32_t count = crowd.choose(priorities.streams, most, words);
+            RC_ASSERT(words == expected);
+            RC_ASSERT(count == bit_count(words));
+        }
+    });
+}
+
+TEST_CASE("solving within a budget is choosing and solving what was chosen, on any machine and in any ranges")
+{
+#ifdef SWIVEL_WITH_TBB
+    using oneapi::tbb::global_control;
+    const global_control threads_of_process(global_control::max_allowed_parallelism, 4);
+#endif
+    const swivel_group_def groups[] = {group_of(6000), group_of(100), group_of(3333)};
+    for (const std::uint32_t features : {0u, kEverything | SWIVEL_COMPACT}) {
+        const IsaScope scope;
+        std::vector<std::vector<std::uint32_t>> history;
+        for (const std::string& isa : runnable_isas()) {
+            INFO(isa);
+            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+            for (const int threads : {1, 2, 4}) {
+                Crowd whole(features | SWIVEL_BUDGET, groups), parts(features | SWIVEL_BUDGET, groups);
+                for (Crowd* crowd : {&whole, &parts}) {
+                    Random random{7};
+                    write_arms(*crowd, features, 3, random);
+                }
+                Random random{8};
+                for (std::uint32_t call = 0; call < 6; ++call) {
+                    const Priorities priorities(whole, 3, random);
+                    const std::uint32_t most = random.below(500), step = 1 + random.below(40);
+                    std::uint32_t solved = 0;
+                    const auto solve = [&] { solved = whole.solve_budget(priorities.streams, most); };
+#ifdef SWIVEL_WITH_TBB
+                    oneapi::tbb::task_arena(threads).execute(solve);
+#else
+                    solve();
+#endif
+                    std::vector<std::uint32_t> words(mask_words(parts));
+                    REQUIRE(parts.choose(priorities.streams, most, words) == solved);
+                    const std::uint32_t block_count = swivel_block_count(parts.get());
+                    for (std::uint32_t first = 0; first < block_count; first += step)
+                        parts.solve_active_blocks(words, first, std::min(step, block_count - first));
+                    const std::vector<std::uint32_t> results = limb_words(whole, 3);
+                    REQUIRE((results == limb_words(parts, 3)));
+                    if (history.size() <= call) history.push_back(results);
+                    REQUIRE((results == history[call]));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("blocks of equal priority take turns")
+{
+    const swivel_group_def group = group_of(16 * 50);
+    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    const float priority = 0.1f;
+    const swivel_in priorities{&priority, 0};
+    std::vector<std::uint32_t> words(mask_words(crowd));
+    for (const std::uint32_t most : {10u, 7u, 50u, 1u}) {
+        std::vector<std::uint32_t> last(50, 0);
+        const std::uint32_t turn = (50 + most - 1) / most;
+        for (std::uint32_t call = 1; call <= 8 * turn; ++call) {
+            REQUIRE(crowd.choose({&priorities, 1}, most, words) == most * 16);
+            for (std::uint32_t block = 0; block < 50; ++block) {
+                if (is_set(words, block * 16)) last[block] = call;
+                if (call >= 2 * turn) REQUIRE(call - last[block] < turn + 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("nobody starves, and over time blocks are solved as often as their priority says")
+{
+    const std::uint32_t block_count = 40, calls = 40000;
+    const swivel_group_def group = group_of(16 * block_count);
+    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    std::vector<float> priority(16 * block_count);
+    double sum = 0;
+    for (std::uint32_t block = 0; block < block_count; ++block) {
+        const float each = block == 39 ? 0.01f : static_cast<float>(1 + block % 4);
+        priority[block * 16 + block % 16] = each;  // the largest of a block's limbs counts
+        sum += static_cast<double>(each);
+    }
+    const swivel_in priorities{priority.data(), sizeof(float)};
+    std::vector<std::uint32_t> words(mask_words(crowd)), times(block_count);
+    for (std::uint32_t call = 0; call < calls; ++call) {
+        REQUIRE(crowd.choose({&priorities, 1}, 4, words) == 4 * 16);
+        for (std::uint32_t block = 0; block < block_count; ++block) times[block] += is_set(words, block * 16);
+    }
+    for (std::uint32_t block = 0; block < block_count; ++block) {
+        INFO("block " << block);
+        const double fair = 4.0 * calls / sum * static_cast<double>(priority[block * 16 + block % 16]);
+        CHECK(times[block] >= 0.8 * fair - 1);
+        CHECK(times[block] <= 1.25 * fair + 1);
+    }
+}
+
+TEST_CASE("what is not wanted waits with what it had")
+{
+    const swivel_group_def group = group_of(16 * 3);
+    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    std::vector<std::uint32_t> words(2);
+    const auto chosen = [&](std::vector<float> of_blocks, std::uint32_t most) {
+        std::vector<float> priority;
+        for (const float each : of_blocks) priority.insert(priority.end(), 16, each);
+        const swivel_in priorities{priority.data(), sizeof(float)};
+        crowd.choose({&priorities, 1}, most, words);
+        std::string names;
+        for (std::uint32_t block = 0; block < 3; ++block)
+            if (is_set(words, block * 16)) names += static_cast<char>('a' + block);
+        return names;
+    };
+    CHECK(chosen({1, 5, 1}, 0) == "");
+    CHECK(chosen({1, 0, 1}, 3) == "ac");
+    CHECK(chosen({0, 0, 0}, 3) == "");
+    CHECK(chosen({2, 0, 4}, 1) == "c");
+    CHECK(chosen({2, 1, 4}, 1) == "b");  // 4, 6, 4
+    CHECK(chosen({1, 1, 1}, 2) == "ac");
+}
+
+TEST_CASE("a list after a budget is solved alone")
+{
+    const swivel_group_def group = group_of(100);
+    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    const float priority = 1;
+    const swivel_in priorities{&priority, 0};
+    CHECK(crowd.solve_budget({&priorities, 1}, 3) == 48);
+    poison_results(crowd);
+    const Results before(crowd);
+    const std::uint32_t limb = 7;
+    crowd.solve_list({&limb, 1});
+    const Results after(crowd);
+    for (std::uint32_t n = 0; n < 100; ++n) CHECK(after.same(before, n) == (n != limb));
+}
+
+TEST_CASE("a crowd without the feature has no budget, with it no other bits")
+{
+    const swivel_group_def group = group_of(100);
+    Crowd plain(0, {&group, 1}), with(SWIVEL_BUDGET, {&group, 1});
+    for (Crowd* crowd : {&plain, &with}) {
+        Random random{1};
+        write_arms(*crowd, 0, 1, random);
+        crowd->solve();
+    }
+    CHECK(all_words(plain) == all_words(with));
+    swivel_crowd_def def = def_of(group);
+    const std::size_t bytes = swivel_crowd_bytes(&def);
+    def.features = SWIVEL_BUDGET;
+    CHECK(swivel_crowd_bytes(&def) == bytes + 64);
+
+    const float priority = 1;
+    const swivel_in good{&priority, 0}, null{nullptr, 4}, narrow{&priority, 3};
+    std::uint32_t words[4] = {7, 7, 7, 7}, count = 7;
+    const auto bad = SWIVEL_INVALID_ARGUMENT;
+    CHECK_REFUSED(swivel_solve_budget(nullptr, &good, 1, &count), bad);
+    CHECK_REFUSED(swivel_solve_budget(plain.get(), &good, 1, &count), bad);
+    CHECK(std::string(swivel_last_error()) == "this crowd remembers no urgency; create it with SWIVEL_BUDGET");
+    CHECK_REFUSED(swivel_choose(plain.get(), &good, 1, words, 4, &count), bad);
+    CHECK_REFUSED(swivel_choose(nullptr, &good, 1, words, 4, &count), bad);
+    CHECK_REFUSED(swivel_choose(with.get(), &good, 1, nullptr, 4, &count), bad);
+    for (const std::uint32_t wrong : {0u, 3u, 5u})
+        CHECK_REFUSED(swivel_choose(with.get(), &good, 1, words, wrong, &count), bad);
+    for (const swivel_in& each : {null, narrow}) {
+        CHECK_REFUSED(swivel_solve_budget(with.get(), &each, 1, &count), bad);
+        CHECK_REFUSED(swivel_choose(with.get(), &each, 1, words, 4, &count), bad);
+    }
+    CHECK(std::string(swivel_last_error()) == "group 0, priority: stride 3 is smaller than a value, 4 bytes");
+    CHECK_REFUSED(swivel_solve_budget(with.get(), nullptr, 1, &count), bad);
+    CHECK_THROWS_AS(with.solve_budget({}, 1), Error);
+    CHECK(count == 7);
+    for (const std::uint32_t word : words) CHECK(word == 7);
+
+    // No call above counted as one: all are as urgent still, the first goes first.
+    CHECK(swivel_choose(with.get(), &good, 1, words, 4, nullptr) == SWIVEL_OK);
+    CHECK(words[0] == 0xffff);
+    CHECK(swivel_solve_budget(with.get(), &good, 100, nullptr) == SWIVEL_OK);
+}

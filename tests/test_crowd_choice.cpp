@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: limbs that are chosen, by bits or by a list, get the bits that solving all would give them; all others
+// keep theirs; blocks without one are not touched, nothing allocates, and wrong choices change nothing.
+#include "tests/count_allocations.h"
+#include "tests/test_choice.h"
+#include "tests/test_isa_scope.h"
+
+#include <rapidcheck/catch.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <algorithm>
+#include <thread>
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#endif
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+struct Scene {
+    std::uint32_t features = 0;
+    std::vector<swivel_group_def> groups;
+    Crowd crowd;
+    std::vector<std::uint32_t> limbs;
+    std::vector<Results> states;  // before, poisoned, and after solving all
+
+    Scene(std::uint32_t of, const std::vector<std::uint32_t>& sizes, std::uint64_t seed)
+        : features(of), groups(groups_of(sizes)), crowd(of, groups)
+    {
+        Random random{seed};
+        const auto group_count = static_cast<std::uint32_t>(groups.size());
+        write_arms(crowd, features, group_count, random);
+        limbs = all_limbs(crowd, group_count);
+        poison_results(crowd);
+        states.emplace_back(crowd);
+        crowd.solve();
+        states.emplace_back(crowd);
+        poison_results(crowd);
+    }
+    static std::vector<swivel_group_def> groups_of(const std::vector<std::uint32_t>& sizes)
+    {
+        std::vector<swivel_group_def> groups;
+        for (const std::uint32_t size : sizes) groups.push_back(group_of(size));
+        return groups;
+    }
+
+    // Chosen limbs as if all were solved, others and untouched blocks as they were.
+    bool is_right(const std::vector<std::uint32_t>& mask) const
+    {
+        const Results now(crowd);
+        std::vector<bool> is_limb(lane_count(crowd)), touched(swivel_block_count(crowd.get()));
+        bool right = true;
+        for (const std::uint32_t limb : limbs) {
+            is_limb[limb] = true;
+            if (is_set(mask, limb)) touched[limb / 16] = true;
+            right = right && now.same(states[is_set(mask, limb)], limb);
+        }
+        for (std::uint32_t lane = 0; lane < lane_count(crowd); ++lane)
+            right = right && (is_limb[lane] || touched[lane / 16] || now.same(states[0], lane));
+        return right;
+    }
+};
+
+Scene random_scene(std::uint64_t seed)
+{
+    Random random{seed};
+    std::uint32_t features = random.below(32);
+    if (!(features & SWIVEL_WORLD)) features &= ~std::uint32_t{SWIVEL_POLE_DIRECTION};
+    std::vector<std::uint32_t> sizes(1 + random.below(4));
+    for (std::uint32_t& size : sizes) size = 1 + random.below(random.below(2) ? 20 : 300);
+    return Scene(features, sizes, seed);
+}
+
+}  // namespace
+
+TEST_CASE("limbs chosen by bits or by a list get the bits of a full solve, others keep theirs")
+{
+    rc::prop("random groups, features, masks, ranges and lists", [](std::uint64_t seed) {
+        Scene scene = random_scene(seed);
+        Random random{seed + 1};
+        for (int round = 0; round < 3; ++round) {
+            const std::vector<std::uint32_t> mask = random_mask(scene.crowd, random);
+            poison_results(scene.crowd);
+            scene.crowd.solve_active(mask);
+            RC_ASSERT(scene.is_right(mask));
+
+            poison_results(scene.crowd);
+            const std::uint32_t block_count = swivel_block_count(scene.crowd.get()), step = 1 + random.below(12);
+            for (std::uint32_t first = 0; first < block_count; first += step)
+                scene.crowd.solve_active_blocks(mask, first, std::min(step, block_count - first));
+            RC_ASSERT(scene.is_right(mask));
+
+            std::vector<std::uint32_t> list;
+            for (const std::uint32_t limb : scene.limbs)
+                for (std::uint32_t n = random.below(3); is_set(mask, limb) && n < 3; ++n) list.push_back(limb);
+            for (std::size_t n = list.size(); n > 1; --n)
+                std::swap(list[n - 1], list[random.below(static_cast<std::uint32_t>(n))]);
+            poison_results(scene.crowd);
+            scene.crowd.solve_list(list);
+            RC_ASSERT(scene.is_right(mask));
+        }
+    });
+}
+
+TEST_CASE("every share of a block, for each single lane and on every instruction set")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas()) {
+        INFO(isa);
+        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
+        for (const std::uint32_t features :
+             {0u, std::uint32_t{SWIVEL_COMPACT}, kEverything, kEverything | SWIVEL_COMPACT}) {
+            Scene scene(features, {16 * 40, 16 * 3 - 5}, features);
+            for (std::uint32_t share = 0; share <= 16; ++share) {
+                std::vector<std::uint32_t> mask(mask_words(scene.crowd));
+                for (std::uint32_t limb = 0; limb < lane_count(scene.crowd); ++limb)
+                    if ((limb * 7 + limb / 16) % 16 < share) set(mask, limb);
+                poison_results(scene.crowd);
+                scene.crowd.solve_active(mask);
+                CHECK(scene.is_right(mask));
+            }
+            for (const std::uint32_t limb : scene.limbs) {
+                std::vector<std::uint32_t> mask(mask_words(scene.crowd));
+                set(mask, limb);
+                poison_results(scene.crowd);
+                scene.crowd.solve_list({&limb, 1});
+                REQUIRE(scene.is_right(mask));
+            }
+        }
+    }
+}
+
+TEST_CASE("crowds of many chunks, on any number of threads and in any ranges")
+{
+#ifdef SWIVEL_WITH_TBB
+    using oneapi::tbb::global_control;
+    const global_control threads_of_process(global_control::max_allowed_parallelism, 4);
+#endif
+    for (const std::uint32_t features : {0u, kEverything | SWIVEL_COMPACT}) {
+        Scene scene(features, {7000, 33, 5000}, 9);
+        Random random{features + 1};
+        for (int round = 0; round < 6; ++round) {
+            const std::vector<std::uint32_t> mask =
+                round ? random_mask(scene.crowd, random) : std::vector<std::uint32_t>(mask_words(scene.crowd), ~0u);
+            poison_results(scene.crowd);
+#ifdef SWIVEL_WITH_TBB
+            oneapi::tbb::task_arena arena(1 + round % 4);
+            arena.execute([&] { scene.crowd.solve_active(mask); });
+#else
+            scene.crowd.solve_active(mask);
+#endif
+            CHECK(scene.is_right(mask));
+
+            poison_results(scene.crowd);
+            const std::uint32_t block_count = swivel_block_count(scene.crowd.get()), parts = 3;
+            std::vector<std::thread> threads;  // ranges between the words' blocks, too
+            for (std::uint32_t part = 0; part < parts; ++part)
+                threads.emplace_back([&, part] {
+                    for (std::uint32_t first = part * 7; first < block_count; first += parts * 7)
+                        swivel_solve_active_blocks(scene.crowd.get(), mask.data(), mask_words(scene.crowd), first,
+                                                   std::min(7u, block_count - first));
+                });
+            for (std::thread& thread : threads) thread.join();
+            CHECK(scene.is_right(mask));
+        }
+    }
+}
+
+TEST_CASE("blocks without a chosen limb are neither read nor written")
+{
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const auto blocks = static_cast<std::uint32_t>(3 * page / 64);  // so that each third of the rows is whole pages
+    const swivel_group_def group = group_of(blocks * SWIVEL_LANES);
+    swivel_crowd_def def = def_of(group);
+    const std::size_t bytes = swivel_crowd_bytes(&def), room = (bytes / page + 3) * page;
+    char* const pages =
+        static_cast<char*>(mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    REQUIRE(pages != MAP_FAILED);
+    const std::size_t rows_bytes = std::size_t{blocks} * (8 + 7) * 64;
+    def.memory = pages + 2 * page - (bytes - rows_bytes);  // so that the input rows start a page
+    def.memory_bytes = bytes;
+    Crowd crowd(def);
+    const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+    const auto lock_outside = [&](const swivel_rows& rows, int rights) {
+        char* const base = reinterpret_cast<char*>(rows.base);
+        const std::size_t part = std::size_t{blocks} / 3 * rows.row_count * 64;
+        REQUIRE(reinterpret_cast<std::uintptr_t>(base) % page == 0);
+        REQUIRE(part % page == 0);
+        REQUIRE(mprotect(base, part, rights) == 0);
+        REQUIRE(mprotect(base + 2 * part, part, rights) == 0);
+    };
+    for (const std::uint32_t limbs_of_block : {1u, 9u, 16u}) {
+        std::vector<std::uint32_t> mask(mask_words(crowd)), list;
+        for (std::uint32_t block = blocks / 3; block < blocks / 3 * 2; ++block)
+            for (std::uint32_t n = 0; n < limbs_of_block; ++n) list.push_back(block * 16 + n);
+        for (const std::uint32_t limb : list) set(mask, limb);
+        lock_outside(in, PROT_NONE);
+        lock_outside(out, PROT_NONE);
+        crowd.solve_active(mask);
+        crowd.solve_list(list);
+        lock_outside(in, PROT_READ | PROT_WRITE);
+        lock_outside(out, PROT_READ | PROT_WRITE);
+        for (const std::uint32_t limb : list) REQUIRE(result_words(crowd, limb).back() == SWIVEL_REACHED);
+        CHECK(result_words(crowd, blocks / 3 * 16 - 1).back() == 0);
+        CHECK(result_words(crowd, blocks / 3 * 32).back() == 0);
+    }
+}
+
+TEST_CASE("choosing allocates nothing")
+{
+    const swivel_group_def group = group_of(9000);
+    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_COMPACT}}) {
+        Crowd crowd(features | SWIVEL_BUDGET, {&group, 1});
+        Random random{3};
+        const std::vector<std::uint32_t> mask = random_mask(crowd, random);
+        std::vector<std::uint32_t> list, words(mask_words(crowd));
+        for (int n = 0; n < 4000; ++n) list.push_back(random.below(9000));
+        const float priority = 1;
+        const swivel_in priorities{&priority, 0};
+        const auto use = [&] {
+            const auto all = [&] {
+                crowd.solve_active(mask);
+                crowd.solve_list(list);
+                crowd.solve_budget({&priorities, 1}, 300);
+            };
+            crowd.solve_active_blocks(mask, 3, 200);
+            crowd.choose({&priorities, 1}, 300, words);
+#ifdef SWIVEL_WITH_TBB
+            static oneapi::tbb::task_arena arena(1);
+            arena.execute(all);
+#else
+            all();
+#endif
+        };
+        for (int n = 0; n < 5; ++n) use();
+        const std::size_t before = allocation_count();
+        for (int n = 0; n < 20; ++n) use();
+        CHECK(allocation_count() == before);
+    }
+}
+
+TEST_CASE("wrong choices are refused with one line and change nothing")
+{
+    Scene scene(0, {20, 5, 40}, 4);
+    swivel_crowd* const c = scene.crowd.get();
+    REQUIRE(swivel_block_count(c) == 6);
+    const std::uint32_t words[4] = {~0u, ~0u, ~0u, ~0u};
+    const auto bad = SWIVEL_INVALID_ARGUMENT;
+    const std::vector<std::uint32_t> none(3);
+
+    CHECK_REFUSED(swivel_solve_active(nullptr, words, 3), bad);
+    CHECK_REFUSED(swivel_solve_active(c, nullptr, 3), bad);
+    for (const std::uint32_t count : {0u, 2u, 4u, ~0u}) CHECK_REFUSED(swivel_solve_active(c, words, count), bad);
+    CHECK_REFUSED(swivel_solve_active_blocks(nullptr, words, 3, 0, 1), bad);
+    CHECK_REFUSED(swivel_solve_active_blocks(c, nullptr, 3, 0, 1), bad);
+    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 2, 0, 1), bad);
+    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 3, 0, 7), bad);
+    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 3, 6, 1), bad);
+    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 3, 1, ~0u), bad);
+    CHECK_REFUSED(swivel_solve_list(nullptr, words, 0), bad);
+    CHECK_REFUSED(swivel_solve_list(c, nullptr, 1), bad);
+    // Padding lies at 20 to 31, 37 to 47 and 88 to 95; the crowd ends at 96.
+    for (const std::uint32_t wrong : {20u, 31u, 37u, 47u, 88u, 95u, 96u, 97u, 1u << 31, ~0u}) {
+        const std::uint32_t list[] = {3, 40 + 8, 87, 36, 32, 19, wrong, 0};
+        CHECK_REFUSED(swivel_solve_list(c, list, 8), bad);
+    }
+    const std::uint32_t padding[] = {2, 20}, past[] = {96};
+    swivel_solve_list(c, padding, 2);
+    CHECK(std::string(swivel_last_error()) == "entry 1 of the list: 20 is no limb of this crowd, but padding");
+    swivel_solve_list(c, past, 1);
+    CHECK(std::string(swivel_last_error()) == "entry 0 of the list: 96 is no limb of this crowd, but past its end");
+    swivel_solve_active(c, words, 2);
+    CHECK(std::string(swivel_last_error()) == "2 active words; this crowd of 6 blocks has 3, a bit for each lane");
+    CHECK(Results(scene.crowd).words == scene.states[0].words);
+
+    CHECK(swivel_solve_list(c, nullptr, 0) == SWIVEL_OK);
+    CHECK(swivel_solve_active_blocks(c, words, 3, 6, 0) == SWIVEL_OK);
+    CHECK(swivel_solve_active(c, none.data(), 3) == SWIVEL_OK);
+    CHECK(Results(scene.crowd).words == scene.states[0].words);
+    const std::uint32_t all_of_them[] = {19, 36, 87};  // and nothing is left of the lists refused
+    CHECK(swivel_solve_list(c, all_of_them, 3) == SWIVEL_OK);
+    std::vector<std::uint32_t> mask(3);
+    for (const std::uint32_t limb : all_of_them) set(mask, limb);
+    CHECK(scene.is_right(mask));
+    CHECK_THROWS_AS(scene.crowd.solve_active(std::vector<std::uint32_t>(2)), Error);
+    CHECK_THROWS_AS(scene.crowd.solve_list(std::vector<std::uint32_t>{20}), Error);
+}
