@@ -66,10 +66,10 @@ TEST_CASE("a def that breaks its contract makes no crowd")
         refuse(&def);
     }
     def = good;
-    def.shoulder_order = static_cast<swivel_euler_order>(6);
+    def.shoulder_order = static_cast<swivel_euler_order>(SWIVEL_ZYX + 1);
     refuse(&def);
     def = good;
-    def.wrist_order = static_cast<swivel_euler_order>(-1);
+    def.wrist_order = static_cast<swivel_euler_order>(7);
     refuse(&def);
     def = good;
     def.group_count = 0;
