@@ -302,7 +302,7 @@ SWIVEL_API swivel_status swivel_solve_active_blocks(swivel_crowd* crowd, const u
                                                     uint32_t word_count, uint32_t first_block, uint32_t block_count);
 // Chosen by a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
 // once. limbs may be null if limb_count is 0. Fails for an index that is out of range or a padding lane, before
-// anything is solved. Beside the limbs it looks at one bit for each limb of the crowd.
+// anything is solved. Some nanoseconds an entry more than by bits, if in no order.
 SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* limbs, uint32_t limb_count);
 
 // Chosen by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb costs
@@ -320,7 +320,7 @@ SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* 
 // Sets the bits of the picked blocks' limbs in active_words, laid out as above, and clears all others, for
 // swivel_solve_active() or the caller's own threads. *chosen_count, unless null, becomes how many limbs these are. Who
 // is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the calling
-// thread, which takes 1 to 2 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
+// thread, which takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
 // SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
 SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
                                        uint32_t* active_words, uint32_t word_count, uint32_t* chosen_count);
