@@ -19,8 +19,8 @@ namespace {
 
 // So many limbs of a block, or fewer, are gathered; for more, solving all of it aside costs less.
 constexpr int kFewLimbs = 2;
-// A run of so many blocks chosen whole is solved where it lies; fewer are better solved together with others: one or
-// two blocks leave a core waiting for their roots.
+// A run of so many blocks chosen whole is solved where it lies. A single one is better solved together with others:
+// alone it leaves a core waiting for its roots.
 constexpr std::uint32_t kRunBlocks = 2;
 
 // Blocks solved together aside, on the stack: their rows stay in the nearest cache. Blocks of many rows are fewer.

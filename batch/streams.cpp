@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 #include "simd/rows.h"
 #include "simd/transpose.h"
@@ -77,22 +78,34 @@ void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, s
     copy<In>(rows, first, limb_count, static_cast<const char*>(values.data), values.stride);
 }
 
-// One limb at a time: a register of doubles holds two, and values are three.
 void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values,
                      swivel_in origins)
 {
     constexpr double nowhere[3] = {0, 0, 0};
-    const char* value = static_cast<const char*>(values.data);
-    const char* origin = static_cast<const char*>(origins.data ? origins.data : nowhere);
+    const char* const origin = static_cast<const char*>(origins.data ? origins.data : nowhere);
     const std::size_t origin_stride = origins.data ? origins.stride : 0;
+    const char* const value = static_cast<const char*>(values.data);
     float* const base = rows.base;  // the compiler cannot know that values do not overlap `rows`
     const std::uint32_t row_count = rows.row_count;
-    for (std::size_t n = 0; n < limb_count; ++n, value += values.stride, origin += origin_stride) {
-        double at[3], from[3];
-        std::memcpy(at, value, sizeof at);
-        std::memcpy(from, origin, sizeof from);
+    // One component of a few limbs, so that differences are rounded and stored together.
+    const auto copy_lanes = [&](std::size_t n, auto count) {
         float* const lane = base + row_offset(first + n, row_count, 0);
-        for (std::size_t c = 0; c < 3; ++c) lane[c * SWIVEL_LANES] = static_cast<float>(at[c] - from[c]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            double at[count], from[count];
+            for (std::size_t k = 0; k < count; ++k) {
+                std::memcpy(at + k, value + (n + k) * values.stride + c * sizeof(double), sizeof(double));
+                std::memcpy(from + k, origin + (n + k) * origin_stride + c * sizeof(double), sizeof(double));
+            }
+            for (std::size_t k = 0; k < count; ++k) lane[c * SWIVEL_LANES + k] = static_cast<float>(at[k] - from[k]);
+        }
+    };
+    for (std::size_t n = 0; n < limb_count;) {
+        if ((first + n) % 4 == 0 && n + 4 <= limb_count) {
+            copy_lanes(n, std::integral_constant<std::size_t, 4>());
+            n += 4;
+        } else {
+            copy_lanes(n++, std::integral_constant<std::size_t, 1>());
+        }
     }
 }
 

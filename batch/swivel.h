@@ -379,8 +379,8 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 // rounded to the row's float, once, to nearest; see FAR FROM THE ORIGIN. Null data of origins: nothing is subtracted.
 // Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one. A difference no float holds
 // becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each other, but not the crowd's
-// own memory. Fails like swivel_write(), and for fields that are no positions. One thread; no allocation; up to twice
-// swivel_write()'s time. The floating-point environment is restored.
+// own memory. Fails like swivel_write(), and for fields that are no positions. One thread; no allocation; two to
+// three times as long as swivel_write(). The floating-point environment is restored.
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
@@ -396,10 +396,10 @@ SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first
 // read; lanes past a group's end mean nothing, as always.
 //
 // Cost goes with blocks rather than limbs: a block chosen whole takes as long as in swivel_solve(), one chosen in part
-// 1.2 to 2.5 times as long, and one or two limbs of a block up to that of the block. Half or more of a crowd picked
-// limb by limb at random is better solved by swivel_solve(); one in ten so takes half to all of its time, one in a
-// hundred a tenth; the same limbs as neighbours take their share. On the calling thread's oneTBB arena if built with it
-// and there is enough to do; swivel allocates nothing.
+// 1.2 to 3 times as long, and one or two limbs of a block up to that of the block. Limbs picked one by one at random
+// cost, beside swivel_solve(): half of a crowd more than all of it; one in ten 0.5 times as much to all of it, and up
+// to 2.5 times where few rows come from memory; one in a hundred 0.1 to 0.4. Neighbours take their share, or little
+// more. On the calling thread's oneTBB arena if built with it and there is enough to do; swivel allocates nothing.
 //
 // Chosen by bits: limb i of LAYOUT is bit i % 32 of active_words[i / 32], word_count of them, which must be
 // (swivel_block_count() + 1) / 2. Bits of padding lanes, and past the last block, are ignored.
@@ -411,7 +411,7 @@ SWIVEL_API swivel_status swivel_solve_active_blocks(swivel_crowd* crowd, const u
                                                     uint32_t word_count, uint32_t first_block, uint32_t block_count);
 // Chosen by a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
 // once. limbs may be null if limb_count is 0. Fails for an index that is out of range or a padding lane, before
-// anything is solved. Beside the limbs it looks at one bit for each limb of the crowd.
+// anything is solved. Some nanoseconds an entry more than by bits, if in no order.
 SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* limbs, uint32_t limb_count);
 
 // Chosen by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb costs
@@ -429,7 +429,7 @@ SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* 
 // Sets the bits of the picked blocks' limbs in active_words, laid out as above, and clears all others, for
 // swivel_solve_active() or the caller's own threads. *chosen_count, unless null, becomes how many limbs these are. Who
 // is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the calling
-// thread, which takes 1 to 2 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
+// thread, which takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
 // SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
 SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
                                        uint32_t* active_words, uint32_t word_count, uint32_t* chosen_count);

@@ -80,6 +80,7 @@ int run(int argc, char** argv)
     note_context(suite);
     add_problem_p(suite);
     add_features(suite);
+    add_choice(suite);
     add_frames(suite);
     add_copies(suite);
     add_threads(suite);

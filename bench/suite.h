@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What the suite's files share: the machine, the crowds that several benchmarks solve, and how one is added. Names have
-// slashes, so that --benchmark_filter picks families: P/, features/, resident/, compact/, frame/, copy/, threads/...
+// slashes, so that --benchmark_filter picks families: P/, features/, resident/, compact/, choice/, frame/, copy/,
+// threads/...
 #pragma once
 
 #include <functional>
@@ -51,6 +52,7 @@ void add_solve(Suite& suite, const std::string& name, const std::string& isa, st
 // wrong.
 void add_problem_p(Suite& suite);
 void add_features(Suite& suite);
+void add_choice(Suite& suite);
 void add_frames(Suite& suite);
 void add_copies(Suite& suite);
 void add_threads(Suite& suite);
