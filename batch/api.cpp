@@ -3,15 +3,10 @@
 // The C entry points: check the arguments, call in, turn outcomes into statuses.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <tuple>
 
 #include "batch/check.h"
-#include "batch/edge.h"
 #include "batch/frame.h"
-#include "batch/joint_angles.h"
 #include "batch/rig.h"
 #include "batch/solve.h"
 #include "batch/status.h"
@@ -40,147 +35,7 @@ static_assert(flag::reached == SWIVEL_REACHED && flag::softened == SWIVEL_SOFTEN
 
 namespace {
 
-constexpr std::uint32_t kAllFeatures = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_BUDGET;
-
-// Features that mean something only beside another, or not beside another.
-struct FeatureRule {
-    std::uint32_t feature, other;
-    bool together;
-    const char* text;
-};
-constexpr FeatureRule kFeatureRules[] = {
-    {SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, true,
-     "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both"},
-    {SWIVEL_POLE_NORMAL, SWIVEL_POLE_DIRECTION, false,
-     "SWIVEL_POLE_NORMAL and SWIVEL_POLE_DIRECTION exclude each other; a pole is one of them"},
-    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_DIRECTION, false,
-     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_DIRECTION exclude each other; with the first there are no poles"},
-    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_NORMAL, false,
-     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_NORMAL exclude each other; with the first there are no poles"},
-    {SWIVEL_POLE_INCOMING, SWIVEL_WITH_INCOMING, true, "SWIVEL_POLE_INCOMING needs SWIVEL_WITH_INCOMING"},
-    {SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, true,
-     "SWIVEL_WITH_WEIGHTS needs SWIVEL_WITH_INCOMING, the pose to blend with"},
-    {SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
-    {SWIVEL_LIMIT_HAND_CONE, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_CONE needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_FOREARM_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_HAND_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_TWIST needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_WRIST_BOX, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_WRIST_BOX needs SWIVEL_WITH_HAND"},
-    {7 * SWIVEL_TWIST_BONES, SWIVEL_WITH_HAND, true,
-     "SWIVEL_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
-    {SWIVEL_COMPACT, 7 * SWIVEL_TWIST_BONES, false, "SWIVEL_COMPACT has no words for SWIVEL_TWIST_BONES"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_REACH, false, "SWIVEL_COMPACT has no word for SWIVEL_WITH_REACH's stretch"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_STEP, false, "SWIVEL_COMPACT does not keep SWIVEL_WITH_STEP's normal"},
-};
-constexpr std::uint64_t kMostLimbs = 1u << 31;
 constexpr std::size_t kArenaAlignment = 64;
-
-bool is_binding(const swivel_binding& b)
-{
-    for (const auto* q :
-         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest}) {
-        const Rotor<double> unit = rotor<double>((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
-        if (!(std::fabs(len2(unit) - 1) <= 1e-5)) return false;  // ten times what rounding to floats leaves
-    }
-    return true;
-}
-
-swivel_status check(const swivel_crowd_def* def)
-{
-    if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
-    if (def->size != sizeof(swivel_crowd_def))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "crowd def has size %zu, this library's has %zu; start from swivel_default_crowd_def()", def->size,
-                    sizeof(swivel_crowd_def));
-    if (def->features & ~kAllFeatures)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
-    for (const FeatureRule& rule : kFeatureRules)
-        if ((def->features & rule.feature) && !(def->features & rule.other) == rule.together)
-            return fail(SWIVEL_INVALID_ARGUMENT, "%s", rule.text);
-    if (def->group_count == 0 || !def->groups)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
-    if (!def->allocate != !def->release)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
-    for (const auto& [order, name] :
-         {std::pair{def->shoulder_order, "shoulder_order"}, std::pair{def->wrist_order, "wrist_order"}})
-        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", name,
-                        static_cast<int>(order));
-    std::uint64_t limb_count = 0;
-    for (std::uint32_t g = 0; g < def->group_count; ++g) {
-        if (def->groups[g].limb_count == 0)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
-        if ((def->features & SWIVEL_JOINTS) && !is_binding(def->groups[g].binding))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", g);
-        limb_count += std::uint64_t{def->groups[g].limb_count} + SWIVEL_LANES;
-    }
-    if (limb_count > kMostLimbs)
-        return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
-    return SWIVEL_OK;
-}
-
-}  // namespace
-
-namespace swivel {
-
-swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
-{
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
-    if (group >= crowd->group_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u does not exist; this crowd has %u", group, crowd->group_count);
-    const std::uint32_t has = crowd->groups[group].limb_count;
-    if (first > has || limb_count > has - first)
-        return fail(SWIVEL_INVALID_ARGUMENT, "limbs %u to %llu are not all in group %u, which has %u", first,
-                    static_cast<unsigned long long>(first) + limb_count, group, has);
-    return SWIVEL_OK;
-}
-
-swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
-                           std::size_t value_bytes, bool may_repeat)
-{
-    if (!data) return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: data is null", group, name);
-    if (stride < value_bytes && !(may_repeat && stride == 0))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: stride %zu is smaller than a value, %zu bytes", group, name,
-                    stride, value_bytes);
-    return SWIVEL_OK;
-}
-
-swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input)
-{
-    const char* const name = field_name(field);
-    if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
-    if (input && !is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
-    if (field_component_count(crowd.features, field) == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
-                    kFields[field].without ? "out" : "", needed_feature(crowd.features, field));
-    return SWIVEL_OK;
-}
-
-swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
-{
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
-    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
-        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
-                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
-    return SWIVEL_OK;
-}
-
-const Isa* usable_isa(swivel_status& status)
-{
-    const Isa* isa = current_isa();
-    if (isa) return isa;
-    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
-    const bool built = forced && find_isa(forced);
-    status = fail(built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA,
-                  "SWIVEL_FORCE_ISA=%s names an instruction set that %s; unset it, or see swivel info",
-                  forced ? forced : "", built ? "this CPU does not run" : "this build does not have");
-    return nullptr;
-}
-
-}  // namespace swivel
-
-namespace {
 
 // The caller's values of a field, to be read if they are input: components of component_bytes each.
 swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
@@ -218,16 +73,6 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
         for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
     });
     return status;
-}
-
-void store(const swivel_out& out, std::size_t n, const Vector<double>& v)
-{
-    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, v.c, sizeof v.c);
-}
-void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
-{
-    const double xyzw[4] = {q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>()};
-    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
 }  // namespace
@@ -365,9 +210,8 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
                     "group %u, %s: not a position; doubles are for target, pole and parent_position", group,
                     field_name(field));
     if (origins.data && !has_origin(crowd->features, field))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, %s: a direction has no origin, and SWIVEL_POLE_DIRECTION makes it one; give null", group,
-                    field_name(field));
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",
+                    group, field_name(field));
     status = check_values(*crowd, group, field, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
@@ -431,91 +275,6 @@ swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame*
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
     solve_frame_blocks(*crowd, *isa->kernels, frames, first_block, block_count);
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
-{
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (!(crowd->features & SWIVEL_WITH_STEP)) return SWIVEL_OK;
-    const float zero[3] = {};
-    copy_in(rows_of(*crowd, crowd->groups[group], SWIVEL_NORMAL), first, limb_count, {zero, 0});
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
-                                  uint32_t capacity, uint32_t* arc_count)
-{
-    if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
-    if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
-    if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
-    *arc_count = allowed_arcs(*crowd, *find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
-                                  swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
-                                  swivel_out angles)
-{
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    for (const auto& [order, name] :
-         {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
-        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
-                        name, static_cast<int>(order));
-    if (family != 0 && family != 1)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
-    if (const swivel_status status =
-            check_stride(group, "angles", angles.data, angles.stride, 7 * sizeof(double), false);
-        status != SWIVEL_OK)
-        return status;
-    const FloatEnv env;
-    const Group& g = crowd->groups[group];
-    for (std::uint32_t n = 0; n < limb_count; ++n) {
-        const std::size_t limb = std::size_t{g.first_block} * SWIVEL_LANES + first + n;
-        const JointAngles seven = joint_angles(arm_rotors(*crowd, g, limb), shoulder_order, wrist_order, family);
-        std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
-    }
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
-                             swivel_out elbow, swivel_out wrist, swivel_out hand)
-{
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (hand.data && !(crowd->features & SWIVEL_WITH_HAND))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
-    for (const auto& [name, out, component_count] :
-         {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
-        if (out.data)
-            if (const swivel_status status =
-                    check_stride(group, name, out.data, out.stride, component_count * sizeof(double), false);
-                status != SWIVEL_OK)
-                return status;
-    const Group& of = crowd->groups[group];
-    for (uint32_t n = 0; n < limb_count; ++n) {
-        const LimbPose pose = forward(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
-        store(elbow, n, pose.elbow);
-        store(wrist, n, pose.wrist);
-        store(hand, n, pose.hand);
-    }
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
-                               swivel_out distance)
-{
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status =
-            check_stride(group, "distance", distance.data, distance.stride, sizeof(double), false);
-        status != SWIVEL_OK)
-        return status;
-    const Group& of = crowd->groups[group];
-    for (uint32_t n = 0; n < limb_count; ++n) {
-        const double value = residual(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
-        std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
-    }
     return SWIVEL_OK;
 }
 

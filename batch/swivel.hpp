@@ -4,6 +4,7 @@
 // statuses. Header only; adds no behaviour. Contracts, units and layouts are swivel.h's.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <ranges>
@@ -11,6 +12,7 @@
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "swivel.h"
 
@@ -37,6 +39,32 @@ inline BoundLimb bind(const swivel_chain& chain)
     BoundLimb limb;
     check(swivel_bind(&chain, &limb.binding, limb.lengths));
     return limb;
+}
+
+// Values of limit fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_turn().
+inline std::array<float, 4> range(double least, double most)
+{
+    std::array<float, 4> value;
+    check(swivel_range(least, most, value.data()));
+    return value;
+}
+inline std::array<float, 4> cone(const std::array<double, 3>& axis, double most)
+{
+    std::array<float, 4> value;
+    check(swivel_cone(axis.data(), most, value.data()));
+    return value;
+}
+inline std::array<float, 2> flexion(double least, double most)
+{
+    std::array<float, 2> value;
+    check(swivel_flexion(least, most, value.data()));
+    return value;
+}
+inline std::array<float, 2> turn(double angle)
+{
+    std::array<float, 2> value;
+    swivel_turn(angle, value.data());
+    return value;
 }
 
 // A limb's value: a struct or array of plain floats, a float, or a uint32_t (flags). Doubles, and arrays of them, would
@@ -164,6 +192,16 @@ public:
         check(swivel_solve_frame_blocks(crowd_, for_all_groups(frames), first, count));
     }
 
+    void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
+    std::vector<swivel_arc> allowed_arcs(std::uint32_t group, std::uint32_t limb) const
+    {
+        std::uint32_t arc_count = 0;
+        check(swivel_allowed_arcs(crowd_, group, limb, nullptr, 0, &arc_count));
+        std::vector<swivel_arc> arcs(arc_count);
+        check(swivel_allowed_arcs(crowd_, group, limb, arcs.data(), arc_count, &arc_count));
+        return arcs;
+    }
+
     template <std::ranges::contiguous_range R>
     void elbows(std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
@@ -178,6 +216,13 @@ public:
     void hands(std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
         check(swivel_forward(crowd_, group, first, count(values), {}, {}, {std::ranges::data(values), value_bytes<R>}));
+    }
+    template <std::ranges::contiguous_range R>
+    void joint_angles(std::uint32_t group, swivel_euler_order shoulder, swivel_euler_order wrist, int family,
+                      R&& values, std::uint32_t first = 0) const
+    {
+        check(swivel_joint_angles(crowd_, group, first, count(values), shoulder, wrist, family,
+                                  {std::ranges::data(values), value_bytes<R>}));
     }
     template <std::ranges::contiguous_range R>
     void residuals(std::uint32_t group, R&& values, std::uint32_t first = 0) const

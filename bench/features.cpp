@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Crowds with features, rows in and rows out: resident (world targets to local rotations) with each instruction set,
-// the other sets of features with the best; within the level 2 cache, resident and compact results also in memory.
+// the other sets of features, whole limbs among them, with the best; within the level 2 cache, resident and compact
+// results also in memory.
 #include "bench/suite.h"
 
 namespace bench {
@@ -25,7 +26,10 @@ void add_features(Suite& suite)
          {Named{"world", SWIVEL_WORLD}, Named{"joints", SWIVEL_JOINTS}, Named{"hand", SWIVEL_WITH_HAND},
           Named{"world+hand", SWIVEL_WORLD | SWIVEL_WITH_HAND}, Named{"joints+hand", SWIVEL_JOINTS | SWIVEL_WITH_HAND},
           Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"compact", SWIVEL_COMPACT},
-          Named{"resident+compact", kResident | SWIVEL_COMPACT}})
+          Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE},
+          Named{"cone+twist", SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST},
+          Named{"box", SWIVEL_LIMIT_SHOULDER_BOX}, Named{"full_arm", kFullArm},
+          Named{"full_arm+box", kFullArm | SWIVEL_LIMIT_SHOULDER_BOX}})
         add_solve(suite, std::string("features/") + name + "/" + suite.best_isa(), suite.best_isa(), features,
                   arms_within(1, features));
 }

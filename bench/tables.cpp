@@ -38,6 +38,8 @@ void print_rivals(const Suite& suite, const Medians& medians)
     }
     for (const char* step : {"write", "solve", "read", "apart"})
         row(medians, "whole frame, its steps", "frame/" + best + "/in_one", "frame/" + best + "/" + step);
+    for (const char* limits : {"cone+twist", "box", "full_arm", "full_arm+box"})
+        row(medians, "whole limbs, beside P", "P/" + best + "/L2", std::string("features/") + limits + "/" + best);
     row(medians, "resident out of cache", "copy/resident/memory", "resident/" + best + "/memory");
     for (int threads = 2; threads <= 1024; ++threads)
         for (const char* arms : {"64", "1024", "16384", "262144"})

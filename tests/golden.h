@@ -11,4 +11,7 @@ namespace swivel::test {
 // golden_digest(1000, ...) of tools/swivel/golden_crowd.h, as the scalar build gives it.
 inline constexpr std::uint64_t kGoldenDigest = 0xe57b634633512ac0u;
 
+// limb_digest(1000, ...) of the same: every feature of whole limbs, three frames of it.
+inline constexpr std::uint64_t kGoldenLimbDigest = 0xbf27fcfefb81f8e2u;
+
 }  // namespace swivel::test

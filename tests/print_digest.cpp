@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Prints the golden digest of the instruction set in use: the part of the bit promise that runs on a CPU of another
-// family, under an emulator.
+// Prints the golden digests, of plain arms and of whole limbs, of the instruction set in use: the part of the bit
+// promise that runs on a CPU of another family, under an emulator.
 #include <cstdio>
 
 #include "tools/swivel/golden_crowd.h"
@@ -9,8 +9,10 @@
 int main()
 {
     try {
-        const std::uint64_t hash = swivel::tools::golden_digest(1000, [](swivel::Crowd& crowd) { crowd.solve(); });
-        std::printf("%s %016llx\n", swivel_isa_name(), static_cast<unsigned long long>(hash));
+        const auto solve = [](swivel::Crowd& crowd) { crowd.solve(); };
+        const unsigned long long arms = swivel::tools::golden_digest(1000, solve),
+                                 limbs = swivel::tools::limb_digest(1000, solve);
+        std::printf("%s %016llx %016llx\n", swivel_isa_name(), arms, limbs);
     } catch (const swivel::Error& error) {
         std::fprintf(stderr, "print_digest: %s\n", error.what());
         return 1;

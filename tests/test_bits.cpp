@@ -32,6 +32,7 @@ using swivel::tools::golden_crowd;
 using swivel::tools::golden_digest;
 using swivel::tools::is_feature_set;
 using swivel::tools::kFeatureSets;
+using swivel::tools::limb_digest;
 
 constexpr std::uint32_t kPoison = 0x7fa5a5a5u;  // a signalling NaN
 
@@ -86,7 +87,11 @@ TEST_CASE("the instruction set that was forced is the one in use")
         REQUIRE(swivel_isa_name() == runnable_isas().front());
 }
 
-TEST_CASE("the instruction set in use gives the golden digest") { CHECK(golden_digest(1000, solve) == kGoldenDigest); }
+TEST_CASE("the instruction set in use gives the golden digests")
+{
+    CHECK(golden_digest(1000, solve) == kGoldenDigest);
+    CHECK(limb_digest(1000, solve) == kGoldenLimbDigest);
+}
 
 TEST_CASE("every instruction set gives the golden digest")
 {
@@ -96,6 +101,7 @@ TEST_CASE("every instruction set gives the golden digest")
         REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
         REQUIRE(swivel_isa_name() == isa);
         CHECK(golden_digest(1000, solve) == kGoldenDigest);
+        CHECK(limb_digest(1000, solve) == kGoldenLimbDigest);
     }
 }
 
@@ -107,6 +113,8 @@ TEST_CASE("every block range gives the golden digest")
             INFO(isa << ", ranges of " << size);
             REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
             CHECK(golden_digest(1000, [&](Crowd& crowd) { solve_in_ranges(crowd, size); }) == kGoldenDigest);
+            if (size != 2 && size != 7)
+                CHECK(limb_digest(1000, [&](Crowd& crowd) { solve_in_ranges(crowd, size); }) == kGoldenLimbDigest);
         }
 }
 
@@ -127,7 +135,8 @@ TEST_CASE("every number of limbs gives the scalar build's digest")
 TEST_CASE("a limb has the same bits wherever it stands in the crowd")
 {
     const std::uint32_t count = 70;
-    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
+    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND},
+                                         swivel::tools::kLimbSets[5], swivel::tools::kLimbSets[6]}) {
         Crowd crowd = golden_crowd(features, count);
         crowd.solve();
         const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());

@@ -294,8 +294,7 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
           "group 0, lengths: not a position; doubles are for target, pole and parent_position");
     CHECK_REFUSED(swivel_write_doubles(plain.get(), SWIVEL_PARENT_POSITION, 0, 0, 1, good, good), bad);
     CHECK_REFUSED(swivel_write_doubles(directions.get(), SWIVEL_POLE, 0, 0, 1, good, good), bad);
-    CHECK(std::string(swivel_last_error()) ==
-          "group 0, pole: a direction has no origin, and SWIVEL_POLE_DIRECTION makes it one; give null");
+    CHECK(std::string(swivel_last_error()) == "group 0, pole: it is a direction here, which has no origin; give null");
     CHECK(all_words(directions) == before_directions);
     CHECK(swivel_write_doubles(directions.get(), SWIVEL_POLE, 0, 0, 1, good, none) == SWIVEL_OK);
     CHECK(read<Float3>(directions, SWIVEL_POLE)[0] == Float3{5, 6, 7});

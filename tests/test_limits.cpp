@@ -160,6 +160,7 @@ struct Scan {
     int allowed = 0;
     double best = kPi;      // the least swivel allowed, without sign
     double half_width = 0;  // of the arc it belongs to
+    double least = 10;      // violation anywhere
 };
 Scan scan(const LimitedArm& a, const Circle& circle, int steps)
 {
@@ -168,7 +169,9 @@ Scan scan(const LimitedArm& a, const Circle& circle, int steps)
     int nearest = -1;
     for (int n = 0; n < steps; ++n) {
         const double swivel = 2 * kPi * n / steps;
-        ok[static_cast<std::size_t>(n)] = violation(a, circle.at(swivel)) <= 0;
+        const double by = violation(a, circle.at(swivel));
+        out.least = std::min(out.least, by);
+        ok[static_cast<std::size_t>(n)] = by <= 0;
         if (!ok[static_cast<std::size_t>(n)]) continue;
         ++out.allowed;
         const double size = std::min(swivel, 2 * kPi - swivel);
@@ -192,7 +195,7 @@ double allowance(const Scan& seen)
 
 struct Tally {
     int arms = 0, allowed = 0, moved = 0, none = 0, scanned = 0;
-    int violating = 0, too_far = 0, missed = 0;  // broken promises
+    int violating = 0, too_far = 0, missed = 0, not_least = 0;  // broken promises
     double worst = -1;
 };
 
@@ -225,6 +228,8 @@ Tally judge(std::uint64_t seed, int arms, int often)
         ++tally.scanned;
         const Scan seen = scan(a, circle, kScanSteps);
         tally.missed += !allowed && seen.allowed > 1;
+        // Outside of a box there is no one way to measure how far.
+        if (!allowed && !a.use.shoulder_box && !a.use.wrist_box) tally.not_least += by > seen.least + 1e-6;
         tally.too_far += allowed && seen.allowed > 0 && std::fabs(swivel) > seen.best + allowance(seen);
     }
     return tally;
@@ -238,6 +243,7 @@ void check(std::uint64_t seed, int arms, int often)
     CHECK(tally.violating == 0);
     CHECK(tally.too_far == 0);
     CHECK(tally.missed == 0);
+    CHECK(tally.not_least == 0);
     CHECK(tally.moved > arms / 10);
     CHECK(tally.none > arms / 10);
     CHECK(tally.scanned >= arms / often);

@@ -142,6 +142,7 @@ swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::spa
     write(SWIVEL_PARENT_ROTATION, given[0].rotation);
     write(SWIVEL_PARENT_SCALE, given[0].scale);
     write(SWIVEL_HAND, given[0].hand);
+    write_limb_inputs(crowd, static_cast<std::uint32_t>(given.size()));
 
     // The rest of a large crowd: whole blocks of the limbs just written, again and again.
     const swivel_rows rows = swivel_input_rows(crowd.get());

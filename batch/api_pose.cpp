@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// The C entry points about single poses: what limits allow, what was solved, in angles, places and errors.
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+#include "batch/check.h"
+#include "batch/edge.h"
+#include "batch/joint_angles.h"
+#include "batch/solve.h"
+#include "batch/status.h"
+#include "batch/streams.h"
+#include "simd/float_env.h"
+#include "simd/rows.h"
+
+using namespace swivel;
+
+namespace {
+
+void store(const swivel_out& out, std::size_t n, const Vector<double>& v)
+{
+    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, v.c, sizeof v.c);
+}
+void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
+{
+    const double xyzw[4] = {q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>()};
+    if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
+}
+
+}  // namespace
+
+swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (!(crowd->features & SWIVEL_WITH_STEP)) return SWIVEL_OK;
+    const float zero[3] = {};
+    copy_in(rows_of(*crowd, crowd->groups[group], SWIVEL_NORMAL), first, limb_count, {zero, 0});
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
+                                  uint32_t capacity, uint32_t* arc_count)
+{
+    if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
+    if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
+    if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
+    *arc_count = allowed_arcs(*crowd, *find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                  swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
+                                  swivel_out angles)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    for (const auto& [order, name] :
+         {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX",
+                        name, static_cast<int>(order));
+    if (family != 0 && family != 1)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
+    if (const swivel_status status =
+            check_stride(group, "angles", angles.data, angles.stride, 7 * sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
+    const FloatEnv env;
+    const Group& g = crowd->groups[group];
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const std::size_t limb = std::size_t{g.first_block} * SWIVEL_LANES + first + n;
+        const JointAngles seven = joint_angles(arm_rotors(*crowd, g, limb), shoulder_order, wrist_order, family);
+        std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
+    }
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                             swivel_out elbow, swivel_out wrist, swivel_out hand)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (hand.data && !(crowd->features & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
+    for (const auto& [name, out, component_count] :
+         {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
+        if (out.data)
+            if (const swivel_status status =
+                    check_stride(group, name, out.data, out.stride, component_count * sizeof(double), false);
+                status != SWIVEL_OK)
+                return status;
+    const Group& of = crowd->groups[group];
+    for (uint32_t n = 0; n < limb_count; ++n) {
+        const LimbPose pose = forward(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
+        store(elbow, n, pose.elbow);
+        store(wrist, n, pose.wrist);
+        store(hand, n, pose.hand);
+    }
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                               swivel_out distance)
+{
+    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status =
+            check_stride(group, "distance", distance.data, distance.stride, sizeof(double), false);
+        status != SWIVEL_OK)
+        return status;
+    const Group& of = crowd->groups[group];
+    for (uint32_t n = 0; n < limb_count; ++n) {
+        const double value = residual(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
+        std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
+    }
+    return SWIVEL_OK;
+}

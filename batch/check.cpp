@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "batch/check.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "batch/status.h"
+#include "core/conformal.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+namespace {
+
+constexpr std::uint32_t kAllFeatures = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_BUDGET;
+
+// Features that mean something only beside another, or not beside another.
+struct FeatureRule {
+    std::uint32_t feature, other;
+    bool together;
+    const char* text;
+};
+constexpr FeatureRule kFeatureRules[] = {
+    {SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, true,
+     "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both"},
+    {SWIVEL_POLE_NORMAL, SWIVEL_POLE_DIRECTION, false,
+     "SWIVEL_POLE_NORMAL and SWIVEL_POLE_DIRECTION exclude each other; a pole is one of them"},
+    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_DIRECTION, false,
+     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_DIRECTION exclude each other; with the first there are no poles"},
+    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_NORMAL, false,
+     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_NORMAL exclude each other; with the first there are no poles"},
+    {SWIVEL_POLE_INCOMING, SWIVEL_WITH_INCOMING, true, "SWIVEL_POLE_INCOMING needs SWIVEL_WITH_INCOMING"},
+    {SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, true,
+     "SWIVEL_WITH_WEIGHTS needs SWIVEL_WITH_INCOMING, the pose to blend with"},
+    {SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
+    {SWIVEL_LIMIT_HAND_CONE, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_CONE needs SWIVEL_WITH_HAND"},
+    {SWIVEL_LIMIT_FOREARM_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
+    {SWIVEL_LIMIT_HAND_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_TWIST needs SWIVEL_WITH_HAND"},
+    {SWIVEL_LIMIT_WRIST_BOX, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_WRIST_BOX needs SWIVEL_WITH_HAND"},
+    {7 * SWIVEL_TWIST_BONES, SWIVEL_WITH_HAND, true,
+     "SWIVEL_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
+    {SWIVEL_COMPACT, 7 * SWIVEL_TWIST_BONES, false, "SWIVEL_COMPACT has no words for SWIVEL_TWIST_BONES"},
+    {SWIVEL_COMPACT, SWIVEL_WITH_REACH, false, "SWIVEL_COMPACT has no word for SWIVEL_WITH_REACH's stretch"},
+    {SWIVEL_COMPACT, SWIVEL_WITH_STEP, false, "SWIVEL_COMPACT does not keep SWIVEL_WITH_STEP's normal"},
+};
+constexpr std::uint64_t kMostLimbs = 1u << 31;
+
+bool is_binding(const swivel_binding& b)
+{
+    for (const auto* q :
+         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest}) {
+        const Rotor<double> unit = rotor<double>((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+        if (!(std::fabs(len2(unit) - 1) <= 1e-5)) return false;  // ten times what rounding to floats leaves
+    }
+    return true;
+}
+
+}  // namespace
+
+swivel_status check(const swivel_crowd_def* def)
+{
+    if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
+    if (def->size != sizeof(swivel_crowd_def))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "crowd def has size %zu, this library's has %zu; start from swivel_default_crowd_def()", def->size,
+                    sizeof(swivel_crowd_def));
+    if (def->features & ~kAllFeatures)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
+    for (const FeatureRule& rule : kFeatureRules)
+        if ((def->features & rule.feature) && !(def->features & rule.other) == rule.together)
+            return fail(SWIVEL_INVALID_ARGUMENT, "%s", rule.text);
+    if (def->group_count == 0 || !def->groups)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
+    if (!def->allocate != !def->release)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
+    for (const auto& [order, name] :
+         {std::pair{def->shoulder_order, "shoulder_order"}, std::pair{def->wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", name,
+                        static_cast<int>(order));
+    std::uint64_t limb_count = 0;
+    for (std::uint32_t g = 0; g < def->group_count; ++g) {
+        if (def->groups[g].limb_count == 0)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+        if ((def->features & SWIVEL_JOINTS) && !is_binding(def->groups[g].binding))
+            return fail(SWIVEL_INVALID_ARGUMENT,
+                        "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", g);
+        limb_count += std::uint64_t{def->groups[g].limb_count} + SWIVEL_LANES;
+    }
+    if (limb_count > kMostLimbs)
+        return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
+    return SWIVEL_OK;
+}
+
+swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+    if (group >= crowd->group_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u does not exist; this crowd has %u", group, crowd->group_count);
+    const std::uint32_t has = crowd->groups[group].limb_count;
+    if (first > has || limb_count > has - first)
+        return fail(SWIVEL_INVALID_ARGUMENT, "limbs %u to %llu are not all in group %u, which has %u", first,
+                    static_cast<unsigned long long>(first) + limb_count, group, has);
+    return SWIVEL_OK;
+}
+
+swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
+                           std::size_t value_bytes, bool may_repeat)
+{
+    if (!data) return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: data is null", group, name);
+    if (stride < value_bytes && !(may_repeat && stride == 0))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: stride %zu is smaller than a value, %zu bytes", group, name,
+                    stride, value_bytes);
+    return SWIVEL_OK;
+}
+
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input)
+{
+    const char* const name = field_name(field);
+    if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
+    if (input && !is_input(field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
+    if (field_component_count(crowd.features, field) == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
+                    kFields[field].without ? "out" : "", needed_feature(crowd.features, field));
+    return SWIVEL_OK;
+}
+
+swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
+{
+    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
+    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
+        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
+                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
+    return SWIVEL_OK;
+}
+
+const Isa* usable_isa(swivel_status& status)
+{
+    const Isa* isa = current_isa();
+    if (isa) return isa;
+    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
+    const bool built = forced && find_isa(forced);
+    status = fail(built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA,
+                  "SWIVEL_FORCE_ISA=%s names an instruction set that %s; unset it, or see swivel info",
+                  forced ? forced : "", built ? "this CPU does not run" : "this build does not have");
+    return nullptr;
+}
+
+}  // namespace swivel
