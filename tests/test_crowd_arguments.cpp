@@ -182,12 +182,13 @@ TEST_CASE("errors name group and field")
     says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
          "group 1, parent_scale: not part of this crowd; create it with SWIVEL_WORLD");
     says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
-    says(swivel_write(c, SWIVEL_FIELD_COUNT, 0, 0, 1, {value, 0}), "there is no field 11");
+    says(swivel_write(c, SWIVEL_FIELD_COUNT, 0, 0, 1, {value, 0}),
+         "there is no field " + std::to_string(SWIVEL_FIELD_COUNT));
     says(swivel_read(c, SWIVEL_WRIST, 0, 0, 1, {value, 16}),
          "group 0, wrist: not part of this crowd; create it with SWIVEL_WITH_HAND");
     says(swivel_read(c, SWIVEL_ELBOW, 0, 0, 1, {value, 0}),
          "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
-    says(swivel_read(c, static_cast<swivel_field>(15), 0, 0, 1, {value, 16}), "there is no field 15");
+    says(swivel_read(c, static_cast<swivel_field>(31), 0, 0, 1, {value, 16}), "there is no field 31");
     says(swivel_forward(c, 1, 0, 1, none, {doubles, 8}, none),
          "group 1, wrist: stride 8 is smaller than a value, 24 bytes");
     says(swivel_residuals(c, 1, 0, 1, none), "group 1, distance: data is null");

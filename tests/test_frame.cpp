@@ -22,17 +22,50 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::uint32_t kInputs = SWIVEL_SHOULDER, kOutputs = SWIVEL_FIELD_COUNT - kInputs;
-constexpr swivel_in swivel_frame::*kIn[kInputs] = {
-    &swivel_frame::target,          &swivel_frame::pole,         &swivel_frame::lengths, &swivel_frame::parent_position,
-    &swivel_frame::parent_rotation, &swivel_frame::parent_scale, &swivel_frame::hand};
-constexpr swivel_out swivel_frame::*kOut[kOutputs] = {&swivel_frame::shoulder, &swivel_frame::elbow,
-                                                      &swivel_frame::wrist, &swivel_frame::flags};
-constexpr const char* kNames[SWIVEL_FIELD_COUNT] = {"target",          "pole",         "lengths", "parent_position",
-                                                    "parent_rotation", "parent_scale", "hand",    "shoulder",
-                                                    "elbow",           "wrist",        "flags"};
+// The members of a swivel_frame, inputs first: their fields, names, and the features that bring them.
+constexpr swivel_in swivel_frame::*kIn[] = {&swivel_frame::target,
+                                            &swivel_frame::pole,
+                                            &swivel_frame::lengths,
+                                            &swivel_frame::parent_position,
+                                            &swivel_frame::parent_rotation,
+                                            &swivel_frame::parent_scale,
+                                            &swivel_frame::hand,
+                                            &swivel_frame::effector,
+                                            &swivel_frame::angle,
+                                            &swivel_frame::incoming_shoulder,
+                                            &swivel_frame::incoming_elbow,
+                                            &swivel_frame::incoming_wrist,
+                                            &swivel_frame::weights};
+constexpr swivel_out swivel_frame::*kOut[] = {&swivel_frame::shoulder, &swivel_frame::elbow,   &swivel_frame::wrist,
+                                              &swivel_frame::flags,    &swivel_frame::stretch, &swivel_frame::twist};
+constexpr std::uint32_t kInputs = std::size(kIn), kOutputs = std::size(kOut), kMembers = kInputs + kOutputs;
+struct Member {
+    swivel_field field;
+    const char *name, *feature;
+};
+constexpr Member kMember[kMembers] = {
+    {SWIVEL_TARGET, "target", ""},
+    {SWIVEL_POLE, "pole", ""},
+    {SWIVEL_LENGTHS, "lengths", ""},
+    {SWIVEL_PARENT_POSITION, "parent_position", "SWIVEL_WORLD"},
+    {SWIVEL_PARENT_ROTATION, "parent_rotation", "SWIVEL_WORLD"},
+    {SWIVEL_PARENT_SCALE, "parent_scale", "SWIVEL_WORLD"},
+    {SWIVEL_HAND, "hand", "SWIVEL_WITH_HAND"},
+    {SWIVEL_EFFECTOR, "effector", "SWIVEL_WITH_EFFECTOR"},
+    {SWIVEL_ANGLE, "angle", "SWIVEL_WITH_ANGLE"},
+    {SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", "SWIVEL_WITH_INCOMING"},
+    {SWIVEL_INCOMING_ELBOW, "incoming_elbow", "SWIVEL_WITH_INCOMING"},
+    {SWIVEL_INCOMING_WRIST, "incoming_wrist", "SWIVEL_WITH_INCOMING"},
+    {SWIVEL_WEIGHTS, "weights", "SWIVEL_WITH_WEIGHTS"},
+    {SWIVEL_SHOULDER, "shoulder", ""},
+    {SWIVEL_ELBOW, "elbow", ""},
+    {SWIVEL_WRIST, "wrist", "SWIVEL_WITH_HAND"},
+    {SWIVEL_FLAGS, "flags", ""},
+    {SWIVEL_STRETCH, "stretch", "SWIVEL_WITH_REACH"},
+    {SWIVEL_TWIST, "twist", "SWIVEL_TWIST_BONES"},
+};
 
-swivel_field field_at(std::uint32_t n) { return static_cast<swivel_field>(n); }
+swivel_field field_at(std::uint32_t n) { return kMember[n].field; }
 std::size_t value_bytes(const Crowd& crowd, std::uint32_t field)
 {
     return swivel_field_row_count(crowd.get(), field_at(field)) * sizeof(float);
@@ -81,12 +114,12 @@ Array random_array(Random& random, const Crowd& crowd, std::uint32_t field, std:
     return array;
 }
 
-using Arrays = std::array<Array, SWIVEL_FIELD_COUNT>;  // of one group
+using Arrays = std::array<Array, kMembers>;  // of one group
 
 swivel_frame frame_of(Arrays& arrays)
 {
     swivel_frame frame{};
-    for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+    for (std::uint32_t f = 0; f < kMembers; ++f) {
         if (arrays[f].size == 0) continue;
         if (f < kInputs)
             frame.*kIn[f] = {arrays[f].value(0), arrays[f].stride};
@@ -119,7 +152,7 @@ void solve_by_steps(Crowd& crowd, std::vector<Arrays>& arrays)
         check(swivel_write(crowd.get(), field_at(f), g, 0, count(g), {array.value(0), array.stride}));
     });
     crowd.solve();
-    each_array(arrays, kInputs, SWIVEL_FIELD_COUNT, [&](std::uint32_t f, std::uint32_t g, Array& array) {
+    each_array(arrays, kInputs, kMembers, [&](std::uint32_t f, std::uint32_t g, Array& array) {
         check(swivel_read(crowd.get(), field_at(f), g, 0, count(g), {array.value(0), array.stride}));
     });
 }
@@ -136,8 +169,7 @@ void solve_by_words(Crowd& crowd, std::vector<Arrays>& arrays)
     };
     each_word(0, kInputs, [](float* row, unsigned char* value) { std::memcpy(row, value, sizeof *row); });
     crowd.solve();
-    each_word(kInputs, SWIVEL_FIELD_COUNT,
-              [](float* row, unsigned char* value) { std::memcpy(value, row, sizeof *row); });
+    each_word(kInputs, kMembers, [](float* row, unsigned char* value) { std::memcpy(value, row, sizeof *row); });
 }
 
 // A bool, so that a failure does not print a hundred thousand words.
@@ -163,6 +195,10 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
     Problem problem;
     do problem.features = random.below(16);
     while ((problem.features & SWIVEL_POLE_DIRECTION) && !(problem.features & SWIVEL_WORLD));
+    if (random.below(3) == 0) {
+        problem.features |= SWIVEL_WITH_ANGLE | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH;
+        if (problem.features & SWIVEL_WITH_HAND) problem.features |= SWIVEL_WITH_EFFECTOR | 2 * SWIVEL_TWIST_BONES;
+    }
     for (std::uint32_t g = 1 + random.below(4); g > 0; --g) {
         problem.groups.push_back(group_of(1 + random.below(most_limbs)));
         const Quaterniond q = random.rotation();
@@ -171,7 +207,7 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
     const Crowd crowd = problem.crowd();
     for (const swivel_group_def& group : problem.groups) {
         problem.arrays.emplace_back();
-        for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f)
+        for (std::uint32_t f = 0; f < kMembers; ++f)
             problem.arrays.back()[f] = random_array(random, crowd, f, group.limb_count);
     }
     return problem;
@@ -245,7 +281,7 @@ TEST_CASE("a range of blocks copies and solves its limbs alone, ranges in any or
             RC_ASSERT(words_now[w] == (range.has(static_cast<std::uint32_t>(block)) ? after : before)[w]);
         }
         for (std::uint32_t g = 0; g < got.size(); ++g)
-            for (std::uint32_t f = kInputs; f < SWIVEL_FIELD_COUNT; ++f) {
+            for (std::uint32_t f = kInputs; f < kMembers; ++f) {
                 Array& array = got[g][f];
                 Bytes want = problem.arrays[g][f].bytes;
                 for (std::uint32_t n = 0; n < problem.groups[g].limb_count && array.size != 0; ++n)
@@ -382,7 +418,7 @@ TEST_CASE("values that start or end at a page nobody may touch, the array or eac
             swivel_crowd* const c = crowd.get();
             const auto try_at = [&](std::uint32_t f, unsigned char* data, std::size_t stride) {
                 const std::size_t bytes = value_bytes(crowd, f);
-                INFO(kNames[f] << ", " << count << " limbs, stride " << stride);
+                INFO(kMember[f].name << ", " << count << " limbs, stride " << stride);
                 pages.fill();
                 swivel_frame frame{};
                 if (f < kInputs) {
@@ -399,7 +435,7 @@ TEST_CASE("values that start or end at a page nobody may touch, the array or eac
                     CHECK(pages.is_filled_beside(data, stride, bytes, count));
                 }
             };
-            for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+            for (std::uint32_t f = 0; f < kMembers; ++f) {
                 const std::size_t bytes = value_bytes(crowd, f);
                 if (bytes == 0) continue;
                 for (const std::size_t stride : {bytes, bytes + 1, bytes + 4, std::size_t{100}}) {
@@ -460,9 +496,10 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
         std::vector<swivel_frame> frames(3);
         for (swivel_frame& frame : frames)
             for (std::uint32_t f = 0; f < kInputs; ++f)
-                if (f < SWIVEL_PARENT_POSITION || (features & SWIVEL_WORLD)) frame.*kIn[f] = {values, 0};
-        if (!(features & SWIVEL_WITH_HAND))
-            for (swivel_frame& frame : frames) frame.hand = {};
+                if (const std::string feature = kMember[f].feature;
+                    feature.empty() || (feature == "SWIVEL_WORLD" && features & SWIVEL_WORLD) ||
+                    (feature == "SWIVEL_WITH_HAND" && features & SWIVEL_WITH_HAND))
+                    frame.*kIn[f] = {values, 0};
         return frames;
     };
     for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD}, std::uint32_t{kEverything}}) {
@@ -470,11 +507,13 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
         crowd.solve();
         const auto before = all_words(crowd);
         for (std::uint32_t g = 0; g < 3; ++g)
-            for (std::uint32_t f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
+            for (std::uint32_t f = 0; f < kMembers; ++f) {
                 const std::size_t bytes = value_bytes(crowd, f);
                 std::vector<swivel_frame> frames = fill(features);
-                std::string line = "group " + std::to_string(g) + ", " + kNames[f] + ": ";
+                std::string line = "group " + std::to_string(g) + ", " + kMember[f].name + ": ";
                 const std::size_t stride = bytes == 0 ? 16 : bytes - 1;
+                // Of two features that are missing the lower bit is named.
+                const bool missing_hand = field_at(f) == SWIVEL_INCOMING_WRIST && !(features & SWIVEL_WITH_HAND);
                 if (f < kInputs)
                     frames[g].*kIn[f] = {values, stride};
                 else
@@ -484,7 +523,7 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
                             " bytes";
                 else
                     line += std::string("not part of this crowd; create it with ") +
-                            (f == SWIVEL_HAND || f == SWIVEL_WRIST ? "SWIVEL_WITH_HAND" : "SWIVEL_WORLD");
+                            (missing_hand ? "SWIVEL_WITH_HAND" : kMember[f].feature);
                 CHECK(swivel_solve_frame(crowd.get(), frames.data()) == SWIVEL_INVALID_ARGUMENT);
                 CHECK(swivel_last_error() == line);
                 CHECK_REFUSED(swivel_solve_frame_blocks(crowd.get(), frames.data(), 0, 6), SWIVEL_INVALID_ARGUMENT);
