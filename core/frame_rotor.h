@@ -44,6 +44,14 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
     return {central_line(middle) * twist, length * height, large * large + s * s, start};
 }
 
+// The same, both of unit length: the rotor is 1.4 to 9 long.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> frame_along(const Vector<T>& line, const Vector<T>& normal)
+{
+    const FrameRotor<T> frame = frame_from_start(line, T(1), T(1), normal, T(1));
+    return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(frame.from_start), frame.from_start);
+}
+
 // The rotor of unit length that carries e3 to the line and e1 to a normal orthogonal to it, both of any length.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector<T>& normal)

@@ -44,7 +44,7 @@ struct JointLimits {
     Range<T> shoulder_box[3], wrist_box[3];  // first, middle, last
 };
 
-// The arm that swivels: shoulder rotor = from_line * (cos(phi/2) + sin(phi/2) k) * to_arm, each of unit length.
+// The arm that swivels: shoulder rotor = from_line * (cos(phi/2) + sin(phi/2) k) * to_arm, the two of any length.
 template <class T>
 struct SwivellingArm {
     Rotor<T> from_line;  // carries the line's frame to the arm frame
@@ -74,6 +74,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
 {
     const Vector<T> e3 = vector(T(0), T(0), T(1));
     const auto k = unit<T, kK>();
+    const Rotor<T> from_line = normalise(arm.from_line), to_arm = normalise(arm.to_arm);
     SwivelLimits<T> out;
     const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
         out.line_flag[out.limits.line_count] = flag;
@@ -85,11 +86,11 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     };
 
     if (use.shoulder_cone)
-        add(cone_limit(sandwich(~arm.from_line, limits.shoulder_cone.axis), sandwich(arm.to_arm, e3),
+        add(cone_limit(sandwich(~from_line, limits.shoulder_cone.axis), sandwich(to_arm, e3),
                        limits.shoulder_cone.cos_opening),
             flag::limited_shoulder_cone);
     if (use.humeral_twist) {
-        const Rotor<T> at_0 = arm.from_line * arm.to_arm, at_pi = arm.from_line * k * arm.to_arm;
+        const Rotor<T> at_0 = from_line * to_arm, at_pi = from_line * k * to_arm;
         add(twist_limit(OnHalfCircle<T>{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
                         OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()}, limits.humeral_twist),
             flag::limited_humeral_twist);
@@ -103,13 +104,13 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
         };
     };
     if (use.shoulder_box)
-        add_box(euler_box<T>(use.shoulder_order, matrix_entry(turn_by(~arm.from_line), turn_by(arm.to_arm)),
+        add_box(euler_box<T>(use.shoulder_order, matrix_entry(turn_by(~from_line), turn_by(to_arm)),
                              limits.shoulder_box[0], limits.shoulder_box[1], limits.shoulder_box[2]),
                 flag::limited_shoulder_box);
     if (!(use.hand_cone || use.forearm_twist || use.hand_twist || use.wrist_box)) return out;
 
     // The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
-    const Rotor<T> forearm = arm.to_arm * arm.elbow, hand = ~arm.from_line * arm.hand;
+    const Rotor<T> forearm = to_arm * arm.elbow, hand = ~from_line * arm.hand;
     if (use.hand_cone)
         add(cone_limit(sandwich(hand, limits.hand_cone.axis), sandwich(forearm, e3), limits.hand_cone.cos_opening),
             flag::limited_hand_cone);

@@ -95,8 +95,9 @@ SWIVEL_INLINE constexpr PlacedLimb<T> place_limb(const LimbUse& use, const LimbG
     const WristGoal<T> wrist = wrist_goal(use, goal);
     const T wrist2 = len2(wrist.place);
     const Mask<T> on_shoulder = wrist2 < T(kTiny2);
-    limb.line = unit_or(wrist.place, vector(T(0), T(0), T(1)));
-    limb.bones = place_bones(use, goal, select(on_shoulder, T(0), sqrt(select(on_shoulder, T(1), wrist2))));
+    const T distance = sqrt(select(on_shoulder, T(1), wrist2));
+    limb.line = select(on_shoulder, vector(T(0), T(0), T(1)), (T(1) / distance) * wrist.place);
+    limb.bones = place_bones(use, goal, select(on_shoulder, T(0), distance));
 
     const WishedNormal<T> wish = wished_normal(use, goal, limb.line);
     limb.normal = wish.normal;
@@ -109,7 +110,7 @@ SWIVEL_INLINE constexpr PlacedLimb<T> place_limb(const LimbUse& use, const LimbG
 
     // Steps 3 to 5: the frame along the line, its e1 the swivel plane's normal.
     const Rotor<T> elbow = rotor(-limb.bones.sin_half, T(0), T(0), limb.bones.cos_half);
-    limb.arm = {frame_rotor(limb.line, limb.normal), limb.bones.lift, elbow, wrist.hand};
+    limb.arm = {frame_along(limb.line, limb.normal), limb.bones.lift, elbow, wrist.hand};
     return limb;
 }
 
@@ -140,8 +141,8 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     pose.arm = {select(valid, shoulder, one<T>()), select(valid, limb.bones.cos_half, T(1)),
                 select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(flag::bad_input)), valid};
     pose.stretch = select(valid, limb.bones.stretch, T(1));
-    pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
-    if (use.hand) pose.wrist = select(valid, normalise(~(shoulder * limb.arm.elbow) * limb.arm.hand), one<T>());
+    if (use.continuity) pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
+    if (use.hand) pose.wrist = select(valid, ~(shoulder * limb.arm.elbow) * limb.arm.hand, one<T>());
     return pose;
 }
 

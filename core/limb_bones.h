@@ -12,7 +12,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 template <class T>
 struct PlacedBones {
-    Rotor<T> lift;         // from the line to the upper arm, about e1
+    Rotor<T> lift;         // from the line to the upper arm, about e1; of any length
     T cos_half, sin_half;  // of the flexion
     T stretch;
     Bits<T> flags;
@@ -54,7 +54,7 @@ SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const Lim
         range.soft_near = goal.reach.soft_near * far;
         range.most_stretch = goal.reach.most_stretch;
     }
-    const SoftReach<T> reach = soft_reach(distance, range);
+    const SoftReach<T> reach = use.reach ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
     flags = flags | bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
             bits_where(reach.softened, flag::softened) | bits_where(reach.stretch > T(1), flag::stretched) |
             bits_where(!(reach.too_far | reach.too_near | reach.softened), flag::reached);
@@ -65,10 +65,9 @@ SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const Lim
     const T both = first + second, difference = first - second;
     const T side = select(one_bone, both, lo(hi(hi(reach.distance, T(kNearest)), abs(difference)), both));
     const ArmTriangle<T> triangle = arm_triangle(side, both, difference);
-    const T per_lift = T(1) / sqrt(triangle.lift2);
     const Mask<T> larger_first = triangle.cos_lift >= T(0);
-    const Rotor<T> lift = rotor(per_lift * select(larger_first, triangle.smaller, triangle.larger), T(0), T(0),
-                                per_lift * select(larger_first, triangle.larger, triangle.smaller));
+    const Rotor<T> lift = rotor(select(larger_first, triangle.smaller, triangle.larger), T(0), T(0),
+                                select(larger_first, triangle.larger, triangle.smaller));
     return {lift, triangle.cos_half, triangle.sin_half, reach.stretch, flags};
 }
 

@@ -22,6 +22,13 @@ struct SoftReach {
     Mask<T> too_far, too_near, softened;  // softened: short of or beyond the target in an eased zone
 };
 
+// Neither eased nor stretched.
+template <class T>
+SWIVEL_INLINE constexpr SoftReach<T> hard_reach(const T& wanted, const T& near, const T& far)
+{
+    return {lo(hi(wanted, near), far), T(1), wanted > far, wanted < near, T(1) < T(0)};
+}
+
 // Eased at the far end over d = far - w .. far + w: d - (d - far + w)^2 / (4 w), a parabola with slope 1 where it
 // starts and 0 where it ends; mirrored at the near end. The zones do not overlap: each is at most half of the range.
 template <class T>

@@ -15,13 +15,11 @@ SWIVEL_INLINE constexpr Vector<T> across(const Vector<T>& v, const Vector<T>& u)
 {
     return v - scalar_product(v, u) * u;
 }
-// v of unit length, u where v is shorter than kTiny.
+// v times a power of two that makes it shorter than 1; not much shorter, unless it is shorter than kTiny.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> unit_or(const Vector<T>& v, const Vector<T>& u)
+SWIVEL_INLINE constexpr Vector<T> scaled(const Vector<T>& v)
 {
-    const T length2 = len2(v);
-    const Mask<T> none = !(length2 >= T(kTiny2));
-    return select(none, u, (T(1) / sqrt(select(none, T(1), length2))) * v);
+    return per_power_of_two(hi(length1(v), T(kTiny))) * v;
 }
 
 // The normal of the swivel plane that the goal wishes for, across the line.
@@ -35,8 +33,9 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
                                                       const Vector<T>& line)
 {
     const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
-    const auto is_off = [](const Vector<T>& normal)
-                            SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff); };
+    // Whether a direction, of this squared length, says where the elbow goes: its part across the line is the normal.
+    const auto is_off = [](const Vector<T>& normal, const T& of2 = T(1))
+                            SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     // The stand-ins, the best last.
     Vector<T> instead = select(is_off(across(hinge, line)), across(hinge, line), across(other, line));
     const auto prefer = [&](const Vector<T>& normal)
@@ -48,21 +47,19 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     }
     if (use.continuity) prefer(across(goal.continuity.previous_normal, line));
 
-    const Vector<T> zero = vector(T(0), T(0), T(0));
-    const Vector<T> wish = use.wish == Wish::incoming ? was
-                           : use.wish == Wish::normal ? across(unit_or(goal.arm.pole, zero), line)
-                                                      : cross(line, unit_or(goal.arm.pole, zero));
-    const Mask<T> undefined = !is_off(wish);
-    Vector<T> normal = normalise(select(undefined, instead, wish));
-    normal = normalise(across(normal, line));
+    const Vector<T> pole = use.wish == Wish::incoming ? was : scaled(goal.arm.pole);
+    const Vector<T> wish = use.wish == Wish::pole ? cross(line, pole) : pole;
+    Mask<T> undefined = !is_off(across(wish, line), use.wish == Wish::incoming ? T(1) : len2(pole));
+    if (use.wish != Wish::incoming) undefined = undefined | !(len2(goal.arm.pole) >= T(kTiny2));
+    Vector<T> normal = normalise(across(select(undefined, instead, wish), line));
     if (use.angle) {
         const T per_length = T(1) / sqrt(goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin);
         normal = (per_length * goal.angle.cos) * normal + (per_length * goal.angle.sin) * cross(line, normal);
     }
     if (use.weights) {
-        const Vector<T> from = unit_or(was, normal), between = from + goal.weights.pole * (normal - from);
-        const Vector<T> blend = select(is_off(between), between, from);
-        normal = select(is_off(was), normalise(blend), normal);
+        const Vector<T> from = normalise(select(is_off(was), was, normal));
+        const Vector<T> between = from + goal.weights.pole * (normal - from);
+        normal = normalise(select(is_off(between), between, from));
     }
     return {normal, undefined};
 }

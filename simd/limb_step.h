@@ -15,7 +15,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// The rows of one step of T's lanes, all in one block.
+// The rows of one step of T's lanes, which lie in one block.
 template <class T>
 struct LimbRows {
     const LimbRun& run;
@@ -23,15 +23,18 @@ struct LimbRows {
     float* results;
 
     SWIVEL_INLINE bool has(std::uint32_t features) const { return (run.features & features) != 0; }
-    SWIVEL_INLINE T load(swivel_field field, int component) const
+    SWIVEL_INLINE std::uint32_t row(swivel_field field, int component) const
     {
-        const float* row = input + (run.first_row[field] + static_cast<std::uint32_t>(component)) * SWIVEL_LANES;
-        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return row + lane; });
+        return run.first_row[field] + static_cast<std::uint32_t>(component);
     }
+    SWIVEL_INLINE T load(swivel_field field, int component) const { return lanes(input, row(field, component)); }
     SWIVEL_INLINE T load_result(swivel_field field, int component) const
     {
-        const float* row = results + (run.first_row[field] + static_cast<std::uint32_t>(component)) * SWIVEL_LANES;
-        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return row + lane; });
+        return lanes(results, row(field, component));
+    }
+    SWIVEL_INLINE T lanes(const float* rows, std::uint32_t row) const
+    {
+        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return rows + row * SWIVEL_LANES + lane; });
     }
     SWIVEL_INLINE Vector<T> load_vector(swivel_field field) const
     {
@@ -54,8 +57,8 @@ struct LimbRows {
     template <class Value>
     SWIVEL_INLINE void store(swivel_field field, int component, const Value& value) const
     {
-        float* row = results + (run.first_row[field] + static_cast<std::uint32_t>(component)) * SWIVEL_LANES;
-        store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return row + lane; }, value);
+        float* const to = results + row(field, component) * SWIVEL_LANES;
+        store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return to + lane; }, value);
     }
     SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
     {
@@ -232,7 +235,7 @@ SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
             run.results + row_offset(limb, run.result_row_count, 0)};
 }
 
-// Solves a run of whole limbs.
+// Solves a run of whole limbs. One register a step: two were no faster, their values do not stay in registers.
 template <class T>
 SWIVEL_FLATTEN void solve_limbs(const LimbRun& run)
 {

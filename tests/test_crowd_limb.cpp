@@ -194,7 +194,7 @@ TEST_CASE("an effector in the hand joint's own frame is at the target")
     }
 }
 
-TEST_CASE("stretched bones reach, and the stretch is given back")
+TEST_CASE("stretched bones reach and give their stretch back; no wrist is nearer than the least distance")
 {
     Crowd crowd = crowd_of(SWIVEL_WITH_REACH, 3);
     crowd.write_all(SWIVEL_REACH, 0, Float4{0.05f, 0, 1.5f, 0});
@@ -214,6 +214,13 @@ TEST_CASE("stretched bones reach, and the stretch is given back")
     CHECK(stretch[2][0] == 1.5f);
     CHECK(flags[2] == (SWIVEL_CLAMPED_FAR | SWIVEL_STRETCHED));
     CHECK(residuals[2] == Approx(0.5));  // of two bones of length 1, stretched to 3
+
+    crowd.write_all(SWIVEL_REACH, 0, Float4{0, 0, 1, 0.5f});  // no nearer than half of the arm
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 0.25f});
+    crowd.solve();
+    crowd.residuals(0, residuals);
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == SWIVEL_CLAMPED_NEAR);
+    CHECK(residuals[0] == Approx(0.375));
 }
 
 TEST_CASE("limits made of angles are kept through a skeleton")
