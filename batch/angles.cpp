@@ -7,6 +7,7 @@
 
 #include "batch/status.h"
 #include "batch/swivel.h"
+#include "core/limits.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -38,9 +39,6 @@ void mirror_range(const float* from, float* to)
     to[3] = half_sin;
 }
 
-// The axes of an order's three angles, 0 to 2.
-constexpr int kAxes[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
-
 }  // namespace
 
 swivel_status swivel_range(double least, double most, float range[4])
@@ -51,8 +49,8 @@ swivel_status swivel_range(double least, double most, float range[4])
     if (least > most) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", least, most);
     if (most - least > 2 * kPi + kSlack)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is wider than a whole turn, 2 pi", least, most);
-    store_turn(0.5 * (least + most), range);
-    store_half_turn(0.5 * (most - least), range + 2);
+    store_turn(0.5 * least + 0.5 * most, range);
+    store_half_turn(0.5 * most - 0.5 * least, range + 2);
     return SWIVEL_OK;
 }
 
@@ -75,7 +73,7 @@ swivel_status swivel_flexion(double least, double most, float flexion[2])
     if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
     if (!(least >= 0 && least <= most && most <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: %g to %g is not a range within 0 to pi", least, most);
-    flexion[0] = static_cast<float>(std::cos(0.5 * least));
+    flexion[0] = least >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * least));
     flexion[1] = most >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * most));
     return SWIVEL_OK;
 }
@@ -88,6 +86,8 @@ swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const 
 {
     if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
     if (!field_name(field)) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
+    if (!is_input(field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", field_name(field));
     if (static_cast<unsigned>(order) > SWIVEL_ZYX)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
     float value[12] = {};
@@ -112,8 +112,9 @@ swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const 
             break;
         case SWIVEL_SHOULDER_BOX:
         case SWIVEL_WRIST_BOX:
-            for (int n = 0; n < 3; ++n)
-                if (kAxes[order][n] != 0) mirror_range(value + 4 * n, value + 4 * n);
+            if (kEulerOrders[order].first != 0) mirror_range(value, value);
+            if (kEulerOrders[order].middle != 0) mirror_range(value + 4, value + 4);
+            if (kEulerOrders[order].last != 0) mirror_range(value + 8, value + 8);
             break;
         default:
             break;

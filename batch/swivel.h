@@ -62,10 +62,14 @@
 //   SWIVEL_NORMAL              3     WITH_STEP            unit normal of the swivel plane, arm frame; kept for the next
 //   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
 //
-// Effector: in the unit of the bones, before the parent's scale. Angle: about the line from shoulder to wrist by the
-// right hand, of any length but zero. Incoming pose: says where the elbow goes where the pole does not; results take
-// its hemisphere instead of w >= 0. Reach: soft zones and least distance are shares 0..1 of both bones' length, the
-// stretch is 1..1000. A range is cos and sin of its middle, cos and sin of half its width, which is 0..pi.
+// Effector: in the unit of the bones, before the parent's scale, no longer than 1e15. Angle: about the line from
+// shoulder to wrist by the right hand, of length 1e-9..1e9; where the pole does not say where the elbow goes and it
+// stays as it was, it is not turned on. Poles are normals of the swivel plane with POLE_NORMAL, and absent with
+// POLE_INCOMING. Incoming pose: says where the elbow goes where the pole does not; results take its hemisphere instead
+// of w >= 0, but for compact ones. Reach: soft zones and least distance are shares 0..1 of both bones' length, the
+// stretch is 1..1000. A range is cos and sin of its middle, cos and sin of half its width, which is 0..pi. Axes,
+// cosines with their sines and ranges are of unit length within 5e-4, weights 0..1: anything else is bad input, which
+// also forgets the carried swivel.
 //
 // Limits are about the rest pose and have the arm frame's axes at rest: bones along +z, hinge +x. Where the wish breaks
 // a limit, the nearest swivel that keeps all of them is taken; where none does, the one that violates them least. Joint
@@ -159,11 +163,11 @@ typedef enum swivel_status {
 
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
-    SWIVEL_REACHED = 1u << 0,       // the wrist is at the target
-    SWIVEL_SOFTENED = 1u << 1,      // in a soft zone of reach, so the wrist is not quite at the target
-    SWIVEL_STRETCHED = 1u << 2,     // SWIVEL_STRETCH is above 1
-    SWIVEL_CLAMPED_FAR = 1u << 3,   // target out of reach: the wrist is at the nearest reachable point, arm straight
-    SWIVEL_CLAMPED_NEAR = 1u << 4,  // target too near: the wrist is at the nearest reachable point, arm folded
+    SWIVEL_REACHED = 1u << 0,      // the wrist is at the target, or at its blend with the incoming pose
+    SWIVEL_SOFTENED = 1u << 1,     // in a soft zone of reach, so the wrist is not quite at the target
+    SWIVEL_STRETCHED = 1u << 2,    // SWIVEL_STRETCH is above 1
+    SWIVEL_CLAMPED_FAR = 1u << 3,  // target out of reach: the wrist is at the nearest point that bones and limits allow
+    SWIVEL_CLAMPED_NEAR = 1u << 4,  // target too near: the wrist is at the nearest point that bones and limits allow
     SWIVEL_SWIVEL_UNDEFINED =
         1u << 5,                       // pole along the target within sin 1e-3, of no length, or target on the shoulder
     SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
@@ -187,7 +191,8 @@ typedef enum swivel_feature {
     SWIVEL_JOINTS = 1u << 1,          // results are the skeleton's own local rotations, through the group's binding
     SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
     SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
-    SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less; not with WITH_REACH, WITH_STEP
+    SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less; not with
+                                      // WITH_REACH, WITH_STEP, TWIST_BONES
     // THE WHOLE LIMB
     SWIVEL_WITH_EFFECTOR = 1u << 5,
     SWIVEL_WITH_ANGLE = 1u << 6,
@@ -484,7 +489,8 @@ SWIVEL_API swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const sw
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
 // An arc of swivels, as cos and sin of its ends, turning from one to the other by the right hand about the line from
-// shoulder to wrist; 0 is the swivel wished for. The whole circle is one arc with equal ends.
+// shoulder to wrist; 0 is the swivel wished for, as far as SWIVEL_MOST_SWIVEL lets it. The whole circle is one arc with
+// equal ends.
 typedef struct swivel_arc {
     float from[2], to[2];
 } swivel_arc;
@@ -515,8 +521,8 @@ SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion
 SWIVEL_API void swivel_turn(double angle, float turn[2]);
 // The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side, whose arm frame is the mirror
 // image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton. order: of boxes, else ignored.
-// from and to have the field's components and may be the same; values of other fields are copied. Fails for a field or
-// an order that does not exist. Any thread; no allocation.
+// from and to have the field's components and may be the same; values of other input fields are copied. Fails for
+// results and for an order that does not exist. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 
 // Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or

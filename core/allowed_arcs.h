@@ -14,7 +14,7 @@ template <class T>
 struct Arc {
     Turned<T> from, to;  // by the right hand about the line; equal for the whole circle
 };
-inline constexpr int kMostArcs = 2 * kMostEdges;
+inline constexpr int kMostArcs = 4 * kMostEdges;
 template <class T>
 struct AllowedArcs {
     Arc<T> arc[kMostArcs];
@@ -34,7 +34,8 @@ Turned<T> between(const Turned<T>& a, const Turned<T>& b)
 {
     // b as a sees it, half of that turn, and back; half of almost a whole turn is almost half a turn.
     const T cos = a.cos * b.cos + a.sin * b.sin, sin = a.cos * b.sin - a.sin * b.cos;
-    const T c = sqrt(hi(T(0), T(0.5) * (T(1) + cos))), s = sqrt(hi(T(0), T(0.5) * (T(1) - cos)));
+    const T c = sqrt(hi(T(0), T(0.5) * (T(1) + cos))),
+            s = cos > T(0) ? T(0.5) * abs(sin) / c : sqrt(hi(T(0), T(0.5) * (T(1) - cos)));
     const T half_cos = sin >= T(0) ? c : -c;
     return {a.cos * half_cos - a.sin * s, a.sin * half_cos + a.cos * s};
 }
@@ -44,11 +45,12 @@ AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
 {
     Edge<T> edge[kMostEdges];
     const int edge_count = edges(limits, false, edge);
-    Turned<T> end[2 * kMostEdges];
+    Turned<T> end[4 * kMostEdges];
     int count = 0;
     for (int n = 0; n < edge_count; ++n)
-        if (const Crossings<T> ends = crossings(edge[n].line); ends.exist && edge[n].live)
-            end[count++] = ends.first, end[count++] = ends.second;
+        for (const T slack : {T(kNoRoom), T(-kNoRoom)})  // where the room is just enough, on either side of an edge
+            if (const Crossings<T> ends = crossings(edge[n].line - constant(slack)); ends.exist && edge[n].live)
+                end[count++] = ends.first, end[count++] = ends.second;
     std::sort(end, end + count, [](const Turned<T>& a, const Turned<T>& b) { return around(a) < around(b); });
 
     AllowedArcs<T> arcs;
@@ -61,6 +63,7 @@ AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
     for (int n = 0; n < count; ++n) {
         const Turned<T>&from = end[n], &to = end[(n + 1) % count];
         const bool whole = count == 1 || (n + 1 == count && around(from) == around(end[0]));
+        if (!whole && from.cos == to.cos && from.sin == to.sin) continue;
         if (!allowed(whole ? Turned<T>{-from.cos, -from.sin} : between(from, to))) continue;
         if (arcs.count > 0 && n > 0 && arcs.arc[arcs.count - 1].to.cos == from.cos &&
             arcs.arc[arcs.count - 1].to.sin == from.sin)

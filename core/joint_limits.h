@@ -2,7 +2,7 @@
 //
 // An arm's joint limits, written as limits of its swivel (limits.h). All of them are about the rest pose: axes as the
 // arm frame has them at rest, twists and Euler angles of what the joint adds to rest. The elbow's flexion does not
-// depend on the swivel: it is a range of reach (limb.h).
+// depend on the swivel: it is a range of reach (limb_bones.h).
 #pragma once
 
 #include "core/arm.h"
@@ -23,6 +23,10 @@ struct LimitUse {
 };
 
 template <class T>
+struct FlexionLimit {
+    T cos_half_least, cos_half_most;
+};
+template <class T>
 struct Cone {
     Vector<T> axis;  // unit
     T cos_opening;   // of half the cone's angle
@@ -35,7 +39,7 @@ struct Twist {
 
 template <class T>
 struct JointLimits {
-    Turned<T> flexion;                       // cos of half the least flexion, cos of half the largest
+    FlexionLimit<T> flexion;
     Cone<T> shoulder_cone;                   // of the upper arm
     Cone<T> hand_cone;                       // of the forearm about the hand's axis
     Range<T> humeral_twist;                  // of the upper arm about itself

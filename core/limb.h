@@ -130,9 +130,8 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
         shoulder = limb.arm.from_line * half_turn(chosen.swivel) * limb.arm.to_arm;
         normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);
         if (use.continuity) {
-            const T cos_step = scalar_product(limb.step.previous, normal);
-            flags = flags |
-                    bits_where(limb.step.has_previous & (cos_step < goal.continuity.most.cos - T(1e-6)), flag::jumped);
+            const Mask<T> beyond = is_beyond(limb.step.previous, normal, limb.line, goal.continuity.most, 1e-6);
+            flags = flags | bits_where(limb.step.has_previous & beyond, flag::jumped);
         }
     }
     shoulder = normalise(shoulder);

@@ -20,15 +20,15 @@ struct PlacedBones {
 
 // The distances that the elbow's flexion allows: with flexion theta, d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
 template <class T>
-SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const Turned<T>& limit, const T& upper, const T& fore,
+SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const FlexionLimit<T>& limit, const T& upper, const T& fore,
                                                     const T& near, const T& far)
 {
     const T near2 = near * near, product4 = T(4) * (upper * fore);
     const auto distance = [&](const T& cos_half) SWIVEL_INLINE_LAMBDA {
         return lo(hi(sqrt(near2 + product4 * (cos_half * cos_half)), near), far);
     };
-    return {select(limit.sin > T(0), distance(limit.sin), near), select(limit.cos < T(1), distance(limit.cos), far),
-            T(0), T(0), T(1)};
+    return {select(limit.cos_half_most > T(0), distance(limit.cos_half_most), near),
+            select(limit.cos_half_least < T(1), distance(limit.cos_half_least), far), T(0), T(0), T(1)};
 }
 
 // wanted: the distance from shoulder to wrist, 0 or more.
@@ -41,13 +41,7 @@ SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const Lim
             near = abs(upper - fore), distance = wanted * shrink;
 
     ReachRange<T> range{near, far, T(0), T(0), T(1)};
-    Bits<T> flags = bits<T>(0);
-    if (use.limits.flexion) {
-        range = flexion_range(goal.limits.flexion, upper, fore, near, far);
-        const Mask<T> too_straight = (distance > range.far) & (range.far < far),
-                      too_bent = (distance < range.near) & (range.near > near);
-        flags = bits_where(too_straight | too_bent, flag::limited_flexion);
-    }
+    if (use.limits.flexion) range = flexion_range(goal.limits.flexion, upper, fore, near, far);
     if (use.reach) {
         range.near = lo(hi(goal.reach.least_distance * far, range.near), range.far);
         range.soft_far = goal.reach.soft_far * far;
@@ -55,9 +49,15 @@ SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const Lim
         range.most_stretch = goal.reach.most_stretch;
     }
     const SoftReach<T> reach = use.reach ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
-    flags = flags | bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
-            bits_where(reach.softened, flag::softened) | bits_where(reach.stretch > T(1), flag::stretched) |
-            bits_where(!(reach.too_far | reach.too_near | reach.softened), flag::reached);
+    const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
+    Bits<T> flags = bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
+                    bits_where(reach.softened, flag::softened) | bits_where(reach.stretch > T(1), flag::stretched) |
+                    bits_where(!missed, flag::reached);
+    if (use.limits.flexion) {
+        const Mask<T> too_straight = (distance > range.far) & (range.far < far),
+                      too_bent = (distance < range.near) & (range.near > near);
+        flags = flags | bits_where(missed & (too_straight | too_bent), flag::limited_flexion);
+    }
 
     // Steps 1 and 2 of the lecture: the triangle of the bones. One that the other swallows is straight with it.
     const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);

@@ -81,8 +81,8 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimitUse& use, const JointLimits<
 {
     Mask<T> valid = T(0) == T(0);
     if (use.flexion)
-        valid = valid & is_share(limits.flexion.cos) & is_share(limits.flexion.sin) &
-                (limits.flexion.cos >= limits.flexion.sin);
+        valid = valid & is_share(limits.flexion.cos_half_least) & is_share(limits.flexion.cos_half_most) &
+                (limits.flexion.cos_half_least >= limits.flexion.cos_half_most);
     if (use.shoulder_cone) valid = valid & is_valid(limits.shoulder_cone);
     if (use.hand_cone) valid = valid & is_valid(limits.hand_cone);
     if (use.humeral_twist) valid = valid & is_valid(limits.humeral_twist);
@@ -122,7 +122,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& 
                 is_share(goal.reach.least_distance) & (goal.reach.most_stretch >= T(1)) &
                 (goal.reach.most_stretch <= T(1e3));
     if (use.continuity)
-        valid = valid & (len2(goal.continuity.previous_normal) <= T(1.01)) & (goal.continuity.most.sin >= T(0)) &
+        valid = valid & (len2(goal.continuity.previous_normal) <= T(1.01)) & (goal.continuity.most.sin >= T(-1e-6)) &
                 is_unit2(goal.continuity.most.cos * goal.continuity.most.cos +
                          goal.continuity.most.sin * goal.continuity.most.sin);
     return valid;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // How far the wrist goes for a wanted distance: bounded by the bones, the elbow's flexion and a least distance; eased
-// into both bounds; made up for by stretching the bones.
+// into both bounds, by parabolas of our own choice; made up for by stretching the bones. Bones of no length reach
+// nothing.
 #pragma once
 
 #include "core/num.h"
@@ -41,8 +42,9 @@ SWIVEL_INLINE constexpr SoftReach<T> soft_reach(const T& wanted, const ReachRang
     const T give_far = select(far_width > T(0), beyond * beyond / (T(4) * far_width), T(0));
     const T give_near = select(near_width > T(0), before * before / (T(4) * near_width), T(0));
     const T eased = lo(hi(wanted - give_far + give_near, range.near), range.far);
-    const T stretch = lo(hi(wanted / select(eased > T(0), eased, T(1)), T(1)), range.most_stretch);
-    const Mask<T> made_up = stretch < range.most_stretch;
+    const T stretch =
+        select(eased > T(0), lo(hi(wanted / select(eased > T(0), eased, T(1)), T(1)), range.most_stretch), T(1));
+    const Mask<T> made_up = (stretch < range.most_stretch) & (eased > T(0));
     const Mask<T> too_far = (wanted > range.far + far_width) & !made_up;
     const Mask<T> too_near = wanted < range.near - near_width;
     const Mask<T> eased_far = (beyond > T(0)) & !made_up, eased_near = before > T(0);

@@ -38,8 +38,11 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     // The stand-ins, the best last.
     Vector<T> instead = select(is_off(across(hinge, line)), across(hinge, line), across(other, line));
-    const auto prefer = [&](const Vector<T>& normal)
-                            SWIVEL_INLINE_LAMBDA { instead = select(is_off(normal), normal, instead); };
+    Mask<T> kept = T(1) < T(0);
+    const auto prefer = [&](const Vector<T>& normal) SWIVEL_INLINE_LAMBDA {
+        kept = kept | is_off(normal);
+        instead = select(is_off(normal), normal, instead);
+    };
     Vector<T> was = instead;
     if (use.incoming) {
         was = across(sandwich(goal.incoming.shoulder, hinge), line);
@@ -52,9 +55,11 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
     Mask<T> undefined = !is_off(across(wish, line), use.wish == Wish::incoming ? T(1) : len2(pole));
     if (use.wish != Wish::incoming) undefined = undefined | !(len2(goal.arm.pole) >= T(kTiny2));
     Vector<T> normal = normalise(across(select(undefined, instead, wish), line));
-    if (use.angle) {
+    if (use.angle) {  // where the elbow stays as it was, the angle is in that already
         const T per_length = T(1) / sqrt(goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin);
-        normal = (per_length * goal.angle.cos) * normal + (per_length * goal.angle.sin) * cross(line, normal);
+        const Vector<T> turned =
+            (per_length * goal.angle.cos) * normal + (per_length * goal.angle.sin) * cross(line, normal);
+        normal = select(undefined & kept, normal, turned);
     }
     if (use.weights) {
         const Vector<T> from = normalise(select(is_off(was), was, normal));
@@ -70,6 +75,16 @@ struct SteppedNormal {
     Vector<T> normal, previous;  // previous: carried to the new line
     Mask<T> has_previous, limited;
 };
+// Whether a turn about the line from one unit normal to another is larger than the most, by more than slack.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>& to, const Vector<T>& line,
+                                          const Turned<T>& most, double slack)
+{
+    // The sine of what it is larger; where that is of half a turn, the cosines tell.
+    const T cos_turn = scalar_product(from, to), sin_turn = abs(scalar_product(cross(from, to), line));
+    return (sin_turn * most.cos - cos_turn * abs(most.sin) > T(slack)) | (cos_turn < most.cos - T(1e-3));
+}
+
 template <class T>
 SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& state, const Vector<T>& wish,
                                                         const Vector<T>& line)
@@ -77,9 +92,9 @@ SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& sta
     const Vector<T> carried = across(state.previous_normal, line);
     const Mask<T> has_previous = len2(carried) > T(kPoleOff * kPoleOff);
     const Vector<T> previous = normalise(select(has_previous, carried, wish));
-    const T cos_step = scalar_product(previous, wish), sin_step = scalar_product(cross(previous, wish), line);
-    const Mask<T> limited = has_previous & (cos_step < state.most.cos);
-    const Vector<T> stepped = state.most.cos * previous + copysign(state.most.sin, sin_step) * cross(line, previous);
+    const Mask<T> limited = has_previous & is_beyond(previous, wish, line, state.most, 1e-7);
+    const T side = scalar_product(cross(previous, wish), line);
+    const Vector<T> stepped = state.most.cos * previous + copysign(state.most.sin, side) * cross(line, previous);
     return {select(limited, stepped, wish), previous, has_previous, limited};
 }
 

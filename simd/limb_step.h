@@ -118,7 +118,7 @@ template <class T>
 SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T>& rows)
 {
     JointLimits<T> limits;
-    if (use.flexion) limits.flexion = rows.load_turned(SWIVEL_FLEXION_LIMIT);
+    if (use.flexion) limits.flexion = {rows.load(SWIVEL_FLEXION_LIMIT, 0), rows.load(SWIVEL_FLEXION_LIMIT, 1)};
     if (use.shoulder_cone) limits.shoulder_cone = rows.load_cone(SWIVEL_SHOULDER_CONE);
     if (use.humeral_twist) limits.humeral_twist = rows.load_range(SWIVEL_HUMERAL_TWIST);
     if (use.hand_cone) limits.hand_cone = rows.load_cone(SWIVEL_HAND_CONE);
@@ -152,7 +152,7 @@ SWIVEL_INLINE Mask<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, 
         const T shrink = T(1) / parent.scale;
         const bool pole_is_point = use.wish == Wish::pole && !rows.has(SWIVEL_POLE_DIRECTION);
         goal.arm.wrist = shrink * turn(goal.arm.wrist - parent.position);
-        goal.arm.pole = turn(pole_is_point ? goal.arm.pole - parent.position : goal.arm.pole);
+        goal.arm.pole = shrink * turn(pole_is_point ? goal.arm.pole - parent.position : goal.arm.pole);
         if (use.hand) goal.hand = arm_from_world * goal.hand;
     }
     if (use.hand) goal.hand = goal.hand * ~bind.hand_from_arm;
@@ -190,7 +190,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
 {
     const auto store = [&](swivel_field field, swivel_field incoming, const Rotor<T>& q, const Rotor<T>& rest)
                            SWIVEL_INLINE_LAMBDA {
-                               const Rotor<T> safe = select(pose.arm.valid, q, rest);
+                               const Rotor<T> safe = select(pose.arm.valid, q, hemisphere(rest));
                                if (!use.incoming) return rows.store_rotor(field, hemisphere(safe));
                                const T side = scalar_product(~rows.load_rotor(incoming), safe);
                                rows.store_rotor(field, with_sign_of(select(pose.arm.valid, side, T(1)), safe));
@@ -232,7 +232,7 @@ template <class T>
 SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
 {
     return {run, run.input + row_offset(limb, run.input_row_count, 0),
-            run.results + row_offset(limb, run.result_row_count, 0)};
+            run.results ? run.results + row_offset(limb, run.result_row_count, 0) : nullptr};
 }
 
 // Solves a run of whole limbs. One register a step: two were no faster, their values do not stay in registers.

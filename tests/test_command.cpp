@@ -278,6 +278,7 @@ TEST_CASE("command: verify --json")
     for (const Json& digest : out.at("digests")) {
         require_keys(digest, {"isa", "how"});
         CHECK(digest.at("digest") == out.at("digests").at(0).at("digest"));
+        CHECK(digest.at("limb_digest") == out.at("digests").at(0).at("limb_digest"));
     }
 }
 

@@ -527,6 +527,34 @@ TEST_CASE("allowed arcs are where the limits are kept, and the solver's choice i
     }
 }
 
+TEST_CASE("arcs of locked axes are as short as what they allow")
+{
+    Crowd crowd = crowd_of(SWIVEL_LIMIT_SHOULDER_BOX, 441);
+    const Float4 free = range(-kPi, kPi), locked = range(0, 0);
+    Float12 box;
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(k == 2 ? locked : free, box.begin() + 4 * k);
+    crowd.write_all(SWIVEL_SHOULDER_BOX, 0, box);
+    std::vector<Float3> targets;
+    for (int x = -10; x <= 10; ++x)
+        for (int y = -10; y <= 10; ++y) targets.push_back({0.1f * float(x), 0.1f * float(y), 1});
+    crowd.write(SWIVEL_TARGET, 0, targets);
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    int some = 0;
+    for (std::uint32_t n = 0; n < targets.size(); ++n) {
+        INFO("target " << targets[n][0] << ", " << targets[n][1]);
+        const std::vector<swivel_arc> arcs = crowd.allowed_arcs(0, n);
+        CHECK(arcs.empty() == ((flags[n] & SWIVEL_INFEASIBLE) != 0));
+        for (const swivel_arc& arc : arcs) {
+            const double from = std::atan2(arc.from[1], arc.from[0]), to = std::atan2(arc.to[1], arc.to[0]);
+            CHECK(from != to);  // which would be the whole circle
+            CHECK(std::fabs(std::remainder(to - from, 2 * kPi)) <= 0.1);
+            ++some;
+        }
+    }
+    CHECK(some > 100);
+}
+
 TEST_CASE("angles that make no limit are refused")
 {
     float value[4] = {7, 7, 7, 7};
@@ -542,6 +570,7 @@ TEST_CASE("angles that make no limit are refused")
     CHECK_REFUSED(swivel_flexion(1, 0.5, value), SWIVEL_INVALID_ARGUMENT);
     CHECK_REFUSED(swivel_flexion(1, 3.2, value), SWIVEL_INVALID_ARGUMENT);
     CHECK_REFUSED(swivel_mirror(SWIVEL_FIELD_COUNT, SWIVEL_XYZ, value, value), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_mirror(SWIVEL_ELBOW, SWIVEL_XYZ, value, value), SWIVEL_INVALID_ARGUMENT);
     for (const float x : value) CHECK(x == 7);
     CHECK(swivel_range(-kPi, kPi, value) == SWIVEL_OK);
     CHECK(swivel_cone(axis, kPi, value) == SWIVEL_OK);

@@ -218,3 +218,19 @@ TEST_CASE("the elbow's flexion stays within its limit")
         });
     });
 }
+
+TEST_CASE("a limit of flexion that stretching makes up for is not said; an arm of no length reaches nothing")
+{
+    LimbUse use;
+    use.reach = use.limits.flexion = true;
+    LimbGoal<float> goal = limb_goal<float>(rounded(Arm{{0, 0, 1.95}, {0, -1, 0}, 1, 1}));
+    goal.limits.flexion = {0.9f, 0};
+    CHECK(solve(use, goal).pose.arm.flags == (flag::clamped_far | flag::limited_flexion));
+    goal.reach.most_stretch = 3;
+    CHECK(solve(use, goal).pose.arm.flags == (flag::reached | flag::stretched));
+    goal = limb_goal<float>(rounded(Arm{{0, 0, 10}, {0, -1, 0}, 0, 0}));
+    goal.reach.most_stretch = 100;
+    const Solved<float> nothing = solve(use, goal);
+    CHECK(nothing.pose.arm.flags == flag::clamped_far);
+    CHECK(nothing.pose.stretch == 1);
+}

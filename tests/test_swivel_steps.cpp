@@ -168,3 +168,49 @@ TEST_CASE("joint limits win over the largest swivel, and say so")
     CHECK(got.elbow.normalized().x() <= -0.5 + 1e-6);
     CHECK((free.pose.arm.flags & flag::jumped) == 0);
 }
+
+TEST_CASE("an angle is not turned on while the pole does not say where the elbow goes")
+{
+    LimbUse use;
+    use.angle = use.continuity = true;
+    Vector<float> normal = vector(0.0f, 0.0f, 0.0f);
+    Vector3d first = Vector3d::Zero();
+    for (int frame = 0; frame < 6; ++frame) {
+        const Vector3d pole = frame < 2 ? Vector3d(0, -1, 0) : Vector3d(0, 0, 5);  // then along the line
+        LimbGoal<float> goal = limb_goal<float>(rounded(Arm{{0, 0, 1.2}, pole, 1, 1}));
+        goal.angle = turned<float>(0.5);
+        goal.continuity.previous_normal = normal;
+        const Solved<float> got = solve(use, goal);
+        if (frame == 0) first = got.hinge;
+        INFO("frame " << frame);
+        CHECK((got.hinge - first).norm() <= 1e-6);
+        normal = got.pose.normal;
+    }
+}
+
+TEST_CASE("steps of any size are told from larger ones: 1e-4 rad, and half a turn")
+{
+    Random random{9};
+    LimbUse use;
+    use.continuity = true;
+    for (int n = 0; n < 3000; ++n) {
+        const Arm arm = random_reachable(random);
+        const Vector3d line = arm.wrist.normalized();
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        const Solved<float> free = solve(LimbUse{}, goal);
+        const double most = random.spread(1e-4, 3);
+        goal.continuity = {mv<float>(free.hinge), turned<float>(most)};
+        CHECK(solve(use, goal).pose.arm.flags == flag::reached);  // it is there already
+        const Vector3d far = Eigen::AngleAxisd(random.between(most + 1e-3, kPi), line) * free.hinge;
+        goal.continuity.previous_normal = mv<float>(far);
+        const Solved<float> got = solve(use, goal);
+        INFO("most " << most);
+        CHECK(step(far, got.hinge, line) <= most * (1 + 1e-5) + 2e-6);
+        CHECK((got.pose.arm.flags & flag::limited_step) != 0);
+        // Half a turn is no limit, however it is rounded.
+        for (const double half_turn : {kPi, double{3.14159274f}}) {
+            goal.continuity = {mv<float>(Vector3d(-free.hinge)), turned<float>(half_turn)};
+            CHECK(solve(use, goal).pose.arm.flags == flag::reached);
+        }
+    }
+}
