@@ -48,7 +48,8 @@ swivel_status swivel_range(double least, double most, float range[4])
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", least, most);
     if (least > most) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: least %g is above most %g", least, most);
     if (most - least > 2 * kPi + kSlack)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is wider than a whole turn, 2 pi", least, most);
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_range: %g to %g is wider than a whole turn, 2 pi; angles are in radians", least, most);
     store_turn(0.5 * least + 0.5 * most, range);
     store_half_turn(0.5 * most - 0.5 * least, range + 2);
     return SWIVEL_OK;
@@ -62,7 +63,8 @@ swivel_status swivel_cone(const double axis[3], double most, float cone[4])
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: axis (%g, %g, %g) has no direction", axis[0], axis[1],
                     axis[2]);
     if (!(most >= 0 && most <= kPi + kSlack))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi", most);
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi; angles are in radians",
+                    most);
     for (int n = 0; n < 3; ++n) cone[n] = static_cast<float>(axis[n] / length);
     cone[3] = static_cast<float>(std::cos(std::fmin(most, kPi)));
     return SWIVEL_OK;
@@ -72,7 +74,8 @@ swivel_status swivel_flexion(double least, double most, float flexion[2])
 {
     if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
     if (!(least >= 0 && least <= most && most <= kPi + kSlack))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: %g to %g is not a range within 0 to pi", least, most);
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", least, most);
     flexion[0] = least >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * least));
     flexion[1] = most >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * most));
     return SWIVEL_OK;

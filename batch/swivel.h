@@ -62,29 +62,33 @@
 //   SWIVEL_NORMAL              3     WITH_STEP            unit normal of the swivel plane, arm frame; kept for the next
 //   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
 //
-// Effector: in the unit of the bones, before the parent's scale, no longer than 1e15. Angle: about the line from
-// shoulder to wrist by the right hand, of length 1e-9..1e9; where the pole does not say where the elbow goes and it
-// stays as it was, it is not turned on. Poles are normals of the swivel plane with POLE_NORMAL, and absent with
-// POLE_INCOMING. Incoming pose: says where the elbow goes where the pole does not; results take its hemisphere instead
-// of w >= 0, but for compact ones. Reach: soft zones and least distance are shares 0..1 of both bones' length, the
-// stretch is 1..1000. A range is cos and sin of its middle, cos and sin of half its width, which is 0..pi. Axes,
-// cosines with their sines and ranges are of unit length within 5e-4, weights 0..1: anything else is bad input, which
-// also forgets the carried swivel.
+// Effector: in the wrist joint's own frame with JOINTS, else in the arm frame's axes as the hand carries them; in the
+// unit of the bones, before the parent's scale, no longer than 1e15. Angle: about the line from shoulder to wrist by
+// the right hand, of length 1e-9..1e9; where the pole does not say where the elbow goes and it stays as it was, it is
+// not turned on. Poles are normals of the swivel plane with POLE_NORMAL, and absent with POLE_INCOMING. Incoming pose:
+// says where the elbow goes where the pole does not; results take its hemisphere instead of w >= 0, but for compact
+// ones. Reach: soft zones and least distance are shares 0..1 of both bones' length, the stretch is 1..1000. A range is
+// cos and sin of its middle, cos and sin of half its width, which is 0..pi. Axes, cosines with their sines and ranges
+// are of unit length within 5e-4, weights 0..1: anything else is bad input, which also forgets the carried swivel.
 //
-// Limits are about the rest pose and have the arm frame's axes at rest: bones along +z, hinge +x. Where the wish breaks
-// a limit, the nearest swivel that keeps all of them is taken; where none does, the one that violates them least. Joint
-// limits win over MOST_SWIVEL, and that over the wish. The elbow's flexion does not depend on the swivel: its limit
-// narrows the reach, and the wrist stops short. Softened at a reach R over a width s, a wanted distance d becomes
-// d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; mirrored at the near end. Stretch makes up for what
-// is missing, up to the most.
+// Limits are about the rest pose and have the arm frame's axes at rest, also those of the hand: bones along +z, hinge
+// +x, whatever axes a skeleton's joints have. A twist is that of swing and twist, 2 atan2(v . axis, w) of what the
+// joint adds to rest, by the right hand about +z, from shoulder to hand, or about the given axis; it is none of the
+// Euler angles, and counts less the further the swing: by half of 1 + cos swing. Every limit is kept within 1e-6 of a
+// cosine. Where the wish breaks a limit, the nearest swivel that keeps all of them is taken; where none does, the one
+// that violates them least. Joint limits win over MOST_SWIVEL, and that over the wish. The elbow's flexion does not
+// depend on the swivel: its limit narrows the reach, and the wrist stops short. Softened at a reach R over a width s, a
+// wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; mirrored at the near end.
+// Stretch makes up for what is missing, up to the most.
 //
 // The hand's twist about the forearm is shared over n twist bones, children of the forearm: bone i of 1..n turns by
 // i / (n + 1) of it (within 0.12 degrees), about the forearm's axis, relative to rest: its local rotation is this
 // quaternion times its rest rotation with JOINTS, and this quaternion in the arm frame without.
 //
-// With WITH_STEP the plane's normal is carried from solve to solve, across each new line; swivel_reset() forgets it,
-// after a teleport. Without it results depend on the frame's own inputs alone, and the swivel is continuous but for
-// targets passing through the shoulder, poles passing through the line, and limits whose nearest swivel changes sides.
+// With WITH_STEP the plane's normal is carried from solve to solve as the arm frame has it, each time projected across
+// the new line: the step is the turn from there. swivel_reset() forgets it, after a teleport. Without it results depend
+// on the frame's own inputs alone, and the swivel is continuous but for targets passing through the shoulder, poles
+// passing through the line, and limits whose nearest swivel changes sides.
 //
 // COMPACT RESULTS. With SWIVEL_COMPACT a result row is 16 uint16_t, 32 bytes, word r of limb i at
 // base[((i / 16) * row_count + r) * 16 + i % 16] of swivel_compact_rows(), the fields in the same order:
@@ -100,13 +104,16 @@
 // any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes a core up to half as
 // long as solving, so it pays where memory is short or its bandwidth shared, or where results are sent on.
 //
-// Without JOINTS the elbow's quaternion is (-sin, 0, 0, cos), and hand = parent * shoulder * elbow * wrist.
-// With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS the binding says how it lies there.
+// hand = parent * shoulder * elbow * wrist, with JOINTS (the wrist joint's own orientation) and without, where the
+// elbow's quaternion is (-sin, 0, 0, cos). With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS
+// the binding says how it lies there.
 //
 // COST. Ordinary arms are solved fastest: bones between 1e-9 and 3e7 of a ratio below 1e6, wrists between 3e-5 and 5e3
 // from the shoulder, poles no further than 3e7 and off the target's line, all as the parent sees them, whose scale is
 // within 1e-5..1e5 and whose quaternion's squared length within 0.5..2. An arm outside of that is solved as exactly,
-// but the 4 to 32 limbs of its step take about four times as long.
+// but the 4 to 32 limbs of its step take about four times as long. With any feature of THE WHOLE LIMB an arm
+// takes about four times as long as a plain one, with cones and twists eight, with a hand, a blend and limits fifteen;
+// boxes of Euler angles that leave some limbs no swivel, over a hundred.
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
@@ -333,8 +340,9 @@ SWIVEL_API const char* swivel_last_error(void);
 SWIVEL_API swivel_crowd_def swivel_default_crowd_def(void);
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity; results as
-// zeros. Allocates once. On failure *crowd is null.
+// Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity, and those of
+// THE WHOLE LIMB as what changes nothing: no turn, weights 1, every limit wide open; results as zeros. Allocates once.
+// On failure *crowd is null.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
@@ -495,9 +503,9 @@ typedef struct swivel_arc {
     float from[2], to[2];
 } swivel_arc;
 
-// The swivels that a limb's limits allow for its inputs as they are now, in their order around the circle: at most
-// capacity of them are stored, *arc_count says how many there are. None for bad input. limb is counted within the
-// group. Takes some microseconds; no allocation.
+// The swivels that a limb's limits allow for its inputs as they are now, which are the next solve's, in their order
+// around the circle: at most capacity of them are stored, *arc_count says how many there are. None for bad input. limb
+// is counted within the group. Takes some microseconds; no allocation.
 SWIVEL_API swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                              uint32_t capacity, uint32_t* arc_count);
 
@@ -520,8 +528,10 @@ SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion
 // Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MOST_SWIVEL.
 SWIVEL_API void swivel_turn(double angle, float turn[2]);
 // The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side, whose arm frame is the mirror
-// image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton. order: of boxes, else ignored.
-// from and to have the field's components and may be the same; values of other input fields are copied. Fails for
+// image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton: mirrored in x, offsets are
+// (-x, y, z), rotations (x, -y, -z, w), and a hinge, an axis to turn about, (x, -y, -z). order: of boxes, else ignored.
+// from and to have the field's components and may be the same; values of other input fields are copied:
+// places, hands, effectors and poses are for the caller to mirror. Fails for
 // results and for an order that does not exist. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 

@@ -3,8 +3,8 @@
 // The swivel that is taken: the wish, if the limits allow it; else the nearest end of an allowed arc; else, where no
 // swivel is allowed, the one that violates the limits least. The wish is phi = 0, so near means a large cosine. The
 // lane-wise choice among a fixed list of candidates, each of which costs one root: no angle, no search. The nearest
-// legal swivel as such is Tolani, Goswami and Badler's (2000); they find it by angles. Limits that nothing crosses
-// leave the wish.
+// legal swivel as such is Tolani, Goswami and Badler's (2000); they find it by angles. Lines that do not vary over the
+// circle allow all of it or nothing.
 #pragma once
 
 #include "core/limits.h"
