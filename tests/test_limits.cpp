@@ -263,3 +263,11 @@ TEST_CASE("in float, a million arms: limits hold, the nearest swivel is found, a
 {
     check<float>(2, kArms, 500);
 }
+
+TEST_CASE("a locked angle does not allow its opposite")
+{
+    const Ends<float> locked = ends(Range<float>{{1, 0}, {1, 0}});
+    CHECK(room_between(locked, 1.0f, 0.0f, 1.0f) == 0);
+    CHECK(room_between(locked, -1.0f, 0.0f, 1.0f) == -1);
+    CHECK(room_between(locked, -1.0f, 0.0f, -1.0f) == 0);
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole limbs through the public interface: skeletons with nothing aligned, local rotations and where they put the
+// wrist, by Eigen in double, and limits of angles.
+#pragma once
+
+#include "tests/limit_oracle.h"
+#include "tests/test_crowd.h"
+#include "tests/test_limb.h"
+
+namespace swivel::test {
+
+inline constexpr std::uint32_t kWorld = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+inline constexpr std::uint32_t kLimits =
+    SWIVEL_LIMIT_FLEXION | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_SHOULDER_BOX |
+    SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
+
+// A skeleton's limb with nothing aligned: random rest rotations, bones and hinge.
+inline swivel_chain skewed_chain(Random& random)
+{
+    swivel_chain chain{};
+    const Vector3d upper = random.direction(), hinge = random.across(upper);
+    const Quaterniond elbow = random.rotation();
+    const Vector3d fore = elbow.conjugate() * (Eigen::AngleAxisd(-random.between(0, 1), hinge) * upper);
+    std::ranges::copy(floats(random.rotation()), chain.shoulder_rotation);
+    std::ranges::copy(floats(elbow), chain.elbow_rotation);
+    std::ranges::copy(floats(random.rotation()), chain.wrist_rotation);
+    std::ranges::copy(floats(Vector3d(random.between(0.5, 1) * upper)), chain.elbow_offset);
+    std::ranges::copy(floats(Vector3d(random.between(0.5, 1) * fore)), chain.wrist_offset);
+    std::ranges::copy(floats(hinge), chain.hinge);
+    return chain;
+}
+
+struct Chained {
+    swivel_chain chain;
+    BoundLimb bound;
+};
+inline Chained chained(Random& random)
+{
+    const swivel_chain chain = skewed_chain(random);
+    return {chain, bind(chain)};
+}
+
+// The local rotations of one limb, and where the skeleton then has its wrist and its hand.
+struct LocalPose {
+    Quaterniond shoulder, elbow, wrist;
+
+    Vector3d wrist_place(const swivel_chain& chain, const Parent& parent) const
+    {
+        const Vector3d fore = shoulder * (vec(chain.elbow_offset) + elbow * vec(chain.wrist_offset));
+        return parent.position + parent.scale * (parent.rotation * fore);
+    }
+    Quaterniond hand(const Parent& parent) const { return parent.rotation * shoulder * elbow * wrist; }
+};
+inline LocalPose local_pose(const Crowd& crowd, std::uint32_t n)
+{
+    Float4 q[3];
+    const swivel_field fields[] = {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST};
+    for (int f = 0; f < 3; ++f) {
+        crowd.read(fields[f], 0, std::span(q + f, 1), n);
+        CHECK(is_unit(q[f]));
+    }
+    return {quat(q[0]).normalized(), quat(q[1]).normalized(), quat(q[2]).normalized()};
+}
+
+template <class Value>
+void put(Crowd& crowd, swivel_field field, std::uint32_t n, const Value& value)
+{
+    crowd.write(field, 0, std::span(&value, 1), n);
+}
+
+using Float7 = std::array<float, 7>;
+using Float12 = std::array<float, 12>;
+
+inline Float4 range_of(const AngleRange& range)
+{
+    Float4 value;
+    CHECK(swivel_range(range.middle - range.half, range.middle + range.half, value.data()) == SWIVEL_OK);
+    return value;
+}
+
+}  // namespace swivel::test
