@@ -29,6 +29,17 @@ void store_half_turn(double angle, float* turn)
     turn[1] = std::fabs(turn[1]);
 }
 
+// An axis, scaled to unit length. function: for the message.
+swivel_status store_unit(const char* function, const double axis[3], float* unit)
+{
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    if (!(length > 0) || !std::isfinite(length))
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s: axis (%g, %g, %g) has no direction", function, axis[0], axis[1],
+                    axis[2]);
+    for (int n = 0; n < 3; ++n) unit[n] = static_cast<float>(axis[n] / length);
+    return SWIVEL_OK;
+}
+
 // A range as a mirror sees it: its middle turned the other way.
 void mirror_range(const float* from, float* to)
 {
@@ -58,14 +69,10 @@ swivel_status swivel_range(double least, double most, float range[4])
 swivel_status swivel_cone(const double axis[3], double most, float cone[4])
 {
     if (!axis || !cone) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: %s is null", axis ? "cone" : "axis");
-    const double length = std::hypot(axis[0], axis[1], axis[2]);
-    if (!(length > 0) || !std::isfinite(length))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: axis (%g, %g, %g) has no direction", axis[0], axis[1],
-                    axis[2]);
     if (!(most >= 0 && most <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi; angles are in radians",
                     most);
-    for (int n = 0; n < 3; ++n) cone[n] = static_cast<float>(axis[n] / length);
+    if (const swivel_status status = store_unit("swivel_cone", axis, cone); status != SWIVEL_OK) return status;
     cone[3] = static_cast<float>(std::cos(std::fmin(most, kPi)));
     return SWIVEL_OK;
 }
@@ -78,6 +85,19 @@ swivel_status swivel_flexion(double least, double most, float flexion[2])
                     "swivel_flexion: %g to %g is not a range within 0 to pi; angles are in radians", least, most);
     flexion[0] = least >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * least));
     flexion[1] = most >= kPi ? 0.0f : static_cast<float>(std::cos(0.5 * most));
+    return SWIVEL_OK;
+}
+
+swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
+{
+    if (!axis || !aim) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: %s is null", axis ? "aim" : "axis");
+    if (!(flexion >= 0 && flexion <= kPi + kSlack))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: flexion %g is not in 0 to pi; angles are in radians",
+                    flexion);
+    if (const swivel_status status = store_unit("swivel_aim", axis, aim); status != SWIVEL_OK) return status;
+    const float cos_half = static_cast<float>(std::cos(0.5 * flexion));
+    aim[3] = std::fmax(cos_half, 0.0f);
+    aim[4] = static_cast<float>(std::sin(0.5 * flexion));
     return SWIVEL_OK;
 }
 

@@ -109,6 +109,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     fill_field(*crowd, SWIVEL_HAND_TWIST, {0, 0, 1, 1, 0, -1, 0});
     for (const swivel_field box : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX})
         fill_field(*crowd, box, {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0});
+    fill_field(*crowd, SWIVEL_AIM, {0, 0, 1, 1, 0});
     return crowd;
 }
 

@@ -33,6 +33,15 @@ struct Reader {
 
 Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0], q[1], q[2], q[3])); }
 
+// The line of the hand that is aimed with, in the space of the targets.
+Vector<double> aim_axis(const swivel_crowd& crowd, const Group& group, std::size_t limb, const Rotor<double>& hand)
+{
+    // A hand that is not solved stays at rest.
+    const bool resting = (crowd.features & SWIVEL_JOINTS) && !(crowd.features & SWIVEL_WITH_HAND);
+    return sandwich(resting ? hand * rotor_of(group.binding.wrist_rest) : hand,
+                    Reader{crowd, limb}.vector_of(SWIVEL_AIM));
+}
+
 }  // namespace
 
 LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb)
@@ -41,9 +50,15 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
     const bool world = crowd.features & SWIVEL_WORLD, joints = crowd.features & SWIVEL_JOINTS;
     const Rotor<double> one = rotor(0.0, 0.0, 0.0, 1.0);
 
-    const Vector<double> shoulder = world ? read.vector_of(SWIVEL_PARENT_POSITION) : vector(0.0, 0.0, 0.0);
-    const Rotor<double> parent = world ? read.rotor_of(SWIVEL_PARENT_ROTATION) : one;
+    Vector<double> shoulder = world ? read.vector_of(SWIVEL_PARENT_POSITION) : vector(0.0, 0.0, 0.0);
+    Rotor<double> parent = world ? read.rotor_of(SWIVEL_PARENT_ROTATION) : one;
     const double scale = world ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
+    if (crowd.features & SWIVEL_WITH_CLAVICLE) {
+        const Vector<double> bone = read.vector_of(SWIVEL_CLAVICLE);
+        const Rotor<double> turn = read.rotor_of(SWIVEL_CLAVICLE_TURN);
+        shoulder = shoulder + scale * sandwich(parent, sandwich(turn, bone) - bone);
+        parent = parent * turn;
+    }
     // Without a world the arm frame itself is the space of the targets, so the parent joint is seen from it.
     const Rotor<double> base = joints && !world ? ~rotor_of(group.binding.parent_from_arm) : parent;
 
@@ -87,9 +102,14 @@ double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
     const double length = scale * (read(SWIVEL_LENGTHS, 0) + read(SWIVEL_LENGTHS, 1));
     if (!(length > 0)) return 0;
     const LimbPose pose = forward(crowd, group, limb);
-    Vector<double> end = pose.wrist;
-    if (crowd.features & SWIVEL_WITH_EFFECTOR) end = end + scale * sandwich(pose.hand, read.vector_of(SWIVEL_EFFECTOR));
-    return std::sqrt(len2(end - read.vector_of(SWIVEL_TARGET))) / length;
+    Vector<double> miss = read.vector_of(SWIVEL_TARGET) - pose.wrist;
+    if (crowd.features & SWIVEL_WITH_EFFECTOR)
+        miss = miss - scale * sandwich(pose.hand, read.vector_of(SWIVEL_EFFECTOR));
+    if (crowd.features & SWIVEL_WITH_AIM) {  // from the ray
+        const Vector<double> axis = normalise(aim_axis(crowd, group, limb, pose.hand));
+        miss = miss - std::fmax(scalar_product(miss, axis), 0) * axis;
+    }
+    return std::sqrt(len2(miss)) / length;
 }
 
 }  // namespace swivel

@@ -25,6 +25,8 @@ inline constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_INCOMING_ELBOW, &swivel_frame::incoming_elbow},
     {SWIVEL_INCOMING_WRIST, &swivel_frame::incoming_wrist},
     {SWIVEL_WEIGHTS, &swivel_frame::weights},
+    {SWIVEL_AIM, &swivel_frame::aim},
+    {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
 
 struct FrameOutput {
@@ -32,9 +34,13 @@ struct FrameOutput {
     swivel_out swivel_frame::*member;
 };
 inline constexpr FrameOutput kFrameOutputs[] = {
-    {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
-    {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
-    {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_TWIST, &swivel_frame::twist},
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
+    {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},
+    {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_STRETCH, &swivel_frame::stretch},
+    {SWIVEL_TWIST, &swivel_frame::twist},
+    {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
 
 }  // namespace swivel

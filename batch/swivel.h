@@ -57,10 +57,13 @@
 //   SWIVEL_FOREARM_TWIST       4     LIMIT_FOREARM_TWIST  range of the hand's twist about the forearm
 //   SWIVEL_HAND_TWIST          7     LIMIT_HAND_TWIST     unit axis of the hand; range of its twist about it
 //   SWIVEL_WRIST_BOX           12    LIMIT_WRIST_BOX      ranges of the wrist's Euler angles
+//   SWIVEL_AIM                 5     WITH_AIM             unit axis of the hand to aim with; cos, sin of half flexion
+//   SWIVEL_CLAVICLE            4     WITH_CLAVICLE        shoulder's place in its parent joint's frame; share 0..1
 //   more result rows
 //   SWIVEL_STRETCH             1     WITH_REACH           factor for both bone lengths, 1 or more
 //   SWIVEL_NORMAL              3     WITH_STEP            unit normal of the swivel plane, arm frame; kept for the next
 //   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
+//   SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation * this
 //
 // Effector: in the wrist joint's own frame with JOINTS, else in the arm frame's axes as the hand carries them; in the
 // unit of the bones, before the parent's scale, no longer than 1e15. Angle: about the line from shoulder to wrist by
@@ -80,6 +83,18 @@
 // depend on the swivel: its limit narrows the reach, and the wrist stops short. Softened at a reach R over a width s, a
 // wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; mirrored at the near end.
 // Stretch makes up for what is missing, up to the most.
+//
+// Aiming: the elbow keeps the flexion given, the wrist the rotation given in SWIVEL_HAND (relative to the forearm, the
+// joint's local one with JOINTS; without WITH_HAND the hand is at rest), and the shoulder turns so that the ray from
+// the effector (else the wrist) along the axis goes through the target. Axis and effector are of the hand, in the frame
+// that effectors are in. The elbow lies on the pole's side of the line from shoulder to target. A target too near for
+// that flexion is SWIVEL_CLAMPED_NEAR: then what points at it best is the effector itself. swivel_aim() makes the
+// value. Weights, reach, flexion limits and limits of the hand have nothing to do there and are refused.
+//
+// Clavicle: the parent joint, given as it is without this, is turned towards the target by about the share of the angle
+// between its bone and the target (about its own origin, which is PARENT_POSITION less the bone; times the weight of
+// position). Limits, rotations and results of the arm are relative to the parent as turned. The
+// turn is smooth, and fades for targets on the body's other side.
 //
 // The hand's twist about the forearm is shared over n twist bones, children of the forearm: bone i of 1..n turns by
 // i / (n + 1) of it (within 0.12 degrees), about the forearm's axis, relative to rest: its local rotation is this
@@ -199,7 +214,7 @@ typedef enum swivel_feature {
     SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
     SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
     SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less; not with
-                                      // WITH_REACH, WITH_STEP, TWIST_BONES
+                                      // WITH_REACH, WITH_STEP, TWIST_BONES, WITH_CLAVICLE
     // THE WHOLE LIMB
     SWIVEL_WITH_EFFECTOR = 1u << 5,
     SWIVEL_WITH_ANGLE = 1u << 6,
@@ -217,8 +232,10 @@ typedef enum swivel_feature {
     SWIVEL_LIMIT_FOREARM_TWIST = 1u << 18,
     SWIVEL_LIMIT_HAND_TWIST = 1u << 19,
     SWIVEL_LIMIT_WRIST_BOX = 1u << 20,
-    SWIVEL_TWIST_BONES = 1u << 21,  // times the number of twist bones, 1 to 7
-    SWIVEL_BUDGET = 1u << 29,       // how long blocks wait is remembered: swivel_choose(), swivel_solve_budget()
+    SWIVEL_TWIST_BONES = 1u << 21,    // times the number of twist bones, 1 to 7
+    SWIVEL_WITH_AIM = 1u << 24,       // the flexion is given, and the hand points at the target
+    SWIVEL_WITH_CLAVICLE = 1u << 25,  // the shoulder's parent joint takes a share of the reach. Needs WORLD
+    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), swivel_solve_budget()
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -245,6 +262,8 @@ typedef enum swivel_field {
     SWIVEL_FOREARM_TWIST,
     SWIVEL_HAND_TWIST,
     SWIVEL_WRIST_BOX,
+    SWIVEL_AIM,
+    SWIVEL_CLAVICLE,
     SWIVEL_SHOULDER,
     SWIVEL_ELBOW,
     SWIVEL_WRIST,
@@ -252,6 +271,7 @@ typedef enum swivel_field {
     SWIVEL_STRETCH,
     SWIVEL_NORMAL,
     SWIVEL_TWIST,
+    SWIVEL_CLAVICLE_TURN,
     SWIVEL_FIELD_COUNT
 } swivel_field;
 
@@ -456,9 +476,9 @@ SWIVEL_API swivel_status swivel_solve_budget(swivel_crowd* crowd, const swivel_i
 typedef struct swivel_frame {
     // Null data: the rows keep what they hold. Stride 0: one value for the whole group.
     swivel_in target, pole, lengths, parent_position, parent_rotation, parent_scale, hand;
-    swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights;
+    swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights, aim, clavicle;
     // Null data: not written.
-    swivel_out shoulder, elbow, wrist, flags, stretch, twist;
+    swivel_out shoulder, elbow, wrist, flags, stretch, twist, clavicle_turn;
     // With data: target, pole and parent_position hold 3 doubles each and are taken from this origin, 3 doubles as
     // well, as by swivel_write_doubles(); a pole that is a direction is doubles, too, but has no origin. A position
     // left out keeps its rows, which must be from the same origin. May be parent_position itself: then all is from the
@@ -525,22 +545,24 @@ SWIVEL_API swivel_status swivel_range(double least, double most, float range[4])
 SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
 // The elbow's least and largest flexion, 0 <= least <= most <= pi.
 SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion[2]);
+// For SWIVEL_AIM: an axis of the hand, of any length but zero, and the elbow's flexion, 0 to pi.
+SWIVEL_API swivel_status swivel_aim(const double axis[3], double flexion, float aim[5]);
 // Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MOST_SWIVEL.
 SWIVEL_API void swivel_turn(double angle, float turn[2]);
 // The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side, whose arm frame is the mirror
 // image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton: mirrored in x, offsets are
 // (-x, y, z), rotations (x, -y, -z, w), and a hinge, an axis to turn about, (x, -y, -z). order: of boxes, else ignored.
 // from and to have the field's components and may be the same; values of other input fields are copied:
-// places, hands, effectors and poses are for the caller to mirror. Fails for
+// places, hands, effectors, aims and poses are for the caller to mirror. Fails for
 // results and for an order that does not exist. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 
-// Forward kinematics of the results, in double, in the space of the targets: for each limb 3 doubles (elbow, wrist) or
-// 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
+// Forward kinematics of the results, in double, in the space of the targets, clavicles turned: for each limb 3 doubles
+// (elbow, wrist) or 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
-// How far the wrist, or the effector, of each limb is from its target: one double, in arm lengths (upper + fore,
-// scaled). 0 for a limb of no length or with bad input.
+// How far the wrist, or the effector, of each limb is from its target, or with WITH_AIM the target from the hand's ray:
+// one double, in arm lengths (upper + fore, scaled). 0 for a limb of no length or with bad input.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 

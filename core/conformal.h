@@ -22,6 +22,9 @@ template <class T>
 using Sphere = Point<T>;
 template <class T>
 using Rotor = Mv<T, blades(kScalar, kI, kJ, kK)>;
+// A rotor about e1: the elbow's hinge, as the arm frame has it.
+template <class T>
+using Hinge = Mv<T, blades(kScalar, kI)>;
 // A line through the origin: v1 i + v2 j + v3 k along the direction (v1, v2, v3).
 template <class T>
 using CentralLine = Mv<T, blades(kI, kJ, kK)>;
@@ -41,6 +44,13 @@ SWIVEL_INLINE constexpr Rotor<T> rotor(const T& x, const T& y, const T& z, const
     q.template at<kK>() = z;
     q.template at<kScalar>() = w;
     return q;
+}
+
+// cos + sin i.
+template <class T>
+SWIVEL_INLINE constexpr Hinge<T> hinge(const T& cos, const T& sin)
+{
+    return cos * unit<T, kScalar>() + sin * unit<T, kI>();
 }
 
 template <class T>
@@ -90,8 +100,8 @@ SWIVEL_INLINE constexpr CentralLine<T> central_line(const Vector<T>& v)
 }
 
 // Q v ~Q for a rotor of any length, divided by nothing: the result is |Q|^2 times as long as v (eq. 3.21).
-template <class T>
-SWIVEL_INLINE constexpr Vector<T> sandwich(const Rotor<T>& q, const Vector<T>& v)
+template <class T, BladeSet Q, BladeSet V>
+SWIVEL_INLINE constexpr auto sandwich(const Mv<T, Q>& q, const Mv<T, V>& v)
 {
     return grade_part<1>(q * v * ~q);
 }

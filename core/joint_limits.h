@@ -49,11 +49,11 @@ struct JointLimits {
 };
 
 // The arm that swivels: shoulder rotor = from_line * (cos(phi/2) + sin(phi/2) k) * to_arm, the two of any length.
-template <class T>
+template <class T, class Lift>
 struct SwivellingArm {
     Rotor<T> from_line;  // carries the line's frame to the arm frame
-    Rotor<T> to_arm;     // the arm's pose in the line's frame at phi = 0
-    Rotor<T> elbow;
+    Lift to_arm;         // the arm's pose in the line's frame at phi = 0
+    Hinge<T> elbow;
     Rotor<T> hand;  // orientation, in the arm frame
 };
 
@@ -72,13 +72,15 @@ SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
            axis.template at<kE3>() * q.template at<kK>();
 }
 
-template <class T>
+template <class T, class Lift>
 SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
-                                                      const SwivellingArm<T>& arm)
+                                                      const SwivellingArm<T, Lift>& arm)
 {
-    const Vector<T> e3 = vector(T(0), T(0), T(1));
+    constexpr BladeSet vectors = Vector<T>::set, rotors = Rotor<T>::set;
+    const auto e3 = unit<T, kE3>();
     const auto k = unit<T, kK>();
-    const Rotor<T> from_line = normalise(arm.from_line), to_arm = normalise(arm.to_arm);
+    const Rotor<T> from_line = normalise(arm.from_line);
+    const Lift to_arm = normalise(arm.to_arm);
     SwivelLimits<T> out;
     const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
         out.line_flag[out.limits.line_count] = flag;
@@ -90,7 +92,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     };
 
     if (use.shoulder_cone)
-        add(cone_limit(sandwich(~from_line, limits.shoulder_cone.axis), sandwich(to_arm, e3),
+        add(cone_limit(sandwich(~from_line, limits.shoulder_cone.axis), widen<vectors>(sandwich(to_arm, e3)),
                        limits.shoulder_cone.cos_opening),
             flag::limited_shoulder_cone);
     if (use.humeral_twist) {
@@ -108,15 +110,17 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
         };
     };
     if (use.shoulder_box)
-        add_box(euler_box<T>(use.shoulder_order, matrix_entry(turn_by(~from_line), turn_by(to_arm)),
+        add_box(euler_box<T>(use.shoulder_order, matrix_entry(turn_by(~from_line), turn_by(widen<rotors>(to_arm))),
                              limits.shoulder_box[0], limits.shoulder_box[1], limits.shoulder_box[2]),
                 flag::limited_shoulder_box);
     if (!(use.hand_cone || use.forearm_twist || use.hand_twist || use.wrist_box)) return out;
 
     // The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
-    const Rotor<T> forearm = to_arm * arm.elbow, hand = ~from_line * arm.hand;
+    const auto forearm = to_arm * arm.elbow;
+    const Rotor<T> hand = ~from_line * arm.hand;
     if (use.hand_cone)
-        add(cone_limit(sandwich(hand, limits.hand_cone.axis), sandwich(forearm, e3), limits.hand_cone.cos_opening),
+        add(cone_limit(sandwich(hand, limits.hand_cone.axis), widen<vectors>(sandwich(forearm, e3)),
+                       limits.hand_cone.cos_opening),
             flag::limited_hand_cone);
     if (use.forearm_twist || use.hand_twist) {
         const Rotor<T> at_0 = ~forearm * hand, at_pi = ~forearm * ~k * hand;
@@ -132,7 +136,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     }
     // Its matrix has the forearm's axes in its rows: there the moving vector is the row's.
     if (use.wrist_box) {
-        const auto transposed = matrix_entry(turn_by(hand), turn_by(forearm));
+        const auto transposed = matrix_entry(turn_by(hand), turn_by(widen<rotors>(forearm)));
         add_box(euler_box<T>(
                     use.wrist_order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); },
                     limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),

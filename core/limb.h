@@ -11,6 +11,7 @@
 // (TU Darmstadt, 2019).
 #pragma once
 
+#include "core/aim.h"
 #include "core/choose_swivel.h"
 #include "core/frame_rotor.h"
 #include "core/limb_bones.h"
@@ -55,10 +56,11 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
     if (use.hand && use.weights)
         wrist.hand =
             blended(goal.incoming.shoulder * goal.incoming.elbow * goal.incoming.wrist, wrist.hand, goal.weights.hand);
-    if (use.effector) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
+    if (use.effector && !use.aim) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
     if (use.weights) {
-        const Vector<T> was = sandwich(goal.incoming.shoulder, vector(T(0), T(0), goal.arm.upper)) +
-                              sandwich(goal.incoming.shoulder * goal.incoming.elbow, vector(T(0), T(0), goal.arm.fore));
+        const auto e3 = unit<T, kE3>();
+        const Vector<T> was = goal.arm.upper * sandwich(goal.incoming.shoulder, e3) +
+                              goal.arm.fore * sandwich(goal.incoming.shoulder * goal.incoming.elbow, e3);
         wrist.place = was + goal.weights.position * (wrist.place - was);
     }
     return wrist;
@@ -79,25 +81,37 @@ SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
 
 // A limb whose goal is understood and whose swivel is still free; phi = 0 is the wish, limited by the frame's most
 // swivel.
-template <class T>
+template <class T, class Lift>
 struct PlacedLimb {
-    SwivellingArm<T> arm;
+    SwivellingArm<T, Lift> arm;
     Vector<T> line, normal;  // unit: to the wrist, and of the swivel plane at phi = 0
     SteppedNormal<T> step;   // only with continuity
-    PlacedBones<T> bones;
+    PlacedBones<T, Lift> bones;
     Bits<T> flags;
 };
 
-template <class T>
-SWIVEL_INLINE constexpr PlacedLimb<T> place_limb(const LimbUse& use, const LimbGoal<T>& goal)
+// Aims: what use.aim says, known when this is compiled. wanted: the distance from shoulder to target.
+template <bool Aims, class T>
+SWIVEL_INLINE constexpr auto bones_for(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
+                                       const T& wanted)
 {
-    PlacedLimb<T> limb;
+    if constexpr (Aims)
+        return aimed_bones(use, goal, hand, wanted);
+    else
+        return place_bones(use, goal, wanted);
+}
+template <bool Aims, class T>
+SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& goal)
+{
     const WristGoal<T> wrist = wrist_goal(use, goal);
     const T wrist2 = len2(wrist.place);
     const Mask<T> on_shoulder = wrist2 < T(kTiny2);
     const T distance = sqrt(select(on_shoulder, T(1), wrist2));
+
+    const auto bones = bones_for<Aims>(use, goal, wrist.hand, select(on_shoulder, T(0), distance));
+    PlacedLimb<T, decltype(bones.lift)> limb;
+    limb.bones = bones;
     limb.line = select(on_shoulder, vector(T(0), T(0), T(1)), (T(1) / distance) * wrist.place);
-    limb.bones = place_bones(use, goal, select(on_shoulder, T(0), distance));
 
     const WishedNormal<T> wish = wished_normal(use, goal, limb.line);
     limb.normal = wish.normal;
@@ -109,17 +123,17 @@ SWIVEL_INLINE constexpr PlacedLimb<T> place_limb(const LimbUse& use, const LimbG
     }
 
     // Steps 3 to 5: the frame along the line, its e1 the swivel plane's normal.
-    const Rotor<T> elbow = rotor(-limb.bones.sin_half, T(0), T(0), limb.bones.cos_half);
+    const Hinge<T> elbow = hinge(limb.bones.cos_half, -limb.bones.sin_half);
     limb.arm = {frame_along(limb.line, limb.normal), limb.bones.lift, elbow, wrist.hand};
     return limb;
 }
 
 // good: false where the caller already knows the input to be bad.
-template <class T>
+template <bool Aims, class T>
 SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
 {
     const Mask<T> valid = good & is_valid(use, goal);
-    const PlacedLimb<T> limb = place_limb(use, goal);
+    const auto limb = place_limb<Aims>(use, goal);
     Rotor<T> shoulder = limb.arm.from_line * limb.arm.to_arm;
     Vector<T> normal = limb.normal;
     Bits<T> flags = limb.flags;
@@ -141,7 +155,10 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
                 select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(flag::bad_input)), valid};
     pose.stretch = select(valid, limb.bones.stretch, T(1));
     if (use.continuity) pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
-    if (use.hand) pose.wrist = select(valid, ~(shoulder * limb.arm.elbow) * limb.arm.hand, one<T>());
+    if (use.hand) {
+        const Rotor<T> wrist = Aims ? limb.arm.hand : ~(shoulder * limb.arm.elbow) * limb.arm.hand;
+        pose.wrist = select(valid, wrist, one<T>());
+    }
     return pose;
 }
 

@@ -10,9 +10,9 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-template <class T>
+template <class T, class Lift>
 struct PlacedBones {
-    Rotor<T> lift;         // from the line to the upper arm, about e1; of any length
+    Lift lift;             // from the arm's own frame to the line's: how the upper arm lies to it; of any length
     T cos_half, sin_half;  // of the flexion
     T stretch;
     Bits<T> flags;
@@ -33,7 +33,8 @@ SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const FlexionLimit<T>& limit
 
 // wanted: the distance from shoulder to wrist, 0 or more.
 template <class T>
-SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const LimbGoal<T>& goal, const T& wanted)
+SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use, const LimbGoal<T>& goal,
+                                                             const T& wanted)
 {
     // Sizes of about 1, to the last bit in the same ratios.
     const T sum = goal.arm.upper + goal.arm.fore, shrink = per_power_of_two(select(sum > T(0), sum, T(1)));
@@ -66,8 +67,8 @@ SWIVEL_INLINE constexpr PlacedBones<T> place_bones(const LimbUse& use, const Lim
     const T side = select(one_bone, both, lo(hi(hi(reach.distance, T(kNearest)), abs(difference)), both));
     const ArmTriangle<T> triangle = arm_triangle(side, both, difference);
     const Mask<T> larger_first = triangle.cos_lift >= T(0);
-    const Rotor<T> lift = rotor(select(larger_first, triangle.smaller, triangle.larger), T(0), T(0),
-                                select(larger_first, triangle.larger, triangle.smaller));
+    const Hinge<T> lift = hinge(select(larger_first, triangle.larger, triangle.smaller),
+                                select(larger_first, triangle.smaller, triangle.larger));
     return {lift, triangle.cos_half, triangle.sin_half, reach.stretch, flags};
 }
 

@@ -13,7 +13,7 @@ enum class Wish { pole, normal, incoming };  // what says where the elbow goes
 // What a crowd uses; the same for all of a group's arms.
 struct LimbUse {
     bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false,
-         continuity = false;
+         continuity = false, aim = false;
     Wish wish = Wish::pole;
     LimitUse limits;
 };
@@ -41,16 +41,24 @@ struct Continuity {
     Turned<T> most;             // swivel in a frame, 0 to pi
 };
 
+// The line of the hand that is brought to the target, from the effector on, and half the flexion to do it with.
+template <class T>
+struct AimGoal {
+    Vector<T> axis;  // unit, in the hand's frame
+    T cos_half, sin_half;
+};
+
 template <class T>
 struct LimbGoal {
     ArmGoal<T> arm;      // wrist: the effector's target; pole: a pole, or the swivel plane's normal
-    Rotor<T> hand;       // orientation; the identity at rest
+    Rotor<T> hand;       // orientation, the identity at rest; with aim the wrist's rotation from the forearm
     Vector<T> effector;  // in the hand's frame
     Turned<T> angle;     // turns the wish about the line from shoulder to wrist; of any length
     IncomingPose<T> incoming;
     Weights<T> weights;
     ReachGoal<T> reach;
     Continuity<T> continuity;
+    AimGoal<T> aim;
     JointLimits<T> limits;
 };
 
@@ -115,6 +123,9 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& 
     if (use.incoming)
         valid = valid & is_orientation(goal.incoming.shoulder) & is_orientation(goal.incoming.elbow) &
                 is_orientation(goal.incoming.wrist);
+    if (use.aim)
+        valid = valid & is_unit2(len2(goal.aim.axis)) & (goal.aim.cos_half >= T(0)) & (goal.aim.sin_half >= T(0)) &
+                is_unit2(goal.aim.cos_half * goal.aim.cos_half + goal.aim.sin_half * goal.aim.sin_half);
     if (use.weights)
         valid = valid & is_share(goal.weights.position) & is_share(goal.weights.hand) & is_share(goal.weights.pole);
     if (use.reach)

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/allowed_arcs.h"
+#include "core/clavicle.h"
 #include "core/forearm_twist.h"
 #include "core/limb.h"
 #include "core/space.h"
@@ -81,6 +82,7 @@ inline LimbUse limb_use(const LimbRun& run)
     use.weights = has(SWIVEL_WITH_WEIGHTS);
     use.reach = has(SWIVEL_WITH_REACH);
     use.continuity = has(SWIVEL_WITH_STEP);
+    use.aim = has(SWIVEL_WITH_AIM);
     use.wish = has(SWIVEL_POLE_INCOMING) ? Wish::incoming : has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
     use.limits.flexion = has(SWIVEL_LIMIT_FLEXION);
     use.limits.shoulder_cone = has(SWIVEL_LIMIT_SHOULDER_CONE);
@@ -132,13 +134,37 @@ SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T>&
     return limits;
 }
 
-// Loads a goal as the formula takes it; what is not used stays as it is. True where that which the formula does not see
-// is valid.
+// What the formula does not see of a limb: how far its clavicle has been turned, in the arm frame's axes, and whether
+// its other inputs are good.
 template <class T>
-SWIVEL_INLINE Mask<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
-                                LimbGoal<T>& goal)
+struct LimbEntry {
+    Rotor<T> clavicle;
+    Mask<T> valid;
+};
+
+// Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
+template <class T>
+SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
+                                 bool pole_is_point, LimbGoal<T>& goal, LimbEntry<T>& entry)
 {
-    Mask<T> valid = T(0) == T(0);
+    const Vector<T> bone = sandwich(~bind.parent_from_arm, rows.load_vector(SWIVEL_CLAVICLE));
+    const T share = rows.load(SWIVEL_CLAVICLE, 3);
+    entry.valid = entry.valid & (len2(bone) <= T(kHuge2)) & is_share(share);
+    entry.clavicle =
+        clavicle_turn(bone, goal.arm.wrist + bone, use.weights ? share * rows.load(SWIVEL_WEIGHTS, 0) : share);
+    const Turn<T> back = turn_by(~entry.clavicle);
+    goal.arm.wrist = back(goal.arm.wrist + bone) - bone;
+    goal.arm.pole = pole_is_point ? back(goal.arm.pole + bone) - bone : back(goal.arm.pole);
+    if (use.hand && !use.aim) goal.hand = ~entry.clavicle * goal.hand;
+}
+
+// Loads a goal as the formula takes it; what is not used stays as it is.
+template <class T>
+SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
+                                     LimbGoal<T>& goal)
+{
+    LimbEntry<T> entry;
+    entry.valid = T(0) == T(0);
     const Vector<T> zero = vector(T(0), T(0), T(0));
     goal.arm = {rows.load_vector(SWIVEL_TARGET), use.wish == Wish::incoming ? zero : rows.load_vector(SWIVEL_POLE),
                 rows.load(SWIVEL_LENGTHS, 0), rows.load(SWIVEL_LENGTHS, 1)};
@@ -146,28 +172,33 @@ SWIVEL_INLINE Mask<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, 
     if (rows.has(SWIVEL_WORLD)) {
         const ParentFrame<T> parent{rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
                                     rows.load(SWIVEL_PARENT_SCALE, 0)};
-        valid = is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
+        entry.valid = is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
         const Rotor<T> arm_from_world = ~(normalise(parent.rotation) * bind.parent_from_arm);
         const Turn<T> turn = turn_by(arm_from_world);
         const T shrink = T(1) / parent.scale;
         const bool pole_is_point = use.wish == Wish::pole && !rows.has(SWIVEL_POLE_DIRECTION);
         goal.arm.wrist = shrink * turn(goal.arm.wrist - parent.position);
         goal.arm.pole = shrink * turn(pole_is_point ? goal.arm.pole - parent.position : goal.arm.pole);
-        if (use.hand) goal.hand = arm_from_world * goal.hand;
+        if (use.hand && !use.aim) goal.hand = arm_from_world * goal.hand;
+        if (rows.has(SWIVEL_WITH_CLAVICLE)) turn_clavicle(use, bind, rows, pole_is_point, goal, entry);
     }
+    if (use.hand && use.aim) goal.hand = ~bind.fore_from_arm * goal.hand;
     if (use.hand) goal.hand = goal.hand * ~bind.hand_from_arm;
     if (use.effector) goal.effector = sandwich(bind.hand_from_arm, rows.load_vector(SWIVEL_EFFECTOR));
+    if (use.aim)
+        goal.aim = {sandwich(bind.hand_from_arm, rows.load_vector(SWIVEL_AIM)), rows.load(SWIVEL_AIM, 3),
+                    rows.load(SWIVEL_AIM, 4)};
     if (use.angle) goal.angle = rows.load_turned(SWIVEL_ANGLE);
     if (use.incoming) {
         const Rotor<T> shoulder = rows.load_rotor(SWIVEL_INCOMING_SHOULDER),
                        elbow = rows.load_rotor(SWIVEL_INCOMING_ELBOW);
-        valid = valid & is_orientation(shoulder) & is_orientation(elbow);
+        entry.valid = entry.valid & is_orientation(shoulder) & is_orientation(elbow);
         goal.incoming.shoulder = normalise(~bind.parent_from_arm * shoulder * bind.upper_from_arm);
         goal.incoming.elbow = normalise(~bind.upper_from_arm * elbow * bind.fore_from_arm);
         goal.incoming.wrist = one<T>();
         if (use.hand) {
             const Rotor<T> wrist = rows.load_rotor(SWIVEL_INCOMING_WRIST);
-            valid = valid & is_orientation(wrist);
+            entry.valid = entry.valid & is_orientation(wrist);
             goal.incoming.wrist = normalise(~bind.fore_from_arm * wrist * ~bind.hand_from_arm);
         }
     }
@@ -181,12 +212,12 @@ SWIVEL_INLINE Mask<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, 
                                   rows.load_result(SWIVEL_NORMAL, 2)),
                            rows.load_turned(SWIVEL_MOST_SWIVEL)};
     goal.limits = load_limits(use.limits, rows);
-    return valid;
+    return entry;
 }
 
 template <class T>
 SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
-                              const SolvedLimb<T>& pose)
+                              const LimbEntry<T>& entry, const SolvedLimb<T>& pose)
 {
     const auto store = [&](swivel_field field, swivel_field incoming, const Rotor<T>& q, const Rotor<T>& rest)
                            SWIVEL_INLINE_LAMBDA {
@@ -196,7 +227,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
                                rows.store_rotor(field, with_sign_of(select(pose.arm.valid, side, T(1)), safe));
                            };
     const bool joints = rows.has(SWIVEL_JOINTS);
-    const Rotor<T> elbow = rotor(-pose.arm.sin_half, T(0), T(0), pose.arm.cos_half);
+    const Hinge<T> elbow = hinge(pose.arm.cos_half, -pose.arm.sin_half);
     store(SWIVEL_SHOULDER, SWIVEL_INCOMING_SHOULDER,
           joints ? bind.parent_from_arm * pose.arm.shoulder * ~bind.upper_from_arm : pose.arm.shoulder,
           bind.shoulder_rest);
@@ -218,6 +249,10 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
             rows.store_rotor(SWIVEL_TWIST, hemisphere(q), 4 * n);
         }
     }
+    if (rows.has(SWIVEL_WITH_CLAVICLE)) {
+        const Rotor<T> turn = bind.parent_from_arm * entry.clavicle * ~bind.parent_from_arm;
+        rows.store_rotor(SWIVEL_CLAVICLE_TURN, hemisphere(select(pose.arm.valid, turn, one<T>())));
+    }
     rows.store(SWIVEL_FLAGS, 0, pose.arm.flags);
     if (use.reach) rows.store(SWIVEL_STRETCH, 0, pose.stretch);
     if (use.continuity) {
@@ -236,17 +271,26 @@ SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
 }
 
 // Solves a run of whole limbs. One register a step: two were no faster, their values do not stay in registers.
-template <class T>
-SWIVEL_FLATTEN void solve_limbs(const LimbRun& run)
+template <class T, bool Aims>
+SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const LimbRun& run)
 {
-    const LimbUse use = limb_use(run);
+    LimbUse use = limb_use(run);
+    use.aim = Aims;  // as it is, but now the compiler knows
     const LimbBinding<T> bind = limb_binding<T>(run);
     for (std::size_t limb = 0; limb < std::size_t{run.block_count} * SWIVEL_LANES; limb += lane_count<T>) {
         const LimbRows<T> rows = rows_of<T>(run, limb);
         LimbGoal<T> goal;
-        const Mask<T> good = load_limb(use, bind, rows, goal);
-        store_limb(use, bind, rows, solve_limb(use, goal, good));
+        const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
+        store_limb(use, bind, rows, entry, solve_limb<Aims>(use, goal, entry.valid));
     }
+}
+template <class T>
+void solve_limbs(const LimbRun& run)
+{
+    if (run.features & SWIVEL_WITH_AIM)
+        solve_limb_steps<T, true>(run);
+    else
+        solve_limb_steps<T, false>(run);
 }
 
 // The swivels that the limits of one limb of a run allow.
@@ -254,9 +298,10 @@ inline AllowedArcs<float> allowed_arcs_of(const LimbRun& run, std::size_t limb)
 {
     const LimbUse use = limb_use(run);
     LimbGoal<float> goal;
-    if (!load_limb(use, limb_binding<float>(run), rows_of<float>(run, limb), goal) || !is_valid(use, goal)) return {};
-    const PlacedLimb<float> placed = place_limb(use, goal);
-    return allowed_arcs(swivel_limits(use.limits, goal.limits, placed.arm).limits);
+    const LimbEntry<float> entry = load_limb(use, limb_binding<float>(run), rows_of<float>(run, limb), goal);
+    if (!entry.valid || !is_valid(use, goal)) return {};
+    if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
+    return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -62,6 +62,8 @@ constexpr FieldLayout kFields[] = {
     {"forearm_twist", 4, SWIVEL_LIMIT_FOREARM_TWIST},
     {"hand_twist", 7, SWIVEL_LIMIT_HAND_TWIST},
     {"wrist_box", 12, SWIVEL_LIMIT_WRIST_BOX},
+    {"aim", 5, SWIVEL_WITH_AIM},
+    {"clavicle", 4, SWIVEL_WITH_CLAVICLE},
     {"shoulder", 4, 0},
     {"elbow", 2, 0},  // or 4, see below
     {"wrist", 4, SWIVEL_WITH_HAND},
@@ -69,6 +71,7 @@ constexpr FieldLayout kFields[] = {
     {"stretch", 1, SWIVEL_WITH_REACH},
     {"normal", 3, SWIVEL_WITH_STEP},
     {"twist", 0, 0},  // see below
+    {"clavicle_turn", 4, SWIVEL_WITH_CLAVICLE},
 };
 static_assert(sizeof kFields / sizeof *kFields == SWIVEL_FIELD_COUNT);
 
@@ -97,6 +100,11 @@ constexpr const char* needed_feature(std::uint32_t features, swivel_field field)
         "SWIVEL_LIMIT_FOREARM_TWIST",
         "SWIVEL_LIMIT_HAND_TWIST",
         "SWIVEL_LIMIT_WRIST_BOX",
+        nullptr,  // the three bits of SWIVEL_TWIST_BONES
+        nullptr,
+        nullptr,
+        "SWIVEL_WITH_AIM",
+        "SWIVEL_WITH_CLAVICLE",
     };
     if (field == SWIVEL_TWIST) return "SWIVEL_TWIST_BONES";
     const FieldLayout& layout = kFields[field];

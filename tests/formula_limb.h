@@ -31,6 +31,7 @@ LimbGoal<T> limb_goal(const Arm& arm)
     goal.weights = {T(1), T(1), T(1)};
     goal.reach = {T(0), T(0), T(1), T(0)};
     goal.continuity.most = {T(-1), T(0)};
+    goal.aim = {vector(T(0), T(0), T(1)), T(1), T(0)};
     const Range<T> all{{T(1), T(0)}, {T(-1), T(0)}};
     JointLimits<T>& limits = goal.limits;
     limits.flexion = {T(1), T(0)};
@@ -52,7 +53,7 @@ template <class T>
 Solved<T> solve(const LimbUse& use, const LimbGoal<T>& goal)
 {
     Solved<T> out;
-    out.pose = solve_limb(use, goal, Mask<T>(true));
+    out.pose = use.aim ? solve_limb<true>(use, goal, Mask<T>(true)) : solve_limb<false>(use, goal, Mask<T>(true));
     const Quaterniond shoulder = eigen(out.pose.arm.shoulder).normalized();
     const Quaterniond fore = shoulder * elbow_rotation(out.pose.arm).normalized();
     const double stretch = out.pose.stretch;

@@ -100,7 +100,7 @@ SolvedLimb<T> solve(const LimitedArm& a)
         limits.shoulder_box[n] = formula_range<T>(a.shoulder_box.range[n]);
         limits.wrist_box[n] = formula_range<T>(a.wrist_box.range[n]);
     }
-    return solve_limb(use, goal, Mask<T>(true));
+    return solve_limb<false>(use, goal, Mask<T>(true));
 }
 
 // The arm at a swivel from the wish, in double, from its elbow's place.

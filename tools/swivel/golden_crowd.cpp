@@ -108,6 +108,9 @@ void write_limb(Crowd& crowd, std::uint32_t group, Random& random)
     for (const swivel_field twist : {SWIVEL_HUMERAL_TWIST, SWIVEL_FOREARM_TWIST})
         write_shaped<4>(crowd, group, twist, random, range);
     write_shaped<7>(crowd, group, SWIVEL_HAND_TWIST, random, [&](float* x) { make_unit(x), range(x + 3); });
+    write_shaped<5>(crowd, group, SWIVEL_AIM, random,
+                    [](float* x) { make_unit(x), x[3] = std::fabs(x[3]), make_turn(x + 3, true); });
+    write_shaped<4>(crowd, group, SWIVEL_CLAVICLE, random, [](float* x) { x[3] = std::fabs(x[3]); });
     for (const swivel_field b : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX}) write_shaped<12>(crowd, group, b, random, box);
 }
 

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kFeatureSets = 16;
 bool is_feature_set(std::uint32_t features);
 
 // Sets of features of whole limbs: all that go together in the world and in the arm frame, each kind of swivel wish,
-// each kind of limit, both boxes.
+// each kind of limit, both boxes, aims, clavicles.
 inline constexpr std::uint32_t kLimbSets[] = {
     SWIVEL_WITH_INCOMING,
     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE | SWIVEL_WITH_STEP,
@@ -30,6 +30,9 @@ inline constexpr std::uint32_t kLimbSets[] = {
         SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | SWIVEL_LIMIT_FLEXION |
         SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_SHOULDER_BOX | SWIVEL_LIMIT_HAND_CONE |
         SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX,
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM | SWIVEL_WITH_STEP |
+        SWIVEL_LIMIT_SHOULDER_CONE,
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS,
 };
 
 // A crowd of three groups, limb_count limbs in the first and fewer in the others, all inputs written. The same numbers

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// Aiming: the elbow's flexion and the wrist are given, and the shoulder turns the arm so that a line carried by the
+// hand goes through the target. Seen from the shoulder the arm is one rigid piece then, and the line runs through it
+// from the effector: the point of it that lies as far from the shoulder as the target does is the one to bring there.
+// So this is a limb like any other, its swivel free about the line from the shoulder to the target. The goal itself is
+// Tolani, Goswami and Badler's (2000).
+#pragma once
+
+#include "core/frame_rotor.h"
+#include "core/limb_bones.h"
+#include "core/wish.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// Further away than this, in sizes of the arm, only the direction counts.
+inline constexpr double kAimFar = 1e7;
+
+// The rotor from the arm, hand and all, to the frame that has e3 along the line to the aimed point and the elbow on the
+// side of e2 that poles are for. point: of any length but zero.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> line_from_arm(const Vector<T>& point)
+{
+    const Vector<T> line = normalise(point), hinge = vector(T(1), T(0), T(0));
+    // The elbow lies along e3. Where that is the line itself, the elbow bends about its hinge.
+    const Vector<T> normal = cross(line, vector(T(0), T(0), T(1)));
+    const Mask<T> off = len2(normal) > T(kPoleOff * kPoleOff);
+    return ~frame_along(line, normalise(select(off, normal, across(hinge, line))));
+}
+
+// wanted: the distance from the shoulder to the target. hand: the wrist's rotation from the forearm, unit.
+template <class T>
+SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(const LimbUse& use, const LimbGoal<T>& goal,
+                                                             const Rotor<T>& hand, const T& wanted)
+{
+    // Sizes of about 1 and less, to the last bit in the same ratios.
+    T size = goal.arm.upper + goal.arm.fore;
+    if (use.effector) size = size + length1(goal.effector);
+    const T shrink = per_power_of_two(hi(size, T(kTiny)));
+    const T distance = lo(wanted * shrink, T(kAimFar));
+
+    const Hinge<T> elbow = hinge(goal.aim.cos_half, -goal.aim.sin_half);
+    Vector<T> tip = vector(T(0), T(0), goal.arm.fore * shrink);
+    if (use.effector) tip = tip + sandwich(hand, shrink * goal.effector);
+    tip = sandwich(elbow, tip) + vector(T(0), T(0), goal.arm.upper * shrink);
+    const Vector<T> axis = sandwich(elbow, sandwich(hand, goal.aim.axis));
+
+    // The points of the line are off + s axis; those ahead of the tip have s >= along.
+    const T along = scalar_product(tip, axis);
+    const Vector<T> off = tip - along * axis;
+    const T ahead2 = distance * distance - len2(off), ahead = sqrt(hi(ahead2, T(0)));
+    const Mask<T> too_near = (ahead2 < T(0)) | (ahead < along);
+    const Vector<T> point = off + hi(ahead, along) * axis;
+    const Rotor<T> lift = line_from_arm(select(len2(point) > T(kTiny2), point, axis));
+    return {lift, goal.aim.cos_half, goal.aim.sin_half, T(1),
+            bits_where(too_near, flag::clamped_near) | bits_where(!too_near, flag::reached)};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

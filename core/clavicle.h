@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// The clavicle's share of a reach: how far it turns the shoulder towards the target before the arm is solved. A curve
+// of our own choice that is smooth everywhere but for a whole share of a target straight behind the bone, and forms no
+// angle.
+#pragma once
+
+#include "core/wish.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// The rotor of unit length that turns the clavicle's bone towards the target by about the share, 0 to 1, of the angle
+// theta between them: tan(turn / 2) = share sin theta / (2 (1 - share) + share (1 + cos theta)). So a whole share is
+// the whole turn, a small one grows with the angle up to about a right one, and fades to none for a target behind,
+// where no way round is shorter. Both vectors from the clavicle's joint; without a direction nothing turns.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> clavicle_turn(const Vector<T>& bone, const Vector<T>& target, const T& share)
+{
+    const Vector<T> a = scaled(bone), b = scaled(target), axis = share * cross(a, b);
+    const T lengths = sqrt(len2(a) * len2(b)), cos = scalar_product(a, b);
+    const T rest = T(1) - share;
+    const Rotor<T> turn = rotor(axis.template at<kE1>(), axis.template at<kE2>(), axis.template at<kE3>(),
+                                (rest + rest) * lengths + share * (lengths + cos));
+    const Mask<T> turns = len2(turn) > T(1e-6) * (lengths * lengths);
+    const Rotor<T> none = rotor(T(0), T(0), T(0), T(1));
+    return normalise(select(turns, turn, none));
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: with a given flexion and a given wrist the hand's ray goes through the target, by the skeleton's own
+// forward kinematics in Eigen; the elbow is bent as asked and on the pole's side; what cannot be aimed at is flagged,
+// and limits of the shoulder hold.
+#include "tests/test_whole_limb.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+// One limb's aim, in the wrist joint's own frame.
+struct Aim {
+    Vector3d axis, effector;
+    double flexion;
+};
+
+Aim random_aim(Random& random)
+{
+    return {random.direction(), vec(floats(Vector3d(random.between(0, 0.3) * random.direction()))),
+            random.between(0, 3)};
+}
+
+std::array<float, 5> value_of(const Aim& aim)
+{
+    std::array<float, 5> value;
+    CHECK(swivel_aim(aim.axis.data(), aim.flexion, value.data()) == SWIVEL_OK);
+    return value;
+}
+
+double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+// How far a point is from a ray.
+double off_ray(const Vector3d& point, const Vector3d& from, const Vector3d& axis)
+{
+    const Vector3d to = point - from;
+    return (to - std::max(to.dot(axis), 0.0) * axis).norm();
+}
+
+}  // namespace
+
+TEST_CASE("the hand's ray goes through the target, with the flexion and the wrist given")
+{
+    constexpr std::uint32_t count = 300;
+    Random random{1};
+    const Chained limb = chained(random);
+    Crowd crowd = crowd_of(kWorld | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM, count, limb.bound.binding);
+    std::vector<Limb> limbs;
+    std::vector<Aim> aims;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        Limb each = random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]});
+        const Parent parent = each.parent();
+        each.target = floats(Vector3d(parent.position + parent.scale * random.between(0.2, 8) * random.direction()));
+        write_limb(crowd, 0, n, each);  // SWIVEL_HAND is the wrist's local rotation
+        aims.push_back(random_aim(random));
+        put(crowd, SWIVEL_EFFECTOR, n, floats(aims[n].effector));
+        put(crowd, SWIVEL_AIM, n, value_of(aims[n]));
+        limbs.push_back(each);
+    }
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    std::vector<double> residuals(count);
+    crowd.residuals(0, residuals);
+    std::uint32_t aimed = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        INFO("limb " << n << ", flags " << flags[n]);
+        const Parent parent = limbs[n].parent();
+        const LocalPose pose = local_pose(crowd, n);
+        const Vector3d tip =
+            pose.wrist_place(limb.chain, parent) + parent.scale * (pose.hand(parent) * aims[n].effector);
+        const double length = parent.scale * (limb.bound.lengths[0] + limb.bound.lengths[1]);
+        const double miss = off_ray(vec(limbs[n].target), tip, pose.hand(parent) * aims[n].axis) / length;
+        CHECK(residuals[n] == Approx(miss).margin(1e-6));
+        CHECK(distance(pose.wrist, quat(limbs[n].hand).normalized()) <= 1e-6);
+        const double bent = angle_between(vec(limb.chain.elbow_offset), pose.elbow * vec(limb.chain.wrist_offset));
+        CHECK(bent == Approx(aims[n].flexion).margin(2e-6));
+        if (flags[n] == SWIVEL_REACHED) {
+            ++aimed;
+            CHECK(miss <= 1e-5);  // 2e-6 of the target's distance at most
+            const Vector3d elbow = parent.rotation * pose.shoulder * vec(limb.chain.elbow_offset);
+            const Vector3d line = (vec(limbs[n].target) - parent.position).normalized();
+            const Vector3d pole = vec(limbs[n].pole) - parent.position, across = pole - pole.dot(line) * line;
+            const Vector3d out = elbow - elbow.dot(line) * line;
+            CHECK(angle_between(out, across) <= 1e-5 / std::min(out.norm(), across.norm()) + 1e-5);
+        } else {
+            CHECK(flags[n] == SWIVEL_CLAMPED_NEAR);
+        }
+    }
+    CHECK(aimed > 150);
+    CHECK(aimed < count);
+}
+
+TEST_CASE("a target too near for the flexion: the effector itself points at it")
+{
+    // A straight arm of length 2 that aims along its forearm: from 2 on there is something to aim at.
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 4);
+    const Float3 targets[] = {{0, 0, 1.5f}, {0, 0, 2}, {3, 0, 0}, {0, 0, 0}};
+    crowd.write(SWIVEL_TARGET, 0, targets);
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    std::vector<double> residuals(4);
+    crowd.residuals(0, residuals);
+    CHECK(flags[0] == SWIVEL_CLAMPED_NEAR);
+    CHECK(residuals[0] == Approx(0.25));
+    CHECK(flags[1] == SWIVEL_REACHED);
+    CHECK(residuals[1] <= 1e-7);
+    CHECK(flags[2] == SWIVEL_REACHED);
+    CHECK(residuals[2] <= 1e-6);
+    CHECK(flags[3] == (SWIVEL_CLAMPED_NEAR | SWIVEL_SWIVEL_UNDEFINED));
+}
+
+TEST_CASE("a straight arm that aims along itself bends its elbow the way the pole says once it bends")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 2);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 5});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, 0});
+    const Aim aims[] = {{Vector3d::UnitZ(), {}, 0}, {Vector3d::UnitZ(), {}, 0.01}};
+    const std::array<float, 5> values[] = {value_of(aims[0]), value_of(aims[1])};
+    crowd.write(SWIVEL_AIM, 0, values);
+    crowd.solve();
+    const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
+    CHECK(distance(quat(shoulders[0]), quat(shoulders[1])) <= 0.01);
+}
+
+TEST_CASE("limits of the shoulder and a carried swivel hold for aims")
+{
+    constexpr std::uint32_t count = 200;
+    const std::uint32_t features =
+        SWIVEL_WITH_AIM | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_WITH_STEP;
+    Random random{4};
+    Crowd crowd = crowd_of(features, count);
+    std::vector<Vector3d> axes;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        Limb each = random_limb(random, features, {1, 1});
+        each.target = floats(Vector3d(random.between(2, 8) * vec(each.target).normalized()));
+        write_limb(crowd, 0, n, each);
+        Aim aim = random_aim(random);
+        aim.effector.setZero();
+        put(crowd, SWIVEL_AIM, n, value_of(aim));
+        axes.push_back(random.direction());
+        Float4 cone;
+        CHECK(swivel_cone(axes[n].data(), 1.2, cone.data()) == SWIVEL_OK);
+        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
+    }
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
+    int kept = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        if (flags[n] & SWIVEL_INFEASIBLE) continue;
+        CHECK((quat(shoulders[n]).normalized() * Vector3d::UnitZ()).dot(axes[n]) >= std::cos(1.2) - 1e-6);
+        std::uint32_t arc_count = 0;
+        CHECK(swivel_allowed_arcs(crowd.get(), 0, n, nullptr, 0, &arc_count) == SWIVEL_OK);
+        CHECK(arc_count > 0);
+        kept += (flags[n] & SWIVEL_LIMITED_SHOULDER_CONE) != 0;
+    }
+    CHECK(kept > 20);
+}
+
+TEST_CASE("an aim that is none is bad input, and features it cannot go with are refused")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 4);
+    const std::array<float, 5> values[] = {{0, 0, 1, 1, 0}, {0, 0, 2, 1, 0}, {0, 0, 1, 1, 1}, {0, 0, 1, -1, 0}};
+    crowd.write(SWIVEL_AIM, 0, values);
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    CHECK(flags[0] == SWIVEL_REACHED);
+    for (int n = 1; n < 4; ++n) CHECK(flags[static_cast<std::size_t>(n)] == SWIVEL_BAD_INPUT);
+
+    const swivel_group_def group = group_of(1);
+    swivel_crowd_def def = def_of(group);
+    for (const std::uint32_t other :
+         {std::uint32_t{SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS}, std::uint32_t{SWIVEL_WITH_REACH},
+          std::uint32_t{SWIVEL_LIMIT_FLEXION}, std::uint32_t{SWIVEL_WITH_HAND | SWIVEL_LIMIT_HAND_CONE},
+          std::uint32_t{SWIVEL_WITH_HAND | SWIVEL_LIMIT_WRIST_BOX}}) {
+        def.features = SWIVEL_WITH_AIM | other;
+        swivel_crowd* none = nullptr;
+        CHECK_REFUSED(swivel_crowd_create(&def, &none), SWIVEL_INVALID_ARGUMENT);
+    }
+    float aim[5] = {9, 9, 9, 9, 9};
+    const double axis[3] = {0, 0, 1}, nothing[3] = {};
+    CHECK_REFUSED(swivel_aim(axis, 4, aim), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_aim(nothing, 1, aim), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_aim(nullptr, 1, aim), SWIVEL_INVALID_ARGUMENT);
+    CHECK(aim[0] == 9);
+}
