@@ -28,6 +28,13 @@ constexpr T around(const Turned<T>& turn)
     const T size = abs(turn.cos) + abs(turn.sin), x = turn.cos / size;
     return turn.sin >= T(0) ? T(1) - x : T(3) + x;
 }
+// Whether a comes before b on the way from 0 to 2 pi. What rounds to the same place around is told apart exactly.
+template <class T>
+constexpr bool is_before(const Turned<T>& a, const Turned<T>& b)
+{
+    if (around(a) < around(b) || around(b) < around(a)) return around(a) < around(b);
+    return double{a.cos} * double{b.sin} > double{a.sin} * double{b.cos};
+}
 // In the middle of the way from a to b.
 template <class T>
 Turned<T> between(const Turned<T>& a, const Turned<T>& b)
@@ -51,7 +58,7 @@ AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
         for (const T slack : {T(kNoRoom), T(-kNoRoom)})  // where the room is just enough, on either side of an edge
             if (const Crossings<T> ends = crossings(edge[n].line - constant(slack)); ends.exist && edge[n].live)
                 end[count++] = ends.first, end[count++] = ends.second;
-    std::sort(end, end + count, [](const Turned<T>& a, const Turned<T>& b) { return around(a) < around(b); });
+    std::sort(end, end + count, is_before<T>);
 
     AllowedArcs<T> arcs;
     const auto allowed = [&](const Turned<T>& swivel) { return room(limits, swivel) >= T(kNoRoom); };
@@ -62,8 +69,9 @@ AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
     // From end to end: what is allowed in the middle is allowed all the way. Neighbours join.
     for (int n = 0; n < count; ++n) {
         const Turned<T>&from = end[n], &to = end[(n + 1) % count];
-        const bool whole = count == 1 || (n + 1 == count && around(from) == around(end[0]));
-        if (!whole && from.cos == to.cos && from.sin == to.sin) continue;
+        const bool whole =
+            count == 1 || (n + 1 == count && !is_before(end[0], from));  // one end, or all of them the same
+        if (!whole && n + 1 < count && !is_before(from, to)) continue;
         if (!allowed(whole ? Turned<T>{-from.cos, -from.sin} : between(from, to))) continue;
         if (arcs.count > 0 && n > 0 && arcs.arc[arcs.count - 1].to.cos == from.cos &&
             arcs.arc[arcs.count - 1].to.sin == from.sin)

@@ -37,9 +37,17 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> nearest_end(const Limits<T>& limits)
     return {best, nearest >= T(-1.5)};
 }
 
+// Whether two edges, one times the sign and the other, can be parts of the room at one place.
+template <class T>
+SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
+{
+    const bool front = x.front * y.front == sign, back = x.back * y.back == sign;
+    const bool crosswise = x.front * y.back == sign || x.back * y.front == sign;
+    return front || back || (x.box != y.box && crosswise);
+}
+
 // The swivel at which the limits have the most room, though it is less than none: the room is the least of lines and
-// the most of such alternatives, so it peaks where a line does or where two lines are equal, or one the other's
-// negative in another alternative.
+// the most of such alternatives, so it peaks where a line does or where two lines of an alternative are equal.
 template <class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
 {
@@ -59,11 +67,13 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
         const Mask<T> peaks = edge[n].live & (r2 > T(kFlat2));
         const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
         const Turned<T> peak{per_r * line.a, per_r * line.b};
-        consider(peak, peaks);
-        consider({-peak.cos, -peak.sin}, peaks);
+        if (edge[n].front > 0 || edge[n].back > 0) consider(peak, peaks);
+        if (edge[n].front < 0 || edge[n].back < 0) consider({-peak.cos, -peak.sin}, peaks);
         for (int m = 0; m < n; ++m)
-            for (const OnCircle<T>& difference : {line - edge[m].line, line + edge[m].line}) {
-                const Crossings<T> equal = crossings(difference);
+            for (const int sign : {1, -1}) {
+                if (!meet(edge[n], edge[m], sign)) continue;
+                const OnCircle<T> off = sign > 0 ? line - edge[m].line : line + edge[m].line;
+                const Crossings<T> equal = crossings(off);
                 const Mask<T> exist = equal.exist & edge[n].live & edge[m].live;
                 consider(equal.first, exist);
                 consider(equal.second, exist);
@@ -72,7 +82,9 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 
-template <class T>
+// Searches: whether the least violation is looked for, which takes ten times as long as the rest. If not, where no
+// swivel is allowed the answer means nothing.
+template <bool Searches, class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
@@ -81,6 +93,7 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
     const ChosenSwivel<T> end = nearest_end(limits);
     const Mask<T> allowed = granted | end.allowed;
     const Turned<T> near = select(granted, wish, end.swivel);
+    if constexpr (!Searches) return {near, allowed};
     if (all(allowed)) return {near, allowed};
     const ChosenSwivel<T> least = least_violation(limits);
     const Mask<T> any_allowed = allowed | least.allowed;

@@ -76,11 +76,13 @@ SWIVEL_INLINE constexpr Mv<T, S> normalise(const Mv<T, S>& m)
     return (T(1) / sqrt(len2(m))) * m;
 }
 
-// The sum of the sizes of a vector's components: 1 to 1.74 times its length, and cheaper.
-template <class T>
-SWIVEL_INLINE constexpr T length1(const Vector<T>& v)
+// The sum of the sizes of the components: 1 to 1.74 times a vector's length, 1 to 2 times a rotor's, and cheaper.
+template <class T, BladeSet S>
+SWIVEL_INLINE constexpr T length1(const Mv<T, S>& m)
 {
-    return abs(v.template at<kE1>()) + abs(v.template at<kE2>()) + abs(v.template at<kE3>());
+    T sum = abs(m.c[0]);
+    for (std::size_t n = 1; n < m.count; ++n) sum = sum + abs(m.c[n]);
+    return sum;
 }
 
 // The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf, which is the

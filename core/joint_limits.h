@@ -76,11 +76,15 @@ template <class T, class Lift>
 SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
                                                       const SwivellingArm<T, Lift>& arm)
 {
-    constexpr BladeSet vectors = Vector<T>::set, rotors = Rotor<T>::set;
+    constexpr BladeSet rotors = Rotor<T>::set;
     const auto e3 = unit<T, kE3>();
     const auto k = unit<T, kK>();
-    const Rotor<T> from_line = normalise(arm.from_line);
-    const Lift to_arm = normalise(arm.to_arm);
+    const Rotor<T>& from_line = arm.from_line;
+    const Lift& to_arm = arm.to_arm;
+    // Each of the rotors turns a vector by the square of its length, too, and stands twice in a twist's products.
+    const T per_size = T(1) / (len2(from_line) * len2(to_arm));
+    const auto cosine = [&](const Vector<T>& fixed, const auto& moving)
+                            SWIVEL_INLINE_LAMBDA { return per_size * inner(fixed, widen<Vector<T>::set>(moving)); };
     SwivelLimits<T> out;
     const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
         out.line_flag[out.limits.line_count] = flag;
@@ -92,21 +96,22 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     };
 
     if (use.shoulder_cone)
-        add(cone_limit(sandwich(~from_line, limits.shoulder_cone.axis), widen<vectors>(sandwich(to_arm, e3)),
+        add(cone_limit(cosine(sandwich(~from_line, limits.shoulder_cone.axis), sandwich(to_arm, e3)),
                        limits.shoulder_cone.cos_opening),
             flag::limited_shoulder_cone);
     if (use.humeral_twist) {
         const Rotor<T> at_0 = from_line * to_arm, at_pi = from_line * k * to_arm;
-        add(twist_limit(OnHalfCircle<T>{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
-                        OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()}, limits.humeral_twist),
+        add(per_size * twist_limit(OnHalfCircle<T>{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
+                                   OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()},
+                                   limits.humeral_twist),
             flag::limited_humeral_twist);
     }
     const auto matrix_entry = [&](const Turn<T>& fixed, const Turn<T>& moving) SWIVEL_INLINE_LAMBDA {
-        return [=](int row, int column) SWIVEL_INLINE_LAMBDA {
+        return [=, &cosine](int row, int column) SWIVEL_INLINE_LAMBDA {
             const auto axis = [](const Turn<T>& turn, int n) SWIVEL_INLINE_LAMBDA {
                 return n == 0 ? turn.e1 : n == 1 ? turn.e2 : turn.e3;
             };
-            return inner(axis(fixed, row), axis(moving, column));
+            return cosine(axis(fixed, row), axis(moving, column));
         };
     };
     if (use.shoulder_box)
@@ -119,19 +124,21 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     const auto forearm = to_arm * arm.elbow;
     const Rotor<T> hand = ~from_line * arm.hand;
     if (use.hand_cone)
-        add(cone_limit(sandwich(hand, limits.hand_cone.axis), widen<vectors>(sandwich(forearm, e3)),
+        add(cone_limit(cosine(sandwich(hand, limits.hand_cone.axis), sandwich(forearm, e3)),
                        limits.hand_cone.cos_opening),
             flag::limited_hand_cone);
     if (use.forearm_twist || use.hand_twist) {
         const Rotor<T> at_0 = ~forearm * hand, at_pi = ~forearm * ~k * hand;
         const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()};
         if (use.forearm_twist)
-            add(twist_limit(w, OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()}, limits.forearm_twist),
+            add(per_size * twist_limit(w, OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()},
+                                       limits.forearm_twist),
                 flag::limited_forearm_twist);
         if (use.hand_twist)
-            add(twist_limit(w,
-                            OnHalfCircle<T>{about(limits.hand_twist.axis, at_0), about(limits.hand_twist.axis, at_pi)},
-                            limits.hand_twist.range),
+            add(per_size *
+                    twist_limit(
+                        w, OnHalfCircle<T>{about(limits.hand_twist.axis, at_0), about(limits.hand_twist.axis, at_pi)},
+                        limits.hand_twist.range),
                 flag::limited_hand_twist);
     }
     // Its matrix has the forearm's axes in its rows: there the moving vector is the row's.

@@ -25,6 +25,7 @@ struct SolvedLimb {
     Rotor<T> wrist;
     Vector<T> normal;  // of the swivel plane, unit
     T stretch;         // of the bones
+    Mask<T> settled;   // false where a search would be needed that was not wanted: then the rest means nothing
 };
 
 template <class T>
@@ -53,14 +54,16 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
 {
     WristGoal<T> wrist{one<T>(), goal.arm.wrist};
     if (use.hand) wrist.hand = normalise(goal.hand);
+    const auto& [shoulder, elbow, hand] = goal.incoming;
     if (use.hand && use.weights)
-        wrist.hand =
-            blended(goal.incoming.shoulder * goal.incoming.elbow * goal.incoming.wrist, wrist.hand, goal.weights.hand);
+        wrist.hand = blended(normalise(shoulder * elbow * hand), wrist.hand, goal.weights.hand);
     if (use.effector && !use.aim) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
     if (use.weights) {
+        // Each rotor turns a bone by the square of its length, too.
         const auto e3 = unit<T, kE3>();
-        const Vector<T> was = goal.arm.upper * sandwich(goal.incoming.shoulder, e3) +
-                              goal.arm.fore * sandwich(goal.incoming.shoulder * goal.incoming.elbow, e3);
+        const T shoulder2 = len2(shoulder), elbow2 = len2(elbow);
+        const Vector<T> was = (T(1) / (shoulder2 * elbow2)) * ((goal.arm.upper * elbow2) * sandwich(shoulder, e3) +
+                                                               goal.arm.fore * sandwich(shoulder * elbow, e3));
         wrist.place = was + goal.weights.position * (wrist.place - was);
     }
     return wrist;
@@ -128,8 +131,9 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
     return limb;
 }
 
-// good: false where the caller already knows the input to be bad.
-template <bool Aims, class T>
+// good: false where the caller already knows the input to be bad. Searches: see choose_swivel; without it the previous
+// normal is given back where the limb is not settled.
+template <bool Aims, bool Searches = true, class T>
 SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
 {
     const Mask<T> valid = good & is_valid(use, goal);
@@ -137,9 +141,12 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     Rotor<T> shoulder = limb.arm.from_line * limb.arm.to_arm;
     Vector<T> normal = limb.normal;
     Bits<T> flags = limb.flags;
+    SolvedLimb<T> pose;
+    pose.settled = T(0) == T(0);
     if (use.limits.on_swivel()) {
         const SwivelLimits<T> limits = swivel_limits(use.limits, goal.limits, limb.arm);
-        const ChosenSwivel<T> chosen = choose_swivel(limits.limits);
+        const ChosenSwivel<T> chosen = choose_swivel<Searches>(limits.limits);
+        if constexpr (!Searches) pose.settled = chosen.allowed | !valid;
         flags = flags | broken(limits) | bits_where(!chosen.allowed, flag::infeasible);
         shoulder = limb.arm.from_line * half_turn(chosen.swivel) * limb.arm.to_arm;
         normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);
@@ -150,11 +157,13 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     }
     shoulder = normalise(shoulder);
 
-    SolvedLimb<T> pose;
     pose.arm = {select(valid, shoulder, one<T>()), select(valid, limb.bones.cos_half, T(1)),
                 select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(flag::bad_input)), valid};
     pose.stretch = select(valid, limb.bones.stretch, T(1));
-    if (use.continuity) pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
+    if (use.continuity) {
+        pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
+        if constexpr (!Searches) pose.normal = select(pose.settled, pose.normal, goal.continuity.previous_normal);
+    }
     if (use.hand) {
         const Rotor<T> wrist = Aims ? limb.arm.hand : ~(shoulder * limb.arm.elbow) * limb.arm.hand;
         pose.wrist = select(valid, wrist, one<T>());

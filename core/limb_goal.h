@@ -20,7 +20,7 @@ struct LimbUse {
 
 template <class T>
 struct IncomingPose {
-    Rotor<T> shoulder, elbow, wrist;  // of unit length; the elbow may turn about any axis
+    Rotor<T> shoulder, elbow, wrist;  // of lengths about 1; the elbow may turn about any axis
 };
 
 // Weights are 0 to 1: 0 keeps the incoming pose's, 1 takes the goal's.
@@ -50,8 +50,8 @@ struct AimGoal {
 
 template <class T>
 struct LimbGoal {
-    ArmGoal<T> arm;      // wrist: the effector's target; pole: a pole, or the swivel plane's normal
-    Rotor<T> hand;       // orientation, the identity at rest; with aim the wrist's rotation from the forearm
+    ArmGoal<T> arm;  // wrist: the effector's target; pole: a pole, or the swivel plane's normal
+    Rotor<T> hand;   // orientation, the identity at rest; with aim the wrist's rotation from the forearm; of any length
     Vector<T> effector;  // in the hand's frame
     Turned<T> angle;     // turns the wish about the line from shoulder to wrist; of any length
     IncomingPose<T> incoming;
@@ -114,7 +114,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& 
 {
     Mask<T> valid = (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2)) &
                     is_length(goal.arm.upper) & is_length(goal.arm.fore) & is_valid(use.limits, goal.limits);
-    if (use.hand) valid = valid & is_orientation(goal.hand);
+    if (use.hand) valid = valid & (len2(goal.hand) >= T(1e-37)) & (len2(goal.hand) <= T(1e37));
     if (use.effector) valid = valid & (len2(goal.effector) <= T(kHuge2));
     if (use.angle) {
         const T length2 = goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin;

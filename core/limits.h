@@ -22,11 +22,12 @@ struct Range {
     Turned<T> middle, half;
 };
 
-// An axis carried by the arm stays within a cone about a fixed one. Also the other way round.
+// An axis carried by the arm stays within a cone about a fixed one; cosine: of the angle between the two. Also the
+// other way round.
 template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> cone_limit(const Vector<T>& fixed, const Vector<T>& moving, const T& cos_opening)
+SWIVEL_INLINE constexpr OnCircle<T> cone_limit(const OnCircle<T>& cosine, const T& cos_opening)
 {
-    return inner(fixed, moving) - constant(cos_opening);
+    return cosine - constant(cos_opening);
 }
 
 // The twist of a rotor about an axis, whose components w and s (along the axis) are given, stays within a range. With
@@ -173,11 +174,13 @@ SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
 }
 
 // The edges of all limits: what is allowed changes only where one of them crosses zero. live: where it is an edge at
-// all.
+// all. front, back: the sign with which it is part of the room where its box takes the middle angle's cosine as
+// positive, or as negative; 0: it is no part of that. Lines without a box are part of all of it.
 template <class T>
 struct Edge {
     OnCircle<T> line;
     Mask<T> live;
+    int box, front, back;
 };
 // middles: with those lines, too, that only matter where nothing is allowed. Edges that are live in no lane are left
 // out.
@@ -186,19 +189,25 @@ SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, Edge<T>
 {
     int count = 0;
     const Mask<T> always = T(0) == T(0);
-    for (int n = 0; n < limits.line_count; ++n) edge[count++] = {limits.line[n], always};
+    for (int n = 0; n < limits.line_count; ++n) edge[count++] = {limits.line[n], always, -1, 1, 1};
     for (int n = 0; n < limits.box_count; ++n) {
         const EulerBox<T>& box = limits.box[n];
-        for (const T* sine : {&box.front.low, &box.front.high, &box.back.low, &box.back.high})
-            if (const Mask<T> live = abs(*sine) <= T(1); any(live)) edge[count++] = {box.sine - constant(*sine), live};
-        for (const Turned<T>* end : {&box.first.low, &box.first.high})
-            edge[count++] = {past(*end, box.first_cos, box.first_sin), always};
-        for (const Turned<T>* end : {&box.last.low, &box.last.high})
-            edge[count++] = {past(*end, box.last_cos, box.last_sin), always};
-        if (middles) {
-            edge[count++] = {along(box.first.middle, box.first_cos, box.first_sin), always};
-            edge[count++] = {along(box.last.middle, box.last_cos, box.last_sin), always};
-        }
+        const auto add_sine = [&](const T& sine, int front, int back) SWIVEL_INLINE_LAMBDA {
+            if (const Mask<T> live = abs(sine) <= T(1); any(live))
+                edge[count++] = {box.sine - constant(sine), live, n, front, back};
+        };
+        add_sine(box.front.low, 1, 0);
+        add_sine(box.front.high, -1, 0);
+        add_sine(box.back.low, 0, 1);
+        add_sine(box.back.high, 0, -1);
+        const auto add_angle = [&](const Ends<T>& ends, const OnCircle<T>& cos, const OnCircle<T>& sin)
+                                   SWIVEL_INLINE_LAMBDA {
+                                       edge[count++] = {past(ends.low, cos, sin), always, n, 1, -1};
+                                       edge[count++] = {past(ends.high, cos, sin), always, n, -1, 1};
+                                       if (middles) edge[count++] = {along(ends.middle, cos, sin), always, n, 1, -1};
+                                   };
+        add_angle(box.first, box.first_cos, box.first_sin);
+        add_angle(box.last, box.last_cos, box.last_sin);
     }
     return count;
 }

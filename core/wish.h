@@ -15,11 +15,12 @@ SWIVEL_INLINE constexpr Vector<T> across(const Vector<T>& v, const Vector<T>& u)
 {
     return v - scalar_product(v, u) * u;
 }
-// v times a power of two that makes it shorter than 1; not much shorter, unless it is shorter than kTiny.
-template <class T>
-SWIVEL_INLINE constexpr Vector<T> scaled(const Vector<T>& v)
+// A vector or rotor times a power of two that makes it shorter than 1; not much shorter, unless it is shorter than
+// kTiny.
+template <class T, BladeSet S>
+SWIVEL_INLINE constexpr Mv<T, S> scaled(const Mv<T, S>& m)
 {
-    return per_power_of_two(hi(length1(v), T(kTiny))) * v;
+    return per_power_of_two(hi(length1(m), T(kTiny))) * m;
 }
 
 // The normal of the swivel plane that the goal wishes for, across the line.
@@ -34,39 +35,45 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
 {
     const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
     // Whether a direction, of this squared length, says where the elbow goes: its part across the line is the normal.
-    const auto is_off = [](const Vector<T>& normal, const T& of2 = T(1))
+    const auto is_off = [](const Vector<T>& normal, const T& of2)
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     // The stand-ins, the best last.
-    Vector<T> instead = select(is_off(across(hinge, line)), across(hinge, line), across(other, line));
+    Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
     Mask<T> kept = T(1) < T(0);
-    const auto prefer = [&](const Vector<T>& normal) SWIVEL_INLINE_LAMBDA {
-        kept = kept | is_off(normal);
-        instead = select(is_off(normal), normal, instead);
+    const auto prefer = [&](const Vector<T>& normal, const Mask<T>& off) SWIVEL_INLINE_LAMBDA {
+        kept = kept | off;
+        instead = select(off, normal, instead);
     };
     Vector<T> was = instead;
+    Mask<T> was_off = kept;
     if (use.incoming) {
-        was = across(sandwich(goal.incoming.shoulder, hinge), line);
-        prefer(was);
+        const T length2 = len2(goal.incoming.shoulder);
+        was = across(sandwich(goal.incoming.shoulder, unit<T, kE1>()), line);
+        was_off = is_off(was, length2 * length2);
+        prefer(was, was_off);
     }
-    if (use.continuity) prefer(across(goal.continuity.previous_normal, line));
+    if (use.continuity) {
+        const Vector<T> previous = across(goal.continuity.previous_normal, line);
+        prefer(previous, is_off(previous, T(1)));
+    }
 
     const Vector<T> pole = use.wish == Wish::incoming ? was : scaled(goal.arm.pole);
     const Vector<T> wish = use.wish == Wish::pole ? cross(line, pole) : pole;
-    Mask<T> undefined = !is_off(across(wish, line), use.wish == Wish::incoming ? T(1) : len2(pole));
-    if (use.wish != Wish::incoming) undefined = undefined | !(len2(goal.arm.pole) >= T(kTiny2));
-    Vector<T> normal = normalise(across(select(undefined, instead, wish), line));
+    Mask<T> says = was_off;
+    if (use.wish != Wish::incoming) says = is_off(across(wish, line), len2(pole)) & (len2(goal.arm.pole) >= T(kTiny2));
+    const Mask<T> undefined = !says;
+    Vector<T> normal = across(select(undefined, instead, wish), line);  // of any length until the end
     if (use.angle) {  // where the elbow stays as it was, the angle is in that already
-        const T per_length = T(1) / sqrt(goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin);
-        const Vector<T> turned =
-            (per_length * goal.angle.cos) * normal + (per_length * goal.angle.sin) * cross(line, normal);
+        const Vector<T> turned = scaled(goal.angle.cos * normal + goal.angle.sin * cross(line, normal));
         normal = select(undefined & kept, normal, turned);
     }
     if (use.weights) {
-        const Vector<T> from = normalise(select(is_off(was), was, normal));
-        const Vector<T> between = from + goal.weights.pole * (normal - from);
-        normal = normalise(select(is_off(between), between, from));
+        const Vector<T> from = select(was_off, was, normal);
+        const T from2 = len2(from);
+        const Vector<T> to = sqrt(from2 / len2(normal)) * normal, between = from + goal.weights.pole * (to - from);
+        normal = select(is_off(between, from2), between, from);
     }
-    return {normal, undefined};
+    return {normalise(normal), undefined};
 }
 
 // The normal no further from the previous one than the frame's most swivel.

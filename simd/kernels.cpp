@@ -7,7 +7,7 @@
 #include "core/solve_arm.h"
 #include "core/space.h"
 #include "simd/lanes.h"
-#include "simd/limb_step.h"
+#include "simd/limb_run.h"
 #include "simd/pack.h"
 #include "simd/rows.h"
 

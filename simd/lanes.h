@@ -112,8 +112,9 @@ SWIVEL_INLINE Lanes<A, R> sqrt(const Lanes<A, R>& a)
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> operator-(const Lanes<A, R>& a)
 {
+    // The compilers' own minus of registers, so that they may make x + (-y) z into x - y z.
     return each_register<Lanes<A, R>>([&](std::size_t n)
-                                          SWIVEL_INLINE_LAMBDA { return a.r[n] ^ xsimd::batch<float, A>(-0.0f); });
+                                          SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(-a.r[n].data); });
 }
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> abs(const Lanes<A, R>& a)

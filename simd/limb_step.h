@@ -5,7 +5,6 @@
 // asks once a step, never for a limb.
 #pragma once
 
-#include "core/allowed_arcs.h"
 #include "core/clavicle.h"
 #include "core/forearm_twist.h"
 #include "core/limb.h"
@@ -166,41 +165,44 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
     LimbEntry<T> entry;
     entry.valid = T(0) == T(0);
     const Vector<T> zero = vector(T(0), T(0), T(0));
+    const bool joints = rows.has(SWIVEL_JOINTS);
     goal.arm = {rows.load_vector(SWIVEL_TARGET), use.wish == Wish::incoming ? zero : rows.load_vector(SWIVEL_POLE),
                 rows.load(SWIVEL_LENGTHS, 0), rows.load(SWIVEL_LENGTHS, 1)};
-    if (use.hand) goal.hand = rows.load_rotor(SWIVEL_HAND);
+    if (use.hand) {
+        goal.hand = rows.load_rotor(SWIVEL_HAND);
+        entry.valid = entry.valid & is_orientation(goal.hand);
+    }
     if (rows.has(SWIVEL_WORLD)) {
         const ParentFrame<T> parent{rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
                                     rows.load(SWIVEL_PARENT_SCALE, 0)};
-        entry.valid = is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
-        const Rotor<T> arm_from_world = ~(normalise(parent.rotation) * bind.parent_from_arm);
+        entry.valid =
+            entry.valid & is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
+        const Rotor<T> arm_from_world = ~(joints ? parent.rotation * bind.parent_from_arm : parent.rotation);
         const Turn<T> turn = turn_by(arm_from_world);
-        const T shrink = T(1) / parent.scale;
+        const T shrink = T(1) / (parent.scale * turn.length2);
         const bool pole_is_point = use.wish == Wish::pole && !rows.has(SWIVEL_POLE_DIRECTION);
         goal.arm.wrist = shrink * turn(goal.arm.wrist - parent.position);
         goal.arm.pole = shrink * turn(pole_is_point ? goal.arm.pole - parent.position : goal.arm.pole);
         if (use.hand && !use.aim) goal.hand = arm_from_world * goal.hand;
         if (rows.has(SWIVEL_WITH_CLAVICLE)) turn_clavicle(use, bind, rows, pole_is_point, goal, entry);
     }
-    if (use.hand && use.aim) goal.hand = ~bind.fore_from_arm * goal.hand;
-    if (use.hand) goal.hand = goal.hand * ~bind.hand_from_arm;
-    if (use.effector) goal.effector = sandwich(bind.hand_from_arm, rows.load_vector(SWIVEL_EFFECTOR));
-    if (use.aim)
-        goal.aim = {sandwich(bind.hand_from_arm, rows.load_vector(SWIVEL_AIM)), rows.load(SWIVEL_AIM, 3),
-                    rows.load(SWIVEL_AIM, 4)};
+    if (use.hand && joints) goal.hand = (use.aim ? ~bind.fore_from_arm * goal.hand : goal.hand) * ~bind.hand_from_arm;
+    const auto load_in_hand = [&](swivel_field field) SWIVEL_INLINE_LAMBDA {
+        const Vector<T> v = rows.load_vector(field);
+        return joints ? sandwich(bind.hand_from_arm, v) : v;
+    };
+    if (use.effector) goal.effector = load_in_hand(SWIVEL_EFFECTOR);
+    if (use.aim) goal.aim = {load_in_hand(SWIVEL_AIM), rows.load(SWIVEL_AIM, 3), rows.load(SWIVEL_AIM, 4)};
     if (use.angle) goal.angle = rows.load_turned(SWIVEL_ANGLE);
     if (use.incoming) {
-        const Rotor<T> shoulder = rows.load_rotor(SWIVEL_INCOMING_SHOULDER),
-                       elbow = rows.load_rotor(SWIVEL_INCOMING_ELBOW);
-        entry.valid = entry.valid & is_orientation(shoulder) & is_orientation(elbow);
-        goal.incoming.shoulder = normalise(~bind.parent_from_arm * shoulder * bind.upper_from_arm);
-        goal.incoming.elbow = normalise(~bind.upper_from_arm * elbow * bind.fore_from_arm);
-        goal.incoming.wrist = one<T>();
-        if (use.hand) {
-            const Rotor<T> wrist = rows.load_rotor(SWIVEL_INCOMING_WRIST);
-            entry.valid = entry.valid & is_orientation(wrist);
-            goal.incoming.wrist = normalise(~bind.fore_from_arm * wrist * ~bind.hand_from_arm);
-        }
+        const auto load = [&](swivel_field field, const Rotor<T>& from, const Rotor<T>& to) SWIVEL_INLINE_LAMBDA {
+            const Rotor<T> local = rows.load_rotor(field);
+            entry.valid = entry.valid & is_orientation(local);
+            return scaled(joints ? ~from * local * to : local);
+        };
+        goal.incoming = {load(SWIVEL_INCOMING_SHOULDER, bind.parent_from_arm, bind.upper_from_arm),
+                         load(SWIVEL_INCOMING_ELBOW, bind.upper_from_arm, bind.fore_from_arm), one<T>()};
+        if (use.hand) goal.incoming.wrist = load(SWIVEL_INCOMING_WRIST, bind.fore_from_arm, ~bind.hand_from_arm);
     }
     if (use.weights)
         goal.weights = {rows.load(SWIVEL_WEIGHTS, 0), rows.load(SWIVEL_WEIGHTS, 1), rows.load(SWIVEL_WEIGHTS, 2)};
@@ -270,38 +272,16 @@ SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
             run.results ? run.results + row_offset(limb, run.result_row_count, 0) : nullptr};
 }
 
-// Solves a run of whole limbs. One register a step: two were no faster, their values do not stay in registers.
-template <class T, bool Aims>
-SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const LimbRun& run)
+// Solves one step. Where it says false the limits allow no swivel, and a search for the least violation was not wanted:
+// there the results mean nothing.
+template <bool Aims, bool Searches, class T>
+SWIVEL_INLINE Mask<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows)
 {
-    LimbUse use = limb_use(run);
-    use.aim = Aims;  // as it is, but now the compiler knows
-    const LimbBinding<T> bind = limb_binding<T>(run);
-    for (std::size_t limb = 0; limb < std::size_t{run.block_count} * SWIVEL_LANES; limb += lane_count<T>) {
-        const LimbRows<T> rows = rows_of<T>(run, limb);
-        LimbGoal<T> goal;
-        const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
-        store_limb(use, bind, rows, entry, solve_limb<Aims>(use, goal, entry.valid));
-    }
-}
-template <class T>
-void solve_limbs(const LimbRun& run)
-{
-    if (run.features & SWIVEL_WITH_AIM)
-        solve_limb_steps<T, true>(run);
-    else
-        solve_limb_steps<T, false>(run);
-}
-
-// The swivels that the limits of one limb of a run allow.
-inline AllowedArcs<float> allowed_arcs_of(const LimbRun& run, std::size_t limb)
-{
-    const LimbUse use = limb_use(run);
-    LimbGoal<float> goal;
-    const LimbEntry<float> entry = load_limb(use, limb_binding<float>(run), rows_of<float>(run, limb), goal);
-    if (!entry.valid || !is_valid(use, goal)) return {};
-    if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
-    return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);
+    LimbGoal<T> goal;
+    const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
+    const SolvedLimb<T> pose = solve_limb<Aims, Searches>(use, goal, entry.valid);
+    store_limb(use, bind, rows, entry, pose);
+    return pose.settled;
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -74,8 +74,9 @@ may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
 
 # ---- simd: kernels.cpp and its pack.h see formulas and lanes, the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|limb_step|pack|rows)[.]h\"")
-may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(allowed_arcs|forearm_twist|limb|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|limb_run|pack|rows)[.]h\"")
+may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/limb_step[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
             "${standard}|\"simd/(dispatch|kernels)[.]h\"|\"batch/swivel[.]h\"|\"core/isa[.]h\"")

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+//
+// A run of whole limbs, step by step. A step takes as long as its slowest limb, and a search for the least violation of
+// limits of Euler boxes takes five to ten times as long as a solve: so limbs that need one are put aside and searched
+// together.
+#pragma once
+
+#include "core/allowed_arcs.h"
+#include "simd/limb_step.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+inline constexpr std::uint32_t kEveryLimbFeature = ~std::uint32_t{SWIVEL_COMPACT | SWIVEL_POLE_INCOMING};
+
+// One block of limbs put aside, and where each of them belongs.
+struct LimbsAside {
+    alignas(64) float input[input_row_count(kEveryLimbFeature) * SWIVEL_LANES] = {};
+    alignas(64) float results[result_row_count(kEveryLimbFeature) * SWIVEL_LANES] = {};
+    std::size_t limb[SWIVEL_LANES];
+    std::size_t count = 0;
+
+    static void copy_lane(std::uint32_t row_count, const float* from, float* to)
+    {
+        for (std::uint32_t row = 0; row < row_count; ++row) to[row * SWIVEL_LANES] = from[row * SWIVEL_LANES];
+    }
+    void take(const LimbRun& run, std::size_t from)
+    {
+        copy_lane(run.input_row_count, run.input + row_offset(from, run.input_row_count, 0), input + count);
+        copy_lane(run.result_row_count, run.results + row_offset(from, run.result_row_count, 0), results + count);
+        limb[count++] = from;
+    }
+    void give_back(const LimbRun& run)
+    {
+        for (std::size_t n = 0; n < count; ++n)
+            copy_lane(run.result_row_count, results + n, run.results + row_offset(limb[n], run.result_row_count, 0));
+        count = 0;
+    }
+};
+
+// The steps of a run; settled(first limb, mask) is told of each. One register a step: two were no faster, their values
+// do not stay in registers.
+template <class T, bool Aims, bool Searches, class Settled>
+SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const LimbRun& run, Settled settled)
+{
+    LimbUse use = limb_use(run);
+    use.aim = Aims;  // as it is, but now the compiler knows
+    const LimbBinding<T> bind = limb_binding<T>(run);
+    for (std::size_t limb = 0; limb < std::size_t{run.block_count} * SWIVEL_LANES; limb += lane_count<T>)
+        settled(limb, solve_limb_step<Aims, Searches>(use, bind, rows_of<T>(run, limb)));
+}
+
+template <class T, bool Aims>
+void search_limbs(const LimbRun& run)
+{
+    solve_limb_steps<T, Aims, true>(run, [](std::size_t, const Mask<T>&) SWIVEL_INLINE_LAMBDA {});
+}
+
+template <class T, bool Aims>
+[[gnu::noinline]] void search_aside(const LimbRun& run, LimbsAside& aside)
+{
+    LimbRun block = run;
+    block.input = aside.input;
+    block.results = aside.results;
+    block.block_count = 1;
+    search_limbs<T, Aims>(block);
+    aside.give_back(run);
+}
+
+template <class T, bool Aims>
+void solve_limbs(const LimbRun& run)
+{
+    if constexpr (lane_count<T> == 1) {  // no neighbour has to wait
+        search_limbs<T, Aims>(run);
+    } else if (!(run.features & (SWIVEL_LIMIT_SHOULDER_BOX | SWIVEL_LIMIT_WRIST_BOX))) {  // a short search
+        search_limbs<T, Aims>(run);
+    } else {
+        LimbsAside aside;
+        solve_limb_steps<T, Aims, false>(run, [&](std::size_t first, const Mask<T>& settled) SWIVEL_INLINE_LAMBDA {
+            if (all(settled)) return;
+            alignas(64) float waits[lane_count<T>];
+            store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return waits + lane; },
+                        select(settled, T(0), T(1)));
+            for (std::size_t lane = 0; lane < lane_count<T>; ++lane) {
+                if (waits[lane] == 0) continue;
+                aside.take(run, first + lane);
+                if (aside.count == SWIVEL_LANES) search_aside<T, Aims>(run, aside);
+            }
+        });
+        if (aside.count > 0) search_aside<T, Aims>(run, aside);
+    }
+}
+template <class T>
+void solve_limbs(const LimbRun& run)
+{
+    if (run.features & SWIVEL_WITH_AIM)
+        solve_limbs<T, true>(run);
+    else
+        solve_limbs<T, false>(run);
+}
+
+// The swivels that the limits of one limb of a run allow.
+inline AllowedArcs<float> allowed_arcs_of(const LimbRun& run, std::size_t limb)
+{
+    const LimbUse use = limb_use(run);
+    LimbGoal<float> goal;
+    const LimbEntry<float> entry = load_limb(use, limb_binding<float>(run), rows_of<float>(run, limb), goal);
+    if (!entry.valid || !is_valid(use, goal)) return {};
+    if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
+    return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);
+}
+
+}  // namespace swivel::inline SWIVEL_ISA
