@@ -119,8 +119,11 @@ must_print_the_line(${WORK}/pc_arm_c)
 run(${CXX} -std=c++20 ${flags} ${CMAKE_CURRENT_LIST_DIR}/package/arm.cpp -o ${WORK}/pc_arm_cpp ${options})
 must_print_the_line(${WORK}/pc_arm_cpp)
 unset(ENV{LD_LIBRARY_PATH})
+message(STATUS "installed, moved, found and linked")
 
 # ---- the examples, as an outside project
+if(SHARED)
+  return()  # once is enough
+endif()
 build_host(${SOURCE}/examples ${WORK}/examples -DCMAKE_PREFIX_PATH=${prefix} "-DCMAKE_C_FLAGS=${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/examples --output-on-failure --no-tests=error)
-message(STATUS "installed, moved, found and linked")
