@@ -13,12 +13,15 @@ function(run)
   set(output "${said}" PARENT_SCOPE)
 endfunction()
 
-# Configures and builds a project anew; `output` becomes the commands. Remaining arguments: for the configuration.
+# Configures and builds a project anew; `commands` becomes what compiled and linked arm.c and arm.cpp, line by line. Remaining
+# arguments: for the configuration.
 function(build_host source build)
   file(REMOVE_RECURSE ${build})
   run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${source} -B ${build} -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} ${ARGN})
   run(${CMAKE_COMMAND} --build ${build} --verbose)
-  set(output "${output}" PARENT_SCOPE)
+  string(REGEX MATCHALL "[^\n]*/arm[.]c[^\n]*" commands "${output}")
+  list(JOIN commands "\n" commands)
+  set(commands "${commands}" PARENT_SCOPE)
 endfunction()
 
 # A program of the host's prints the line of swivel's own build: the same bits.
@@ -31,9 +34,12 @@ function(must_print_the_line program)
   endif()
 endfunction()
 
-# Options in a text of commands that start with one of a regex' letters must each match `allowed` wholly.
-function(must_say_only what text options allowed)
-  string(REGEX MATCHALL "[ \n](${options})[^ \n]*" found "${text}")
+# Words of the commands that start as one regex says must each match another, `allowed`, wholly. There must be some.
+function(must_say_only what commands words allowed)
+  string(REGEX MATCHALL "[ \n](${words})[^ \n]*" found "${commands}")
+  if(NOT found)
+    message(SEND_ERROR "no word of ${what} starts as ${words}:\n${commands}")
+  endif()
   list(TRANSFORM found STRIP)
   list(REMOVE_DUPLICATES found)
   foreach(option IN LISTS found)
@@ -41,7 +47,6 @@ function(must_say_only what text options allowed)
       message(SEND_ERROR "${what} says ${option}")
     endif()
   endforeach()
-  set(found "${found}" PARENT_SCOPE)
 endfunction()
 
 # A regex for a text as it is.
