@@ -129,7 +129,10 @@ int report(const swivel::Crowd& crowd, std::span<const Character> characters, To
         (is_near ? near_count : far_count) += 1;
         worst = std::max(worst, lag[n] * kArmLength);
     }
-    const bool forgotten = worst > kTargetSpeed * kLongestWait, in_order = near / near_count <= far / far_count + 1e-6;
+    // Never solved at all: not a number.
+    const bool forgotten =
+        !std::ranges::all_of(lag, [](double each) { return each * kArmLength <= kTargetSpeed * kLongestWait; });
+    const bool in_order = near / near_count <= far / far_count + 1e-6;
     std::printf("%d frames, %d steps of 1/60 s, %u hands\n", kFrameCount, totals.steps, kHandCount);
     std::ranges::nth_element(totals.seconds, totals.seconds.begin() + kFrameCount / 2);
     std::printf("%.0f hands a frame, in %.2f ms of a budget of %.2f ms (median)\n", totals.hands / kFrameCount,
