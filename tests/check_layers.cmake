@@ -106,6 +106,11 @@ must_not_say(tools/formats "#[ \t]*include[ \t]*\"bench/[^\n]*" ${nowhere} "a fo
 must_not_say(bench/rivals "#[ \t]*include[ \t]*(\"bench/[a-z_]+[.]h|<benchmark/)[^\n]*" ${nowhere} "the rivals do not know the suite")
 must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmarks do not know the tools")
 
+
+# ---- examples see what an installed swivel has; replay reads files, too
+may_include(examples "examples/replay[.]cpp$" "${standard}|<swivel/swivel[.]hpp>|\"tools/formats/(bvh|clip)[.]h\"")
+may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms)[.]c" "${standard}|<stdio[.]h>|<swivel/swivel[.]h(pp)?>")
+
 foreach(folder core simd batch)
   # ---- names at home in one file
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")

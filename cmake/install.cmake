@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` puts under the prefix: two headers, the library, the command, package files, the licence. All of it
+# may be moved as a whole: no file names its place.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(FILES batch/swivel.h batch/swivel.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+target_include_directories(swivel INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS swivel EXPORT swivelTargets)
+if(SWIVEL_TOOLS)
+  if(BUILD_SHARED_LIBS)  # the command finds the library beside itself
+    file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+    set_target_properties(swivel_command PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
+  endif()
+  install(TARGETS swivel_command)
+endif()
+
+# ---- find_package(swivel)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/swivel)
+# What a static library must hand on: oneTBB, and for programs linked by a C compiler what C++ adds to C.
+set(cxx_libraries "")
+set(find_dependencies "")
+set(link_as_c "# The shared library brings along what it needs.")
+if(NOT BUILD_SHARED_LIBS)
+  set(cxx_libraries ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+  list(REMOVE_ITEM cxx_libraries ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
+  list(REMOVE_DUPLICATES cxx_libraries)
+  set(link_as_c "set_property(TARGET swivel::swivel APPEND PROPERTY INTERFACE_LINK_LIBRARIES \"${cxx_libraries}\")")
+  if(SWIVEL_TBB)
+    set(find_dependencies "include(CMakeFindDependencyMacro)\nfind_dependency(TBB)\n")
+  endif()
+endif()
+configure_package_config_file(cmake/swivelConfig.cmake.in swivelConfig.cmake INSTALL_DESTINATION ${package_dir}
+                              NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may change anything; from then on this is SameMajorVersion.
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/swivelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swivelConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/swivelConfigVersion.cmake
+        DESTINATION ${package_dir})
+install(EXPORT swivelTargets NAMESPACE swivel:: DESTINATION ${package_dir})
+
+# ---- pkg-config swivel
+# ${pcfiledir} is where the file lies, wherever that is by then.
+file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH pc_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
+file(RELATIVE_PATH pc_includedir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+set(pc_private ${cxx_libraries})
+if(find_dependencies)
+  list(PREPEND pc_private tbb)
+endif()
+string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
+list(TRANSFORM pc_private PREPEND -l)
+list(JOIN pc_private " " pc_private)
+configure_file(cmake/swivel.pc.in swivel.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swivel.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

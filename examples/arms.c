@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT
+ * C11: the two arms of a skeleton. Its rest pose goes in once, then targets in the world; out come its own joints'
+ * local rotations, ready to be stored. */
+#include <stdio.h>
+#include <swivel/swivel.h>
+
+enum { LEFT, RIGHT, SIDE_COUNT };
+
+static int failed(const char* what)
+{
+    fprintf(stderr, "%s failed: %s\n", what, swivel_last_error());
+    return 1;
+}
+
+/* The rest pose, in metres: a T-pose facing +z with y up. The left arm's bones run along +x, the right one's along -x;
+ * both elbows bend forwards, which is a turn about -y on the left and +y on the right: about -hinge. */
+static swivel_chain rest_pose(int side)
+{
+    const float sign = side == LEFT ? 1.0f : -1.0f;
+    swivel_chain chain = {0};
+    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1; /* no rotation: x, y, z, w */
+    chain.elbow_offset[0] = sign * 0.30f;
+    chain.wrist_offset[0] = sign * 0.26f;
+    chain.hinge[1] = sign;
+    return chain;
+}
+
+int main(void)
+{
+    /* What the game knows each frame, in the world. */
+    const float grip[SIDE_COUNT][3] = {{0.15f, 1.10f, 0.40f}, {-0.25f, 1.55f, 0.35f}};
+    const float elbow_hint[3] = {0, -10, 0}; /* elbows down */
+    const float shoulder[SIDE_COUNT][3] = {{0.18f, 1.40f, 0}, {-0.18f, 1.40f, 0}};
+    const char* const names[SIDE_COUNT] = {"left", "right"};
+
+    swivel_group_def groups[SIDE_COUNT] = {{0}}; /* limbs of one skeleton's one side: here a single one each */
+    float lengths[SIDE_COUNT][2];
+    swivel_crowd_def def = swivel_default_crowd_def();
+    swivel_crowd* crowd = NULL;
+    int side;
+
+    for (side = LEFT; side < SIDE_COUNT; ++side) {
+        const swivel_chain chain = rest_pose(side);
+        groups[side].limb_count = 1;
+        if (swivel_bind(&chain, &groups[side].binding, lengths[side]) != SWIVEL_OK) return failed("swivel_bind");
+    }
+    def.features = SWIVEL_WORLD | SWIVEL_JOINTS;
+    def.groups = groups;
+    def.group_count = SIDE_COUNT;
+    if (swivel_crowd_create(&def, &crowd) != SWIVEL_OK) return failed("swivel_crowd_create");
+
+    for (side = LEFT; side < SIDE_COUNT; ++side) {
+        const uint32_t group = (uint32_t)side;
+        /* A stride of 0 is one value for all limbs of the group; there is one limb here. */
+        const swivel_in target = {grip[side], 0}, pole = {elbow_hint, 0}, place = {shoulder[side], 0};
+        const swivel_in bones = {lengths[side], 0};
+        if (swivel_write(crowd, SWIVEL_TARGET, group, 0, 1, target) != SWIVEL_OK ||
+            swivel_write(crowd, SWIVEL_POLE, group, 0, 1, pole) != SWIVEL_OK ||
+            swivel_write(crowd, SWIVEL_PARENT_POSITION, group, 0, 1, place) != SWIVEL_OK ||
+            swivel_write(crowd, SWIVEL_LENGTHS, group, 0, 1, bones) != SWIVEL_OK)
+            return failed("swivel_write");
+    }
+    if (swivel_solve(crowd) != SWIVEL_OK) return failed("swivel_solve");
+
+    for (side = LEFT; side < SIDE_COUNT; ++side) {
+        const uint32_t group = (uint32_t)side;
+        float local[4];  /* the shoulder joint's local rotation */
+        double wrist[3]; /* where forward kinematics puts the wrist */
+        double off = 0;  /* the largest of its three differences from the target */
+        int c;
+        const swivel_out local_out = {local, sizeof local}, wrist_out = {wrist, sizeof wrist}, none = {NULL, 0};
+        if (swivel_read(crowd, SWIVEL_SHOULDER, group, 0, 1, local_out) != SWIVEL_OK) return failed("swivel_read");
+        if (swivel_forward(crowd, group, 0, 1, none, wrist_out, none) != SWIVEL_OK) return failed("swivel_forward");
+        for (c = 0; c < 3; ++c) {
+            const double difference = wrist[c] - (double)grip[side][c];
+            if (difference > off) off = difference;
+            if (-difference > off) off = -difference;
+        }
+        printf("%s shoulder %+.3f %+.3f %+.3f %+.3f, wrist off by %.6f m\n", names[side], local[0], local[1], local[2],
+               local[3], off);
+    }
+    swivel_crowd_destroy(crowd);
+    return 0;
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// A host's C++20 program: solves a thousand arms and prints one line with their bits, the same as arm.c prints.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <span>
+#include <swivel/swivel.hpp>
+#include <vector>
+
+namespace {
+
+constexpr std::uint32_t kArmCount = 1000;
+
+std::vector<std::array<float, 3>> make_targets()
+{
+    std::vector<std::array<float, 3>> targets(kArmCount);
+    std::uint32_t random = 1;
+    for (std::array<float, 3>& target : targets)
+        for (float& component : target) {  // components from 0.04 to 0.30: all within reach
+            random = random * 1664525u + 1013904223u;
+            component = 0.04f + static_cast<float>(random >> 8) * (0.26f / 16777216.0f);
+        }
+    return targets;
+}
+
+std::uint64_t digest(std::span<const std::byte> bytes)
+{
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211u;
+    return hash;
+}
+
+int solve_and_print()
+{
+    const swivel_group_def arms[] = {{.limb_count = kArmCount, .binding = {}}};
+    swivel::Crowd crowd(0, arms);
+    crowd.write(SWIVEL_TARGET, 0, make_targets());
+    crowd.write_all(SWIVEL_POLE, 0, std::array{0.25f, -1.0f, 0.125f});
+    crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});
+    crowd.solve();
+    std::vector<std::array<float, 4>> shoulders(kArmCount);
+    std::vector<double> distances(kArmCount);
+    crowd.read(SWIVEL_SHOULDER, 0, shoulders);
+    crowd.residuals(0, distances);
+
+    const bool held = std::ranges::all_of(distances, [](double distance) { return distance < 1e-6; });
+    std::printf("swivel %u, %d arms %s, bits %016llx\n", static_cast<unsigned>(swivel_version()),
+                static_cast<int>(kArmCount), held ? "on target" : "off target",
+                static_cast<unsigned long long>(digest(std::as_bytes(std::span(shoulders)))));
+    return held ? 0 : 1;
+}
+
+}  // namespace
+
+int main()
+{
+    try {
+        return solve_and_print();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: the shared library exports the functions of swivel.h, each, and nothing else, under a name with its major version.
+#   LIBRARY: libswivel.so; HEADER: swivel.h; MAJOR; NM, READELF: the tools
+file(READ ${HEADER} header)
+string(REGEX REPLACE "//[^\n]*" "" header "${header}")
+string(REPLACE ";" "\n" header "${header}")
+string(REGEX MATCHALL "SWIVEL_API[^(]*[ *]swivel_[a-z_]+[(]" declared "${header}")
+list(TRANSFORM declared REPLACE ".*[ *](swivel_[a-z_]+)[(]" "\\1")
+list(SORT declared)
+if(NOT "swivel_solve" IN_LIST declared)
+  message(FATAL_ERROR "no functions found in ${HEADER}")
+endif()
+
+execute_process(COMMAND ${NM} -D --defined-only --format=posix ${LIBRARY} RESULT_VARIABLE result OUTPUT_VARIABLE output)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${NM} ${LIBRARY} failed")
+endif()
+string(REGEX MATCHALL "[^\n]+" exported "${output}")
+list(TRANSFORM exported REPLACE " .*" "")
+list(SORT exported)
+set(missing ${declared})
+list(REMOVE_ITEM missing ${exported})
+set(extra ${exported})
+list(REMOVE_ITEM extra ${declared})
+if(missing OR extra)
+  message(SEND_ERROR "${LIBRARY} does not export [${missing}], and exports [${extra}], which swivel.h does not declare")
+endif()
+
+execute_process(COMMAND ${READELF} -d ${LIBRARY} OUTPUT_VARIABLE dynamic)
+if(NOT dynamic MATCHES "SONAME[^\n]*\\[libswivel\\.so\\.${MAJOR}\\]")
+  message(SEND_ERROR "${LIBRARY}'s SONAME is not libswivel.so.${MAJOR}:\n${dynamic}")
+endif()
+if(dynamic MATCHES "R(UN)?PATH[^\n]*")
+  message(SEND_ERROR "${LIBRARY} names folders of the machine it was built on: ${CMAKE_MATCH_0}")
+endif()
+list(LENGTH exported count)
+message(STATUS "${count} functions, libswivel.so.${MAJOR}")

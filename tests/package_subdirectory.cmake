@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: a host may build swivel as a part of itself, with options of its own that swivel's bits do not depend on, and its own
+# programs get no option of swivel's. Built for scalar alone, which is what takes time here.
+#   WORK: an own folder; SOURCE: the repository; SHARED, TBB; see package/host.cmake
+cmake_minimum_required(VERSION 3.22)
+include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
+unset(ENV{SWIVEL_FORCE_ISA})
+
+if(SHARED)
+  set(how -DBUILD_SHARED_LIBS=ON -DSWIVEL_INSTALL=ON)
+else()
+  set(how -DFETCH=ON)
+endif()
+build_host(${CMAKE_CURRENT_LIST_DIR}/package/subdirectory ${WORK} -DSWIVEL=${SOURCE} -DSWIVEL_ISAS=scalar -DSWIVEL_TBB=${TBB}
+           -DCMAKE_BUILD_TYPE=Release ${how})
+must_print_the_line(${WORK}/arm_c)
+must_print_the_line(${WORK}/arm_cpp)
+
+# What the host's programs are compiled and linked with. -DNDEBUG and -ffast-math are the host's own.
+quote(${WORK} place)
+must_say_only("the host" "${commands}" "-[IDfm]|-isystem" "-I${place}/[a-z_/-]*/public|-ffast-math|-DNDEBUG")
+must_say_only("the host" "${commands}" "-[lL]|-Wl,|[^ \n]*[.]so|[^ \n]*lib[a-z]*[.]a"
+              "[^ ]*/libswivel[.](so[.0-9]*|a)|-Wl,-rpath,${place}[^ ]*|[^ ]*/libtbb[.]so[.0-9]*")
+if(SHARED AND commands MATCHES "libtbb")
+  message(SEND_ERROR "a host of the shared library links oneTBB")
+endif()
+message(STATUS "built as a part of a host")
