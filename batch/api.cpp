@@ -98,13 +98,6 @@ const char* swivel_status_text(swivel_status status)
 
 const char* swivel_last_error(void) { return last_error(); }
 
-swivel_crowd_def swivel_default_crowd_def(void)
-{
-    swivel_crowd_def def{};
-    def.size = sizeof def;
-    return def;
-}
-
 size_t swivel_crowd_bytes(const swivel_crowd_def* def) { return check(def) == SWIVEL_OK ? crowd_bytes(*def) : 0; }
 
 swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd)

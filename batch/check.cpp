@@ -115,8 +115,8 @@ swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u does not exist; this crowd has %u", group, crowd->group_count);
     const std::uint32_t has = crowd->groups[group].limb_count;
     if (first > has || limb_count > has - first)
-        return fail(SWIVEL_INVALID_ARGUMENT, "limbs %u to %llu are not all in group %u, which has %u", first,
-                    static_cast<unsigned long long>(first) + limb_count, group, has);
+        return fail(SWIVEL_INVALID_ARGUMENT, "%u limbs from limb %u on are not all in group %u, which has %u",
+                    limb_count, first, group, has);
     return SWIVEL_OK;
 }
 
@@ -146,8 +146,8 @@ swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block,
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
     if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
-        return fail(SWIVEL_INVALID_ARGUMENT, "blocks %u to %llu do not all exist; this crowd has %u", first_block,
-                    static_cast<unsigned long long>(first_block) + block_count, crowd->block_count);
+        return fail(SWIVEL_INVALID_ARGUMENT, "%u blocks from block %u on do not all exist; this crowd has %u",
+                    block_count, first_block, crowd->block_count);
     return SWIVEL_OK;
 }
 

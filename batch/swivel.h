@@ -356,8 +356,14 @@ SWIVEL_API const char* swivel_status_text(swivel_status status);
 // One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
 SWIVEL_API const char* swivel_last_error(void);
 
-// One group must still be given; no features; the C library's memory.
-SWIVEL_API swivel_crowd_def swivel_default_crowd_def(void);
+// One group must still be given; no features; the C library's memory. Made by the caller's own compiler, so that its
+// size is that of this header, whichever library is linked.
+static inline swivel_crowd_def swivel_default_crowd_def(void)
+{
+    const swivel_crowd_def def = {
+        sizeof(swivel_crowd_def), 0, 0, NULL, NULL, 0, NULL, NULL, NULL, SWIVEL_XYZ, SWIVEL_XYZ};
+    return def;
+}
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
 // Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity, and those of
@@ -562,7 +568,8 @@ SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order or
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far the wrist, or the effector, of each limb is from its target, or with WITH_AIM the target from the hand's ray:
-// one double, in arm lengths (upper + fore, scaled). 0 for a limb of no length or with bad input.
+// one double, in arm lengths (upper + fore, scaled). 0 for a limb of no length or with bad
+// input. Means nothing before the first solve.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
