@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+#include <cstdlib>
+#include <thread>
+
+namespace {
+
+struct Character {
+    Float3 grip, elbow_hint;
+    Float4 upper_arm, forearm;
+};
+
+swivel::BoundLimb bound_arm()
+{
+    swivel_chain chain{};
+    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    chain.elbow_offset[0] = 0.30f;
+    chain.wrist_offset[0] = 0.26f;
+    chain.hinge[1] = -1;
+    return swivel::bind(chain);
+}
+
+// Where the wrist is, of bones along +x: the skeleton's own forward kinematics.
+Eigen::Vector3d wrist_of(const Character& character)
+{
+    const Eigen::Quaterniond upper = quat(character.upper_arm);
+    return upper * (Eigen::Vector3d(0.30, 0, 0) + quat(character.forearm) * Eigen::Vector3d(0.26, 0, 0));
+}
+
+}  // namespace
+
+TEST_CASE("docs: frames in place")
+{
+    const swivel::BoundLimb arm = bound_arm();
+    std::vector<Character> characters(40, {{0.2f, -0.3f, 0.1f}, {0, 0, -1}, {}, {}});
+    const swivel_group_def arms{40, arm.binding};
+    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&arms, 1});
+    crowd.write_all(SWIVEL_LENGTHS, 0, arm.lengths);
+    // [frame]
+    swivel_frame frame{};  // what stays null keeps its rows, or is not written
+    frame.target = {&characters[0].grip, sizeof(Character)};
+    frame.pole = {&characters[0].elbow_hint, sizeof(Character)};
+    frame.shoulder = {&characters[0].upper_arm, sizeof(Character)};  // may be the very pose that was read
+    frame.elbow = {&characters[0].forearm, sizeof(Character)};
+    crowd.solve_frame({&frame, 1});  // one for each group
+    // [end]
+    for (const Character& character : characters) CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);
+}
+
+TEST_CASE("docs: own threads")
+{
+    const swivel_group_def arms{.limb_count = 200, .binding = {}};
+    swivel::Crowd crowd(0, {&arms, 1});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 1});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
+    // [threads]
+    const std::uint32_t blocks = swivel_block_count(crowd.get()), half = blocks / 2;
+    std::thread job([&] { crowd.solve_blocks(0, half); });  // your job system: ranges that do not overlap
+    crowd.solve_blocks(half, blocks - half);
+    job.join();
+    // [end]
+    std::vector<double> off(200);
+    crowd.residuals(0, off);
+    for (const double each : off) CHECK(each < 1e-6);
+}
+
+TEST_CASE("docs: far from the origin")
+{
+    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    // [far]
+    swivel::Crowd crowd(SWIVEL_WORLD, {&arms, 1});
+    const Double3 character{5.0e6, 20.0, -3.0e6};  // thousands of kilometres out, in metres
+    const swivel_in origin{&character, 0};         // one for all; a stride for one each
+    const std::array<Double3, 1> shoulder{{{5.0e6 + 0.2, 21.4, -3.0e6}}}, elbow_hint{{{5.0e6, 20.4, -3.0e6}}},
+        grip{{{5.0e6 + 0.5, 21.2, -3.0e6 + 0.3}}};
+    crowd.write_doubles(SWIVEL_PARENT_POSITION, 0, shoulder, origin);
+    crowd.write_doubles(SWIVEL_POLE, 0, elbow_hint, origin);
+    crowd.write_doubles(SWIVEL_TARGET, 0, grip, origin);
+    crowd.solve();
+    // [end]
+    std::array<Double3, 1> wrist;
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
+    crowd.solve();
+    crowd.wrists(0, wrist);  // from the origin, too
+    CHECK(distance(wrist[0], Double3{0.5, 1.2, 0.3}) < 1e-6);
+}
+
+TEST_CASE("docs: own memory")
+{
+    const swivel_group_def arms{.limb_count = 100, .binding = {}};
+    // [memory]
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.group_count = 1;
+    def.groups = &arms;
+    def.memory_bytes = swivel_crowd_bytes(&def);
+    def.memory = std::aligned_alloc(64, def.memory_bytes);  // yours: freed by you, after the crowd
+    {
+        swivel::Crowd crowd(def);
+        crowd.solve();
+    }
+    std::free(def.memory);
+    // [end]
+    CHECK(def.memory_bytes % 64 == 0);
+}
+
+TEST_CASE("docs: errors")
+{
+    std::string text;
+    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    // [errors]
+    try {
+        swivel::Crowd crowd(SWIVEL_WITH_EFFECTOR, {&arms, 1});
+    } catch (const swivel::Error& error) {
+        text = error.what();  // one line: what, where, what to do
+    }
+    // [end]
+    CHECK(text == "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it");
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+namespace {
+
+struct Arm {
+    swivel_chain chain;
+    Float3 shoulder, target, pole;
+};
+struct Pose {
+    Float4 shoulder, elbow;
+};
+
+swivel_chain chain(const Float3& elbow_offset, const Float3& wrist_offset, const Float3& hinge)
+{
+    swivel_chain made{};
+    made.shoulder_rotation[3] = made.elbow_rotation[3] = made.wrist_rotation[3] = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        made.elbow_offset[i] = elbow_offset[i];
+        made.wrist_offset[i] = wrist_offset[i];
+        made.hinge[i] = hinge[i];
+    }
+    return made;
+}
+
+// The same calls in every engine.
+Pose solved(const Arm& arm)
+{
+    // [solve]
+    const swivel::BoundLimb bound = swivel::bind(arm.chain);
+    const swivel_group_def group{1, bound.binding};
+    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&group, 1});
+    crowd.write_all(SWIVEL_LENGTHS, 0, bound.lengths);
+    crowd.write_all(SWIVEL_PARENT_POSITION, 0, arm.shoulder);
+    crowd.write_all(SWIVEL_TARGET, 0, arm.target);
+    crowd.write_all(SWIVEL_POLE, 0, arm.pole);
+    crowd.solve();
+    std::array<Float4, 1> shoulder, elbow;  // local rotations, x, y, z, w
+    crowd.read(SWIVEL_SHOULDER, 0, shoulder);
+    crowd.read(SWIVEL_ELBOW, 0, elbow);
+    // [end]
+    return {shoulder[0], elbow[0]};
+}
+
+// A vector turned by a quaternion, as all three engines write it in their sources.
+Eigen::Vector3d turned(const Float4& q, const Eigen::Vector3d& v)
+{
+    const Eigen::Vector3d u = vec(q);
+    const double w = static_cast<double>(q[3]);
+    return v + 2 * w * u.cross(v) + 2 * u.cross(u.cross(v));
+}
+
+// The engine's forward kinematics puts elbow and wrist where the picture says.
+void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
+{
+    const Eigen::Vector3d got = vec(arm.shoulder) + turned(pose.shoulder, vec(arm.chain.elbow_offset));
+    const Eigen::Vector3d wrist = got + turned(pose.shoulder, turned(pose.elbow, vec(arm.chain.wrist_offset)));
+    const double size = vec(arm.chain.elbow_offset).norm() + vec(arm.chain.wrist_offset).norm();
+    CHECK((got - elbow).norm() < 1e-6 * size);
+    CHECK((wrist - vec(arm.target)).norm() < 1e-6 * size);
+}
+
+// The right arm of a T-pose: 0.3 and 0.4 long, shoulder 0.2 to the right and 1.4 up, wrist 0.5 in front of it, elbow
+// below: a triangle of 3, 4 and 5.
+Arm unity()
+{
+    // [unity]
+    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 1, 0}),  // bones along x, flexion forwards
+                  {0.2f, 1.4f, 0},                               // shoulder
+                  {0.2f, 1.4f, 0.5f},                            // target: half a metre in front
+                  {0.2f, 0.4f, 0.2f}};                           // pole: below
+    // [end]
+    return arm;
+}
+
+Arm unreal()
+{
+    // [unreal]
+    const Arm arm{chain({0, 30, 0}, {0, 40, 0}, {0, 0, 1}),  // bones along y, flexion forwards
+                  {0, 20, 140},                              // shoulder
+                  {50, 20, 140},                             // target: half a metre in front
+                  {20, 20, 40}};                             // pole: below
+    // [end]
+    return arm;
+}
+
+Arm godot()
+{
+    // [godot]
+    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, -1, 0}),  // bones along x, flexion forwards
+                  {0.2f, 1.4f, 0},                                // shoulder
+                  {0.2f, 1.4f, -0.5f},                            // target: half a metre in front
+                  {0.2f, 0.4f, -0.2f}};                           // pole: below
+    // [end]
+    return arm;
+}
+
+Arm gltf()
+{
+    return {
+        chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, -1, 0}), {-0.2f, 1.4f, 0}, {-0.2f, 1.4f, 0.5f}, {-0.2f, 0.4f, 0.2f}};
+}
+
+// [to_unity]
+Float3 point_to_unity(const Float3& p) { return {-p[0], p[1], p[2]}; }
+Float4 turn_to_unity(const Float4& q) { return {q[0], -q[1], -q[2], q[3]}; }
+Float3 hinge_to_unity(const Float3& a) { return {a[0], -a[1], -a[2]}; }
+// [end]
+
+// [to_unreal]
+Float3 point_to_unreal(const Float3& p) { return {100 * p[2], -100 * p[0], 100 * p[1]}; }
+Float4 turn_to_unreal(const Float4& q) { return {-q[2], q[0], -q[1], q[3]}; }
+Float3 hinge_to_unreal(const Float3& a) { return {-a[2], a[0], -a[1]}; }
+// [end]
+
+// [to_godot]
+Float3 point_to_godot(const Float3& p) { return {-p[0], p[1], -p[2]}; }
+Float4 turn_to_godot(const Float4& q) { return {-q[0], q[1], -q[2], q[3]}; }
+Float3 hinge_to_godot(const Float3& a) { return {-a[0], a[1], -a[2]}; }
+// [end]
+
+// A glTF arm carried over is the engine's, and so is its pose.
+template <class Point, class Turn, class Hinge>
+void check_carried(const Arm& engine, Point point, Turn turn, Hinge hinge)
+{
+    const Arm source = gltf();
+    const auto& from = source.chain;
+    CHECK(distance(point({from.elbow_offset[0], from.elbow_offset[1], from.elbow_offset[2]}),
+                   engine.chain.elbow_offset) < 1e-5);
+    CHECK(distance(hinge({from.hinge[0], from.hinge[1], from.hinge[2]}), engine.chain.hinge) < 1e-6);
+    CHECK(distance(point(source.target), engine.target) < 1e-5);
+    CHECK(distance(point(source.shoulder), engine.shoulder) < 1e-5);
+    const Pose carried = solved(source), own = solved(engine);
+    CHECK(turn_between(turn(carried.shoulder), own.shoulder) < 1e-6);
+    CHECK(turn_between(turn(carried.elbow), own.elbow) < 1e-6);
+}
+
+}  // namespace
+
+TEST_CASE("docs: Unity")
+{
+    check_pose(unity(), solved(unity()), {0.2, 1.16, 0.18});
+    check_carried(unity(), point_to_unity, turn_to_unity, hinge_to_unity);
+}
+
+TEST_CASE("docs: Unreal")
+{
+    check_pose(unreal(), solved(unreal()), {18, 20, 116});
+    check_carried(unreal(), point_to_unreal, turn_to_unreal, hinge_to_unreal);
+}
+
+TEST_CASE("docs: Godot")
+{
+    check_pose(godot(), solved(godot()), {0.2, 1.16, -0.18});
+    check_carried(godot(), point_to_godot, turn_to_godot, hinge_to_godot);
+}
+
+TEST_CASE("docs: glTF") { check_pose(gltf(), solved(gltf()), {-0.2, 1.16, 0.18}); }

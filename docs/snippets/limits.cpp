@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+namespace {
+
+const swivel_group_def arms{.limb_count = 1, .binding = {}};
+
+void give_arm(swivel::Crowd& crowd)
+{
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.25f, 0.15f, 0.25f});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{-1, 1, 0});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
+}
+
+std::uint32_t flags_of(const swivel::Crowd& crowd)
+{
+    std::array<std::uint32_t, 1> flags;
+    crowd.read(SWIVEL_FLAGS, 0, flags);
+    return flags[0];
+}
+
+}  // namespace
+
+TEST_CASE("docs: cones")
+{
+    // [cone]
+    swivel::Crowd crowd(SWIVEL_LIMIT_SHOULDER_CONE, {&arms, 1});
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));  // no further than 0.9 rad from rest
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    std::array<Double3, 1> elbow, wrist;
+    crowd.elbows(0, elbow);
+    crowd.wrists(0, wrist);
+    CHECK(vec(elbow[0]).normalized().z() >= std::cos(0.9) - 1e-6);
+    CHECK(flags_of(crowd) == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
+    CHECK(distance(wrist[0], Float3{0.25f, 0.15f, 0.25f}) < 1e-6);
+}
+
+TEST_CASE("docs: twists")
+{
+    // [twist]
+    swivel::Crowd crowd(SWIVEL_WITH_HAND | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_FOREARM_TWIST, {&arms, 1});
+    crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-1.5, 1.2));
+    crowd.write_all(SWIVEL_FOREARM_TWIST, 0, swivel::range(-1.4, 1.4));  // of the hand, about the forearm
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    std::array<Float4, 1> shoulder, wrist;
+    crowd.read(SWIVEL_SHOULDER, 0, shoulder);
+    crowd.read(SWIVEL_WRIST, 0, wrist);
+    const auto twist = [](const Float4& q) {
+        const Eigen::Quaterniond turn = quat(q);
+        return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * 3.141592653589793);
+    };
+    CHECK(twist(shoulder[0]) <= 1.2 + 1e-5);
+    CHECK(twist(shoulder[0]) >= -1.5 - 1e-5);
+    CHECK(std::abs(twist(wrist[0])) <= 1.4 + 1e-5);
+    CHECK(flags_of(crowd) & (SWIVEL_LIMITED_HUMERAL_TWIST | SWIVEL_LIMITED_FOREARM_TWIST));
+}
+
+TEST_CASE("docs: flexion")
+{
+    // [flexion]
+    swivel::Crowd crowd(SWIVEL_LIMIT_FLEXION, {&arms, 1});
+    crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));  // never quite straight
+    // [end]
+    give_arm(crowd);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 9});
+    crowd.solve();
+    std::array<Float2, 1> elbow;
+    crowd.read(SWIVEL_ELBOW, 0, elbow);
+    CHECK(std::abs(2 * std::atan2(static_cast<double>(elbow[0][1]), static_cast<double>(elbow[0][0])) - 0.1) < 1e-5);
+    CHECK(flags_of(crowd) == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
+}
+
+TEST_CASE("docs: Euler boxes")
+{
+    // [box]
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.features = SWIVEL_LIMIT_SHOULDER_BOX;
+    def.group_count = 1;
+    def.groups = &arms;
+    def.shoulder_order = SWIVEL_YXZ;
+    swivel::Crowd crowd(def);
+    std::array<float, 12> box;
+    swivel::check(swivel_range(-1.0, 1.0, &box[0]));  // about y
+    swivel::check(swivel_range(-0.4, 1.6, &box[4]));  // then x
+    swivel::check(swivel_range(-0.8, 0.8, &box[8]));  // then z
+    crowd.write_all(SWIVEL_SHOULDER_BOX, 0, box);
+    // [end]
+    give_arm(crowd);
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0.2f});
+    crowd.solve();
+    std::array<std::array<double, 7>, 1> angles;
+    crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 0, angles);
+    const auto inside = [&](double y, double x, double z) {
+        return std::abs(y) < 1 + 1e-5 && x > -0.4 - 1e-5 && x < 1.6 + 1e-5 && std::abs(z) < 0.8 + 1e-5;
+    };
+    const std::array<double, 7> first = angles[0];
+    crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 1, angles);
+    const bool allowed = inside(first[0], first[1], first[2]) || inside(angles[0][0], angles[0][1], angles[0][2]);
+    CHECK(allowed != ((flags_of(crowd) & SWIVEL_INFEASIBLE) != 0));
+}
+
+TEST_CASE("docs: allowed arcs")
+{
+    swivel::Crowd crowd(SWIVEL_LIMIT_SHOULDER_CONE, {&arms, 1});
+    give_arm(crowd);
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
+    // [arcs]
+    for (const swivel_arc& arc : crowd.allowed_arcs(0, 0)) {  // group 0, its limb 0
+        const double from = std::atan2(arc.from[1], arc.from[0]), to = std::atan2(arc.to[1], arc.to[0]);
+        // radians on from the wish, about the line from shoulder to wrist
+        // [end]
+        CHECK(from != to);
+    }
+    CHECK(crowd.allowed_arcs(0, 0).size() == 1);
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+namespace {
+
+const swivel_group_def arms{.limb_count = 1, .binding = {}};
+const Float3 target{0.3f, 0.1f, 0.3f};
+
+void give_arm(swivel::Crowd& crowd)
+{
+    crowd.write_all(SWIVEL_TARGET, 0, target);
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
+}
+
+Eigen::Vector3d elbow_of(const swivel::Crowd& crowd)
+{
+    std::array<Double3, 1> elbow;
+    crowd.elbows(0, elbow);
+    return vec(elbow[0]);
+}
+
+// The elbow is in the half plane of the line and the pole.
+void check_side(const Eigen::Vector3d& elbow, const Eigen::Vector3d& pole)
+{
+    const Eigen::Vector3d normal = vec(target).cross(pole).normalized(), side = normal.cross(vec(target)).normalized();
+    CHECK(std::abs(elbow.dot(normal)) < 1e-6);
+    CHECK(elbow.dot(side) > 0.05);
+}
+
+}  // namespace
+
+TEST_CASE("docs: pole directions")
+{
+    // [direction]
+    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&arms, 1});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});  // downwards, wherever the character stands
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    check_side(elbow_of(crowd), {0, -1, 0});
+}
+
+TEST_CASE("docs: pole normals")
+{
+    // [normal]
+    swivel::Crowd crowd(SWIVEL_POLE_NORMAL, {&arms, 1});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, -1});  // across shoulder, elbow and wrist: the elbow's axis
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    check_side(elbow_of(crowd), Eigen::Vector3d(1, 0, -1).cross(vec(target)));
+}
+
+TEST_CASE("docs: swivel angle")
+{
+    // [angle]
+    swivel::Crowd crowd(SWIVEL_WITH_ANGLE, {&arms, 1});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
+    crowd.write_all(SWIVEL_ANGLE, 0, swivel::turn(0.35));  // radians on from the pole, about the line to the wrist
+    // [end]
+    give_arm(crowd);
+    crowd.solve();
+    const Eigen::AngleAxisd on(0.35, vec(target).normalized());
+    check_side(elbow_of(crowd), on * Eigen::Vector3d(0, -1, 0));
+}

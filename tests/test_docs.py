@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The documentation's pages: they build without a warning, every link and anchor within them exists, nothing is fetched from
+elsewhere, the reference has every public name of swivel.h, every feature has its how-to, and pictures are as their script draws
+them."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCS = ROOT / "docs"
+FETCHED = {("script", "src"), ("img", "src"), ("iframe", "src"), ("source", "src"), ("link", "href")}
+NOT_FETCHED = {"canonical", "next", "prev", "edit"}  # rel of links that only say where something is
+
+
+class Page(HTMLParser):
+    """A page's anchors, the links of its own text, and what it fetches."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.anchors, self.links, self.fetched = set(), [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        if "id" in values:
+            self.anchors.add(values["id"])
+        if tag == "a" and values.get("href"):
+            self.links.append(values["href"])
+        for key, value in attributes:
+            if (tag, key) in FETCHED and value and values.get("rel") not in NOT_FETCHED:
+                self.fetched.append(value)
+
+
+def without_comments(header):
+    return re.sub(r"//.*", "", header)
+
+
+def build(folder):
+    if not shutil.which("mkdocs"):
+        raise RuntimeError("mkdocs is missing; run: tools/setup mkdocs mkdocs-material libjs-katex nodejs")
+    return subprocess.run(["mkdocs", "build", "--strict", "--site-dir", folder], cwd=ROOT, capture_output=True, text=True,
+                          env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
+
+
+class Docs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="swivel_docs_"))
+        cls.result = build(cls.folder)
+        cls.pages = {path: Page(path.read_text(encoding="utf-8")) for path in cls.folder.rglob("*.html")}
+        cls.header = (ROOT / "batch/swivel.h").read_text(encoding="utf-8")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_built_without_warnings(self):
+        self.assertEqual(self.result.returncode, 0, self.result.stderr)
+        self.assertNotRegex(self.result.stderr, "WARNING|ERROR")
+        self.assertGreater(len(self.pages), 10)
+
+    def test_every_page_is_in_the_navigation(self):
+        listed = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+        for page in DOCS.rglob("*.md"):
+            self.assertIn(f": {page.relative_to(DOCS)}\n", listed, "mkdocs.yml's nav lacks it")
+
+    def test_links_and_anchors_exist(self):
+        for path, page in self.pages.items():
+            if path.name == "404.html":  # its links are from the server's root
+                continue
+            for link in page.links:
+                parts = urlsplit(link)
+                if parts.scheme in ("http", "https"):
+                    continue
+                target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+                with self.subTest(page=path.relative_to(self.folder), link=link):
+                    self.assertTrue(target.is_file(), "no such page")
+                    if parts.fragment and target in self.pages:
+                        self.assertIn(unquote(parts.fragment), self.pages[target].anchors, "no such anchor")
+
+    def test_nothing_is_fetched_from_elsewhere(self):
+        for path, page in self.pages.items():
+            for link in page.fetched:
+                with self.subTest(page=path.relative_to(self.folder), link=link):
+                    self.assertEqual(urlsplit(link).netloc, "")
+                    if path.name != "404.html":
+                        self.assertTrue((path.parent / unquote(urlsplit(link).path)).is_file(), "no such file")
+        for style in self.folder.rglob("*.css"):
+            self.assertNotRegex(style.read_text(encoding="utf-8"), r"(@import|url\()\s*[\"']?(https?:)?//", style.name)
+
+    def test_formulas_are_set(self):
+        self.assertIn('class="katex', (self.folder / "mathematics.html").read_text(encoding="utf-8"))
+        for path in self.pages:
+            self.assertNotIn("arithmatex", path.read_text(encoding="utf-8"))
+
+    def test_reference_has_every_public_name(self):
+        code = without_comments(self.header)
+        names = set(re.findall(r"\b(?:swivel|SWIVEL)_\w+", code)) - {"SWIVEL_API", "SWIVEL_SHARED"}
+        self.assertGreater(len(names), 140)
+        self.assertEqual(names - self.pages[self.folder / "api.html"].anchors, set())
+
+    def test_reference_has_every_comment(self):
+        page = re.sub(r"\W+", "", re.sub(r"<[^>]*>", "", (self.folder / "api.html").read_text(encoding="utf-8")))
+        for line in self.header.splitlines()[2:]:
+            if line.startswith("// ") and "rows  " not in line and not re.match(r"// [A-Z]{2}", line):
+                words = re.sub(r"\W+", "", line.replace("&", "amp").replace("<", "lt").replace(">", "gt"))
+                self.assertIn(words, page, line)
+
+    def test_every_feature_has_a_how_to(self):
+        text = "".join(page.read_text(encoding="utf-8") for page in (DOCS / "howto").glob("*.md"))
+        features = re.search(r"typedef enum swivel_feature \{(.*?)\}", without_comments(self.header), re.S)[1]
+        for name in re.findall(r"SWIVEL_\w+", features):
+            self.assertIn(f"`{name}`", text, "no page of docs/howto says it")
+
+    def test_every_program_is_shown(self):
+        text = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
+        for program in (DOCS / "snippets").glob("*.cpp"):
+            for part in re.findall(r"// \[(\w+)\]", program.read_text(encoding="utf-8")):
+                if part != "end":
+                    name = f"docs/snippets/{program.name}" + ("" if part == "shown" else f": {part}")
+                    self.assertIn(f"// {name}\n", text, "shown on no page")
+
+    def test_pictures_are_as_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-B", ROOT / "tools/site/pictures.py", folder], check=True)
+            drawn = {path.name: path.read_bytes() for path in Path(folder).iterdir()}
+        kept = {path.name: path.read_bytes() for path in (DOCS / "pictures").iterdir()}
+        self.assertEqual(drawn.keys(), kept.keys())
+        for name, picture in drawn.items():
+            self.assertEqual(picture, kept[name], f"{name}: run tools/site/pictures.py")
+
+
+if __name__ == "__main__":
+    unittest.main()

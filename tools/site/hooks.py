@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""What mkdocs is told beyond mkdocs.yml: programs shown from docs/snippets, the reference made of batch/swivel.h, links out of
+docs/, and formulas set by KaTeX while building, so that pages fetch nothing and run without scripts."""
+import json
+import posixpath
+import re
+import shutil
+import subprocess
+import sys
+from html import unescape
+from pathlib import Path
+
+from mkdocs.exceptions import PluginError
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import api_page  # noqa: E402
+import snippets  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[2]
+KATEX = Path("/usr/share/javascript/katex")  # Debian's libjs-katex
+HEADER = "batch/swivel.h"
+
+# Sets every formula of standard input, a JSON list of [TeX, whether it stands alone].
+SET_FORMULAS = f"""
+const katex = require("{KATEX}/katex.js");
+const formulas = JSON.parse(require("fs").readFileSync(0, "utf8"));
+const options = {{throwOnError: true, strict: "error"}};
+console.log(JSON.stringify(formulas.map(([tex, alone]) => katex.renderToString(tex, {{...options, displayMode: alone}}))));
+"""
+FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.S)
+
+
+def on_files(files, config):
+    """Programs are shown on pages, not pages of their own."""
+    for file in [file for file in files if file.src_uri.startswith("snippets/")]:
+        files.remove(file)
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    try:
+        markdown = snippets.fill_in(markdown, ROOT)
+        if page.file.src_uri == "api.md":
+            markdown = markdown.replace("<!-- swivel.h -->", api_page.reference((ROOT / HEADER).read_text()))
+    except (snippets.Missing, api_page.Unread) as error:
+        raise PluginError(f"{page.file.src_uri}: {error}") from error
+    return repository_links(markdown, page.file.src_uri)
+
+
+def repository_links(markdown, source):
+    """Links that leave docs/ are for readers of the repository: swivel.h's go to the reference, others become their text."""
+    def replaced(match):
+        target = posixpath.normpath(posixpath.join("docs", posixpath.dirname(source), match[2]))
+        if target.startswith("docs/") or ":" in match[2]:
+            return match[0]
+        if not (ROOT / target).exists():
+            raise PluginError(f"{source}: link to {target}, which is not in the repository")
+        if target == HEADER:
+            return f"[{match[1]}]({posixpath.relpath('api.md', posixpath.dirname(source) or '.')})"
+        return match[1]
+    return re.sub(r"(?<!!)\[([^\]]*)\]\(([^)#\s]+)\)", replaced, markdown)
+
+
+def on_page_content(html, page, config, files):
+    found = FORMULA.findall(html)
+    if not found:
+        return html
+    formulas = json.dumps([[unescape(tex), kind == "["] for _, kind, tex in found])
+    result = subprocess.run(["node", "-e", SET_FORMULAS], input=formulas, capture_output=True, text=True)
+    if result.returncode:
+        reason = re.search(r"(KaTeX parse error: .*|Error: .*|LaTeX-incompatible.*)", result.stderr)
+        raise PluginError(f"{page.file.src_uri}: {reason[0] if reason else result.stderr.strip()}")
+    ready = iter(json.loads(result.stdout))
+    return FORMULA.sub(lambda match: next(ready), html)
+
+
+def on_post_build(config):
+    target = Path(config["site_dir"]) / "katex"
+    (target / "fonts").mkdir(parents=True, exist_ok=True)
+    shutil.copy(KATEX / "katex.min.css", target)
+    for font in (KATEX / "fonts").glob("*.woff2"):
+        shutil.copy(font, target / "fonts")
