@@ -21,14 +21,15 @@ using Double4 = std::array<double, 4>;
 template <class Values>
 Eigen::Vector3d vec(const Values& v)
 {
-    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+    return {static_cast<double>(v[0]), static_cast<double>(v[1]),
+            static_cast<double>(v[2])};
 }
 
 template <class Values>
 Eigen::Quaterniond quat(const Values& q)
 {
-    return Eigen::Quaterniond(static_cast<double>(q[3]), static_cast<double>(q[0]), static_cast<double>(q[1]),
-                              static_cast<double>(q[2]))
+    return Eigen::Quaterniond(static_cast<double>(q[3]), static_cast<double>(q[0]),
+                              static_cast<double>(q[1]), static_cast<double>(q[2]))
         .normalized();
 }
 

@@ -21,7 +21,8 @@ TEST_CASE("docs: active limbs")
     swivel::Crowd crowd(0, {&arms, 1});
     // [active]
     std::vector<std::uint32_t> active((swivel_block_count(crowd.get()) + 1) / 2);
-    for (std::uint32_t limb = 0; limb < 20; ++limb) active[limb / 32] |= 1u << (limb % 32);  // the nearest twenty
+    for (std::uint32_t limb = 0; limb < 20; ++limb)
+        active[limb / 32] |= 1u << (limb % 32);  // the nearest twenty
     crowd.solve_active(active);
     // [end]
     CHECK(solved(crowd) == 20);
@@ -43,7 +44,8 @@ TEST_CASE("docs: budget")
     swivel::Crowd crowd(SWIVEL_BUDGET, {&arms, 1});
     std::vector<float> priority(64, 1.0f);  // for each arm; size on screen, say
     const swivel_in priorities{priority.data(), sizeof(float)};
-    const std::uint32_t count = crowd.solve_budget({&priorities, 1}, 2);  // at most two blocks of 16 in this frame
+    // At most two blocks of 16 in this frame.
+    const std::uint32_t count = crowd.solve_budget({&priorities, 1}, 2);
     // [end]
     CHECK(count == 32);
     CHECK(solved(crowd) == 32);

@@ -25,7 +25,8 @@ swivel::BoundLimb bound_arm()
 Eigen::Vector3d wrist_of(const Character& character)
 {
     const Eigen::Quaterniond upper = quat(character.upper_arm);
-    return upper * (Eigen::Vector3d(0.30, 0, 0) + quat(character.forearm) * Eigen::Vector3d(0.26, 0, 0));
+    return upper * (Eigen::Vector3d(0.30, 0, 0) +
+                    quat(character.forearm) * Eigen::Vector3d(0.26, 0, 0));
 }
 
 }  // namespace
@@ -41,11 +42,13 @@ TEST_CASE("docs: frames in place")
     swivel_frame frame{};  // what stays null keeps its rows, or is not written
     frame.target = {&characters[0].grip, sizeof(Character)};
     frame.pole = {&characters[0].elbow_hint, sizeof(Character)};
-    frame.shoulder = {&characters[0].upper_arm, sizeof(Character)};  // may be the very pose that was read
+    // May be the very pose that was read.
+    frame.shoulder = {&characters[0].upper_arm, sizeof(Character)};
     frame.elbow = {&characters[0].forearm, sizeof(Character)};
     crowd.solve_frame({&frame, 1});  // one for each group
     // [end]
-    for (const Character& character : characters) CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);
+    for (const Character& character : characters)
+        CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);
 }
 
 TEST_CASE("docs: own threads")
@@ -56,7 +59,8 @@ TEST_CASE("docs: own threads")
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // [threads]
     const std::uint32_t blocks = swivel_block_count(crowd.get()), half = blocks / 2;
-    std::thread job([&] { crowd.solve_blocks(0, half); });  // your job system: ranges that do not overlap
+    // Your job system, in ranges that do not overlap.
+    std::thread job([&] { crowd.solve_blocks(0, half); });
     crowd.solve_blocks(half, blocks - half);
     job.join();
     // [end]
@@ -70,10 +74,12 @@ TEST_CASE("docs: far from the origin")
     const swivel_group_def arms{.limb_count = 1, .binding = {}};
     // [far]
     swivel::Crowd crowd(SWIVEL_WORLD, {&arms, 1});
-    const Double3 character{5.0e6, 20.0, -3.0e6};  // thousands of kilometres out, in metres
-    const swivel_in origin{&character, 0};         // one for all; a stride for one each
-    const std::array<Double3, 1> shoulder{{{5.0e6 + 0.2, 21.4, -3.0e6}}}, elbow_hint{{{5.0e6, 20.4, -3.0e6}}},
-        grip{{{5.0e6 + 0.5, 21.2, -3.0e6 + 0.3}}};
+    // Thousands of kilometres out, in metres.
+    const Double3 character{5.0e6, 20.0, -3.0e6};
+    const swivel_in origin{&character, 0};  // one for all; a stride for one each
+    const std::array<Double3, 1> shoulder{{{5.0e6 + 0.2, 21.4, -3.0e6}}};
+    const std::array<Double3, 1> elbow_hint{{{5.0e6, 20.4, -3.0e6}}};
+    const std::array<Double3, 1> grip{{{5.0e6 + 0.5, 21.2, -3.0e6 + 0.3}}};
     crowd.write_doubles(SWIVEL_PARENT_POSITION, 0, shoulder, origin);
     crowd.write_doubles(SWIVEL_POLE, 0, elbow_hint, origin);
     crowd.write_doubles(SWIVEL_TARGET, 0, grip, origin);
@@ -94,7 +100,8 @@ TEST_CASE("docs: own memory")
     def.group_count = 1;
     def.groups = &arms;
     def.memory_bytes = swivel_crowd_bytes(&def);
-    def.memory = std::aligned_alloc(64, def.memory_bytes);  // yours: freed by you, after the crowd
+    // Yours: freed by you, after the crowd.
+    def.memory = std::aligned_alloc(64, def.memory_bytes);
     {
         swivel::Crowd crowd(def);
         crowd.solve();

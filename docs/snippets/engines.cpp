@@ -11,7 +11,8 @@ struct Pose {
     Float4 shoulder, elbow;
 };
 
-swivel_chain chain(const Float3& elbow_offset, const Float3& wrist_offset, const Float3& hinge)
+swivel_chain chain(const Float3& elbow_offset, const Float3& wrist_offset,
+                   const Float3& hinge)
 {
     swivel_chain made{};
     made.shoulder_rotation[3] = made.elbow_rotation[3] = made.wrist_rotation[3] = 1;
@@ -53,22 +54,25 @@ Eigen::Vector3d turned(const Float4& q, const Eigen::Vector3d& v)
 // The engine's forward kinematics puts elbow and wrist where the picture says.
 void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
 {
-    const Eigen::Vector3d got = vec(arm.shoulder) + turned(pose.shoulder, vec(arm.chain.elbow_offset));
-    const Eigen::Vector3d wrist = got + turned(pose.shoulder, turned(pose.elbow, vec(arm.chain.wrist_offset)));
-    const double size = vec(arm.chain.elbow_offset).norm() + vec(arm.chain.wrist_offset).norm();
+    const Eigen::Vector3d got =
+        vec(arm.shoulder) + turned(pose.shoulder, vec(arm.chain.elbow_offset));
+    const Eigen::Vector3d wrist =
+        got + turned(pose.shoulder, turned(pose.elbow, vec(arm.chain.wrist_offset)));
+    const double size =
+        vec(arm.chain.elbow_offset).norm() + vec(arm.chain.wrist_offset).norm();
     CHECK((got - elbow).norm() < 1e-6 * size);
     CHECK((wrist - vec(arm.target)).norm() < 1e-6 * size);
 }
 
-// The right arm of a T-pose: 0.3 and 0.4 long, shoulder 0.2 to the right and 1.4 up, wrist 0.5 in front of it, elbow
-// below: a triangle of 3, 4 and 5.
+// The right arm of a T-pose: 0.3 and 0.4 long, shoulder 0.2 to the right and 1.4 up,
+// wrist 0.5 in front of it, elbow below: a triangle of 3, 4 and 5.
 Arm unity()
 {
     // [unity]
-    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 1, 0}),  // bones along x, flexion forwards
+    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 1, 0}),  // bones along x
                   {0.2f, 1.4f, 0},                               // shoulder
-                  {0.2f, 1.4f, 0.5f},                            // target: half a metre in front
-                  {0.2f, 0.4f, 0.2f}};                           // pole: below
+                  {0.2f, 1.4f, 0.5f},   // target: half a metre in front
+                  {0.2f, 0.4f, 0.2f}};  // pole: below
     // [end]
     return arm;
 }
@@ -76,10 +80,10 @@ Arm unity()
 Arm unreal()
 {
     // [unreal]
-    const Arm arm{chain({0, 30, 0}, {0, 40, 0}, {0, 0, 1}),  // bones along y, flexion forwards
+    const Arm arm{chain({0, 30, 0}, {0, 40, 0}, {0, 0, 1}),  // bones along y
                   {0, 20, 140},                              // shoulder
-                  {50, 20, 140},                             // target: half a metre in front
-                  {20, 20, 40}};                             // pole: below
+                  {50, 20, 140},  // target: half a metre in front
+                  {20, 20, 40}};  // pole: below
     // [end]
     return arm;
 }
@@ -87,18 +91,20 @@ Arm unreal()
 Arm godot()
 {
     // [godot]
-    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, -1, 0}),  // bones along x, flexion forwards
+    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, -1, 0}),  // bones along x
                   {0.2f, 1.4f, 0},                                // shoulder
-                  {0.2f, 1.4f, -0.5f},                            // target: half a metre in front
-                  {0.2f, 0.4f, -0.2f}};                           // pole: below
+                  {0.2f, 1.4f, -0.5f},   // target: half a metre in front
+                  {0.2f, 0.4f, -0.2f}};  // pole: below
     // [end]
     return arm;
 }
 
 Arm gltf()
 {
-    return {
-        chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, -1, 0}), {-0.2f, 1.4f, 0}, {-0.2f, 1.4f, 0.5f}, {-0.2f, 0.4f, 0.2f}};
+    return {chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, -1, 0}),
+            {-0.2f, 1.4f, 0},
+            {-0.2f, 1.4f, 0.5f},
+            {-0.2f, 0.4f, 0.2f}};
 }
 
 // [to_unity]
@@ -108,7 +114,10 @@ Float3 hinge_to_unity(const Float3& a) { return {a[0], -a[1], -a[2]}; }
 // [end]
 
 // [to_unreal]
-Float3 point_to_unreal(const Float3& p) { return {100 * p[2], -100 * p[0], 100 * p[1]}; }
+Float3 point_to_unreal(const Float3& p)
+{
+    return {100 * p[2], -100 * p[0], 100 * p[1]};
+}
 Float4 turn_to_unreal(const Float4& q) { return {-q[2], q[0], -q[1], q[3]}; }
 Float3 hinge_to_unreal(const Float3& a) { return {-a[2], a[0], -a[1]}; }
 // [end]
@@ -125,9 +134,11 @@ void check_carried(const Arm& engine, Point point, Turn turn, Hinge hinge)
 {
     const Arm source = gltf();
     const auto& from = source.chain;
-    CHECK(distance(point({from.elbow_offset[0], from.elbow_offset[1], from.elbow_offset[2]}),
-                   engine.chain.elbow_offset) < 1e-5);
-    CHECK(distance(hinge({from.hinge[0], from.hinge[1], from.hinge[2]}), engine.chain.hinge) < 1e-6);
+    CHECK(distance(
+              point({from.elbow_offset[0], from.elbow_offset[1], from.elbow_offset[2]}),
+              engine.chain.elbow_offset) < 1e-5);
+    CHECK(distance(hinge({from.hinge[0], from.hinge[1], from.hinge[2]}),
+                   engine.chain.hinge) < 1e-6);
     CHECK(distance(point(source.target), engine.target) < 1e-5);
     CHECK(distance(point(source.shoulder), engine.shoulder) < 1e-5);
     const Pose carried = solved(source), own = solved(engine);

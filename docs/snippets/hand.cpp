@@ -9,7 +9,8 @@ TEST_CASE("docs: hand orientation")
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.1f, 0.3f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
-    crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0.7071068f, 0, 0.7071068f});  // a quarter turn about y
+    // A quarter turn about y.
+    crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0.7071068f, 0, 0.7071068f});
     crowd.solve();
 
     std::array<Float4, 1> wrist;  // the hand relative to the forearm

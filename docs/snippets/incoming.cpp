@@ -27,11 +27,14 @@ TEST_CASE("docs: incoming pose and weights")
     Float4 shoulder, elbow;
     pose_of({0.5f, 0.2f, 1.2f}, shoulder, elbow);
     // [shown]
-    swivel::Crowd crowd(SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, {&arms, 1});
-    crowd.write_all(SWIVEL_INCOMING_SHOULDER, 0, shoulder);  // the clip's pose: whole quaternions, x, y, z, w
+    swivel::Crowd crowd(
+        SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, {&arms, 1});
+    // The clip's pose: whole quaternions, x, y, z, w.
+    crowd.write_all(SWIVEL_INCOMING_SHOULDER, 0, shoulder);
     crowd.write_all(SWIVEL_INCOMING_ELBOW, 0, elbow);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.9f, 0.5f, 1.1f});
-    crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});  // half way from the clip's wrist to the target
+    // Half way from the clip's wrist to the target.
+    crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});
     crowd.solve();
     // [end]
     std::array<Double3, 1> wrist;

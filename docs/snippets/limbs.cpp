@@ -4,7 +4,8 @@
 TEST_CASE("docs: legs")
 {
     // [leg]
-    swivel_chain leg{};  // thigh, shin and foot joints at rest: bones down -y, knees forward, +z
+    // Thigh, shin and foot joints at rest: bones down -y, knees forward, +z.
+    swivel_chain leg{};
     leg.shoulder_rotation[3] = leg.elbow_rotation[3] = leg.wrist_rotation[3] = 1;
     leg.elbow_offset[1] = -0.45f;
     leg.wrist_offset[1] = -0.42f;
@@ -16,15 +17,19 @@ TEST_CASE("docs: legs")
     crowd.write_all(SWIVEL_LENGTHS, 0, left_leg.lengths);
     // [leg_solve]
     crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.1f, 0.95f, 0});  // the hip
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.1f, 0.25f, 0.1f});        // the ankle, on a step
-    crowd.write_all(SWIVEL_POLE, 0, Float3{0.1f, 0.5f, 2});              // in front: where the knee points
+    // The ankle, on a step.
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.1f, 0.25f, 0.1f});
+    // In front: where the knee points.
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0.1f, 0.5f, 2});
     crowd.solve();
     // [end]
     std::array<Float4, 1> thigh, shin;
     crowd.read(SWIVEL_SHOULDER, 0, thigh);
     crowd.read(SWIVEL_ELBOW, 0, shin);
-    const Eigen::Vector3d hip(0.1, 0.95, 0), knee = hip + quat(thigh[0]) * Eigen::Vector3d(0, -0.45, 0);
-    const Eigen::Vector3d ankle = knee + quat(thigh[0]) * (quat(shin[0]) * Eigen::Vector3d(0, -0.42, 0));
+    const Eigen::Vector3d hip(0.1, 0.95, 0),
+        knee = hip + quat(thigh[0]) * Eigen::Vector3d(0, -0.45, 0);
+    const Eigen::Vector3d ankle =
+        knee + quat(thigh[0]) * (quat(shin[0]) * Eigen::Vector3d(0, -0.42, 0));
     CHECK((ankle - Eigen::Vector3d(0.1, 0.25, 0.1)).norm() < 1e-6);
     CHECK(knee.z() > 0.2);
 }
@@ -34,9 +39,11 @@ TEST_CASE("docs: mirrored limits")
     // [mirror]
     const std::array<float, 4> left = swivel::range(-1.5, 0.4);
     std::array<float, 4> right;
-    swivel::check(swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
+    swivel::check(
+        swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
     // [end]
-    const swivel_group_def arms[] = {{.limb_count = 1, .binding = {}}, {.limb_count = 1, .binding = {}}};
+    const swivel_group_def arms[] = {{.limb_count = 1, .binding = {}},
+                                     {.limb_count = 1, .binding = {}}};
     swivel::Crowd crowd(SWIVEL_LIMIT_HUMERAL_TWIST, arms);
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, left);
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 1, right);

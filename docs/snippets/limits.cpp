@@ -25,7 +25,8 @@ TEST_CASE("docs: cones")
 {
     // [cone]
     swivel::Crowd crowd(SWIVEL_LIMIT_SHOULDER_CONE, {&arms, 1});
-    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));  // no further than 0.9 rad from rest
+    // No further than 0.9 radians from the arm at rest.
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     // [end]
     give_arm(crowd);
     crowd.solve();
@@ -40,9 +41,12 @@ TEST_CASE("docs: cones")
 TEST_CASE("docs: twists")
 {
     // [twist]
-    swivel::Crowd crowd(SWIVEL_WITH_HAND | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_FOREARM_TWIST, {&arms, 1});
+    const std::uint32_t twists =
+        SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_FOREARM_TWIST;
+    swivel::Crowd crowd(SWIVEL_WITH_HAND | twists, {&arms, 1});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-1.5, 1.2));
-    crowd.write_all(SWIVEL_FOREARM_TWIST, 0, swivel::range(-1.4, 1.4));  // of the hand, about the forearm
+    // Of the hand, about the forearm.
+    crowd.write_all(SWIVEL_FOREARM_TWIST, 0, swivel::range(-1.4, 1.4));
     // [end]
     give_arm(crowd);
     crowd.solve();
@@ -51,26 +55,31 @@ TEST_CASE("docs: twists")
     crowd.read(SWIVEL_WRIST, 0, wrist);
     const auto twist = [](const Float4& q) {
         const Eigen::Quaterniond turn = quat(q);
-        return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * 3.141592653589793);
+        return std::remainder(2 * std::atan2(turn.z(), turn.w()),
+                              2 * 3.141592653589793);
     };
     CHECK(twist(shoulder[0]) <= 1.2 + 1e-5);
     CHECK(twist(shoulder[0]) >= -1.5 - 1e-5);
     CHECK(std::abs(twist(wrist[0])) <= 1.4 + 1e-5);
-    CHECK(flags_of(crowd) & (SWIVEL_LIMITED_HUMERAL_TWIST | SWIVEL_LIMITED_FOREARM_TWIST));
+    CHECK(flags_of(crowd) &
+          (SWIVEL_LIMITED_HUMERAL_TWIST | SWIVEL_LIMITED_FOREARM_TWIST));
 }
 
 TEST_CASE("docs: flexion")
 {
     // [flexion]
     swivel::Crowd crowd(SWIVEL_LIMIT_FLEXION, {&arms, 1});
-    crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));  // never quite straight
+    // Never quite straight.
+    crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));
     // [end]
     give_arm(crowd);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 9});
     crowd.solve();
     std::array<Float2, 1> elbow;
     crowd.read(SWIVEL_ELBOW, 0, elbow);
-    CHECK(std::abs(2 * std::atan2(static_cast<double>(elbow[0][1]), static_cast<double>(elbow[0][0])) - 0.1) < 1e-5);
+    CHECK(std::abs(2 * std::atan2(static_cast<double>(elbow[0][1]),
+                                  static_cast<double>(elbow[0][0])) -
+                   0.1) < 1e-5);
     CHECK(flags_of(crowd) == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
 }
 
@@ -95,11 +104,13 @@ TEST_CASE("docs: Euler boxes")
     std::array<std::array<double, 7>, 1> angles;
     crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 0, angles);
     const auto inside = [&](double y, double x, double z) {
-        return std::abs(y) < 1 + 1e-5 && x > -0.4 - 1e-5 && x < 1.6 + 1e-5 && std::abs(z) < 0.8 + 1e-5;
+        return std::abs(y) < 1 + 1e-5 && x > -0.4 - 1e-5 && x < 1.6 + 1e-5 &&
+               std::abs(z) < 0.8 + 1e-5;
     };
     const std::array<double, 7> first = angles[0];
     crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 1, angles);
-    const bool allowed = inside(first[0], first[1], first[2]) || inside(angles[0][0], angles[0][1], angles[0][2]);
+    const bool allowed = inside(first[0], first[1], first[2]) ||
+                         inside(angles[0][0], angles[0][1], angles[0][2]);
     CHECK(allowed != ((flags_of(crowd) & SWIVEL_INFEASIBLE) != 0));
 }
 
@@ -110,8 +121,9 @@ TEST_CASE("docs: allowed arcs")
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     // [arcs]
     for (const swivel_arc& arc : crowd.allowed_arcs(0, 0)) {  // group 0, its limb 0
-        const double from = std::atan2(arc.from[1], arc.from[0]), to = std::atan2(arc.to[1], arc.to[0]);
-        // radians on from the wish, about the line from shoulder to wrist
+        // Radians on from the wish, about the line from shoulder to wrist.
+        const double from = std::atan2(arc.from[1], arc.from[0]);
+        const double to = std::atan2(arc.to[1], arc.to[0]);
         // [end]
         CHECK(from != to);
     }

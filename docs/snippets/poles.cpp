@@ -22,7 +22,8 @@ Eigen::Vector3d elbow_of(const swivel::Crowd& crowd)
 // The elbow is in the half plane of the line and the pole.
 void check_side(const Eigen::Vector3d& elbow, const Eigen::Vector3d& pole)
 {
-    const Eigen::Vector3d normal = vec(target).cross(pole).normalized(), side = normal.cross(vec(target)).normalized();
+    const Eigen::Vector3d normal = vec(target).cross(pole).normalized(),
+                          side = normal.cross(vec(target)).normalized();
     CHECK(std::abs(elbow.dot(normal)) < 1e-6);
     CHECK(elbow.dot(side) > 0.05);
 }
@@ -33,7 +34,8 @@ TEST_CASE("docs: pole directions")
 {
     // [direction]
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&arms, 1});
-    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});  // downwards, wherever the character stands
+    // Downwards, wherever the character stands.
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // [end]
     give_arm(crowd);
     crowd.solve();
@@ -44,7 +46,8 @@ TEST_CASE("docs: pole normals")
 {
     // [normal]
     swivel::Crowd crowd(SWIVEL_POLE_NORMAL, {&arms, 1});
-    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, -1});  // across shoulder, elbow and wrist: the elbow's axis
+    // Across shoulder, elbow and wrist: the elbow's axis.
+    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, -1});
     // [end]
     give_arm(crowd);
     crowd.solve();
@@ -56,7 +59,8 @@ TEST_CASE("docs: swivel angle")
     // [angle]
     swivel::Crowd crowd(SWIVEL_WITH_ANGLE, {&arms, 1});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
-    crowd.write_all(SWIVEL_ANGLE, 0, swivel::turn(0.35));  // radians on from the pole, about the line to the wrist
+    // Radians on from the pole, about the line to the wrist.
+    crowd.write_all(SWIVEL_ANGLE, 0, swivel::turn(0.35));
     // [end]
     give_arm(crowd);
     crowd.solve();

@@ -7,10 +7,11 @@ TEST_CASE("docs: soft reach and stretch")
     const swivel_group_def arms{.limb_count = 3, .binding = {}};
     swivel::Crowd crowd(SWIVEL_WITH_REACH, {&arms, 1});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.5f, 0.5f});
-    // Shares of both bones' length: eased 0.1 before the far end, not at the near one; stretched up to 1.05; no wrist
-    // nearer than 0.2.
+    // Shares of both bones' length: eased 0.1 before the far end, not at the near one;
+    // stretched up to 1.05; no wrist nearer than 0.2.
     crowd.write_all(SWIVEL_REACH, 0, Float4{0.1f, 0, 1.05f, 0.2f});
-    crowd.write(SWIVEL_TARGET, 0, std::array<Float3, 3>{{{0, 0, 0.98f}, {0, 0, 2}, {0, 0, 0.1f}}});
+    crowd.write(SWIVEL_TARGET, 0,
+                std::array<Float3, 3>{{{0, 0, 0.98f}, {0, 0, 2}, {0, 0, 0.1f}}});
     crowd.solve();
 
     std::array<std::array<float, 1>, 3> stretch;  // scale both bones by it
@@ -20,7 +21,8 @@ TEST_CASE("docs: soft reach and stretch")
     // [end]
     std::array<Double3, 3> wrists;
     crowd.wrists(0, wrists);
-    CHECK(distance(wrists[0], Float3{0, 0, 0.98f}) < 1e-6);  // eased, and stretched by what that took
+    // Eased, and stretched by what that took.
+    CHECK(distance(wrists[0], Float3{0, 0, 0.98f}) < 1e-6);
     CHECK(stretch[0][0] == Approx(0.98 / (0.98 - 0.08 * 0.08 / 0.4)).epsilon(1e-6));
     CHECK(flags[0] == (SWIVEL_REACHED | SWIVEL_STRETCHED));
     CHECK(distance(wrists[1], Float3{0, 0, 1.05f}) < 1e-6);

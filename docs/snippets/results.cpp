@@ -7,7 +7,8 @@ const swivel_group_def arms{.limb_count = 2, .binding = {}};
 
 void give_arms(swivel::Crowd& crowd)
 {
-    crowd.write(SWIVEL_TARGET, 0, std::array<Float3, 2>{{{0.3f, 0.1f, 0.3f}, {0, 0.2f, 9}}});
+    crowd.write(SWIVEL_TARGET, 0,
+                std::array<Float3, 2>{{{0.3f, 0.1f, 0.3f}, {0, 0.2f, 9}}});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
 }
@@ -24,8 +25,10 @@ TEST_CASE("docs: flags")
     std::array<std::uint32_t, 2> flags;
     crowd.read(SWIVEL_FLAGS, 0, flags);
     for (const std::uint32_t flag : flags) {
-        if (flag & SWIVEL_BAD_INPUT) continue;  // a bad number went in; the limb has its rest pose
-        if (flag & SWIVEL_CLAMPED_FAR) ++far;   // out of reach: step closer, lean, let go
+        if (flag & SWIVEL_BAD_INPUT)
+            continue;  // a bad number went in; the limb has its rest pose
+        if (flag & SWIVEL_CLAMPED_FAR)
+            ++far;  // out of reach: step closer, lean, let go
     }
     // [end]
     CHECK(far == 1);
@@ -56,15 +59,20 @@ TEST_CASE("docs: joint angles")
     give_arms(crowd);
     crowd.solve();
     // [angles]
-    std::array<std::array<double, 7>, 2> angles;  // radians: shoulder y, x, z; flexion; wrist (0 without a hand)
+    // Radians: shoulder y, x, z; flexion; wrist (0 without a hand).
+    std::array<std::array<double, 7>, 2> angles;
     crowd.joint_angles(0, SWIVEL_YXZ, SWIVEL_XYZ, 0, angles);
     // [end]
     using Eigen::AngleAxisd;
-    const Eigen::Quaterniond shoulder = AngleAxisd(angles[0][0], Eigen::Vector3d::UnitY()) *
-                                        AngleAxisd(angles[0][1], Eigen::Vector3d::UnitX()) *
-                                        AngleAxisd(angles[0][2], Eigen::Vector3d::UnitZ());
-    const Eigen::Vector3d fore(0, 0.26 * std::sin(angles[0][3]), 0.26 * std::cos(angles[0][3]));
-    CHECK((shoulder * (Eigen::Vector3d(0, 0, 0.30) + fore) - Eigen::Vector3d(0.3, 0.1, 0.3)).norm() < 1e-6);
+    const Eigen::Quaterniond shoulder =
+        AngleAxisd(angles[0][0], Eigen::Vector3d::UnitY()) *
+        AngleAxisd(angles[0][1], Eigen::Vector3d::UnitX()) *
+        AngleAxisd(angles[0][2], Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d fore(0, 0.26 * std::sin(angles[0][3]),
+                               0.26 * std::cos(angles[0][3]));
+    CHECK((shoulder * (Eigen::Vector3d(0, 0, 0.30) + fore) -
+           Eigen::Vector3d(0.3, 0.1, 0.3))
+              .norm() < 1e-6);
 }
 
 TEST_CASE("docs: compact results")
@@ -75,10 +83,12 @@ TEST_CASE("docs: compact results")
     give_arms(crowd);
     crowd.solve();
     // [compact_read]
-    const swivel_words words = swivel_compact_rows(crowd.get());  // 16-bit rows: send these, or give them to a GPU
+    // 16-bit rows: send these, or give them to a GPU.
+    const swivel_words words = swivel_compact_rows(crowd.get());
     const std::uint32_t row = swivel_field_first_row(crowd.get(), SWIVEL_SHOULDER);
     Float4 shoulder;  // limb 1 of block 0
-    swivel_unpack_rotation(words.base + row * SWIVEL_LANES + 1, SWIVEL_LANES, shoulder.data());
+    swivel_unpack_rotation(words.base + row * SWIVEL_LANES + 1, SWIVEL_LANES,
+                           shoulder.data());
     // [end]
     swivel::Crowd plain(0, {&arms, 1});
     give_arms(plain);
@@ -94,7 +104,8 @@ TEST_CASE("docs: rows")
     give_arms(crowd);
     // [rows]
     const swivel_rows in = swivel_input_rows(crowd.get());
-    const std::uint32_t row = swivel_field_first_row(crowd.get(), SWIVEL_TARGET), limb = 1;
+    const std::uint32_t row = swivel_field_first_row(crowd.get(), SWIVEL_TARGET);
+    const std::uint32_t limb = 1;
     float* const block = in.base + (limb / SWIVEL_LANES) * in.row_count * SWIVEL_LANES;
     block[(row + 0) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.1f;  // x
     block[(row + 1) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.2f;  // y

@@ -9,22 +9,25 @@ TEST_CASE("docs: step limit")
     // [shown]
     swivel::Crowd crowd(SWIVEL_WITH_STEP, {&arms, 1});
     crowd.write_all(SWIVEL_TARGET, 0, target);
-    crowd.write_all(SWIVEL_MOST_SWIVEL, 0,
-                    swivel::turn(0.1));  // radians for each solve: 0.1 at 60 a second is 6 a second
+    // Radians for each solve: 0.1 at 60 a second is 6 a second.
+    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, swivel::turn(0.1));
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.solve();
     // [end]
     crowd.elbows(0, before);
-    // [shown_jump]
+    // [jump]
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, 0});  // a quarter turn away
-    crowd.solve();                                     // the elbow starts towards it: SWIVEL_LIMITED_STEP
+    crowd.solve();  // the elbow starts towards it: SWIVEL_LIMITED_STEP
     // [end]
     crowd.elbows(0, after);
     const Eigen::Vector3d line = vec(target).normalized();
-    const auto side = [&](const Double3& elbow) { return (vec(elbow) - vec(elbow).dot(line) * line).normalized(); };
+    const auto side = [&](const Double3& elbow) {
+        return (vec(elbow) - vec(elbow).dot(line) * line).normalized();
+    };
     CHECK(std::acos(side(before[0]).dot(side(after[0]))) == Approx(0.1).epsilon(1e-4));
     // [reset]
-    crowd.reset(0);  // after a teleport: the group's next solve goes straight to its wish
+    // After a teleport: the group's next solve goes straight to its wish.
+    crowd.reset(0);
     crowd.solve();
     // [end]
     crowd.elbows(0, after);

@@ -10,14 +10,18 @@ TEST_CASE("docs: twist bones")
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0, 0.6f, 0.8f});
     crowd.solve();
-    std::array<std::array<Float4, 3>, 1> twist;  // children of the forearm, from elbow to wrist
+    // Children of the forearm, from elbow to wrist.
+    std::array<std::array<Float4, 3>, 1> twist;
     crowd.read(SWIVEL_TWIST, 0, twist);
     // [end]
     std::array<Float4, 1> wrist;
     crowd.read(SWIVEL_WRIST, 0, wrist);
-    const auto about_forearm = [](const Float4& q) { return 2 * std::atan2(quat(q).z(), quat(q).w()); };
+    const auto about_forearm = [](const Float4& q) {
+        return 2 * std::atan2(quat(q).z(), quat(q).w());
+    };
     const double whole = about_forearm(wrist[0]);
     CHECK(std::abs(whole) > 0.3);
     for (std::size_t i = 0; i < 3; ++i)
-        CHECK(std::abs(about_forearm(twist[0][i]) - whole * static_cast<double>(i + 1) / 4) < 0.0022);
+        CHECK(std::abs(about_forearm(twist[0][i]) -
+                       whole * static_cast<double>(i + 1) / 4) < 0.0022);
 }
