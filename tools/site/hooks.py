@@ -24,8 +24,15 @@ HEADER = "batch/swivel.h"
 SET_FORMULAS = f"""
 const katex = require("{KATEX}/katex.js");
 const formulas = JSON.parse(require("fs").readFileSync(0, "utf8"));
-const options = {{throwOnError: true, strict: "error"}};
-console.log(JSON.stringify(formulas.map(([tex, alone]) => katex.renderToString(tex, {{...options, displayMode: alone}}))));
+function set([tex, alone]) {{
+    try {{
+        return katex.renderToString(tex, {{displayMode: alone, throwOnError: true, strict: "error"}});
+    }} catch (error) {{
+        console.error(error.message);
+        process.exit(1);
+    }}
+}}
+console.log(JSON.stringify(formulas.map(set)));
 """
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.S)
 
@@ -68,8 +75,7 @@ def on_page_content(html, page, config, files):
     formulas = json.dumps([[unescape(tex), kind == "["] for _, kind, tex in found])
     result = subprocess.run(["node", "-e", SET_FORMULAS], input=formulas, capture_output=True, text=True)
     if result.returncode:
-        reason = re.search(r"(KaTeX parse error: .*|Error: .*|LaTeX-incompatible.*)", result.stderr)
-        raise PluginError(f"{page.file.src_uri}: {reason[0] if reason else result.stderr.strip()}")
+        raise PluginError(f"{page.file.src_uri}: {result.stderr.strip()}")
     ready = iter(json.loads(result.stdout))
     return FORMULA.sub(lambda match: next(ready), html)
 
