@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+TEST_CASE("docs: aiming")
+{
+    // [shown]
+    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    swivel::Crowd crowd(SWIVEL_WITH_AIM, {&arms, 1});
+    // Along the hand, which lies along +z at rest, with the elbow bent by half a
+    // radian.
+    const Double3 along_hand{0, 0, 1};
+    std::array<float, 5> aim;
+    swivel::check(swivel_aim(along_hand.data(), 0.5, aim.data()));
+    crowd.write_all(SWIVEL_AIM, 0, aim);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{2, 1, 5});  // what to point at
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
+    crowd.solve();
+    // [end]
+    std::array<Double3, 1> elbow, wrist;
+    crowd.elbows(0, elbow);
+    crowd.wrists(0, wrist);
+    const Eigen::Vector3d upper = vec(elbow[0]), fore = vec(wrist[0]) - vec(elbow[0]);
+    const Eigen::Vector3d ray = Eigen::Vector3d(2, 1, 5) - vec(wrist[0]);
+    CHECK(ray.normalized().cross(fore.normalized()).norm() < 1e-6);
+    CHECK(ray.dot(fore) > 0);
+    CHECK(std::acos(upper.normalized().dot(fore.normalized())) == Approx(0.5));
+}
