@@ -6,8 +6,7 @@ TEST_CASE("docs: aiming")
     // [shown]
     const swivel_group_def arms{.limb_count = 1, .binding = {}};
     swivel::Crowd crowd(SWIVEL_WITH_AIM, {&arms, 1});
-    // Along the hand, which lies along +z at rest, with the elbow bent by half a
-    // radian.
+    // Along the hand, +z at rest, with the elbow bent by half a radian.
     const Double3 along_hand{0, 0, 1};
     std::array<float, 5> aim;
     swivel::check(swivel_aim(along_hand.data(), 0.5, aim.data()));

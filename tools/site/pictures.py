@@ -265,7 +265,45 @@ def blocks():
     return picture
 
 
-PICTURES = {"swivel_circle": swivel_circle, "arm_frame": arm_frame, "spaces": spaces, "limits": limits,
+def seen_along(picture, centre, title, hint):
+    """An arm seen from its wrist towards the shoulder: the line is a point, normals go right of poles."""
+    picture.dot(centre, 58, "none", ORANGE)
+    picture.dot(centre, 5, GREEN)
+    picture.words((centre[0], 36), title, INK, 15, "middle", "bold")
+    picture.words((centre[0], 250), hint, SOFT, 13, "middle")
+
+
+def on_circle(centre, radius, degrees):
+    return arc_points(centre, radius, degrees, degrees, 1)[0]
+
+
+def wishes():
+    picture = Picture(760, 290, "Four ways to say where the elbow goes")
+    centres = [(105, 140), (290, 140), (475, 140), (655, 140)]
+    for centre, title, hint in zip(centres, ("pole point", "pole direction", "plane normal", "swivel angle"),
+                                   ("towards a place", "the same everywhere", "the elbow's axis", "on from the pole")):
+        seen_along(picture, centre, title, hint)
+    point, way, normal, angle = centres
+    picture.dot(on_circle(point, 92, 250), 6, RED)
+    picture.line(point, on_circle(point, 92, 250), RED, 1.5, "3 4")
+    for shift in (-46, 46):
+        picture.arrow((way[0] + shift, 184), (way[0] + shift, 228), RED, 1.8, 8)
+    picture.arrow(normal, on_circle(normal, 84, 0), VIOLET, 2.2, 9)
+    picture.path([(normal[0] + 12, 140), (normal[0] + 12, 152), (normal[0], 152)], SOFT, 1.2)
+    picture.line(angle, on_circle(angle, 84, 270), RED, 1.5, "3 4")
+    picture.path(arc_points(angle, 40, 270, 312), BLUE, 3)
+    picture.words((angle[0] + 20, 218), "φ", BLUE)
+    for centre, degrees in zip(centres, (250, 270, 270, 312)):
+        elbow = on_circle(centre, 58, degrees)
+        picture.line(centre, elbow, INK, 6)
+        picture.dot(elbow, 8, ORANGE)
+        picture.dot(centre, 6, GREEN)
+    picture.words((380, 278), "The arm seen from its wrist (green) towards the shoulder. Orange: the elbow and its circle.", SOFT, 13,
+                  "middle")
+    return picture
+
+
+PICTURES = {"wishes": wishes, "swivel_circle": swivel_circle, "arm_frame": arm_frame, "spaces": spaces, "limits": limits,
             "soft_reach": soft_reach, "reach_bands": reach_bands, "blocks": blocks}
 
 
