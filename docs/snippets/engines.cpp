@@ -146,23 +146,40 @@ void check_carried(const Arm& engine, Point point, Turn turn, Hinge hinge)
     CHECK(turn_between(turn(carried.elbow), own.elbow) < 1e-6);
 }
 
+// The page's numbers, which follow from the triangle: of the upper arm's turn all
+// components are +-1 / sqrt 20 or
+// +-3 / sqrt 20, and the elbow makes a right angle.
+void check_rotations(const Pose& pose, const Float4& shoulder, const Float4& elbow)
+{
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(pose.shoulder[i] == Approx(shoulder[i]).margin(5e-5));
+        CHECK(pose.elbow[i] == Approx(elbow[i]).margin(5e-5));
+    }
+}
+
 }  // namespace
 
 TEST_CASE("docs: Unity")
 {
     check_pose(unity(), solved(unity()), {0.2, 1.16, 0.18});
+    check_rotations(solved(unity()), {-0.2236f, -0.2236f, -0.6708f, 0.6708f},
+                    {0, -0.7071f, 0, 0.7071f});
     check_carried(unity(), point_to_unity, turn_to_unity, hinge_to_unity);
 }
 
 TEST_CASE("docs: Unreal")
 {
     check_pose(unreal(), solved(unreal()), {18, 20, 116});
+    check_rotations(solved(unreal()), {-0.6708f, -0.2236f, -0.2236f, 0.6708f},
+                    {0, 0, -0.7071f, 0.7071f});
     check_carried(unreal(), point_to_unreal, turn_to_unreal, hinge_to_unreal);
 }
 
 TEST_CASE("docs: Godot")
 {
     check_pose(godot(), solved(godot()), {0.2, 1.16, -0.18});
+    check_rotations(solved(godot()), {0.2236f, 0.2236f, -0.6708f, 0.6708f},
+                    {0, 0.7071f, 0, 0.7071f});
     check_carried(godot(), point_to_godot, turn_to_godot, hinge_to_godot);
 }
 
