@@ -47,7 +47,7 @@ def without_comments(header):
 def build(folder):
     if not shutil.which("mkdocs"):
         raise RuntimeError("mkdocs is missing; run: tools/setup mkdocs mkdocs-material libjs-katex nodejs")
-    return subprocess.run(["mkdocs", "build", "--strict", "--site-dir", folder], cwd=ROOT, capture_output=True, text=True,
+    return subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--site-dir", folder], cwd=ROOT, capture_output=True, text=True,
                           env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
 
 
@@ -55,7 +55,9 @@ class Docs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="swivel_docs_"))
-        cls.result = build(cls.folder)
+        result = build(cls.folder)
+        if result.returncode or re.search("WARNING|ERROR", result.stderr):  # nothing else is worth a look then
+            raise RuntimeError("the pages do not build without a warning:\n" + result.stderr)
         cls.pages = {path: Page(path.read_text(encoding="utf-8")) for path in cls.folder.rglob("*.html")}
         cls.header = (ROOT / "batch/swivel.h").read_text(encoding="utf-8")
 
@@ -63,10 +65,8 @@ class Docs(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.folder)
 
-    def test_built_without_warnings(self):
-        self.assertEqual(self.result.returncode, 0, self.result.stderr)
-        self.assertNotRegex(self.result.stderr, "WARNING|ERROR")
-        self.assertGreater(len(self.pages), 10)
+    def test_built_all_pages(self):
+        self.assertEqual(len(self.pages), 1 + len(list(DOCS.rglob("*.md"))))  # and 404.html
 
     def test_every_page_is_in_the_navigation(self):
         listed = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")

@@ -65,7 +65,7 @@ def repository_links(markdown, source):
         if target == HEADER:
             return f"[{match[1]}]({posixpath.relpath('api.md', posixpath.dirname(source) or '.')})"
         return match[1]
-    return re.sub(r"(?<!!)\[([^\]]*)\]\(([^)#\s]+)\)", replaced, markdown)
+    return re.sub(r"(?<!!)\[([^\]]*)\]\(([^)#\s]+)(?:#[^)\s]*)?\)", replaced, markdown)
 
 
 def on_page_content(html, page, config, files):
