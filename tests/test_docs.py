@@ -107,6 +107,8 @@ class Docs(unittest.TestCase):
         names = set(re.findall(r"\b(?:swivel|SWIVEL)_\w+", code)) - {"SWIVEL_API", "SWIVEL_SHARED"}
         self.assertGreater(len(names), 140)
         self.assertEqual(names - self.pages[self.folder / "api.html"].anchors, set())
+        ids = re.findall(r'\bid="([^"]*)"', (self.folder / "api.html").read_text(encoding="utf-8"))
+        self.assertEqual([name for name in names if ids.count(name) > 1], [], "more than one anchor")
 
     def test_reference_has_every_comment(self):
         def letters(text):

@@ -157,9 +157,10 @@ def reference(header):
     missing = set(CHAPTERS) - names
     if missing:
         raise Unread(f"swivel.h declares no {', '.join(sorted(missing))}, where a chapter of the reference starts")
-    out = ["## The manual\n", prose(head, names, "###")]
+    out, given = ["## The manual\n", prose(head, names, "###")], set()
     for comment, code in declared:
-        own = public_names(code)
+        own = [name for name in public_names(code) if name not in given]  # a function's body names others
+        given.update(own)
         for name in own:
             if name in CHAPTERS:
                 out.append(f"## {CHAPTERS[name]}\n")
