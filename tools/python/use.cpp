@@ -51,9 +51,8 @@ Limbs limbs_of(const HeldCrowd& held, std::int64_t group, std::int64_t first, st
                               std::to_string(group_count(held)));
     const std::uint32_t limb_count = count ? count_of("count", *count) : has - std::min(begin, has);
     if (begin > has || limb_count > has - begin)
-        throw py::value_error("limbs " + std::to_string(begin) + " to " +
-                              std::to_string(std::uint64_t{begin} + limb_count) + " are not all in group " +
-                              std::to_string(g) + ", which has " + std::to_string(has));
+        throw py::value_error(std::to_string(limb_count) + " limbs from limb " + std::to_string(begin) +
+                              " on are not all in group " + std::to_string(g) + ", which has " + std::to_string(has));
     return {g, begin, limb_count};
 }
 
