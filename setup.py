@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""The part of the Python package's build that pyproject.toml cannot say: swivel._core, compiled by CMake from tools/python.
+
+An installed swivel of the same version is linked where CMake finds it (CMAKE_PREFIX_PATH); otherwise the library is built, too.
+CMAKE_ARGS in the environment is passed on, such as "-DSWIVEL_TBB=OFF".
+"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = Path(__file__).resolve().parent
+
+
+def pybind11_folder():
+    """Where CMake finds the pybind11 that pip may have brought; nothing for a system's own."""
+    try:
+        import pybind11
+    except ImportError:
+        return []
+    return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
+
+
+class CMakeBuild(build_ext):
+    def build_extension(self, ext):
+        folder = Path(self.get_ext_fullpath(ext.name)).resolve().parent
+        build = Path(self.build_temp).resolve() / ext.name
+        subprocess.check_call(["cmake", "-S", str(ROOT / "tools" / "python"), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
+                               f"-DPython_EXECUTABLE={sys.executable}", f"-DSWIVEL_PYTHON_FOLDER={folder}", *pybind11_folder(),
+                               *shlex.split(os.environ.get("CMAKE_ARGS", ""))])
+        jobs = str(self.parallel or os.cpu_count() or 1)
+        subprocess.check_call(["cmake", "--build", str(build), "--target", "swivel_python", "--parallel", jobs])
+
+
+version = re.search(r"project\(swivel VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
+setup(version=version[1], ext_modules=[Extension("swivel._core", sources=[])], cmdclass={"build_ext": CMakeBuild})

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+"""The promise: the module has every name of swivel.h, its stub and its documentation say what it has, and everything public
+explains itself, arrays with their shapes."""
+import ast
+import inspect
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import swivel
+from swivel import Field
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "tools" / "python" / "swivel"
+HEADER = re.sub(r"//[^\n]*", "", (ROOT / "batch" / "swivel.h").read_text(encoding="utf-8"))
+STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
+DOCS = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+
+
+def body_of(kind, name):
+    return re.search(rf"typedef {kind} {name} \{{(.*?)\}} {name};", HEADER, re.DOTALL)[1]
+
+
+def header_enum(name):
+    """Names and values of a C enum, without SWIVEL_ and the count at its end."""
+    members, value = {}, 0
+    for text in body_of("enum", name).split(","):
+        if text.strip():
+            key, _, number = text.partition("=")
+            value = eval(number.replace("u", "").strip()) if number else value
+            members[key.strip().removeprefix("SWIVEL_")] = value
+            value += 1
+    members.pop("FIELD_COUNT", None)
+    return members
+
+
+def public(node):
+    return isinstance(node, (ast.FunctionDef, ast.ClassDef)) and (node.name[0] != "_" or node.name == "__init__")
+
+
+def is_property(node):
+    return any(isinstance(each, ast.Name) and each.id == "property" for each in node.decorator_list)
+
+
+def parameters(function):
+    """Names, defaults and kinds, as one text for each parameter but self."""
+    arguments = function.args
+    plain = arguments.posonlyargs + arguments.args
+    defaults = [None] * (len(plain) - len(arguments.defaults)) + arguments.defaults
+    pairs = [*zip(plain, defaults), *[("*", None)] * bool(arguments.kwonlyargs), *zip(arguments.kwonlyargs, arguments.kw_defaults)]
+    return [pair[0] if pair[0] == "*" else pair[0].arg + (f"={ast.unparse(pair[1])}" if pair[1] else "")
+            for pair in pairs if pair[0] == "*" or pair[0].arg != "self"]
+
+
+class Names(unittest.TestCase):
+    def test_every_enumerator_of_the_header(self):
+        for name, enum in (("swivel_feature", swivel.Feature), ("swivel_field", Field), ("swivel_flag", swivel.Flag),
+                           ("swivel_euler_order", swivel.EulerOrder)):
+            wanted = header_enum(name)
+            self.assertGreater(len(wanted), 5)
+            self.assertEqual({each.name: each.value for each in enum}, wanted, f"tools/python/names.cpp beside {name}")
+            stub = next(node for node in STUB.body if isinstance(node, ast.ClassDef) and node.name == enum.__name__)
+            self.assertEqual([node.target.id for node in stub.body], list(wanted), f"_core.pyi beside {name}")
+            self.assertEqual(type(enum(1)), enum)
+
+    def test_every_member_of_a_frame(self):
+        members = set(re.findall(r"\b(\w+)\s*[,;]", body_of("struct", "swivel_frame")))
+        with self.assertRaises(ValueError) as caught:
+            swivel.Crowd(1).solve_frame({"?": 0})
+        self.assertEqual(set(str(caught.exception).partition("there are ")[2].split(", ")), members)
+
+    def test_every_function_of_the_header_has_its_like(self):
+        """What Python has under another name, or does by itself."""
+        others = {"crowd_create", "crowd_destroy", "crowd_bytes", "last_error", "status_text", "forward",
+                  "unpack_rotation", "unpack_half", "field_row_count", "field_first_row", "group_first_limb", "group_limb_count",
+                  "isa_at", "isa_runs"}
+        functions = set(re.findall(r"SWIVEL_API[^(;]*?\bswivel_(\w+)\(", HEADER))
+        self.assertGreater(len(functions), 40)
+        has = set(dir(swivel)) | set(dir(swivel.Crowd))
+        self.assertEqual(functions - has, others)
+
+    def test_every_result_has_a_place_in_arms(self):
+        self.assertLessEqual({field.name.lower() for field in Field if field >= Field.SHOULDER}, set(swivel.Arms._fields))
+        self.assertEqual(re.findall(r"^    (\w+) +\(n", swivel.Arms.__doc__, re.MULTILINE), list(swivel.Arms._fields))
+
+    def test_needed_features_bring_the_field_and_none_is_too_many(self):
+        for field in Field:
+            needed = swivel.needed_features(field)
+            if field >= Field.SHOULDER:
+                self.assertEqual(needed, 0)
+                continue
+            self.assertGreater(swivel.Crowd(1, needed).component_count(field), 0)
+            for one in needed:
+                try:
+                    self.assertEqual(swivel.Crowd(1, needed & ~one).component_count(field), 0)
+                except ValueError:
+                    pass  # what is left does not go together
+
+
+class Stub(unittest.TestCase):
+    def test_all_of_the_module_and_nothing_else(self):
+        core = sys.modules["swivel._core"]
+        names = {node.name for node in STUB.body if public(node)} | {"LANES"}
+        self.assertEqual(names, {name for name in vars(core) if name[0] != "_"})
+        self.assertEqual(names | {"Arms", "solve"}, set(swivel.__all__))
+        for node in STUB.body:
+            if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), int):
+                wanted = {name for name in vars(getattr(swivel, node.name)) if name[0] != "_"}
+                self.assertEqual({each.name for each in node.body if public(each) and each.name[0] != "_"}, wanted, node.name)
+
+    def check_signature(self, stub, runtime):
+        line = runtime.__doc__.splitlines()[0]
+        self.assertEqual(parameters(stub), parameters(ast.parse(f"def {line}: ...").body[0]), line)
+
+    def test_parameters_and_defaults(self):
+        count = 0
+        for node in STUB.body:
+            if isinstance(node, ast.FunctionDef):
+                self.check_signature(node, getattr(swivel, node.name))
+            for each in node.body if isinstance(node, ast.ClassDef) else ():
+                if isinstance(each, ast.FunctionDef) and not is_property(each):
+                    self.check_signature(each, getattr(getattr(swivel, node.name), each.name))
+                    count += 1
+        self.assertGreater(count, 20)
+
+    def test_types_of_package_example_and_documentation(self):
+        """mypy finds nothing, and does find a mistake."""
+        with tempfile.TemporaryDirectory() as folder:
+            program, wrong = Path(folder) / "program.py", Path(folder) / "wrong.py"
+            program.write_text("\n".join(re.findall(r"```python\n(.*?)```", DOCS, re.DOTALL)), encoding="utf-8")
+            wrong.write_text("import swivel\nswivel.Crowd(3).reed(swivel.Field.TARGET)\n", encoding="utf-8")
+            base = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", f"--cache-dir={folder}/cache"]
+            environment = {"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"}
+            run = lambda *files: subprocess.run([*base, *map(str, files)], capture_output=True, text=True, env=environment,
+                                                cwd=folder)
+            good = run(*PACKAGE.glob("*.py*"), PACKAGE.parent / "examples" / "reach.py", program)
+            self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
+            self.assertIn('has no attribute "reed"', run(wrong).stdout)
+
+
+class Words(unittest.TestCase):
+    def explained(self, name, thing):
+        text = inspect.getdoc(thing) or ""
+        if text.startswith(f"{name.rpartition('.')[2]}("):
+            text = text.partition("\n\n")[2]
+        self.assertGreater(len(text), 12, f"{name} does not say what it is")
+        return text
+
+    def test_everything_public_explains_itself(self):
+        for name in swivel.__all__:
+            thing = getattr(swivel, name)
+            if name != "LANES":
+                self.explained(name, thing)
+            if inspect.isclass(thing) and not issubclass(thing, (int, tuple)):
+                for member, value in vars(thing).items():
+                    if member[0] != "_":
+                        self.explained(f"{name}.{member}", value)
+
+    def test_arrays_tell_their_shapes(self):
+        for node in STUB.body:
+            for each in (node.body if isinstance(node, ast.ClassDef) else [node]):
+                returns = ast.unparse(each.returns) if isinstance(each, ast.FunctionDef) and each.returns else ""
+                if re.search("_Floats|_Doubles|NDArray", returns):
+                    owner = getattr(swivel, node.name)
+                    thing = owner if each is node else getattr(owner, each.name)
+                    self.assertRegex(self.explained(each.name, thing), r"\([\w ,+*]*\)", f"{each.name} gives no shape")
+
+    def test_the_table_of_arrays(self):
+        """Every field is a row of docs/python.md, with its shape."""
+        rows = dict(re.findall(r"^\| `(\w+)` \| `\((.*?)\)`", DOCS, re.MULTILINE))
+        self.assertEqual(list(rows), [field.name.lower() for field in Field])
+        everything = swivel.Feature.WITH_REACH | swivel.Feature.WITH_STEP | swivel.Feature.WITH_HAND | swivel.Feature.WORLD
+        for field in Field:
+            crowd = swivel.Crowd(1, swivel.needed_features(field) if field < Field.SHOULDER
+                                 else everything | swivel.Feature.TWIST_BONES | swivel.Feature.WITH_CLAVICLE)
+            shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 13)}, "n, 4 b": 4}[rows[field.name.lower()]]
+            self.assertEqual(shape, crowd.component_count(field), field.name)
+            self.assertEqual(np.ndim(crowd.read(field)), 1 if shape == 1 else 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

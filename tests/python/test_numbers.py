@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: MIT
+"""The promise: what comes back poses arms as the header says, judged by a forward kinematics in NumPy, and is the same bits on
+every instruction set and by every way to solve."""
+import unittest
+
+import numpy as np
+
+import swivel
+from arms import Sample, flexed, joints_at, quaternions, rotate, times
+from swivel import Feature, Field, Flag
+
+N = 1000
+
+
+def crowd_of(sample, features=0, groups=None):
+    crowd = swivel.Crowd(groups or len(sample.targets), features)
+    crowd.write(Field.TARGET, sample.targets)
+    crowd.write(Field.POLE, sample.poles)
+    crowd.write(Field.LENGTHS, sample.lengths)
+    return crowd
+
+
+class Poses(unittest.TestCase):
+    def test_wrists_are_at_their_targets_and_elbows_on_the_poles_side(self):
+        sample = Sample(N)
+        crowd = crowd_of(sample)
+        crowd.solve()
+        elbows, wrists = joints_at(crowd.read(Field.SHOULDER), crowd.read(Field.ELBOW), sample.lengths)
+        off = np.linalg.norm(wrists - sample.targets, axis=1) / sample.lengths.sum(axis=1)
+        self.assertLess(off.max(), 1e-6)
+        side = np.cross(sample.targets, np.cross(sample.poles, sample.targets))
+        self.assertTrue(np.all(np.sum(elbows * side, axis=1) > 0))
+        np.testing.assert_array_equal(crowd.read(Field.FLAGS), Flag.REACHED)
+        np.testing.assert_allclose(crowd.elbows(), elbows, atol=1e-6)
+        np.testing.assert_allclose(crowd.wrists(), wrists, atol=1e-6)
+        np.testing.assert_allclose(crowd.residuals(), off, atol=1e-7)
+
+    def test_hands_in_the_world(self):
+        sample, random = Sample(N), np.random.default_rng(2)
+        parents, hands = quaternions(random, N), quaternions(random, N)
+        places = random.normal(size=(N, 3)).astype(np.float32)
+        scale = random.uniform(0.5, 2, N).astype(np.float32)
+        world = lambda v: places + scale[:, None] * rotate(parents, v)
+        arms = swivel.solve(world(sample.targets), world(sample.poles), sample.lengths, parent_position=places,
+                            parent_rotation=parents, parent_scale=scale, hand=hands)
+        _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
+        np.testing.assert_allclose(world(wrists), world(sample.targets), atol=4e-6)
+        np.testing.assert_allclose(arms.wrist_position, world(wrists), atol=4e-6)
+        posed = times(parents, times(arms.shoulder, times(flexed(arms.elbow), arms.wrist)))
+        np.testing.assert_allclose(abs(np.sum(posed * hands, axis=1)), 1, atol=1e-6)
+
+    def test_a_skeletons_own_joints(self):
+        sample, random = Sample(N), np.random.default_rng(3)
+        rest = quaternions(random, 3)
+        upper, fore = np.array([0.3, 0.1, 0.0]), np.array([0.25, 0.0, 0.05])
+        limb = swivel.bind(upper, fore, (0, 0, 1), *rest)
+        np.testing.assert_allclose(limb.lengths, [np.linalg.norm(upper), np.linalg.norm(fore)], rtol=1e-6)
+        kept = swivel.Binding(**{name: getattr(limb.binding, name) for name in dir(swivel.Binding) if name[0] != "_"})
+        for binding in (limb, limb.binding, kept):
+            crowd = swivel.Crowd([(N, binding)], Feature.JOINTS | Feature.WORLD)
+            for field, values in ((Field.TARGET, sample.targets), (Field.POLE, sample.poles), (Field.LENGTHS, limb.lengths)):
+                crowd.write(field, values)
+            crowd.solve()
+            shoulder, elbow = crowd.read(Field.SHOULDER), crowd.read(Field.ELBOW)
+            wrists = rotate(shoulder, upper) + rotate(times(shoulder, elbow), fore)
+            reached = (crowd.read(Field.FLAGS) & Flag.REACHED) != 0
+            self.assertGreater(reached.sum(), N / 2)
+            np.testing.assert_allclose(wrists[reached], sample.targets[reached], atol=1e-6)
+
+    def test_limits_hold_and_arcs_tell_which_swivels_they_leave(self):
+        sample = Sample(N)
+        arms = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_cone=swivel.cone((0, 0, 1), 1.2),
+                            flexion_limit=swivel.flexion(0.3, 2.0))
+        flexion = 2 * np.arctan2(arms.elbow[:, 1], arms.elbow[:, 0])
+        self.assertTrue(np.all((flexion > 0.3 - 1e-5) & (flexion < 2.0 + 1e-5)))
+        cosine = rotate(arms.shoulder, np.array([0.0, 0.0, 1.0]))[:, 2]
+        feasible = (arms.flags & Flag.INFEASIBLE) == 0
+        self.assertTrue(np.any(feasible) and np.any(~feasible))
+        self.assertTrue(np.all(cosine[feasible] > np.cos(1.2) - 1e-6))
+        crowd = crowd_of(sample, Feature.LIMIT_SHOULDER_CONE)
+        crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 0, 1), 1.2))
+        arcs = [crowd.allowed_arcs(limb) for limb in range(N)]
+        crowd.solve()
+        infeasible = (crowd.read(Field.FLAGS) & Flag.INFEASIBLE) != 0
+        np.testing.assert_array_equal([len(each) == 0 for each in arcs], infeasible)
+        ends = np.concatenate(arcs)
+        self.assertEqual(ends.shape[1:], (2, 2))
+        np.testing.assert_allclose(np.linalg.norm(ends, axis=2), 1, atol=1e-5)
+
+    def test_joint_angles_rebuild_the_shoulder(self):
+        sample = Sample(N)
+        crowd = crowd_of(sample)
+        crowd.solve()
+        half = 0.5 * crowd.joint_angles(swivel.EulerOrder.XYZ)
+        self.assertEqual(half.shape, (N, 7))
+        turns = [np.insert(np.zeros((N, 3)), 3, np.cos(half[:, axis]), axis=1) for axis in range(3)]
+        for axis in range(3):
+            turns[axis][:, axis] = np.sin(half[:, axis])
+        rebuilt = times(turns[0], times(turns[1], turns[2]))
+        np.testing.assert_allclose(abs(np.sum(rebuilt * crowd.read(Field.SHOULDER), axis=1)), 1, atol=1e-6)
+        np.testing.assert_allclose(2 * half[:, 3], 2 * np.arctan2(*crowd.read(Field.ELBOW).astype(float).T[::-1]), atol=1e-6)
+
+    def test_far_from_the_origin(self):
+        sample, home = Sample(N), np.array([4e6, -3e6, 5e6])
+        far = lambda v: home + v.astype(float)
+        keywords = dict(parent_position=home, origin=home)
+        arms = swivel.solve(far(sample.targets), far(sample.poles), sample.lengths, **keywords)
+        near = swivel.solve(sample.targets, sample.poles, sample.lengths, parent_position=(0, 0, 0))
+        np.testing.assert_allclose(arms.wrist_position, near.wrist_position, atol=1e-6)
+
+    def test_hands_that_aim(self):
+        sample, forward = Sample(N), np.array([0.0, 0.0, 1.0])
+        arms = swivel.solve(sample.targets * 3, sample.poles, sample.lengths, aim=swivel.aim(forward, 0.5))
+        np.testing.assert_allclose(2 * np.arctan2(arms.elbow[:, 1], arms.elbow[:, 0]), 0.5, atol=1e-6)
+        ray = rotate(times(arms.shoulder, flexed(arms.elbow)), forward)  # the hand is at rest, along the forearm
+        _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
+        beside = np.linalg.norm(np.cross(sample.targets * 3 - wrists, ray), axis=1)
+        reached = (arms.flags & Flag.REACHED) != 0
+        self.assertGreater(reached.sum(), N / 2)
+        self.assertLess(beside[reached].max(), 2e-6)
+
+    def test_clavicles_take_their_share(self):
+        sample, bone = Sample(N), np.array([0.15, 0.05, 0.0])
+        arms = swivel.solve(sample.targets, sample.poles, sample.lengths, parent_position=(0, 0, 0), clavicle=(*bone, 0.3))
+        turn = arms.clavicle_turn
+        _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
+        wrists = rotate(turn, bone + wrists) - bone
+        reached = (arms.flags & Flag.REACHED) != 0
+        self.assertGreater(reached.sum(), N / 2)
+        np.testing.assert_allclose(wrists[reached], sample.targets[reached], atol=1e-6)
+        self.assertGreater(np.linalg.norm(turn[:, :3], axis=1).max(), 0.05)
+
+    def test_mirrored_limits(self):
+        axes = [(1, 2, 3), (-1, 0.5, 2)]
+        cones = np.stack([swivel.cone(axis, 1.0) for axis in axes])
+        mirrored = np.stack([swivel.cone((-x, y, z), 1.0) for x, y, z in axes])
+        np.testing.assert_array_equal(swivel.mirror(Field.SHOULDER_CONE, cones), mirrored)
+        np.testing.assert_array_equal(swivel.mirror(Field.SHOULDER_CONE, cones[0]), mirrored[0])
+        np.testing.assert_allclose(swivel.mirror(Field.HUMERAL_TWIST, swivel.range(-0.2, 1.0)), swivel.range(-1.0, 0.2), atol=1e-7)
+
+
+class Bits(unittest.TestCase):
+    def results(self, crowd):
+        return b"".join(crowd.read(field).tobytes() for field in (Field.SHOULDER, Field.ELBOW, Field.FLAGS))
+
+    def test_every_instruction_set_gives_the_same(self):
+        before = swivel.isa_name()
+        self.addCleanup(swivel.use_isa, before)
+        found = set()
+        for name, runs in swivel.isas():
+            if runs:
+                swivel.use_isa(name)
+                self.assertEqual(swivel.isa_name(), name)
+                crowd = crowd_of(Sample(N), Feature.LIMIT_SHOULDER_CONE)
+                crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 1, 1), 1.0))
+                crowd.solve()
+                found.add(self.results(crowd))
+        self.assertEqual(len(found), 1)
+
+    def test_every_way_to_solve_gives_the_same(self):
+        sample = Sample(N)
+        whole = crowd_of(sample)
+        whole.solve()
+        wanted = self.results(whole)
+
+        def blocks(crowd):
+            for block in range(crowd.block_count):
+                crowd.solve_blocks(block, 1)
+
+        def active(crowd):
+            lanes = np.zeros(crowd.lane_count, bool)
+            lanes[crowd.limbs()] = np.arange(N) % 2 == 0
+            crowd.solve_active(lanes)
+            crowd.solve_active_blocks(~lanes, 0, crowd.block_count)
+
+        def chosen(crowd):
+            for _ in range(4):
+                crowd.solve_active(crowd.choose([np.ones(N)], crowd.block_count // 4 + 1))
+
+        def budget(crowd):
+            self.assertEqual(sum(crowd.solve_budget([1.0], 20) for _ in range(4)), N + 17 * 16)
+
+        def frame(crowd):
+            out = {"shoulder": np.zeros((N, 4), np.float32), "flags": np.zeros(N, np.uint32)}
+            crowd.solve_frame({"target": sample.targets, "pole": sample.poles, **out})
+            np.testing.assert_array_equal(out["shoulder"], whole.read(Field.SHOULDER))
+            np.testing.assert_array_equal(out["flags"], whole.read(Field.FLAGS))
+
+        def frame_blocks(crowd):
+            for first in range(0, crowd.block_count, 9):
+                crowd.solve_frame_blocks([{"target": sample.targets}], first, min(9, crowd.block_count - first))
+
+        ways = [blocks, active, lambda crowd: crowd.solve_list(np.random.default_rng(4).permutation(N)), frame, frame_blocks]
+        for way in ways:
+            crowd = crowd_of(sample)
+            way(crowd)
+            self.assertEqual(self.results(crowd), wanted)
+        for way in (chosen, budget):
+            crowd = crowd_of(sample, Feature.BUDGET)
+            way(crowd)
+            self.assertEqual(self.results(crowd), wanted)
+
+    def test_compact_words(self):
+        sample = Sample(N)
+        plain, packed = crowd_of(sample), crowd_of(sample, Feature.COMPACT)
+        plain.solve(), packed.solve()
+        rotations = packed.read(Field.SHOULDER)
+        forearm = np.array([0.1, 0.2, 0.3])  # a rotation is within 1.54e-4 rad
+        apart = rotate(rotations, forearm) - rotate(plain.read(Field.SHOULDER), forearm)
+        self.assertLess(np.linalg.norm(apart, axis=1).max(), 1.54e-4 * np.linalg.norm(forearm))
+        words = np.moveaxis(packed.rows(Field.SHOULDER), 1, 2).reshape(-1, 3)[packed.limbs()]
+        np.testing.assert_array_equal(swivel.unpack_rotations(words), rotations)
+        np.testing.assert_array_equal(swivel.unpack_rotations(words[7]), rotations[7])
+        halves = np.moveaxis(packed.rows(Field.ELBOW), 1, 2).reshape(-1, 2)[packed.limbs()].copy().view(np.float16)
+        np.testing.assert_array_equal(halves.astype(np.float32), packed.read(Field.ELBOW))
+
+    def test_the_library_checks_itself(self):
+        passed, checks = swivel.verify(arm_count=200, seed=3)
+        self.assertTrue(passed)
+        self.assertTrue(all(0 <= check.max <= check.max_limit and check.name and check.set for check in checks))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""The promise: long calls let other Python threads run, blocks may be solved by several threads, and a crowd that is in use by
+another thread is refused instead of raced for."""
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import swivel
+from arms import Sample
+from swivel import Feature, Field
+
+N = 200000
+
+
+class Threads(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sample = Sample(N)
+        cls.crowd = swivel.Crowd(N, Feature.BUDGET)
+        cls.crowd.write(Field.TARGET, cls.sample.targets)
+        cls.crowd.write(Field.POLE, cls.sample.poles)
+        cls.crowd.write(Field.LENGTHS, cls.sample.lengths)
+
+    def lets_others_run(self, call):
+        """With a switch interval of an hour another thread runs only while this one has given the GIL away of its own will. It
+        waits for `go`, so it starts within call() or, were the GIL never given away, not before the loop has ended."""
+        before = sys.getswitchinterval()
+        go, ran = threading.Lock(), []
+        go.acquire()
+
+        def other():
+            with go:
+                ran.append(True)
+
+        thread = threading.Thread(target=other)
+        thread.start()
+        sys.setswitchinterval(3600)
+        try:
+            go.release()
+            end = time.monotonic() + 20
+            while not ran and time.monotonic() < end:
+                call()
+            return bool(ran)
+        finally:
+            sys.setswitchinterval(before)
+            thread.join()
+
+    def test_long_calls_release_the_gil(self):
+        crowd, ones = self.crowd, np.ones(N, np.float32)
+        lanes, active = np.arange(N), np.ones(self.crowd.lane_count, bool)
+        out, target = np.zeros((N, 4), np.float32), self.sample.targets
+        place = np.zeros((N, 3))
+        for call in (crowd.solve, lambda: crowd.solve_blocks(0, crowd.block_count), lambda: crowd.solve_active(active),
+                     lambda: crowd.solve_active_blocks(active, 0, crowd.block_count), lambda: crowd.solve_list(lanes),
+                     lambda: crowd.choose([ones], 1000), lambda: crowd.solve_budget([ones], 1000), crowd.reset,
+                     lambda: crowd.solve_frame({"target": target, "shoulder": out}),
+                     lambda: crowd.solve_frame_blocks({"target": target}, 0, crowd.block_count),
+                     lambda: crowd.write(Field.TARGET, target), lambda: crowd.write_doubles(Field.TARGET, place),
+                     lambda: crowd.read(Field.SHOULDER, out=out), lambda: crowd.wrists(out=place),
+                     lambda: crowd.residuals(), lambda: crowd.joint_angles(), lambda: swivel.verify(2000)):
+            self.assertTrue(self.lets_others_run(call))
+
+    def test_a_call_that_keeps_the_gil_would_be_found(self):
+        calls = iter(range(200))
+
+        def keep():
+            next(calls)
+            sum(range(10000))
+
+        with self.assertRaises(StopIteration):
+            self.lets_others_run(keep)
+
+    def test_blocks_on_several_threads(self):
+        alone, together = swivel.Crowd(N), swivel.Crowd(N)
+        for crowd in (alone, together):
+            crowd.write(Field.TARGET, self.sample.targets)
+        alone.solve_blocks(0, alone.block_count)
+        share = -(-together.block_count // 4)
+        threads = [threading.Thread(target=together.solve_blocks, args=(first, min(share, together.block_count - first)))
+                   for first in range(0, together.block_count, share)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_array_equal(together.result_rows, alone.result_rows)
+
+    def test_a_crowd_in_use_is_refused(self):
+        """One thread solves over and over, this one reads: both end well or with RuntimeError, and refusals do happen."""
+        refused = []
+        stop = threading.Event()
+
+        def read():
+            while not stop.is_set():
+                try:
+                    self.crowd.read(Field.SHOULDER)
+                except RuntimeError as error:
+                    refused.append(str(error))
+
+        thread = threading.Thread(target=read)
+        thread.start()
+        end = time.monotonic() + 20
+        while not refused and time.monotonic() < end:
+            try:
+                self.crowd.solve()
+            except RuntimeError as error:
+                refused.append(str(error))
+        stop.set()
+        thread.join()
+        self.assertIn("another thread is using this crowd", refused[0])
+        self.crowd.solve()  # and it is free again
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// What results mean in space: positions, distances, angles, arcs. All in double, but for arcs.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "tools/python/crowd.h"
+#include "tools/python/names.h"
+
+namespace py = pybind11;
+
+namespace swivel::python {
+
+namespace {
+
+using Count = std::optional<std::int64_t>;
+
+// An array of doubles for some limbs, filled by call(limbs, values).
+template <class Call>
+py::array doubles(HeldCrowd& held, const char* name, std::size_t component_count, std::int64_t group,
+                  std::int64_t first, Count count, const py::object& out, Call call)
+{
+    const Limbs limbs = limbs_of(held, group, first, count);
+    const Output to = output({name, limbs.count, component_count}, out, py::dtype::of<double>(), rows_memory(held));
+    run(held, Way::kReading, [&] { check(call(limbs, to.values)); });
+    return to.finish();
+}
+
+py::array elbows(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
+{
+    return doubles(held, "out", 3, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
+        return swivel_forward(held.crowd.get(), limbs.group, limbs.first, limbs.count, values, {}, {});
+    });
+}
+
+py::array wrists(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
+{
+    return doubles(held, "out", 3, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
+        return swivel_forward(held.crowd.get(), limbs.group, limbs.first, limbs.count, {}, values, {});
+    });
+}
+
+py::array hands(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
+{
+    return doubles(held, "out", 4, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
+        return swivel_forward(held.crowd.get(), limbs.group, limbs.first, limbs.count, {}, {}, values);
+    });
+}
+
+py::array residuals(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
+{
+    return doubles(held, "out", 1, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
+        return swivel_residuals(held.crowd.get(), limbs.group, limbs.first, limbs.count, values);
+    });
+}
+
+py::array joint_angles(HeldCrowd& held, std::int64_t shoulder_order, std::int64_t wrist_order, int family,
+                       std::int64_t group, std::int64_t first, Count count, const py::object& out)
+{
+    const swivel_euler_order shoulder = order_of(shoulder_order), wrist = order_of(wrist_order);
+    return doubles(held, "out", 7, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
+        return swivel_joint_angles(held.crowd.get(), limbs.group, limbs.first, limbs.count, shoulder, wrist, family,
+                                   values);
+    });
+}
+
+py::array allowed_arcs(HeldCrowd& held, std::int64_t limb, std::int64_t group)
+{
+    const std::uint32_t g = count_of("group", group), n = count_of("limb", limb);
+    const auto arcs = run(held, Way::kReading, [&] { return held.crowd.allowed_arcs(g, n); });
+    static_assert(sizeof(swivel_arc) == 4 * sizeof(float));
+    const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(arcs.size()), 2, 2};
+    return py::array(py::dtype::of<float>(), shape, arcs.data());  // without a base: a copy
+}
+
+}  // namespace
+
+void add_answers(CrowdClass& crowd)
+{
+    const auto add = [&](const char* name, auto method, const char* text) {
+        crowd.def(name, method, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
+                  py::arg("out") = py::none(), text);
+    };
+    add("elbows", &elbows,
+        "Where the results put the elbows: (count, 3) float64, in the space of the targets and your unit of length.");
+    add("wrists", &wrists,
+        "Where the results put the wrists: (count, 3) float64, in the space of the targets and your unit of length.");
+    add("hands", &hands,
+        "How the results turn the hands: (count, 4) float64, quaternions x, y, z, w in the space of the\n"
+        "targets; without Feature.WITH_HAND those of the forearms.");
+    add("residuals", &residuals,
+        "How far each wrist, or effector, is from its target: (count,) float64, in arm lengths (upper arm and\n"
+        "forearm, scaled). 0 for limbs of no length and those with Flag.BAD_INPUT.");
+    crowd.def("joint_angles", &joint_angles, py::arg("shoulder_order") = 0, py::arg("wrist_order") = 0,
+              py::arg("family") = 0, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
+              py::arg("out") = py::none(),
+              "Joint angles of the results about the rest pose, in radians: (count, 7) float64.\n\n"
+              "Three of the shoulder in the given order of axes, the flexion, three of the wrist (0 without\n"
+              "Feature.WITH_HAND). Of the two triples for a rotation, family 0 has the middle one within\n"
+              "-pi/2..pi/2, family 1 the other.");
+    crowd.def("allowed_arcs", &allowed_arcs, py::arg("limb"), py::arg("group") = 0,
+              "The swivels that one limb's limits allow for its inputs as they are: (arcs, 2, 2) float32.\n\n"
+              "For each arc its two ends, for each end cos and sin of the angle about the line from shoulder to\n"
+              "wrist, by the right hand from the swivel wished for. The whole circle is one arc with equal ends; no\n"
+              "arc: bad input or no swivel within the limits.");
+}
+
+}  // namespace swivel::python

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole frames, from and to the caller's own arrays.
+#include <pybind11/numpy.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tools/python/crowd.h"
+#include "tools/python/names.h"
+
+namespace py = pybind11;
+
+namespace swivel::python {
+
+namespace {
+
+// The members of swivel_frame; their keys are the fields' names.
+struct FrameInput {
+    swivel_field field;
+    swivel_in swivel_frame::*member;
+};
+constexpr FrameInput kFrameInputs[] = {
+    {SWIVEL_TARGET, &swivel_frame::target},
+    {SWIVEL_POLE, &swivel_frame::pole},
+    {SWIVEL_LENGTHS, &swivel_frame::lengths},
+    {SWIVEL_PARENT_POSITION, &swivel_frame::parent_position},
+    {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
+    {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
+    {SWIVEL_HAND, &swivel_frame::hand},
+    {SWIVEL_EFFECTOR, &swivel_frame::effector},
+    {SWIVEL_ANGLE, &swivel_frame::angle},
+    {SWIVEL_INCOMING_SHOULDER, &swivel_frame::incoming_shoulder},
+    {SWIVEL_INCOMING_ELBOW, &swivel_frame::incoming_elbow},
+    {SWIVEL_INCOMING_WRIST, &swivel_frame::incoming_wrist},
+    {SWIVEL_WEIGHTS, &swivel_frame::weights},
+    {SWIVEL_AIM, &swivel_frame::aim},
+    {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
+};
+struct FrameOutput {
+    swivel_field field;
+    swivel_out swivel_frame::*member;
+};
+constexpr FrameOutput kFrameOutputs[] = {
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
+    {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},
+    {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_STRETCH, &swivel_frame::stretch},
+    {SWIVEL_TWIST, &swivel_frame::twist},
+    {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
+};
+
+// The frames of a call, and the arrays behind them.
+struct Frames {
+    std::vector<swivel_frame> frames;
+    std::vector<Input> inputs;
+    std::vector<Output> outputs;
+};
+
+// ValueError for a key that no frame has.
+void check_keys(std::uint32_t group, const py::dict& given)
+{
+    std::vector<std::string> keys{"origin"};
+    for (const FrameInput& each : kFrameInputs) keys.push_back(field_name(each.field));
+    for (const FrameOutput& each : kFrameOutputs) keys.push_back(field_name(each.field));
+    for (const auto& [key, array] : given) {
+        const std::string name = py::str(key);
+        if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
+        std::string message = "frame of group " + std::to_string(group) + ": there is no key '" + name + "'; there are";
+        for (const std::string& each : keys) message += (&each == &keys.front() ? " " : ", ") + each;
+        throw py::value_error(message);
+    }
+}
+
+void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given, Frames& into)
+{
+    check_keys(limbs.group, given);
+    swivel_frame frame{};
+    const bool doubles = given.contains("origin");
+    const auto take = [&](const std::string& key, const Values& values, swivel_in& member, bool as_doubles) {
+        const auto type = as_doubles ? py::dtype::of<double>() : py::dtype::of<float>();
+        into.inputs.push_back(input(values, given[key.c_str()], type, true, rows_memory(held)));
+        member = into.inputs.back().values;
+    };
+    for (const auto& [field, member] : kFrameInputs)
+        if (const std::string key = field_name(field); given.contains(key)) {
+            const bool position = field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+            take(key, values_of(held, field, limbs), frame.*member, doubles && position);
+        }
+    if (doubles) take("origin", {"origin", limbs.count, 3}, frame.origin, true);
+    for (const auto& [field, member] : kFrameOutputs)
+        if (const std::string key = field_name(field); given.contains(key)) {
+            const py::object array = given[key.c_str()];
+            if (array.is_none()) throw py::type_error(key + ": expected an array to write to, got None");
+            into.outputs.push_back(output(values_of(held, field, limbs), array, type_of(field), rows_memory(held)));
+            frame.*member = into.outputs.back().values;
+        }
+    into.frames.push_back(frame);
+}
+
+Frames frames_of(const HeldCrowd& held, const py::object& given)
+{
+    std::vector<py::dict> dicts;
+    if (py::isinstance<py::dict>(given))
+        dicts.push_back(given);
+    else
+        for (const py::handle each : given) {
+            if (!py::isinstance<py::dict>(each)) throw py::type_error("frames: expected a dict for each group");
+            dicts.push_back(py::reinterpret_borrow<py::dict>(each));
+        }
+    if (dicts.size() != group_count(held))
+        throw py::value_error("frames: expected one for each of " + std::to_string(group_count(held)) +
+                              " groups, got " + std::to_string(dicts.size()));
+    Frames frames;
+    for (std::size_t group = 0; group < dicts.size(); ++group)
+        add_frame(held, limbs_of(held, static_cast<std::int64_t>(group), 0, {}), dicts[group], frames);
+    return frames;
+}
+
+void solve_frame(HeldCrowd& held, const py::object& given)
+{
+    const Frames all = frames_of(held, given);
+    run(held, Way::kAlone, [&] { held.crowd.solve_frame(all.frames); });
+    for (const Output& each : all.outputs) each.finish();
+}
+
+void solve_frame_blocks(HeldCrowd& held, const py::object& given, std::int64_t first, std::int64_t count)
+{
+    const Frames all = frames_of(held, given);
+    for (const Output& each : all.outputs)
+        if (!each.given.is(each.direct))
+            throw py::value_error("outputs of solve_frame_blocks() need the numbers of a value side by side");
+    const std::uint32_t begin = count_of("first", first), blocks = count_of("count", count);
+    run(held, Way::kSolvingBlocks, [&] { held.crowd.solve_frame_blocks(all.frames, begin, blocks); });
+}
+
+}  // namespace
+
+void add_frames(CrowdClass& crowd)
+{
+    crowd.def("solve_frame", &solve_frame, py::arg("frames"),
+              "Writes, solves and reads a whole frame a few blocks at a time, from and to your own arrays.\n\n"
+              "frames is a dict for each group, or one dict if there is one group. Keys are lower-case names of\n"
+              "fields, values arrays of the whole group as write() takes them and as out of read(); a field of a\n"
+              "structured array is one. Inputs: target, pole, lengths, parent_position, parent_rotation,\n"
+              "parent_scale, hand, effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights,\n"
+              "aim, clavicle. Outputs, which are filled: shoulder, elbow, wrist, flags, stretch, twist,\n"
+              "clavicle_turn. With the key origin, (n, 3) or (3,), the positions are float64 from there, as in\n"
+              "write_doubles(). What is left out keeps its rows, or is not written. A limb's outputs may be its own\n"
+              "inputs; no other arrays may overlap outputs.");
+    crowd.def("solve_frame_blocks", &solve_frame_blocks, py::arg("frames"), py::arg("first"), py::arg("count"),
+              "solve_frame() for `count` blocks from block `first` on, on the calling thread. Ranges that do not\n"
+              "overlap may run on several threads at once, with the same arrays, whose outputs need each value's\n"
+              "numbers side by side.");
+}
+
+}  // namespace swivel::python

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "tools/python/fields.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "tools/python/names.h"
+
+namespace swivel::python {
+
+namespace {
+
+constexpr std::array<float, 4> kIdentity{0, 0, 0, 1};
+
+swivel_group_def one_limb()
+{
+    swivel_group_def group{1, {}};
+    swivel_binding& b = group.binding;
+    for (auto* q :
+         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest})
+        std::copy(kIdentity.begin(), kIdentity.end(), *q);
+    return group;
+}
+
+// Whether a crowd can have just these features.
+bool go_together(std::uint32_t features)
+{
+    const swivel_group_def group = one_limb();
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.features = features;
+    def.group_count = 1;
+    def.groups = &group;
+    return swivel_crowd_bytes(&def) > 0;
+}
+
+using Table = std::array<FieldNeeds, SWIVEL_FIELD_COUNT>;
+
+// Sets of `more` features on top of `features`, from the table's entry `from` on: what they bring is noted.
+void note(Table& table, std::uint32_t features, std::size_t more, std::size_t from)
+{
+    if (more > 0) {
+        for (std::size_t n = from; n < python::features().size(); ++n)
+            note(table, features | static_cast<std::uint32_t>(python::features()[n].value), more - 1, n + 1);
+    } else if (go_together(features)) {
+        const auto counts = component_counts(features);
+        for (std::size_t field = 0; field < SWIVEL_SHOULDER; ++field)
+            if (table[field].component_count == 0) table[field] = {features, counts[field]};
+    }
+}
+
+Table all_needs()
+{
+    Table table{};
+    const auto known = [&] {
+        return std::all_of(table.begin(), table.begin() + SWIVEL_SHOULDER,
+                           [](const FieldNeeds& needs) { return needs.component_count > 0; });
+    };
+    for (std::size_t count = 0; count <= 3 && !known(); ++count) note(table, 0, count, 0);
+    return table;
+}
+
+}  // namespace
+
+std::array<std::uint32_t, SWIVEL_FIELD_COUNT> component_counts(std::uint32_t features)
+{
+    const swivel_group_def group = one_limb();
+    const Crowd crowd(features & ~std::uint32_t{SWIVEL_COMPACT}, {&group, 1});
+    std::array<std::uint32_t, SWIVEL_FIELD_COUNT> counts{};
+    for (int field = 0; field < SWIVEL_FIELD_COUNT; ++field)
+        counts[static_cast<std::size_t>(field)] = swivel_field_row_count(crowd.get(), static_cast<swivel_field>(field));
+    return counts;
+}
+
+const FieldNeeds& needs_of(swivel_field field)
+{
+    static const Table table = all_needs();
+    return table[field];
+}
+
+}  // namespace swivel::python

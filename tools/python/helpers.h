@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+//
+// What needs no crowd: values of limit fields, bindings, the library itself.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace swivel::python {
+
+void add_limits(pybind11::module_& module);    // range, cone, flexion, turn, aim, mirror, needed features
+void add_bindings(pybind11::module_& module);  // Binding, BoundLimb, bind
+void add_library(pybind11::module_& module);   // version, instruction sets, verify, compact words
+
+}  // namespace swivel::python

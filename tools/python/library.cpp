@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/python/arrays.h"
+#include "tools/python/crowd.h"
+#include "tools/python/helpers.h"
+
+namespace py = pybind11;
+
+namespace swivel::python {
+
+namespace {
+
+struct Check {
+    std::string name, set;
+    std::uint64_t arm_count;
+    double max, rms, max_limit, rms_limit;
+};
+
+std::pair<bool, std::vector<Check>> verify(std::uint64_t arm_count, std::uint64_t seed)
+{
+    std::vector<Check> checks;
+    const auto note = [](const swivel_check* c, void* user) {
+        static_cast<std::vector<Check>*>(user)->push_back(
+            {c->name, c->set, c->arm_count, c->max, c->rms, c->max_limit, c->rms_limit});
+    };
+    int passed = 0;
+    const py::gil_scoped_release released;
+    swivel::check(swivel_verify(arm_count, seed, note, &checks, &passed));
+    return {passed != 0, checks};
+}
+
+std::string isa_name()
+{
+    const char* const name = swivel_isa_name();
+    if (!name) throw std::runtime_error(swivel_last_error());
+    return name;
+}
+
+std::vector<std::pair<std::string, bool>> isas()
+{
+    std::vector<std::pair<std::string, bool>> all;
+    for (std::uint32_t n = 0; const char* const name = swivel_isa_at(n); ++n)
+        all.emplace_back(name, swivel_isa_runs(name) != 0);
+    return all;
+}
+
+py::array unpack_rotations(const py::object& words)
+{
+    const py::array given = py::module_::import("numpy").attr("asarray")(words);
+    const std::size_t count = given.ndim() == 2 ? static_cast<std::size_t>(given.shape(0)) : 1;
+    const Input in = input({"words", count, 3}, given, py::dtype::of<std::uint16_t>(), true);
+    std::vector<py::ssize_t> shape(given.shape(), given.shape() + given.ndim());
+    shape.back() = 4;
+    py::array_t<float> rotations(shape);
+    for (std::size_t n = 0; n < count; ++n) {
+        std::uint16_t value[3];
+        std::memcpy(value, static_cast<const char*>(in.values.data) + n * in.values.stride, sizeof value);
+        swivel_unpack_rotation(value, 1, rotations.mutable_data() + 4 * n);
+    }
+    return rotations;
+}
+
+void add_check(py::module_& module)
+{
+    py::class_<Check> one(module, "Check", "One line of verify(): an error measured over many arms against its limit.");
+    one.attr("__module__") = "swivel";
+    one.def_readonly("name", &Check::name, "What is compared.")
+        .def_readonly("set", &Check::set, "Over which arms.")
+        .def_readonly("arm_count", &Check::arm_count, "How many arms.")
+        .def_readonly("max", &Check::max, "The largest error, in arm lengths, or as the name says.")
+        .def_readonly("rms", &Check::rms, "The root of the mean square error.")
+        .def_readonly("max_limit", &Check::max_limit, "What max may be.")
+        .def_readonly("rms_limit", &Check::rms_limit, "What rms may be; 0: not limited.");
+    module.def("verify", &verify, py::arg("arm_count") = 10000, py::arg("seed") = 1,
+               "Checks the formulas against each other on random arms, arm_count in each of five bands of reach.\n\n"
+               "Gives whether every limit was kept, and the list of Checks. About a microsecond an arm, on the\n"
+               "calling thread. The same seed gives the same arms everywhere.");
+}
+
+}  // namespace
+
+void add_library(py::module_& module)
+{
+    module.attr("LANES") = static_cast<int>(SWIVEL_LANES);
+    module.def(
+        "version",
+        [] {
+            const std::uint32_t version = swivel_version();
+            return py::make_tuple(version / 10000, version / 100 % 100, version % 100);
+        },
+        "Major, minor and patch version of the library.");
+    module.def("isa_name", &isa_name,
+               "The instruction set in use. RuntimeError if the environment's SWIVEL_FORCE_ISA cannot be used.");
+    module.def(
+        "use_isa", [](const std::string& name) { swivel::check(swivel_use_isa(name.c_str())); }, py::arg("name"),
+        "Changes the instruction set, for the whole process and from the next solve on. ValueError for an\n"
+        "unknown name, RuntimeError for one that this CPU does not run.");
+    module.def("isas", &isas, "The built-in instruction sets, best first: pairs of name and whether this CPU runs it.");
+    module.def("unpack_rotations", &unpack_rotations, py::arg("words"),
+               "Quaternions x, y, z, w of compact results: (4,) or (n, 4) float32 from words of shape (3,) or (n, 3)\n"
+               "uint16, as Crowd.compact_rows has them. Half floats are NumPy's: words.view(np.float16).");
+    add_check(module);
+}
+
+}  // namespace swivel::python

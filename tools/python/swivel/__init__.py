@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+"""swivel solves the arms of crowds: wrist targets and elbow poles in, joint rotations out, with the same bits on every CPU.
+
+solve() takes plain arrays and gives named ones. A Crowd keeps the limbs from frame to frame and has everything else:
+
+    crowd = swivel.Crowd(1000)
+    crowd.write(swivel.Field.TARGET, targets)       # (1000, 3) float32, your unit of length
+    crowd.write(swivel.Field.LENGTHS, (0.30, 0.26))  # one value for all limbs
+    crowd.solve()
+    shoulder = crowd.read(swivel.Field.SHOULDER)    # (1000, 4) quaternions x, y, z, w
+
+At rest an arm lies along +z of its frame and bends towards +y, its hinge is +x, and the elbow lies on the pole's side. Mistakes
+are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results with a Flag.
+"""
+from ._arms import Arms, solve
+from ._core import (LANES, Binding, BoundLimb, Check, Crowd, EulerOrder, Feature, Field, Flag, aim, bind, cone, flexion, isa_name, isas,
+                    mirror, needed_features, range, turn, unpack_rotations, use_isa, verify, version)
+
+__version__ = ".".join(map(str, version()))
+__all__ = ["LANES", "Arms", "Binding", "BoundLimb", "Check", "Crowd", "EulerOrder", "Feature", "Field", "Flag", "aim", "bind", "cone",
+           "flexion", "isa_name", "isas", "mirror", "needed_features", "range", "solve", "turn", "unpack_rotations", "use_isa",
+           "verify", "version"]

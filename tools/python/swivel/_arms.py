@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""One call for people with plain arrays: a crowd is made, written, solved, read and dropped."""
+from typing import NamedTuple, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import BoundLimb, Crowd, EulerOrder, Feature, Field, needed_features
+
+_POSITIONS = (Field.TARGET, Field.POLE, Field.PARENT_POSITION)
+
+
+class Arms(NamedTuple):
+    """What solve() gives for n arms, float32 where nothing else is said. None: the arms were not asked for it.
+
+    shoulder        (n, 4) rotations x, y, z, w in the arm frame; with binding= the joint's own local ones
+    elbow           (n, 2) cos and sin of half the flexion; with binding= (n, 4), the joint's local rotations
+    flags           (n,) uint32, bits of Flag
+    elbow_position  (n, 3) float64, in the space and unit of the targets
+    wrist_position  (n, 3) float64, in the space and unit of the targets
+    residual        (n,) float64, from target to wrist, or effector, in arm lengths
+    wrist           (n, 4) with hand=: hand relative to forearm; with binding= the joint's local rotations
+    stretch         (n,) with reach=: factor for both bone lengths
+    normal          (n, 3) with most_swivel=: unit normal of the swivel plane
+    twist           (n, 4 b) with features=b * Feature.TWIST_BONES: a quaternion for each of b twist bones
+    clavicle_turn   (n, 4) with clavicle=: what the parent joint turns by, its local rotation * this
+    """
+
+    shoulder: npt.NDArray[np.float32]
+    elbow: npt.NDArray[np.float32]
+    flags: npt.NDArray[np.uint32]
+    elbow_position: npt.NDArray[np.float64]
+    wrist_position: npt.NDArray[np.float64]
+    residual: npt.NDArray[np.float64]
+    wrist: Optional[npt.NDArray[np.float32]] = None
+    stretch: Optional[npt.NDArray[np.float32]] = None
+    normal: Optional[npt.NDArray[np.float32]] = None
+    twist: Optional[npt.NDArray[np.float32]] = None
+    clavicle_turn: Optional[npt.NDArray[np.float32]] = None
+
+
+def _field(name: str) -> Field:
+    field = Field.__members__.get(name.upper())
+    if field is None or not name.islower() or field >= Field.SHOULDER:
+        inputs = ", ".join(each.name.lower() for each in Field if each < Field.SHOULDER)
+        raise TypeError(f"solve() got an unexpected keyword argument '{name}'; beside its own it takes the input fields {inputs}")
+    return field
+
+
+def _limb_count(features: Feature, binding: Optional[BoundLimb], values: dict[Field, npt.NDArray[np.generic]]) -> int:
+    """The length of the first array that has a value for each limb; 1 if there is none."""
+    one = Crowd([(1, binding) if binding else 1], features)
+    for field, array in values.items():
+        if array.ndim == (2 if one.component_count(field) > 1 else 1):
+            return len(array)
+    return 1
+
+
+def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: npt.ArrayLike, *, features: int = 0,
+          binding: Optional[BoundLimb] = None, origin: Optional[npt.ArrayLike] = None,
+          shoulder_order: EulerOrder = EulerOrder.XYZ, wrist_order: EulerOrder = EulerOrder.XYZ,
+          **fields: npt.ArrayLike) -> Arms:
+    """Solves n arms, each on its own, and gives their rotations, flags and positions by name.
+
+    target (n, 3): where the wrists must be. pole (n, 3): points on the elbows' side; None leaves the one there is at creation.
+    lengths (n, 2): upper arm and forearm. Any of them may be one value, (3,) or (2,), for all arms. All in one unit of length,
+    seen from the shoulder, or in the world with parent_position=. Anything that NumPy makes an array of will do.
+
+    Further keywords are the input fields' lower-case names, and bring the features they need: hand=, parent_rotation=, reach=,
+    shoulder_cone=, ...; docs/python.md lists them with their shapes. features adds those without a field, such as
+    Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): target,
+    pole and parent_position are taken from there in double precision.
+
+    ValueError for shapes that do not go together, TypeError for a keyword that is no input field.
+    """
+    given = {"target": target, **({} if pole is None else {"pole": pole}), "lengths": lengths, **fields}
+    values = {_field(name): np.asarray(value) for name, value in given.items()}
+    wanted = Feature(features) | (Feature.JOINTS if binding else Feature(0))
+    for field in values:
+        wanted |= needed_features(field)
+    n = _limb_count(wanted, binding, values)
+    crowd = Crowd([(n, binding) if binding else n], wanted, shoulder_order, wrist_order)
+    for field, array in values.items():
+        if origin is not None and field in _POSITIONS:
+            crowd.write_doubles(field, array, origin)
+        else:
+            crowd.write(field, array)
+    crowd.solve()
+    results = {field.name.lower(): crowd.read(field)
+               for field in Field if field >= Field.SHOULDER and crowd.component_count(field) > 0}
+    return Arms(elbow_position=crowd.elbows(), wrist_position=crowd.wrists(), residual=crowd.residuals(), **results)
