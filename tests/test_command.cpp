@@ -160,6 +160,9 @@ TEST_CASE("command: bad usage is refused in one line before anything happens")
         require_bad_usage({"bench", "--seconds", number}, "--seconds");
     require_bad_usage({"solve", "clip.bvh", "--threads", "1", "--threads", "2"}, "--threads");
     require_bad_usage({"solve", "clip.bvh", "--out"}, "--out");
+    require_bad_usage({"solve", "clip.bvh", "--limbs", "wings"}, "--limbs");
+    require_bad_usage({"solve", "clip.bvh", "--limbs", "arms", "--leg", "a,b,c"}, "--limbs all");
+    require_bad_usage({"solve", "clip.bvh", "--limbs", "legs", "--arm", "a,b,c"}, "--limbs all");
 }
 
 TEST_CASE("command: options that do not go together are refused")

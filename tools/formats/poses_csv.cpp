@@ -9,10 +9,11 @@ namespace swivel::formats {
 namespace {
 
 constexpr std::string_view kHeader =
-    "frame,character,side,shoulder_x,shoulder_y,shoulder_z,shoulder_w,"
+    "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,"
     "elbow_x,elbow_y,elbow_z,elbow_w,wrist_x,wrist_y,wrist_z,wrist_w,flags\n";
 
-// Longest line: three whole numbers of 10 digits, "right", 12 floats such as -1.17549435e-38 (15), 16 separators: 231.
+// Longest line: three whole numbers of 10 digits, "right_arm", 12 floats such as -1.17549435e-38 (15), 16 separators:
+// 235.
 constexpr std::size_t kMaxLineBytes = 256;
 
 // A line in the making.
@@ -45,7 +46,7 @@ void put_row(Line& line, std::uint32_t frame, const PoseRow& row)
     put(line, ',');
     put_number(line, row.character);
     put(line, ',');
-    put(line, side_name(row.side));
+    put(line, limb_word(row.limb));
     put(line, ',');
     put_rotation(line, row.shoulder);
     put_rotation(line, row.elbow);

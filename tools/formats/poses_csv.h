@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The table of solved poses, written as it is produced: one line per frame, character and side, with the three local
+// The table of solved poses, written as it is produced: one line per frame, character and limb, with the three local
 // rotations as quaternions x, y, z, w and the flag word as a decimal number. Floats have the fewest digits that give
 // the same float back. Knows no solver: what the flags mean is the caller's affair.
 
@@ -9,17 +9,17 @@
 #include <filesystem>
 #include <span>
 
+#include "tools/formats/limb_name.h"
 #include "tools/formats/output_file.h"
-#include "tools/formats/side.h"
 
 namespace swivel::formats {
 
 struct PoseRow {
     std::uint32_t character = 0;
-    Side side = Side::left;
-    std::array<float, 4> shoulder{};  // x y z w, as are the next two; written as they are, finite or not
-    std::array<float, 4> elbow{};
-    std::array<float, 4> wrist{};
+    LimbName limb;
+    std::array<float, 4> shoulder{};  // or hip; x y z w, as are the next two; written as they are, finite or not
+    std::array<float, 4> elbow{};     // or knee
+    std::array<float, 4> wrist{};     // or ankle
     std::uint32_t flags = 0;
 };
 

@@ -18,17 +18,20 @@ using Eigen::Vector3d;
 
 constexpr double kBentSine = 0.08715574274765817;  // sin 5 degrees
 
-Crowd make_crowd(std::span<const Arm> arms, std::uint32_t characters)
+Crowd make_crowd(std::span<const Limb> limbs, std::uint32_t characters)
 {
     std::vector<swivel_group_def> groups;
-    for (const Arm& arm : arms) groups.push_back({characters, arm.limb.binding});
+    for (const Limb& limb : limbs) groups.push_back({characters, limb.bound.binding});
     return Crowd(SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND, groups);
 }
 
-double arm_span(std::span<const Arm> arms)
+// Of the first kind that is solved, so that legs beside arms move no one.
+double limb_span(std::span<const Limb> limbs)
 {
     double most = 0;
-    for (const Arm& arm : arms) most = std::max(most, double{arm.limb.lengths[0]} + arm.limb.lengths[1]);
+    for (const Limb& limb : limbs)
+        if (limb.name.kind == limbs[0].name.kind)
+            most = std::max(most, double{limb.bound.lengths[0]} + limb.bound.lengths[1]);
     return 2 * most;
 }
 
@@ -60,8 +63,9 @@ double swing(const Quaterniond& q, const Vector3d& axis)
 
 }  // namespace
 
-ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Arm> arms, std::uint32_t characters, std::uint64_t seed)
-    : clip_(clip), arms_(arms), characters_(characters), crowd_(make_crowd(arms, characters))
+ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, std::uint32_t characters,
+                     std::uint64_t seed)
+    : clip_(clip), limbs_(limbs), characters_(characters), crowd_(make_crowd(limbs, characters))
 {
     std::vector<formats::JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
@@ -69,49 +73,49 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Arm> arms, std::
         const auto at = [&](int joint) -> const formats::JointPose& { return pose_w[static_cast<std::size_t>(joint)]; };
         const Vector3d root = pose_w[0].position;
         roots_.push_back(root);
-        for (const Arm& arm : arms) {
-            const int parent = clip.joints[static_cast<std::size_t>(arm.shoulder)].parent;
-            sources_.push_back({at(arm.shoulder).position - root, at(arm.elbow).position - root,
-                                at(arm.wrist).position - root,
-                                parent < 0 ? Quaterniond::Identity() : at(parent).rotation, at(arm.wrist).rotation,
-                                at(arm.shoulder).rotation, at(arm.elbow).rotation});
+        for (const Limb& limb : limbs) {
+            const int parent = clip.joints[static_cast<std::size_t>(limb.upper())].parent;
+            sources_.push_back({at(limb.upper()).position - root, at(limb.lower()).position - root,
+                                at(limb.end()).position - root,
+                                parent < 0 ? Quaterniond::Identity() : at(parent).rotation, at(limb.end()).rotation,
+                                at(limb.upper()).rotation, at(limb.lower()).rotation});
         }
     }
 
     std::mt19937_64 random(seed);
     const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(characters)));
-    const double spacing = 3 * arm_span(arms);
+    const double spacing = 3 * limb_span(limbs);
     for (std::uint32_t n = 1; n < characters; ++n)
         characters_[n] = {0.85 + 0.3 * unit(random), static_cast<std::size_t>(random() % clip.frame_count),
                           Vector3d(spacing * (n % columns), 0, spacing * (n / columns))};
-    goals_.resize(arms.size(), std::vector<Goal>(characters));
-    inputs_.resize(arms.size(), std::vector<Input>(characters));
-    rows_.resize(arms.size() * characters);
+    goals_.resize(limbs.size(), std::vector<Goal>(characters));
+    inputs_.resize(limbs.size(), std::vector<Input>(characters));
+    rows_.resize(limbs.size() * characters);
 }
 
-const ClipCrowd::Source& ClipCrowd::source(std::size_t arm, std::uint32_t character) const
+const ClipCrowd::Source& ClipCrowd::source(std::size_t limb, std::uint32_t character) const
 {
     const std::size_t frame = (frame_ + characters_[character].start) % clip_.frame_count;
-    return sources_[frame * arms_.size() + arm];
+    return sources_[frame * limbs_.size() + limb];
 }
 
-ClipCrowd::Goal ClipCrowd::goal_from_clip(std::size_t arm, std::uint32_t character) const
+ClipCrowd::Goal ClipCrowd::goal_from_clip(std::size_t limb, std::uint32_t character) const
 {
-    const Source& from = source(arm, character);
+    const Source& from = source(limb, character);
     const double reach = characters_[character].reach;
     return {from.shoulder + reach * (from.wrist - from.shoulder), from.shoulder + reach * (from.elbow - from.shoulder),
             from.hand, true};
 }
 
-void ClipCrowd::put(std::size_t arm, std::uint32_t character, const Goal& goal)
+void ClipCrowd::put(std::size_t limb, std::uint32_t character, const Goal& goal)
 {
-    const Source& from = source(arm, character);
+    const Source& from = source(limb, character);
     const auto reach = static_cast<float>(characters_[character].reach);
-    Input& input = inputs_[arm][character];
-    goals_[arm][character] = goal;
+    Input& input = inputs_[limb][character];
+    goals_[limb][character] = goal;
     store(goal.wrist, input.target);
     store(goal.pole, input.pole);
-    for (int n = 0; n < 2; ++n) input.lengths[n] = reach * arms_[arm].limb.lengths[n];
+    for (int n = 0; n < 2; ++n) input.lengths[n] = reach * limbs_[limb].bound.lengths[n];
     store(from.shoulder, input.position);
     store(from.parent, input.rotation);
     store(goal.hand, input.hand);
@@ -120,23 +124,24 @@ void ClipCrowd::put(std::size_t arm, std::uint32_t character, const Goal& goal)
 void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> given)
 {
     frame_ = frame;
-    for (std::size_t arm = 0; arm < arms_.size(); ++arm)
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
         for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            for (std::uint32_t n = begin; n < end; ++n) put(arm, n, goal_from_clip(arm, n));
+            for (std::uint32_t n = begin; n < end; ++n) put(limb, n, goal_from_clip(limb, n));
         });
     for (const formats::Target& target : given) {
-        const std::size_t arm = arms_[0].side == target.side ? 0 : 1;
+        const auto of = [&](const Limb& each) { return each.name == target.limb; };
+        const auto limb = static_cast<std::size_t>(std::find_if(limbs_.begin(), limbs_.end(), of) - limbs_.begin());
         const Character& who = characters_[target.character];
         const Vector3d root = roots_[(frame + who.start) % clip_.frame_count] + who.place;
-        put(arm, target.character,
+        put(limb, target.character,
             {target.position - root, target.pole - root,
-             target.has_orientation ? target.orientation : source(arm, target.character).hand, false});
+             target.has_orientation ? target.orientation : source(limb, target.character).hand, false});
     }
-    for (std::uint32_t arm = 0; arm < arms_.size(); ++arm) {
+    for (std::uint32_t limb = 0; limb < limbs_.size(); ++limb) {
         const auto write = [&](swivel_field field, const float* first) {
-            check(swivel_write(crowd_.get(), field, arm, 0, character_count(), {first, sizeof(Input)}));
+            check(swivel_write(crowd_.get(), field, limb, 0, character_count(), {first, sizeof(Input)}));
         };
-        const Input& first = inputs_[arm][0];
+        const Input& first = inputs_[limb][0];
         write(SWIVEL_TARGET, first.target);
         write(SWIVEL_POLE, first.pole);
         write(SWIVEL_LENGTHS, first.lengths);
@@ -153,13 +158,13 @@ void ClipCrowd::solve(Statistics& statistics)
     statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
-formats::PoseRow ClipCrowd::pose(std::size_t arm, std::uint32_t character) const
+formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row;
     row.character = character;
-    row.side = arms_[arm].side;
+    row.limb = limbs_[limb].name;
     const auto read = [&](swivel_field field, void* to, std::size_t bytes) {
-        check(swivel_read(crowd_.get(), field, static_cast<std::uint32_t>(arm), character, 1, {to, bytes}));
+        check(swivel_read(crowd_.get(), field, static_cast<std::uint32_t>(limb), character, 1, {to, bytes}));
     };
     read(SWIVEL_SHOULDER, row.shoulder.data(), sizeof row.shoulder);
     read(SWIVEL_ELBOW, row.elbow.data(), sizeof row.elbow);
@@ -172,7 +177,7 @@ std::span<const formats::PoseRow> ClipCrowd::poses()
 {
     for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t n = begin; n < end; ++n)
-            for (std::size_t arm = 0; arm < arms_.size(); ++arm) rows_[n * arms_.size() + arm] = pose(arm, n);
+            for (std::size_t limb = 0; limb < limbs_.size(); ++limb) rows_[n * limbs_.size() + limb] = pose(limb, n);
     });
     return rows_;
 }
@@ -180,59 +185,59 @@ std::span<const formats::PoseRow> ClipCrowd::poses()
 void ClipCrowd::measure(Statistics& statistics) const
 {
     std::mutex mutex;
-    for (std::size_t arm = 0; arm < arms_.size(); ++arm)
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
         for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            Statistics range;
-            measure_range(arm, begin, end, range);
+            LimbStatistics range;
+            measure_range(limb, begin, end, range);
             const std::lock_guard lock(mutex);
-            statistics.add(range);
+            statistics.of(limbs_[limb].name.kind).add(range);
         });
 }
 
-void ClipCrowd::measure_range(std::size_t arm, std::uint32_t begin, std::uint32_t end, Statistics& statistics) const
+void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end,
+                              LimbStatistics& statistics) const
 {
     struct Reached {
         double elbow[3], wrist[3], hand[4];
     };
     std::vector<Reached> reached(end - begin);
     std::vector<std::uint32_t> flags(end - begin);
-    const auto group = static_cast<std::uint32_t>(arm);
+    const auto group = static_cast<std::uint32_t>(limb);
     check(swivel_forward(crowd_.get(), group, begin, end - begin, {reached[0].elbow, sizeof(Reached)},
                          {reached[0].wrist, sizeof(Reached)}, {reached[0].hand, sizeof(Reached)}));
     check(swivel_read(crowd_.get(), SWIVEL_FLAGS, group, begin, end - begin, {flags.data(), sizeof flags[0]}));
     for (std::uint32_t n = begin; n < end; ++n) {
         const Reached& at = reached[n - begin];
-        const Goal& goal = goals_[arm][n];
-        const float(&lengths)[2] = inputs_[arm][n].lengths;
+        const Goal& goal = goals_[limb][n];
+        const float(&lengths)[2] = inputs_[limb][n].lengths;
         const double length = double{lengths[0]} + lengths[1];
         statistics.add_flags(flags[n - begin]);
         if (flags[n - begin] & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
         const double missed = (Vector3d(at.wrist) - goal.wrist).norm() / length;
-        (flags[n - begin] & SWIVEL_REACHED ? statistics.wrist : statistics.missed).add(missed);
-        statistics.hand.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)));
-        if (goal.from_clip) measure_against_clip(arm, n, Vector3d(at.elbow), statistics);
+        (flags[n - begin] & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(missed);
+        statistics.orientation.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)));
+        if (goal.from_clip) measure_against_clip(limb, n, Vector3d(at.elbow), statistics);
     }
 }
 
-void ClipCrowd::measure_against_clip(std::size_t arm, std::uint32_t character, const Vector3d& elbow,
-                                     Statistics& statistics) const
+void ClipCrowd::measure_against_clip(std::size_t limb, std::uint32_t character, const Vector3d& elbow,
+                                     LimbStatistics& statistics) const
 {
-    const Source& from = source(arm, character);
-    const Goal& goal = goals_[arm][character];
+    const Source& from = source(limb, character);
+    const Goal& goal = goals_[limb][character];
     const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
-    const float(&lengths)[2] = inputs_[arm][character].lengths;
+    const float(&lengths)[2] = inputs_[limb][character].lengths;
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
-    (bent ? statistics.elbow_bent : statistics.elbow_straight)
-        .add((elbow - goal.pole).norm() / (double{lengths[0]} + lengths[1]));
+    (bent ? statistics.bent : statistics.straight).add((elbow - goal.pole).norm() / (double{lengths[0]} + lengths[1]));
     if (character != 0) return;
 
-    const formats::PoseRow row = pose(arm, character);
+    const formats::PoseRow row = pose(limb, character);
     const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
     const Quaterniond turned = from.upper.conjugate() * shoulder_w;
-    const Vector3d axis = clip_.joints[static_cast<std::size_t>(arms_[arm].elbow)].offset.normalized();
-    statistics.upper_arm_swing.add(swing(turned, axis));
-    statistics.upper_arm_twist.add(twist(turned, axis));
-    statistics.forearm.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)));
+    const Vector3d axis = clip_.joints[static_cast<std::size_t>(limbs_[limb].lower())].offset.normalized();
+    statistics.upper_swing.add(swing(turned, axis));
+    statistics.upper_twist.add(twist(turned, axis));
+    statistics.lower.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)));
 }
 
 }  // namespace swivel::tools

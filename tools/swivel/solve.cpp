@@ -22,6 +22,7 @@
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/interrupt.h"
+#include "tools/swivel/limb_words.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
@@ -33,7 +34,7 @@ namespace {
 
 struct Options {
     std::string clip, targets = "clip", out;
-    std::vector<std::string> arms;
+    LimbChoice limbs;
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
     unsigned threads = 0;
@@ -55,10 +56,19 @@ OutKind out_kind(const Options& options)
     return OutKind::bvh;
 }
 
+// Why a row speaks of a limb that is not solved, and what to do.
+std::string no_limb(const formats::Clip& clip, formats::LimbName name)
+{
+    const LimbWords& words = words_of(name.kind);
+    if (joints_by_habit(clip, name))
+        return fmt::format("the {} is not solved; take it in with --limbs", plain_name(name));
+    return fmt::format("the skeleton has no {}; name it with {} {}", plain_name(name), words.option, words.joints);
+}
+
 // The given targets, frame by frame.
 class GivenTargets {
 public:
-    GivenTargets(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
+    GivenTargets(const Options& options, const formats::Clip& clip, std::span<const Limb> limbs)
     {
         if (options.targets == "clip") return;
         targets_ = formats::read_targets_csv(options.targets);
@@ -72,8 +82,8 @@ public:
             if (target.character >= options.characters)
                 refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
                                    target.character, options.characters));
-            if (std::none_of(arms.begin(), arms.end(), [&](const Arm& arm) { return arm.side == target.side; }))
-                refuse(fmt::format("the skeleton has no {} arm; name it with --arm", formats::side_name(target.side)));
+            if (std::none_of(limbs.begin(), limbs.end(), [&](const Limb& limb) { return limb.name == target.limb; }))
+                refuse(no_limb(clip, target.limb));
         }
     }
 
@@ -90,30 +100,26 @@ private:
     std::size_t next_ = 0;
 };
 
-// The first character's solved rotations, kept for a BVH file: three joints for each arm.
+// The first character's solved rotations, kept for a BVH file: three joints for each limb.
 class BvhKeys {
 public:
-    explicit BvhKeys(std::size_t arm_count) : keys_(3 * arm_count) {}
+    explicit BvhKeys(std::size_t limb_count) : keys_(3 * limb_count) {}
 
     void add(const ClipCrowd& crowd)
     {
-        for (std::size_t arm = 0; 3 * arm < keys_.size(); ++arm) {
-            const formats::PoseRow row = crowd.pose(arm, 0);
+        for (std::size_t limb = 0; 3 * limb < keys_.size(); ++limb) {
+            const formats::PoseRow row = crowd.pose(limb, 0);
             for (std::size_t n = 0; n < 3; ++n) {
                 const auto& q = n == 0 ? row.shoulder : n == 1 ? row.elbow : row.wrist;
-                keys_[3 * arm + n].emplace_back(q[3], q[0], q[1], q[2]);
+                keys_[3 * limb + n].emplace_back(q[3], q[0], q[1], q[2]);
             }
         }
     }
-    void write(const std::filesystem::path& path, const formats::BvhFile& file, std::span<const Arm> arms) const
+    void write(const std::filesystem::path& path, const formats::BvhFile& file, std::span<const Limb> limbs) const
     {
         std::vector<formats::RotationOverride> overrides;
-        for (std::size_t arm = 0; arm < arms.size(); ++arm)
-            for (std::size_t n = 0; n < 3; ++n)
-                overrides.push_back({n == 0   ? arms[arm].shoulder
-                                     : n == 1 ? arms[arm].elbow
-                                              : arms[arm].wrist,
-                                     keys_[3 * arm + n]});
+        for (std::size_t limb = 0; limb < limbs.size(); ++limb)
+            for (std::size_t n = 0; n < 3; ++n) overrides.push_back({limbs[limb].joints[n], keys_[3 * limb + n]});
         formats::write_bvh(path, file, overrides);
     }
 
@@ -121,16 +127,16 @@ private:
     std::vector<std::vector<Eigen::Quaterniond>> keys_;
 };
 
-Statistics solve_clip(const Options& options, const formats::BvhFile& file, std::span<const Arm> arms)
+Statistics solve_clip(const Options& options, const formats::BvhFile& file, std::span<const Limb> limbs)
 {
     const OutKind kind = out_kind(options);
-    GivenTargets given(options, file.clip, arms);
-    ClipCrowd crowd(file.clip, arms, options.characters, options.seed);
+    GivenTargets given(options, file.clip, limbs);
+    ClipCrowd crowd(file.clip, limbs, options.characters, options.seed);
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out);
     if (kind == OutKind::bvh)
         const formats::OutputFile can_be_written(options.out);  // says so before the work, not after
-    BvhKeys keys(arms.size());
+    BvhKeys keys(limbs.size());
     Statistics statistics;
     {
         Progress progress("frames", file.clip.frame_count);
@@ -145,7 +151,7 @@ Statistics solve_clip(const Options& options, const formats::BvhFile& file, std:
         }
     }
     if (csv) csv->commit();
-    if (kind == OutKind::bvh) keys.write(options.out, file, arms);
+    if (kind == OutKind::bvh) keys.write(options.out, file, limbs);
     return statistics;
 }
 
@@ -154,36 +160,53 @@ const std::string& joint_name(const formats::Clip& clip, int joint)
     return clip.joints[static_cast<std::size_t>(joint)].name;
 }
 
-void print_clip(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
+void print_clip(const Options& options, const formats::Clip& clip, std::span<const Limb> limbs)
 {
     fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", options.clip, clip.joints.size(),
                clip.frame_count, 1 / clip.frame_time);
-    for (const Arm& arm : arms)
-        fmt::print("arm      {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
-                   formats::side_name(arm.side), joint_name(clip, arm.shoulder), joint_name(clip, arm.elbow),
-                   joint_name(clip, arm.wrist), arm.limb.lengths[0], arm.limb.lengths[1], arm.hinge.x(), arm.hinge.y(),
-                   arm.hinge.z(), arm.hinge_source);
-    const std::size_t arm_count = arms.size() * options.characters;
-    fmt::print("crowd    {} character{}, {} arm{}, targets from {}\n", options.characters,
-               options.characters == 1 ? "" : "s", arm_count, arm_count == 1 ? "" : "s",
-               options.targets == "clip" ? "the clip" : options.targets);
+    for (const Limb& limb : limbs)
+        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
+                   kind_name(limb.name.kind), side_name(limb.name.side), joint_name(clip, limb.upper()),
+                   joint_name(clip, limb.lower()), joint_name(clip, limb.end()), limb.bound.lengths[0],
+                   limb.bound.lengths[1], limb.hinge.x(), limb.hinge.y(), limb.hinge.z(), limb.hinge_source);
+    std::string counts;
+    for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
+        const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
+        const auto count = static_cast<std::size_t>(std::count_if(limbs.begin(), limbs.end(), of_kind));
+        if (count > 0)
+            counts += fmt::format(", {} {}{}", count * options.characters, kind_name(kind),
+                                  count * options.characters == 1 ? "" : "s");
+    }
+    fmt::print("crowd    {} character{}{}, targets from {}\n", options.characters, options.characters == 1 ? "" : "s",
+               counts, options.targets == "clip" ? "the clip" : options.targets);
 }
 
-nlohmann::ordered_json json_of(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
+nlohmann::ordered_json json_of(const Options& options, const formats::Clip& clip, std::span<const Limb> limbs)
 {
     nlohmann::ordered_json out{
         {"clip", options.clip},          {"joints", clip.joints.size()},     {"frames", clip.frame_count},
         {"frame_time", clip.frame_time}, {"characters", options.characters}, {"seed", options.seed},
         {"targets", options.targets}};
-    for (const Arm& arm : arms)
-        out["arms_bound"].push_back({{"side", formats::side_name(arm.side)},
-                                     {"shoulder", joint_name(clip, arm.shoulder)},
-                                     {"elbow", joint_name(clip, arm.elbow)},
-                                     {"wrist", joint_name(clip, arm.wrist)},
-                                     {"lengths", {arm.limb.lengths[0], arm.limb.lengths[1]}},
-                                     {"hinge", {arm.hinge.x(), arm.hinge.y(), arm.hinge.z()}},
-                                     {"hinge_source", arm.hinge_source}});
+    for (const Limb& limb : limbs) {
+        const LimbWords& words = words_of(limb.name.kind);
+        out[fmt::format("{}_bound", words.limbs)].push_back(
+            {{"side", side_name(limb.name.side)},
+             {words.upper_joint, joint_name(clip, limb.upper())},
+             {words.lower_joint, joint_name(clip, limb.lower())},
+             {words.end_joint, joint_name(clip, limb.end())},
+             {"lengths", {limb.bound.lengths[0], limb.bound.lengths[1]}},
+             {"hinge", {limb.hinge.x(), limb.hinge.y(), limb.hinge.z()}},
+             {"hinge_source", limb.hinge_source}});
+    }
     return out;
+}
+
+void require_named_limbs_solved(const LimbChoice& choice)
+{
+    if (choice.kinds == "legs" && !choice.arms.empty())
+        throw CommandError(2, "--arm names an arm, but --limbs legs solves none; use --limbs all");
+    if (choice.kinds == "arms" && !choice.legs.empty())
+        throw CommandError(2, "--leg names a leg, but --limbs arms solves none; use --limbs all");
 }
 
 void run(const Options& options)
@@ -191,16 +214,17 @@ void run(const Options& options)
     note_interrupts();
     const auto before = std::chrono::steady_clock::now();
     out_kind(options);  // usage errors first
+    require_named_limbs_solved(options.limbs);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const formats::BvhFile file = formats::read_bvh(options.clip);
-    const std::vector<Arm> arms = find_arms(file.clip, options.clip, options.arms);
-    if (!options.json) print_clip(options, file.clip, arms);
+    const std::vector<Limb> limbs = find_limbs(file.clip, options.clip, options.limbs);
+    if (!options.json) print_clip(options, file.clip, limbs);
 
     const ThreadLimit limit(options.threads);
-    const Statistics statistics = solve_clip(options, file, arms);
+    const Statistics statistics = solve_clip(options, file, limbs);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
-        nlohmann::ordered_json out = json_of(options, file.clip, arms);
+        nlohmann::ordered_json out = json_of(options, file.clip, limbs);
         out.update(json_of(statistics));
         out["seconds"] = seconds;
         if (!options.out.empty()) out["out"] = options.out;
@@ -216,23 +240,32 @@ void run(const Options& options)
 
 void add_solve(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("solve", "Solve the arms of a BVH clip, or of a crowd that performs it");
+    CLI::App* command =
+        app.add_subcommand("solve", "Solve the arms and legs of a BVH clip, or of a crowd that performs it");
     auto options = std::make_shared<Options>();
     command->add_option("clip", options->clip, "Motion file, .bvh")->required()->check(file_name());
     command
-        ->add_option(
-            "--targets", options->targets,
-            "Where wrists, elbows and hands must be: 'clip' for the clip's own motion, or a CSV file with the columns\n"
-            "frame,character,side,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the world; arms without a row follow "
-            "the clip")
+        ->add_option("--targets", options->targets,
+                     "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
+                     "motion, or a CSV "
+                     "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
+                     "world; limb is "
+                     "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip")
         ->capture_default_str();
     command
         ->add_option("--out", options->out, "Write the poses: .bvh (one character) or .csv; without it statistics only")
         ->check(file_name());
     command
-        ->add_option("--arm", options->arms,
+        ->add_option("--limbs", options->limbs.kinds,
+                     "Which limbs to solve: arms, legs or all; without it those named by --arm and --leg, or else the "
+                     "arms")
+        ->check(CLI::IsMember({"arms", "legs", "all"}));
+    command
+        ->add_option("--arm", options->limbs.arms,
                      "Joints of an arm, SHOULDER,ELBOW,WRIST, by name or path; up to twice; left: or right: in front "
                      "sets the side")
+        ->allow_extra_args(false);
+    command->add_option("--leg", options->limbs.legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
         ->allow_extra_args(false);
     command
         ->add_option("--characters", options->characters,
