@@ -219,6 +219,28 @@ TEST_CASE("command: solve --json")
     CHECK_FALSE(json_of(folder, {"solve", "clip.bvh", "--json"}).contains("out"));
 }
 
+TEST_CASE("command: a clip that bends nothing has elbows that bend forwards and knees that bend backwards")
+{
+    const TempFolder folder;
+    const std::string straight =
+        edited(edited(kTwoArms, " 20 0 0 -30 0 5 0 0 0 20 0 0 30 0 5 0 0", " 20 0 0 0 0 0 0 0 0 20 0 0 0 0 0 0 0"),
+               " 21 0 0 -31 0 6 0 0 0 21 0 0 31 0 6 0 0", " 21 0 0 0 0 0 0 0 0 21 0 0 0 0 0 0 0");
+    spill(folder / "t.bvh", straight);
+    const auto bound = [&](const std::string& option) {
+        const Outcome outcome =
+            run_command(folder.path, {"solve", "t.bvh", "--json", option, "LeftArm,LeftForeArm,LeftHand"});
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        const Json out = Json::parse(outcome.out);
+        return out.at(option == "--arm" ? "arms_bound" : "legs_bound").at(0);
+    };
+    // The bone runs along +x; flexion turns the lower one about -hinge: about -y towards +z, about +y towards -z.
+    CHECK(bound("--arm").at("hinge") == Json({0.0, 1.0, 0.0}));
+    CHECK(bound("--leg").at("hinge") == Json({0.0, -1.0, 0.0}));
+    CHECK(bound("--leg").at("hinge_source").get<std::string>().starts_with("facing +Z"));
+    require_keys(bound("--leg"), {"side", "hip", "knee", "ankle", "lengths"});
+}
+
 TEST_CASE("command: names that are not UTF-8 do not break --json")
 {
     const TempFolder folder;

@@ -13,6 +13,7 @@
 
 #include "swivel/swivel.h"
 #include "tests/plain_motion.h"
+#include "tests/pose_rows.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
 
@@ -25,42 +26,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const std::string kHeader =
-    "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
-    "wrist_x,wrist_y,wrist_z,wrist_w,flags";
-
-struct Row {
-    std::size_t frame = 0, character = 0;
-    std::string limb;
-    std::array<Quaterniond, 3> joint;  // shoulder, elbow, wrist
-    unsigned flags = 0;
-
-    auto place() const { return std::tuple(frame, character, limb); }
-};
-
-std::vector<Row> rows_of(const std::string& text)
-{
-    std::istringstream in(text);
-    std::string line, cell;
-    REQUIRE(std::getline(in, line));
-    REQUIRE(line == kHeader);
-    std::vector<Row> rows;
-    while (std::getline(in, line)) {
-        std::vector<std::string> cells;
-        for (std::istringstream parts(line); std::getline(parts, cell, ',');) cells.push_back(cell);
-        REQUIRE(cells.size() == 16);
-        const auto number = [&](std::size_t n) { return std::strtod(cells[n].c_str(), nullptr); };
-        Row row{static_cast<std::size_t>(number(0)),
-                static_cast<std::size_t>(number(1)),
-                cells[2],
-                {},
-                static_cast<unsigned>(number(15))};
-        for (std::size_t j = 0; j < 3; ++j)
-            row.joint[j] = Quaterniond(number(4 * j + 6), number(4 * j + 3), number(4 * j + 4), number(4 * j + 5));
-        rows.push_back(row);
-    }
-    return rows;
-}
+using Row = PoseLine;
+std::vector<Row> rows_of(const std::string& text) { return pose_lines(text); }
 
 // The jump, every step-th frame from `first` on, as clip.bvh in a folder of its own, and a command to solve it.
 struct Stage {
@@ -275,7 +242,7 @@ TEST_CASE("targets: characters stand on the documented grid")
 TEST_CASE("crowd: memory is bounded by clip and crowd, not by their product")
 {
     // Per frame the command keeps its line of text (under 1.5 kB), 32 bytes for each of 31 joints, and where two arms
-    // are in it (424 bytes, thrice while a vector grows): under 4 kB; 8 kB leaves room for the allocator. One frame of
+    // are in it (488 bytes, thrice while a vector grows): under 4 kB; 8 kB leaves room for the allocator. One frame of
     // poses of 500 characters is 52 kB in memory and 150 kB as text.
     constexpr long kFrameKib = 8, kPosesKib = 500 * 2 * 52 / 1024;
     const TempFolder folder;

@@ -223,13 +223,32 @@ TEST_CASE("poses: the text of known rows")
           "239,12,right_leg,0,0,0,1,0,0,0,1,0,0,0,1,0\n");
 }
 
+TEST_CASE("poses: columns for what limbs have beside")
+{
+    const TempFolder folder;
+    PosesCsv csv(folder / "p.csv", {true, true, 2});
+    const PoseRow row = {0, {LimbKind::arm, Side::left}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, 1};
+    PoseExtra full{1.5f, true, {1, 0, 0, 0}, 2, {}}, bare{};
+    full.twist[0] = {0, 1, 0, 0};
+    full.twist[1] = {0, 0, 0.5f, 0};
+    const std::vector<PoseExtra> extras = {full, bare};
+    csv.append(3, {{row, row}}, extras);
+    csv.commit();
+    const std::string text = slurp(folder / "p.csv");
+    CHECK_THAT(text, Contains(",flags,stretch,clavicle_x,clavicle_y,clavicle_z,clavicle_w,twist1_x,twist1_y,twist1_z,"
+                              "twist1_w,twist2_x,twist2_y,twist2_z,twist2_w\n"));
+    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,1.5,1,0,0,0,0,1,0,0,0,0,0.5,0\n"));
+    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,1,,,,,,,,,,,,\n"));
+}
+
 TEST_CASE("poses: the longest line fits")
 {
     const TempFolder folder;
-    PosesCsv csv(folder / "p.csv");
+    PosesCsv csv(folder / "p.csv", {true, true, 7});
     const float longest = -1.17549435e-38f;
     const std::array<float, 4> all = {longest, longest, longest, longest};
-    csv.append(4294967295u, {{{4294967295u, {LimbKind::arm, Side::right}, all, all, all, 4294967295u}}});
+    const PoseExtra extra{longest, true, all, 7, {all, all, all, all, all, all, all}};
+    csv.append(4294967295u, {{{4294967295u, {LimbKind::arm, Side::right}, all, all, all, 4294967295u}}}, {{extra}});
     csv.commit();
     CHECK_THAT(slurp(folder / "p.csv"), Contains("\n4294967295,4294967295,right_arm,-1.1754944e-38,"));
 }

@@ -23,20 +23,38 @@ struct PoseRow {
     std::uint32_t flags = 0;
 };
 
+// What a limb has beside, where it is asked for.
+struct PoseExtra {
+    float stretch = 1;  // factor of both bone lengths
+    bool has_clavicle = false;
+    std::array<float, 4> clavicle{};              // local rotation of the joint above, x y z w
+    unsigned twist_count = 0;                     // bones of those below that there are; the others' cells stay empty
+    std::array<std::array<float, 4>, 7> twist{};  // x y z w
+};
+
+// The columns for it, after the flags.
+struct PoseColumns {
+    bool stretch = false;      // "stretch"
+    bool clavicle = false;     // "clavicle_x" and so on
+    unsigned twist_count = 0;  // "twist1_x" and so on
+};
+
 class PosesCsv {
 public:
     // Opens the file and writes the line of column names. Throws InputError as OutputFile does.
-    explicit PosesCsv(const std::filesystem::path& path);
+    explicit PosesCsv(const std::filesystem::path& path, const PoseColumns& columns = {});
 
-    // Writes the rows of one frame in the order given. Frames may come in any order and in several pieces.
-    // Throws InputError when the disk is full. Allocates nothing.
-    void append(std::uint32_t frame, std::span<const PoseRow> rows);
+    // Writes the rows of one frame in the order given. Frames may come in any order and in several pieces. extras: one
+    // for each row, or none if there are no columns for them. Throws InputError when the disk is full. Allocates
+    // nothing.
+    void append(std::uint32_t frame, std::span<const PoseRow> rows, std::span<const PoseExtra> extras = {});
 
     // Makes the file appear; without it there is none. To be called once, last.
     void commit();
 
 private:
     OutputFile out_;
+    PoseColumns columns_;
 };
 
 }  // namespace swivel::formats

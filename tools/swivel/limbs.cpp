@@ -30,16 +30,17 @@ struct NameReader {
     const Clip& clip;
     const std::filesystem::path& file;
     const LimbWords& words;
+    std::string_view option;
 
     int joint(std::string_view name) const
     {
         const std::vector<int> found = formats::find_joints(clip, name);
         if (found.empty())
             throw InputError(file, fmt::format("no joint is called '{}' ({}); its joints are listed by its HIERARCHY",
-                                               name, words.option));
+                                               name, option));
         if (found.size() > 1)
             throw InputError(file, fmt::format("{} joints are called '{}' ({}); name one by its path, such as {}",
-                                               found.size(), name, words.option, formats::joint_path(clip, found[0])));
+                                               found.size(), name, option, formats::joint_path(clip, found[0])));
         return found[0];
     }
 
@@ -55,28 +56,29 @@ struct NameReader {
         const std::size_t first = text.find(','), second = text.find(',', first + 1);
         if (first == std::string_view::npos || second == std::string_view::npos ||
             text.find(',', second + 1) != std::string_view::npos)
-            throw InputError(
-                file, fmt::format("{} '{}' does not name three joints; write {}", words.option, text, words.joints));
+            throw InputError(file,
+                             fmt::format("{} '{}' does not name three joints; write {}", option, text, words.joints));
         const std::string_view name = text.substr(0, first);
         Limb limb;
         limb.name = {kind, side ? *side : side_of(name, otherwise)};
         limb.joints = {joint(name), joint(text.substr(first + 1, second - first - 1)), joint(text.substr(second + 1))};
         if (!is_chain(clip, limb.joints))
-            throw InputError(file, fmt::format("{} '{}' does not name a joint, its child and its child's child",
-                                               words.option, text));
+            throw InputError(
+                file, fmt::format("{} '{}' does not name a joint, its child and its child's child", option, text));
         return limb;
     }
 };
 
 // The limbs of one kind: those named, or those that habit gives.
 std::vector<Limb> limbs_of(const Clip& clip, const std::filesystem::path& file, LimbKind kind,
-                           std::span<const std::string> names)
+                           std::span<const NamedLimb> names)
 {
     const LimbWords& words = words_of(kind);
-    const NameReader reader{clip, file, words};
     std::vector<Limb> limbs;
-    for (const std::string& text : names)
-        limbs.push_back(reader.limb(kind, text, limbs.empty() ? Side::left : Side::right));
+    for (const NamedLimb& named : names) {
+        const NameReader reader{clip, file, words, named.option};
+        limbs.push_back(reader.limb(kind, named.joints, limbs.empty() ? Side::left : Side::right));
+    }
     if (names.empty())
         for (const Side side : {Side::left, Side::right})
             if (const std::optional<LimbJoints> joints = joints_by_habit(clip, {kind, side})) {
@@ -102,7 +104,7 @@ Vector3d offset(const Clip& clip, int joint) { return clip.joints[static_cast<st
 // gets the axis that carries a forearm forwards, a shin backwards, on a figure facing +Z.
 void choose_hinge(const Clip& clip, Limb& limb)
 {
-    const Vector3d upper = offset(clip, limb.lower()).normalized(), lower = offset(clip, limb.end()).normalized();
+    const Vector3d upper = limb.upper_bone, lower = offset(clip, limb.end()).normalized();
     Vector3d sum = Vector3d::Zero();
     double weight = 0;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
@@ -130,9 +132,21 @@ void store(const Vector3d& v, float (&to)[3])
     for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(v[n]);
 }
 
-void bind_limb(const Clip& clip, const std::filesystem::path& file, Limb& limb)
+void bind_limb(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice, Limb& limb)
 {
+    limb.upper_bone = offset(clip, limb.lower()).normalized();
     choose_hinge(clip, limb);
+    for (const GivenHinge& given : choice.hinges)
+        if (given.limb == limb.name) {
+            const Vector3d& upper = limb.upper_bone;
+            if (given.axis.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
+                throw InputError(file,
+                                 fmt::format("the {}'s hinge, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), "
+                                             "which does not bend that way",
+                                             plain_name(limb.name), given.where, upper.x(), upper.y(), upper.z()));
+            limb.hinge = given.axis;
+            limb.hinge_source = given.where;
+        }
     swivel_chain chain{};
     chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;  // a BVH rests without rotation
     store(offset(clip, limb.lower()), chain.elbow_offset);
@@ -167,7 +181,7 @@ std::vector<Limb> find_limbs(const Clip& clip, const std::filesystem::path& file
                 throw InputError(file, fmt::format("the {} and the {} share a joint; each needs three of its own ({})",
                                                    plain_name(limbs[b].name), plain_name(limbs[a].name),
                                                    words_of(limbs[a].name.kind).option));
-    for (Limb& limb : limbs) bind_limb(clip, file, limb);
+    for (Limb& limb : limbs) bind_limb(clip, file, choice, limb);
     return limbs;
 }
 

@@ -19,11 +19,25 @@ namespace {
 
 using formats::LimbKind;
 
-constexpr std::pair<swivel_flag, const char*> kFlagNames[] = {{SWIVEL_REACHED, "reached"},
-                                                              {SWIVEL_CLAMPED_FAR, "clamped far"},
-                                                              {SWIVEL_CLAMPED_NEAR, "clamped near"},
-                                                              {SWIVEL_SWIVEL_UNDEFINED, "swivel undefined"},
-                                                              {SWIVEL_BAD_INPUT, "bad input"}};
+constexpr std::pair<swivel_flag, const char*> kFlagNames[] = {
+    {SWIVEL_REACHED, "reached"},
+    {SWIVEL_SOFTENED, "softened"},
+    {SWIVEL_STRETCHED, "stretched"},
+    {SWIVEL_CLAMPED_FAR, "clamped far"},
+    {SWIVEL_CLAMPED_NEAR, "clamped near"},
+    {SWIVEL_SWIVEL_UNDEFINED, "swivel undefined"},
+    {SWIVEL_LIMITED_FLEXION, "limited by flexion"},
+    {SWIVEL_LIMITED_SHOULDER_CONE, "limited by shoulder cone"},
+    {SWIVEL_LIMITED_HUMERAL_TWIST, "limited by humeral twist"},
+    {SWIVEL_LIMITED_SHOULDER_BOX, "limited by shoulder box"},
+    {SWIVEL_LIMITED_HAND_CONE, "limited by hand cone"},
+    {SWIVEL_LIMITED_FOREARM_TWIST, "limited by forearm twist"},
+    {SWIVEL_LIMITED_HAND_TWIST, "limited by hand twist"},
+    {SWIVEL_LIMITED_WRIST_BOX, "limited by wrist box"},
+    {SWIVEL_LIMITED_STEP, "limited by most swivel"},
+    {SWIVEL_INFEASIBLE, "infeasible"},
+    {SWIVEL_JUMPED, "jumped"},
+    {SWIVEL_BAD_INPUT, "bad input"}};
 
 std::uint64_t count_of(const Statistics& statistics, swivel_flag flag)
 {
@@ -63,6 +77,7 @@ void add_errors(std::vector<NamedError>& to, const LimbStatistics& s, LimbKind k
     };
     add(std::string(w.end_joint), fmt::format("{} to target", w.end_joint), length, s.reached);
     add(arm ? "missed" : "leg_missed", fmt::format("{} to target, out of reach", w.end_joint), length, s.missed);
+    add(arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target", w.end), length, s.aimed);
     add(std::string(w.end), fmt::format("{} to orientation", w.end), "rad", s.orientation);
     add(fmt::format("{}_bent", w.lower_joint), fmt::format("{} to clip, bent over 5 deg", w.lower_joint), length,
         s.bent);

@@ -38,6 +38,7 @@ struct ErrorStat {
 struct LimbStatistics {
     ErrorStat reached;      // limb lengths, between wrist or ankle and target, of limbs that reach it
     ErrorStat missed;       // the same, of limbs out of reach
+    ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim
     ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
     // Against the motion the targets came from; empty when they came from elsewhere:
     ErrorStat bent, straight;  // limb lengths, of elbow or knee; bent by more than 5 degrees, and the rest
@@ -54,6 +55,7 @@ struct LimbStatistics {
     {
         reached.add(other.reached);
         missed.add(other.missed);
+        aimed.add(other.aimed);
         orientation.add(other.orientation);
         bent.add(other.bent);
         straight.add(other.straight);
