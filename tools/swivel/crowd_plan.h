@@ -59,7 +59,4 @@ void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 // clavicle that is not the limb's own.
 CrowdPlan plan_crowd(const formats::CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs);
 
-// Throws InputError, naming line and key, for what a BVH file has no room for: stretched bones and twist bones.
-void require_fits_bvh(const formats::CrowdFile& file, std::span<const Limb> limbs);
-
 }  // namespace swivel::tools

@@ -17,9 +17,10 @@
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
-#include "tools/swivel/clip_crowd.h"
+#include "tools/swivel/bvh_keys.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_checks.h"
 #include "tools/swivel/given_targets.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
@@ -66,43 +67,6 @@ OutKind out_kind(const Options& options, std::uint32_t characters)
     return OutKind::bvh;
 }
 
-// The first character's solved rotations, kept for a BVH file: three joints for each limb, or two where the hand is not
-// solved.
-class BvhKeys {
-public:
-    explicit BvhKeys(const Job& job) : job_(job), keys_(3 * job.limbs.size()), clavicles_(job.limbs.size()) {}
-
-    void add(const ClipCrowd& crowd)
-    {
-        for (std::size_t limb = 0; 3 * limb < keys_.size(); ++limb) {
-            const formats::PoseRow row = crowd.pose(limb, 0);
-            for (std::size_t n = 0; n < 3; ++n) {
-                const auto& q = n == 0 ? row.shoulder : n == 1 ? row.elbow : row.wrist;
-                keys_[3 * limb + n].emplace_back(q[3], q[0], q[1], q[2]);
-            }
-            if (plan(limb).has(SWIVEL_WITH_CLAVICLE)) clavicles_[limb].push_back(crowd.clavicle(limb, 0));
-        }
-    }
-    void write(const std::filesystem::path& path, const formats::BvhFile& file) const
-    {
-        std::vector<formats::RotationOverride> overrides;
-        for (std::size_t limb = 0; limb < job_.limbs.size(); ++limb) {
-            const Limb& of = job_.limbs[limb];
-            for (std::size_t n = 0; n < (plan(limb).has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
-                overrides.push_back({of.joints[n], keys_[3 * limb + n]});
-            if (plan(limb).has(SWIVEL_WITH_CLAVICLE))
-                overrides.push_back({file.clip.joints[static_cast<std::size_t>(of.upper())].parent, clavicles_[limb]});
-        }
-        formats::write_bvh(path, file, overrides);
-    }
-
-private:
-    const LimbPlan& plan(std::size_t limb) const { return job_.plan.limbs[limb]; }
-
-    const Job& job_;
-    std::vector<std::vector<Eigen::Quaterniond>> keys_, clavicles_;
-};
-
 Statistics solve_clip(const Options& options, const formats::BvhFile& file, const Job& job)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
@@ -113,7 +77,7 @@ Statistics solve_clip(const Options& options, const formats::BvhFile& file, cons
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
     if (kind == OutKind::bvh)
         const formats::OutputFile can_be_written(options.out);  // says so before the work, not after
-    BvhKeys keys(job);
+    BvhKeys keys(job.limbs, job.plan);
     Statistics statistics;
     {
         Progress progress("frames", file.clip.frame_count);
