@@ -291,9 +291,16 @@ TEST_CASE("crowd file: aim points the hand at the target, flexion as given")
 
 TEST_CASE("crowd file: a clavicle takes its share")
 {
-    const CrowdStage one(1200, 100000);
+    CrowdStage one(1200, 100000);
     const PlainArm& left = one.arms[0];
     const int clavicle = one.clip.joint(left.shoulder).parent;
+    // This clip's own clavicles never turn; this one has.
+    for (std::size_t c = 0; c < 3; ++c)
+        one.clip.values[0][one.clip.joint(clavicle).first_channel + c] = 10.0 + 5 * static_cast<double>(c);
+    std::string line;
+    for (const double value : one.clip.values[0]) line += std::to_string(value) + " ";
+    spill(one.folder / "clip.bvh", one.clip.header + line + "\n");
+    one.clip = plain_motion_of(one.folder / "clip.bvh");
     const Vector3d bone = one.clip.joint(left.shoulder).offset;
     const PlainPose rest = pose_of(one.clip, 0)[static_cast<std::size_t>(clavicle)];
     const Vector3d ahead = (rest.rotation * bone).normalized(), aside = ahead.unitOrthogonal();

@@ -55,10 +55,14 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
     not_aiming(s.forearm_twist_deg);
     not_aiming(s.hand_twist);
     not_aiming(s.wrist_box);
-    if (s.pole_fixed && s.pole_kind && s.pole_kind->value == PoleKind::incoming)
-        refuse(file, *s.pole_fixed,
-               fmt::format("means nothing beside {} = \"incoming\" in line {}; take one of them out", s.pole_kind->key,
-                           s.pole_kind->line));
+    const auto needs_pole = [&](const auto& given) {
+        if (given && s.pole_kind && s.pole_kind->value == PoleKind::incoming)
+            refuse(file, *given,
+                   fmt::format("means nothing beside {} = \"incoming\" in line {}; take one of them out",
+                               s.pole_kind->key, s.pole_kind->line));
+    };
+    needs_pole(s.pole_fixed);
+    needs_pole(s.pole_weight);
     if (s.priority && !file.budget_blocks)
         refuse(file, *s.priority, "means nothing without budget.blocks; give that, or take this out");
 }
