@@ -162,6 +162,18 @@ inline std::vector<PlainArm> arms_of(const PlainMotion& motion)
     return arms;
 }
 
+// The legs, in the same words: hip, knee and ankle.
+inline std::vector<PlainArm> legs_of(const PlainMotion& motion)
+{
+    std::vector<PlainArm> legs;
+    for (const std::string side : {"Left", "Right"}) {
+        const int knee = joint_named(motion, side + "Leg"), ankle = joint_named(motion, side + "Foot");
+        legs.push_back({side == "Left" ? "left" : "right", joint_named(motion, side + "UpLeg"), knee, ankle,
+                        motion.joint(knee).offset.norm(), motion.joint(ankle).offset.norm()});
+    }
+    return legs;
+}
+
 // Where one arm is in one frame.
 struct PlainArmPose {
     Eigen::Vector3d shoulder, elbow, wrist;

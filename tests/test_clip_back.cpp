@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The honest end-to-end test on real motion: wrists, elbows and hands of a clip go in as targets, and the clip must
-// come back. Both files are posed by plain_motion.h alone.
+// The honest end-to-end test on real motion: wrists, elbows and hands of a clip, ankles, knees and feet, go in as
+// targets, and the clip must come back. Both files are posed by plain_motion.h alone.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -21,8 +21,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kBent = 5 * std::numbers::pi / 180;
-const std::vector<std::string> kSolved = {"LeftArm",  "LeftForeArm",  "LeftHand",
-                                          "RightArm", "RightForeArm", "RightHand"};
+using Limbs = std::vector<PlainArm>;  // those that were solved
 
 double angle_of(const Matrix3d& turn)
 {
@@ -77,10 +76,10 @@ struct Verdict {
     std::size_t arms = 0, straight = 0, wrist_over = 0, hand_over = 0, elbow_over = 0;
 };
 
-Verdict judge(const PlainMotion& clip, const PlainMotion& written)
+Verdict judge(const PlainMotion& clip, const PlainMotion& written, const Limbs& limbs)
 {
     Verdict v;
-    for (const PlainArm& arm : arms_of(clip))
+    for (const PlainArm& arm : limbs)
         for (std::size_t frame = 0; frame < clip.lines.size(); ++frame) {
             const ArmErrors errors = compare(clip, written, arm, frame);
             v.wrist = std::max(v.wrist, errors.wrist);
@@ -96,14 +95,15 @@ Verdict judge(const PlainMotion& clip, const PlainMotion& written)
     return v;
 }
 
-std::vector<std::size_t> solved_channels(const PlainMotion& motion)
+std::vector<std::size_t> solved_channels(const PlainMotion& motion, const Limbs& limbs)
 {
     std::vector<std::size_t> channels;
-    for (const std::string& name : kSolved) {
-        const PlainJoint& joint = motion.joint(joint_named(motion, name));
-        for (std::size_t c = 0; c < joint.channels.size(); ++c)
-            if (joint.channels[c].ends_with("rotation")) channels.push_back(joint.first_channel + c);
-    }
+    for (const PlainArm& limb : limbs)
+        for (const int solved : {limb.shoulder, limb.elbow, limb.wrist}) {
+            const PlainJoint& joint = motion.joint(solved);
+            for (std::size_t c = 0; c < joint.channels.size(); ++c)
+                if (joint.channels[c].ends_with("rotation")) channels.push_back(joint.first_channel + c);
+        }
     return channels;
 }
 
@@ -124,11 +124,11 @@ std::string rest_of(const std::string& line, const std::vector<std::size_t>& cha
     return rest;
 }
 
-void require_same_rest(const PlainMotion& clip, const PlainMotion& written)
+void require_same_rest(const PlainMotion& clip, const PlainMotion& written, const Limbs& limbs)
 {
     REQUIRE(written.header == clip.header);
-    const std::vector<std::size_t> channels = solved_channels(clip);
-    REQUIRE(channels.size() == 18);
+    const std::vector<std::size_t> channels = solved_channels(clip, limbs);
+    REQUIRE(channels.size() == 9 * limbs.size());
     std::size_t different = 0, changed = 0;
     for (std::size_t frame = 0; frame < clip.lines.size(); ++frame) {
         different += rest_of(clip.lines[frame], channels) != rest_of(written.lines[frame], channels);
@@ -140,10 +140,10 @@ void require_same_rest(const PlainMotion& clip, const PlainMotion& written)
 
 // The writer turns every angle to within half a turn of the frame before, and the first to within half a turn of the
 // clip's own: so no key may jump further, whatever the clip does. 1e-6: the nine decimals.
-void require_continuous(const PlainMotion& clip, const PlainMotion& written)
+void require_continuous(const PlainMotion& clip, const PlainMotion& written, const Limbs& limbs)
 {
     double worst = 0;
-    for (const std::size_t channel : solved_channels(clip)) {
+    for (const std::size_t channel : solved_channels(clip, limbs)) {
         double before = clip.values[0][channel];
         for (const std::vector<double>& values : written.values) {
             worst = std::max(worst, std::abs(values[channel] - before));
@@ -153,20 +153,33 @@ void require_continuous(const PlainMotion& clip, const PlainMotion& written)
     CHECK(worst <= 180 + 1e-6);
 }
 
-// The clip with its arms one frame early: what a solver that is late would write.
-PlainMotion with_shifted_arms(const PlainMotion& clip)
+// The clip with its limbs one frame early: what a solver that is late would write.
+PlainMotion with_shifted_limbs(const PlainMotion& clip, const Limbs& limbs)
 {
     PlainMotion shifted = clip;
-    for (const std::size_t channel : solved_channels(clip))
+    for (const std::size_t channel : solved_channels(clip, limbs))
         for (std::size_t frame = 0; frame + 1 < clip.values.size(); ++frame)
             shifted.values[frame][channel] = clip.values[frame + 1][channel];
     return shifted;
 }
 
-void solve_clip_back(const fs::path& path, std::size_t frame_count)
+using FindLimbs = Limbs (*)(const PlainMotion&);
+Limbs arms(const PlainMotion& motion) { return arms_of(motion); }
+Limbs legs(const PlainMotion& motion) { return legs_of(motion); }
+Limbs all(const PlainMotion& motion)
+{
+    Limbs limbs = arms_of(motion);
+    for (const PlainArm& leg : legs_of(motion)) limbs.push_back(leg);
+    return limbs;
+}
+
+void solve_clip_back(const fs::path& path, std::size_t frame_count, FindLimbs find = arms,
+                     const std::vector<std::string>& options = {})
 {
     const TempFolder folder;
-    const Outcome outcome = run_command(folder.path, {"solve", path.string(), "--targets", "clip", "--out", "out.bvh"});
+    std::vector<std::string> arguments = {"solve", path.string(), "--targets", "clip", "--out", "out.bvh"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run_command(folder.path, arguments);
     INFO(path << ": " << outcome.err);
     REQUIRE(outcome.exit_code == 0);
     CHECK(outcome.err.empty());
@@ -175,7 +188,8 @@ void solve_clip_back(const fs::path& path, std::size_t frame_count)
     const PlainMotion clip = plain_motion_of(path), written = plain_motion_of(folder / "out.bvh");
     REQUIRE(clip.lines.size() == frame_count);
     REQUIRE(written.lines.size() == frame_count);
-    const Verdict v = judge(clip, written);
+    const Limbs limbs = find(clip);
+    const Verdict v = judge(clip, written, limbs);
     INFO("shares of what is allowed: wrist " << v.wrist << ", hand " << v.hand << ", bent elbow " << v.elbow_bent
                                              << ", straight elbow " << v.elbow_straight << " (" << v.straight << " of "
                                              << v.arms << " arms)");
@@ -183,25 +197,26 @@ void solve_clip_back(const fs::path& path, std::size_t frame_count)
     CHECK(v.hand <= 1);
     CHECK(v.elbow_bent <= 1);
     CHECK(v.elbow_straight <= 1);
-    CHECK(v.arms == 2 * frame_count);
+    CHECK(v.arms == limbs.size() * frame_count);
     CHECK(v.wrist_over + v.hand_over + v.elbow_over == 0);
-    require_same_rest(clip, written);
-    require_continuous(clip, written);
+    require_same_rest(clip, written, limbs);
+    require_continuous(clip, written, limbs);
 
     // The criterion can fail: one frame of delay, 8 ms, breaks each of its three parts in most frames.
-    const Verdict late = judge(clip, with_shifted_arms(clip));
+    const Verdict late = judge(clip, with_shifted_limbs(clip, limbs), limbs);
     CHECK(late.wrist_over > frame_count);
     CHECK(late.hand_over > frame_count);
     CHECK(late.elbow_over > frame_count);
 }
 
-void solve_if_present(const std::string& name, std::size_t frame_count)
+void solve_if_present(const std::string& name, std::size_t frame_count, FindLimbs find = arms,
+                      const std::vector<std::string>& options = {})
 {
     const fs::path path = find_data(name);
     if (path.empty())
         WARN("skipped: this machine has no " << name);
     else
-        solve_clip_back(path, frame_count);
+        solve_clip_back(path, frame_count, find, options);
 }
 
 }  // namespace
@@ -209,6 +224,14 @@ void solve_if_present(const std::string& name, std::size_t frame_count)
 TEST_CASE("clip back: the jump") { solve_clip_back(must_find_jump(), 2752); }
 TEST_CASE("clip back: the walk, with CRLF") { solve_if_present("cmu_02_01_walk.bvh", 343); }
 TEST_CASE("clip back: the dance") { solve_if_present("cmu_05_06_dance.bvh", 885); }
+
+TEST_CASE("clip back: the jump's legs") { solve_clip_back(must_find_jump(), 2752, legs, {"--limbs", "legs"}); }
+TEST_CASE("clip back: the walk's legs, named")
+{
+    solve_if_present("cmu_02_01_walk.bvh", 343, legs,
+                     {"--leg", "RightUpLeg,RightLeg,RightFoot", "--leg", "LeftUpLeg,LeftLeg,LeftFoot"});
+}
+TEST_CASE("clip back: the dance, all limbs") { solve_if_present("cmu_05_06_dance.bvh", 885, all, {"--limbs", "all"}); }
 
 TEST_CASE("clip back: the sides of --arm are names, its order is not")
 {

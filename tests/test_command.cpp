@@ -160,6 +160,9 @@ TEST_CASE("command: bad usage is refused in one line before anything happens")
         require_bad_usage({"bench", "--seconds", number}, "--seconds");
     require_bad_usage({"solve", "clip.bvh", "--threads", "1", "--threads", "2"}, "--threads");
     require_bad_usage({"solve", "clip.bvh", "--out"}, "--out");
+    require_bad_usage({"solve", "clip.bvh", "--limbs", "wings"}, "--limbs");
+    require_bad_usage({"solve", "clip.bvh", "--limbs", "arms", "--leg", "a,b,c"}, "--limbs all");
+    require_bad_usage({"solve", "clip.bvh", "--limbs", "legs", "--arm", "a,b,c"}, "--limbs all");
 }
 
 TEST_CASE("command: options that do not go together are refused")
@@ -214,6 +217,28 @@ TEST_CASE("command: solve --json")
     require_keys(left, {"hinge", "hinge_source"});
     CHECK(out.at("arms_bound").at(1).at("side") == "right");
     CHECK_FALSE(json_of(folder, {"solve", "clip.bvh", "--json"}).contains("out"));
+}
+
+TEST_CASE("command: a clip that bends nothing has elbows that bend forwards and knees that bend backwards")
+{
+    const TempFolder folder;
+    const std::string straight =
+        edited(edited(kTwoArms, " 20 0 0 -30 0 5 0 0 0 20 0 0 30 0 5 0 0", " 20 0 0 0 0 0 0 0 0 20 0 0 0 0 0 0 0"),
+               " 21 0 0 -31 0 6 0 0 0 21 0 0 31 0 6 0 0", " 21 0 0 0 0 0 0 0 0 21 0 0 0 0 0 0 0");
+    spill(folder / "t.bvh", straight);
+    const auto bound = [&](const std::string& option) {
+        const Outcome outcome =
+            run_command(folder.path, {"solve", "t.bvh", "--json", option, "LeftArm,LeftForeArm,LeftHand"});
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        const Json out = Json::parse(outcome.out);
+        return out.at(option == "--arm" ? "arms_bound" : "legs_bound").at(0);
+    };
+    // The bone runs along +x; flexion turns the lower one about -hinge: about -y towards +z, about +y towards -z.
+    CHECK(bound("--arm").at("hinge") == Json({0.0, 1.0, 0.0}));
+    CHECK(bound("--leg").at("hinge") == Json({0.0, -1.0, 0.0}));
+    CHECK(bound("--leg").at("hinge_source").get<std::string>().starts_with("facing +Z"));
+    require_keys(bound("--leg"), {"side", "hip", "knee", "ankle", "lengths"});
 }
 
 TEST_CASE("command: names that are not UTF-8 do not break --json")

@@ -13,6 +13,7 @@
 
 #include "swivel/swivel.h"
 #include "tests/plain_motion.h"
+#include "tests/pose_rows.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
 
@@ -25,42 +26,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const std::string kHeader =
-    "frame,character,side,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
-    "wrist_x,wrist_y,wrist_z,wrist_w,flags";
-
-struct Row {
-    std::size_t frame = 0, character = 0;
-    std::string side;
-    std::array<Quaterniond, 3> joint;  // shoulder, elbow, wrist
-    unsigned flags = 0;
-
-    auto place() const { return std::tuple(frame, character, side); }
-};
-
-std::vector<Row> rows_of(const std::string& text)
-{
-    std::istringstream in(text);
-    std::string line, cell;
-    REQUIRE(std::getline(in, line));
-    REQUIRE(line == kHeader);
-    std::vector<Row> rows;
-    while (std::getline(in, line)) {
-        std::vector<std::string> cells;
-        for (std::istringstream parts(line); std::getline(parts, cell, ',');) cells.push_back(cell);
-        REQUIRE(cells.size() == 16);
-        const auto number = [&](std::size_t n) { return std::strtod(cells[n].c_str(), nullptr); };
-        Row row{static_cast<std::size_t>(number(0)),
-                static_cast<std::size_t>(number(1)),
-                cells[2],
-                {},
-                static_cast<unsigned>(number(15))};
-        for (std::size_t j = 0; j < 3; ++j)
-            row.joint[j] = Quaterniond(number(4 * j + 6), number(4 * j + 3), number(4 * j + 4), number(4 * j + 5));
-        rows.push_back(row);
-    }
-    return rows;
-}
+using Row = PoseLine;
+std::vector<Row> rows_of(const std::string& text) { return pose_lines(text); }
 
 // The jump, every step-th frame from `first` on, as clip.bvh in a folder of its own, and a command to solve it.
 struct Stage {
@@ -86,14 +53,14 @@ struct Stage {
     }
     void write_targets(const std::string& rows) const
     {
-        spill(folder / "t.csv", "frame,character,side,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n" + rows);
+        spill(folder / "t.csv", "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n" + rows);
     }
 };
 
-std::string row_text(std::size_t frame, std::size_t character, const std::string& side, const Vector3d& wrist,
+std::string row_text(std::size_t frame, std::size_t character, const std::string& limb, const Vector3d& wrist,
                      const Vector3d& pole, const Matrix3d* hand = nullptr)
 {
-    std::string row = std::to_string(frame) + "," + std::to_string(character) + "," + side;
+    std::string row = std::to_string(frame) + "," + std::to_string(character) + "," + limb;
     const auto add = [&](double value) {
         std::array<char, 40> digits{};
         std::snprintf(digits.data(), digits.size(), ",%.17g", value);
@@ -119,7 +86,7 @@ double distance(const Row& a, const Row& b)
 
 }  // namespace
 
-TEST_CASE("crowd: the table holds every frame, character and side in order, and unit quaternions")
+TEST_CASE("crowd: the table holds every frame, character and limb in order, and unit quaternions")
 {
     const Stage stage;
     const std::vector<Row> rows = rows_of(stage.solve({"--characters", "50"}, "poses.csv"));
@@ -129,7 +96,8 @@ TEST_CASE("crowd: the table holds every frame, character and side in order, and 
     double worst_length = 0;
     std::set<std::string> poses_of_frame_0;
     for (std::size_t n = 0; n < rows.size(); ++n) {
-        misplaced += rows[n].place() != std::tuple(n / 100, n / 2 % 50, std::string(n % 2 == 0 ? "left" : "right"));
+        misplaced +=
+            rows[n].place() != std::tuple(n / 100, n / 2 % 50, std::string(n % 2 == 0 ? "left_arm" : "right_arm"));
         unreached += (rows[n].flags & SWIVEL_REACHED) == 0;
         for (const Quaterniond& q : rows[n].joint) worst_length = std::max(worst_length, std::abs(q.norm() - 1));
         if (n < 100)
@@ -175,7 +143,7 @@ TEST_CASE("targets: the clip's own wrists, elbows and hands give the clip's pose
         for (const PlainArm& arm : stage.arms) {
             const PlainArmPose at = arm_pose(stage.clip, arm, frame);
             if (at.bend() < 0.1) continue;  // straighter: a rounded elbow point turns the arm by more than 1e-5
-            rows += row_text(frame, 0, arm.side, at.wrist, at.elbow, &at.hand);
+            rows += row_text(frame, 0, arm.side + "_arm", at.wrist, at.elbow, &at.hand);
             ++given;
         }
     REQUIRE(given > 50);
@@ -197,7 +165,7 @@ TEST_CASE("targets: the written wrist follows a moved target, the other arm stay
         const PlainArmPose at = arm_pose(stage.clip, left, frame);
         REQUIRE((at.wrist - at.shoulder).norm() > 1 + left.upper - left.fore);  // the move stays in reach
         wanted.push_back(at.wrist + (at.shoulder - at.wrist).normalized());
-        rows += row_text(frame, 0, "left", wanted.back(), at.elbow);
+        rows += row_text(frame, 0, "left_arm", wanted.back(), at.elbow);
     }
     stage.write_targets(rows);
     stage.solve({"--targets", "t.csv"}, "moved.bvh");
@@ -225,9 +193,9 @@ TEST_CASE("targets: out of reach gives a straight arm towards the target, and th
     const Vector3d away = Vector3d(-1, 2, 1).normalized();
     const PlainArmPose at = arm_pose(stage.clip, right, 5);
     stage.write_targets(
-        row_text(5, 0, "right", at.shoulder + 1.5 * right.length() * away, at.shoulder - Vector3d::UnitY()));
+        row_text(5, 0, "right_arm", at.shoulder + 1.5 * right.length() * away, at.shoulder - Vector3d::UnitY()));
     for (const Row& row : rows_of(stage.solve({"--targets", "t.csv"}, "far.csv"))) {
-        const bool is_far = row.frame == 5 && row.side == "right";
+        const bool is_far = row.frame == 5 && row.limb == "right_arm";
         CHECK(((row.flags & SWIVEL_CLAMPED_FAR) != 0) == is_far);
         CHECK(((row.flags & SWIVEL_REACHED) != 0) == !is_far);
     }
@@ -251,12 +219,12 @@ TEST_CASE("targets: characters stand on the documented grid")
     std::string rows;
     for (std::size_t n = 0; n < 7; ++n) {  // w = 3
         const Vector3d place = 3 * span * Vector3d(static_cast<double>(n % 3), 0, static_cast<double>(n / 3));
-        rows += row_text(0, n, "left", goal + place, at.elbow + place);
+        rows += row_text(0, n, "left_arm", goal + place, at.elbow + place);
     }
     stage.write_targets(rows);
     std::set<int> factors;
     for (const Row& row : rows_of(stage.solve({"--characters", "7", "--targets", "t.csv"}, "grid.csv"))) {
-        if (row.side != "left") continue;
+        if (row.limb != "left_arm") continue;
         INFO("character " << row.character);
         const Matrix3d shoulder = at.parent * row.joint[0].toRotationMatrix();
         const Vector3d reach =
@@ -274,7 +242,7 @@ TEST_CASE("targets: characters stand on the documented grid")
 TEST_CASE("crowd: memory is bounded by clip and crowd, not by their product")
 {
     // Per frame the command keeps its line of text (under 1.5 kB), 32 bytes for each of 31 joints, and where two arms
-    // are in it (424 bytes, thrice while a vector grows): under 4 kB; 8 kB leaves room for the allocator. One frame of
+    // are in it (488 bytes, thrice while a vector grows): under 4 kB; 8 kB leaves room for the allocator. One frame of
     // poses of 500 characters is 52 kB in memory and 150 kB as text.
     constexpr long kFrameKib = 8, kPosesKib = 500 * 2 * 52 / 1024;
     const TempFolder folder;

@@ -72,6 +72,15 @@ void require_edit_refused(std::string_view from, std::string_view to, const Word
     require_clip_refused(edited(kTwoArms, from, to), said);
 }
 
+// kTwoArms with the names of legs.
+const std::string kTwoLegs = [] {
+    std::string text = kTwoArms;
+    for (const auto& [from, to] : {std::pair("ForeArm", "Leg"), {"Arm", "UpLeg"}, {"Hand", "Foot"}})
+        for (std::size_t at; (at = text.find(from)) != std::string::npos;)
+            text.replace(at, std::string_view(from).size(), to);
+    return text;
+}();
+
 const std::string kColumns = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n";
 const std::string kGoodRow = "0,0,left,6,8,3,4,8,9\n";
 
@@ -168,6 +177,31 @@ TEST_CASE("input: skeletons without arms, and --arm that names none")
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:Hips,LeftArm,LeftForeArm"}, {"clip.bvh: "});
     require_arms_refused(Words(3, "LeftArm,LeftForeArm,LeftHand"), {"clip.bvh: ", "more than twice"});
     require_edit_refused("OFFSET 5 0 0", "OFFSET 0 0 0", {"clip.bvh: ", "left arm", "length"});
+}
+
+TEST_CASE("input: skeletons without legs, and --leg that names none")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    require_refused(folder, {"clip.bvh", "--limbs", "legs"}, {"clip.bvh: no legs", "--leg HIP,KNEE,ANKLE"});
+    require_refused(folder, {"clip.bvh", "--limbs", "all"}, {"clip.bvh: no legs", "--leg HIP,KNEE,ANKLE"});
+    require_refused(folder, {"clip.bvh", "--leg", "LeftArm,LeftForeArm"}, {"--leg 'LeftArm,", "HIP,KNEE,ANKLE"});
+    require_refused(folder, {"clip.bvh", "--leg", "Nope,LeftForeArm,LeftHand"}, {"'Nope' (--leg)"});
+    require_refused(folder, {"clip.bvh", "--limbs", "all", "--leg", "LeftArm,LeftForeArm,LeftHand"},
+                    {"the left arm and the left leg share a joint"});
+    spill(folder / "t.csv", edited(kColumns, "side", "limb") + "0,0,left_leg,6,8,3,4,8,9\n");
+    require_refused(folder, {"clip.bvh", "--targets", "t.csv"},
+                    {"t.csv:2: the skeleton has no left leg; name it with --leg HIP,KNEE,ANKLE"});
+}
+
+TEST_CASE("input: targets of a limb that is not solved")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoLegs);
+    spill(folder / "t.csv", edited(kColumns, "side", "limb") + "0,0,right_leg,6,8,3,4,8,9\n");
+    require_refused(folder, {"clip.bvh", "--targets", "t.csv", "--leg", "LeftUpLeg,LeftLeg,LeftFoot"},
+                    {"t.csv:2: the right leg is not solved; take it in with --limbs"});
+    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--targets", "t.csv", "--limbs", "legs"}).exit_code == 0);
 }
 
 TEST_CASE("input: arms whose channels cannot take a rotation")

@@ -25,14 +25,14 @@ using Catch::Matchers::Contains;
 namespace {
 
 const std::string kPlain =
-    "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n"
-    "0,0,left,1,2,3,4,5,6\n"
-    "0,0,right,-1.5,.25,1e2,+4,5.,-6E-1\n";
+    "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n"
+    "0,0,left_arm,1,2,3,4,5,6\n"
+    "0,0,right_leg,-1.5,.25,1e2,+4,5.,-6E-1\n";
 
 const std::string kOriented =
-    "frame,character,side,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n"
-    "0,7,left,1,2,3,4,5,6,0,0,2,0\n"
-    "1,7,left,1,2,3,4,5,6,,,,\n";
+    "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n"
+    "0,7,left_leg,1,2,3,4,5,6,0,0,2,0\n"
+    "1,7,left_leg,1,2,3,4,5,6,,,,\n";
 
 std::vector<Target> read(const TempFolder& folder, std::string_view text)
 {
@@ -69,11 +69,11 @@ TEST_CASE("targets: rows without orientation")
     const TempFolder folder;
     const std::vector<Target> targets = read(folder, kPlain);
     REQUIRE(targets.size() == 2);
-    CHECK(targets[0].side == Side::left);
+    CHECK(targets[0].limb == LimbName{LimbKind::arm, Side::left});
     CHECK(targets[0].position == Eigen::Vector3d(1, 2, 3));
     CHECK(targets[0].pole == Eigen::Vector3d(4, 5, 6));
     CHECK_FALSE(targets[0].has_orientation);
-    CHECK(targets[1].side == Side::right);
+    CHECK(targets[1].limb == LimbName{LimbKind::leg, Side::right});
     CHECK(targets[1].position == Eigen::Vector3d(-1.5, 0.25, 100));
     CHECK(targets[1].pole == Eigen::Vector3d(4, 5, -0.6));
     CHECK(targets[1].line == 3);
@@ -91,7 +91,7 @@ TEST_CASE("targets: orientation, where a row has it, is made unit")
     CHECK(targets[1].orientation.coeffs() == Eigen::Vector4d(0, 0, 0, 1));
 }
 
-TEST_CASE("targets: columns in any order, comments, blanks, CRLF, no last line end, sorted result")
+TEST_CASE("targets: sides of arms, columns in any order, comments, blanks, CRLF, no last line end, sorted result")
 {
     const TempFolder folder;
     const std::vector<Target> targets = read(folder,
@@ -103,10 +103,10 @@ TEST_CASE("targets: columns in any order, comments, blanks, CRLF, no last line e
                                              "left , 3,2,\t1,6,5,4,2,1");
     REQUIRE(targets.size() == 3);
     CHECK(targets[0].frame == 1);
-    CHECK(targets[0].side == Side::left);
+    CHECK(targets[0].limb == LimbName{LimbKind::arm, Side::left});
     CHECK(targets[0].line == 8);
     CHECK(targets[0].position == Eigen::Vector3d(1, 2, 3));
-    CHECK(targets[1].side == Side::right);
+    CHECK(targets[1].limb == LimbName{LimbKind::arm, Side::right});
     CHECK(targets[1].line == 7);
     CHECK(targets[2].frame == 4294967295u);
 }
@@ -118,8 +118,8 @@ TEST_CASE("targets: damaged tables are refused with line, column and cause")
     };
     const TempFolder folder;
     const std::vector<Damage> plain = {
-        {"0,0,left,1,", "0,0,left,one,", "t.csv:2: column x: 'one' is not a finite decimal number"},
-        {"0,0,left,1,", "0,0,left,nan,", "t.csv:2: column x: 'nan' is not a finite"},
+        {"0,0,left_arm,1,", "0,0,left_arm,one,", "t.csv:2: column x: 'one' is not a finite decimal number"},
+        {"0,0,left_arm,1,", "0,0,left_arm,nan,", "t.csv:2: column x: 'nan' is not a finite"},
         {"5.,", "inf,", "t.csv:3: column pole_y: 'inf' is not a finite"},
         {"5.,", "1e999,", "t.csv:3: column pole_y: '1e999' is not a finite"},
         {"5.,", "0x10,", "t.csv:3: column pole_y: '0x10' is not a finite"},
@@ -127,17 +127,23 @@ TEST_CASE("targets: damaged tables are refused with line, column and cause")
         {"5.,", ",", "t.csv:3: column pole_y is empty"},
         {"5.,", "", "t.csv:3: fewer values than the first line names columns"},
         {"5.,", "5,5,", "t.csv:3: more values than the first line names columns"},
-        {"0,0,right", "0,0,Right", "t.csv:3: column side: 'Right' is neither left nor right"},
-        {"0,0,right", "0,0,left", "t.csv:3: columns frame,character,side: 0,0,left is already in line 2"},
-        {"0,0,right", "-1,0,right", "t.csv:3: column frame: '-1' is not a whole number from 0"},
-        {"0,0,right", "0,1.0,right", "t.csv:3: column character: '1.0' is not a whole number"},
-        {"0,0,right", "4294967296,0,right", "t.csv:3: column frame: '4294967296' is not a whole number"},
-        {"0,0,right", "99999999999999999999,0,right", "t.csv:3: column frame: '99999999999999999999' is"},
-        {"0,0,right", "0,0,ri\x1bght", "t.csv:3: column side: 'ri\\x1bght' is neither"},
-        {"pole_z", "pole_q", "t.csv:1: unknown column 'pole_q'; known are frame,character,side"},
+        {"0,0,right_leg", "0,0,Right_leg",
+         "t.csv:3: column limb: 'Right_leg' is none of left_arm, right_arm, left_leg and right_leg"},
+        {"0,0,right_leg", "0,0,left_arm", "t.csv:3: columns frame,character,limb: 0,0,left_arm is already in line 2"},
+        {"0,0,right_leg", "-1,0,right_leg", "t.csv:3: column frame: '-1' is not a whole number from 0"},
+        {"0,0,right_leg", "0,1.0,right_leg", "t.csv:3: column character: '1.0' is not a whole number"},
+        {"0,0,right_leg", "4294967296,0,right_leg", "t.csv:3: column frame: '4294967296' is not a whole number"},
+        {"0,0,right_leg", "99999999999999999999,0,right_leg", "t.csv:3: column frame: '99999999999999999999' is"},
+        {"0,0,right_leg", "0,0,ri\x1bght", "t.csv:3: column limb: 'ri\\x1bght' is none of"},
+        {"0,0,right_leg", "0,0,right", "t.csv:3: column limb: 'right' is none of"},
+        {"0,0,right_leg", "0,0,", "t.csv:3: column limb is empty"},
+        {",limb,", ",side,", "t.csv:2: column side: 'left_arm' is neither left nor right"},
+        {",limb,x", ",limb,side", "t.csv:1: columns limb and side are both there"},
+        {",limb,x", ",x", "t.csv:1: column limb is missing"},
+        {"pole_z", "pole_q", "t.csv:1: unknown column 'pole_q'; known are frame,character,limb"},
         {"pole_z", "pole_y", "t.csv:1: column pole_y is there twice"},
         {",pole_z", "", "t.csv:1: column pole_z is missing"},
-        {"frame,character,side,x,y,z,pole_x,pole_y,pole_z\n", "", "t.csv:1: unknown column '0'"},
+        {"frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n", "", "t.csv:1: unknown column '0'"},
     };
     for (const Damage& damage : plain) {
         INFO(damage.to);
@@ -167,7 +173,7 @@ TEST_CASE("targets: damaged tables are refused with line, column and cause")
 TEST_CASE("targets: tables longer than the parser's window are read whole")
 {
     const TempFolder folder;
-    std::string text = kPlain.substr(0, kPlain.find('\n') + 1);
+    std::string text = edited(kPlain.substr(0, kPlain.find('\n') + 1), "limb", "side");
     text += std::string(63 - text.size(), '#') + "\n";
     constexpr std::uint32_t kRows = 1600000;  // 51 MB
     for (std::uint32_t frame = 0; frame < kRows; ++frame) text += fmt::format("{:012},3,left,1,2,3,4,5,6\n", frame);
@@ -203,35 +209,55 @@ TEST_CASE("poses: the text of known rows")
     const TempFolder folder;
     PosesCsv csv(folder / "p.csv");
     const float tiny = std::numeric_limits<float>::denorm_min();
-    const PoseRow left = {12, Side::left, {0, -0.0f, 0.1f, 1}, {1e-10f, tiny, 0.5f, 3}, {1, 0, 0, 0}, 4294967295u};
-    const PoseRow right = {12, Side::right, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, 0};
+    const PoseRow left = {
+        12, {LimbKind::arm, Side::left}, {0, -0.0f, 0.1f, 1}, {1e-10f, tiny, 0.5f, 3}, {1, 0, 0, 0}, 4294967295u};
+    const PoseRow right = {12, {LimbKind::leg, Side::right}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, 0};
     csv.append(239, {{left, right}});
     csv.append(240, {});
     CHECK_FALSE(fs::exists(folder / "p.csv"));
     csv.commit();
     CHECK(slurp(folder / "p.csv") ==
-          "frame,character,side,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
+          "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
           "wrist_x,wrist_y,wrist_z,wrist_w,flags\n"
-          "239,12,left,0,-0,0.1,1,1e-10,1e-45,0.5,3,1,0,0,0,4294967295\n"
-          "239,12,right,0,0,0,1,0,0,0,1,0,0,0,1,0\n");
+          "239,12,left_arm,0,-0,0.1,1,1e-10,1e-45,0.5,3,1,0,0,0,4294967295\n"
+          "239,12,right_leg,0,0,0,1,0,0,0,1,0,0,0,1,0\n");
+}
+
+TEST_CASE("poses: columns for what limbs have beside")
+{
+    const TempFolder folder;
+    PosesCsv csv(folder / "p.csv", {true, true, 2});
+    const PoseRow row = {0, {LimbKind::arm, Side::left}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, 1};
+    PoseExtra full{1.5f, true, {1, 0, 0, 0}, 2, {}}, bare{};
+    full.twist[0] = {0, 1, 0, 0};
+    full.twist[1] = {0, 0, 0.5f, 0};
+    const std::vector<PoseExtra> extras = {full, bare};
+    csv.append(3, {{row, row}}, extras);
+    csv.commit();
+    const std::string text = slurp(folder / "p.csv");
+    CHECK_THAT(text, Contains(",flags,stretch,clavicle_x,clavicle_y,clavicle_z,clavicle_w,twist1_x,twist1_y,twist1_z,"
+                              "twist1_w,twist2_x,twist2_y,twist2_z,twist2_w\n"));
+    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,1.5,1,0,0,0,0,1,0,0,0,0,0.5,0\n"));
+    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,1,,,,,,,,,,,,\n"));
 }
 
 TEST_CASE("poses: the longest line fits")
 {
     const TempFolder folder;
-    PosesCsv csv(folder / "p.csv");
+    PosesCsv csv(folder / "p.csv", {true, true, 7});
     const float longest = -1.17549435e-38f;
     const std::array<float, 4> all = {longest, longest, longest, longest};
-    csv.append(4294967295u, {{{4294967295u, Side::right, all, all, all, 4294967295u}}});
+    const PoseExtra extra{longest, true, all, 7, {all, all, all, all, all, all, all}};
+    csv.append(4294967295u, {{{4294967295u, {LimbKind::arm, Side::right}, all, all, all, 4294967295u}}}, {{extra}});
     csv.commit();
-    CHECK_THAT(slurp(folder / "p.csv"), Contains("\n4294967295,4294967295,right,-1.1754944e-38,"));
+    CHECK_THAT(slurp(folder / "p.csv"), Contains("\n4294967295,4294967295,right_arm,-1.1754944e-38,"));
 }
 
 TEST_CASE("poses: every float comes back bit for bit")
 {
     const TempFolder folder;
     rc::prop("random bits", [&](const std::array<std::uint32_t, 12>& bits, std::uint32_t frame, std::uint32_t flags) {
-        PoseRow row{5, Side::left, {}, {}, {}, flags};
+        PoseRow row{5, {LimbKind::arm, Side::left}, {}, {}, {}, flags};
         const std::array<std::array<float, 4>*, 3> parts = {&row.shoulder, &row.elbow, &row.wrist};
         for (std::size_t i = 0; i < 12; ++i) {
             const float value = std::bit_cast<float>(bits[i] * 2654435761u);  // small numbers spread over all exponents

@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The table of solved poses, written as it is produced: one line per frame, character and side, with the three local
+// The table of solved poses, written as it is produced: one line per frame, character and limb, with the three local
 // rotations as quaternions x, y, z, w and the flag word as a decimal number. Floats have the fewest digits that give
 // the same float back. Knows no solver: what the flags mean is the caller's affair.
 
@@ -9,34 +9,52 @@
 #include <filesystem>
 #include <span>
 
+#include "tools/formats/limb_name.h"
 #include "tools/formats/output_file.h"
-#include "tools/formats/side.h"
 
 namespace swivel::formats {
 
 struct PoseRow {
     std::uint32_t character = 0;
-    Side side = Side::left;
-    std::array<float, 4> shoulder{};  // x y z w, as are the next two; written as they are, finite or not
-    std::array<float, 4> elbow{};
-    std::array<float, 4> wrist{};
+    LimbName limb;
+    std::array<float, 4> shoulder{};  // or hip; x y z w, as are the next two; written as they are, finite or not
+    std::array<float, 4> elbow{};     // or knee
+    std::array<float, 4> wrist{};     // or ankle
     std::uint32_t flags = 0;
+};
+
+// What a limb has beside, where it is asked for.
+struct PoseExtra {
+    float stretch = 1;  // factor of both bone lengths
+    bool has_clavicle = false;
+    std::array<float, 4> clavicle{};              // local rotation of the joint above, x y z w
+    unsigned twist_count = 0;                     // bones of those below that there are; the others' cells stay empty
+    std::array<std::array<float, 4>, 7> twist{};  // x y z w
+};
+
+// The columns for it, after the flags.
+struct PoseColumns {
+    bool stretch = false;      // "stretch"
+    bool clavicle = false;     // "clavicle_x" and so on
+    unsigned twist_count = 0;  // "twist1_x" and so on
 };
 
 class PosesCsv {
 public:
     // Opens the file and writes the line of column names. Throws InputError as OutputFile does.
-    explicit PosesCsv(const std::filesystem::path& path);
+    explicit PosesCsv(const std::filesystem::path& path, const PoseColumns& columns = {});
 
-    // Writes the rows of one frame in the order given. Frames may come in any order and in several pieces.
-    // Throws InputError when the disk is full. Allocates nothing.
-    void append(std::uint32_t frame, std::span<const PoseRow> rows);
+    // Writes the rows of one frame in the order given. Frames may come in any order and in several pieces. extras: one
+    // for each row, or none if there are no columns for them. Throws InputError when the disk is full. Allocates
+    // nothing.
+    void append(std::uint32_t frame, std::span<const PoseRow> rows, std::span<const PoseExtra> extras = {});
 
     // Makes the file appear; without it there is none. To be called once, last.
     void commit();
 
 private:
     OutputFile out_;
+    PoseColumns columns_;
 };
 
 }  // namespace swivel::formats

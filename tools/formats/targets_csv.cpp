@@ -20,12 +20,12 @@ namespace swivel::formats {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr unsigned kColumnCount = 13;
-constexpr unsigned kFirstOptional = 9;  // qx
-constexpr std::array<const char*, kColumnCount> kColumns = {"frame",  "character", "side", "x",  "y",  "z", "pole_x",
-                                                            "pole_y", "pole_z",    "qx",   "qy", "qz", "qw"};
+constexpr unsigned kColumnCount = 14;
+constexpr unsigned kLimb = 2, kFirstOfQuaternion = 9, kSide = 13;  // side: what tables of arms had instead of limb
+constexpr std::array<const char*, kColumnCount> kColumns = {"frame",  "character", "limb", "x",  "y",  "z",  "pole_x",
+                                                            "pole_y", "pole_z",    "qx",   "qy", "qz", "qw", "side"};
 constexpr std::string_view kColumnList =
-    "frame,character,side,x,y,z,pole_x,pole_y,pole_z and all or none of qx,qy,qz,qw";
+    "frame,character,limb,x,y,z,pole_x,pole_y,pole_z and all or none of qx,qy,qz,qw";
 constexpr double kMaxNorm = 1e15;  // the engine's range for lengths
 constexpr double kMinNorm = 1 / kMaxNorm;
 
@@ -60,6 +60,7 @@ private:
 struct Row {
     const fs::path& path;
     std::size_t line = 0;
+    bool has_side = false;  // the column side in place of limb
     std::array<const char*, kColumnCount> cell;
 };
 
@@ -87,12 +88,17 @@ double number_at(const Row& row, unsigned column)
     return *number;
 }
 
-Side side_at(const Row& row, unsigned column)
+LimbName limb_at(const Row& row)
 {
-    const std::string_view word = row.cell[column];
-    if (word == side_name(Side::left)) return Side::left;
-    if (word == side_name(Side::right)) return Side::right;
-    fail(row, column, "is neither left nor right");
+    if (row.has_side) {
+        const std::string_view side = row.cell[kSide];
+        if (side == side_name(Side::left)) return {LimbKind::arm, Side::left};
+        if (side == side_name(Side::right)) return {LimbKind::arm, Side::right};
+        fail(row, kSide, "is neither left nor right");
+    }
+    const std::optional<LimbName> name = limb_of_word(row.cell[kLimb]);
+    if (!name) fail(row, kLimb, "is none of left_arm, right_arm, left_leg and right_leg");
+    return *name;
 }
 
 Eigen::Vector3d point_at(const Row& row, unsigned column)
@@ -102,13 +108,14 @@ Eigen::Vector3d point_at(const Row& row, unsigned column)
 
 bool has_orientation(const Row& row)
 {
-    return std::any_of(row.cell.begin() + kFirstOptional, row.cell.end(), [](const char* cell) { return *cell != 0; });
+    const auto first = row.cell.begin() + kFirstOfQuaternion;
+    return std::any_of(first, first + 4, [](const char* cell) { return *cell != 0; });
 }
 
 Eigen::Quaterniond orientation_of(const Row& row)
 {
-    const Eigen::Vector3d xyz = point_at(row, kFirstOptional);
-    const Eigen::Quaterniond quaternion(number_at(row, kFirstOptional + 3), xyz.x(), xyz.y(), xyz.z());
+    const Eigen::Vector3d xyz = point_at(row, kFirstOfQuaternion);
+    const Eigen::Quaterniond quaternion(number_at(row, kFirstOfQuaternion + 3), xyz.x(), xyz.y(), xyz.z());
     const double norm = quaternion.norm();
     if (!(norm >= kMinNorm && norm <= kMaxNorm)) {
         throw InputError(row.path, row.line, "columns qx to qw: the quaternion's length is zero or absurd");
@@ -121,7 +128,7 @@ Target parse_target(const Row& row)
     Target target;
     target.frame = index_at(row, 0);
     target.character = index_at(row, 1);
-    target.side = side_at(row, 2);
+    target.limb = limb_at(row);
     target.position = point_at(row, 3);
     target.pole = point_at(row, 6);
     target.has_orientation = has_orientation(row);
@@ -158,16 +165,20 @@ void read_column_names(const fs::path& path, Csv& csv)
         std::apply([&](auto... names) { csv.read_header(io::ignore_missing_column, names...); }, kColumns);
     });
     const auto is_there = [&](const char* name) { return csv.has_column(name); };
-    const auto first_optional = kColumns.begin() + kFirstOptional;
-    const bool has_any = std::any_of(first_optional, kColumns.end(), is_there);
-    const auto needed_end = has_any ? kColumns.end() : first_optional;
-    const auto missing = std::find_if_not(kColumns.begin(), needed_end, is_there);
+    if (is_there(kColumns[kSide]) && is_there(kColumns[kLimb]))
+        throw InputError(path, csv.get_file_line(), "columns limb and side are both there; leave side out");
+    const auto quaternion = kColumns.begin() + kFirstOfQuaternion;
+    const bool has_any = std::any_of(quaternion, quaternion + 4, is_there);
+    const auto needed_end = quaternion + (has_any ? 4 : 0);
+    const auto missing = std::find_if_not(kColumns.begin(), needed_end, [&](const char* name) {
+        return is_there(name) || (name == kColumns[kLimb] && is_there(kColumns[kSide]));
+    });
     if (missing == needed_end) return;
     throw InputError(path, csv.get_file_line(),
                      fmt::format("column {} is missing; the first line must name {}", *missing, kColumnList));
 }
 
-auto place_of(const Target& target) { return std::tuple(target.frame, target.character, target.side); }
+auto place_of(const Target& target) { return std::tuple(target.frame, target.character, target.limb); }
 
 void sort_targets(const fs::path& path, std::vector<Target>& targets)
 {
@@ -180,8 +191,8 @@ void sort_targets(const fs::path& path, std::vector<Target>& targets)
     if (twin == targets.end()) return;
     const Target& again = *(twin + 1);
     throw InputError(path, again.line,
-                     fmt::format("columns frame,character,side: {},{},{} is already in line {}; remove one",
-                                 again.frame, again.character, side_name(again.side), twin->line));
+                     fmt::format("columns frame,character,limb: {},{},{} is already in line {}; remove one",
+                                 again.frame, again.character, limb_word(again.limb), twin->line));
 }
 
 }  // namespace
@@ -191,7 +202,7 @@ std::vector<Target> read_targets_csv(const fs::path& path)
     Csv csv("", std::make_unique<TextSource>(path));
     read_column_names(path, csv);
     std::vector<Target> targets;
-    Row row{path, 0, {}};
+    Row row{path, 0, csv.has_column(kColumns[kSide]), {}};
     row.cell.fill("");
     const auto read_row = [&] { return std::apply([&](auto&... cells) { return csv.read_row(cells...); }, row.cell); };
     while (translated(path, csv, read_row)) {

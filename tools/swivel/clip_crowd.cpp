@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <random>
 
 #include "tools/swivel/parallel.h"
@@ -15,20 +14,15 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using formats::PoleKind;
 
-constexpr double kBentSine = 0.08715574274765817;  // sin 5 degrees
-
-Crowd make_crowd(std::span<const Arm> arms, std::uint32_t characters)
-{
-    std::vector<swivel_group_def> groups;
-    for (const Arm& arm : arms) groups.push_back({characters, arm.limb.binding});
-    return Crowd(SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND, groups);
-}
-
-double arm_span(std::span<const Arm> arms)
+// Of the first kind that is solved, so that legs beside arms move no one.
+double limb_span(std::span<const Limb> limbs)
 {
     double most = 0;
-    for (const Arm& arm : arms) most = std::max(most, double{arm.limb.lengths[0]} + arm.limb.lengths[1]);
+    for (const Limb& limb : limbs)
+        if (limb.name.kind == limbs[0].name.kind)
+            most = std::max(most, double{limb.bound.lengths[0]} + limb.bound.lengths[1]);
     return 2 * most;
 }
 
@@ -39,200 +33,214 @@ void store(const Vector3d& v, float (&to)[3])
 {
     for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(v[n]);
 }
-void store(const Quaterniond& q, float (&to)[4])
+template <class Floats>
+void store(const Quaterniond& q, Floats& to)
 {
-    for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(q.coeffs()[n]);
-}
-
-Quaterniond quaternion(const std::array<float, 4>& q) { return Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
-
-// Of a rotation: its whole angle, and its parts about an axis and across it.
-double angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
-double twist(const Quaterniond& q, const Vector3d& axis)
-{
-    return 2 * std::atan2(std::fabs(q.vec().dot(axis)), std::fabs(q.w()));
-}
-double swing(const Quaterniond& q, const Vector3d& axis)
-{
-    const Vector3d turned = q * axis;
-    return std::atan2(turned.cross(axis).norm(), turned.dot(axis));
+    for (int n = 0; n < 4; ++n) to[static_cast<std::size_t>(n)] = static_cast<float>(q.coeffs()[n]);
 }
 
 }  // namespace
 
-ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Arm> arms, std::uint32_t characters, std::uint64_t seed)
-    : clip_(clip), arms_(arms), characters_(characters), crowd_(make_crowd(arms, characters))
+ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
+                     const std::filesystem::path& file)
+    : motion_(clip, limbs), limbs_(limbs), plans_(plan.limbs), characters_(plan.characters), crowds_(limbs, plan, file)
 {
-    std::vector<formats::JointPose> pose_w(clip.joints.size());
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        formats::world_pose(clip, frame, pose_w);
-        const auto at = [&](int joint) -> const formats::JointPose& { return pose_w[static_cast<std::size_t>(joint)]; };
-        const Vector3d root = pose_w[0].position;
-        roots_.push_back(root);
-        for (const Arm& arm : arms) {
-            const int parent = clip.joints[static_cast<std::size_t>(arm.shoulder)].parent;
-            sources_.push_back({at(arm.shoulder).position - root, at(arm.elbow).position - root,
-                                at(arm.wrist).position - root,
-                                parent < 0 ? Quaterniond::Identity() : at(parent).rotation, at(arm.wrist).rotation,
-                                at(arm.shoulder).rotation, at(arm.elbow).rotation});
-        }
-    }
+    place_characters(plan);
+    goals_.resize(limbs.size(), std::vector<Goal>(plan.characters));
+    inputs_.resize(limbs.size(), std::vector<Input>(plan.characters));
+    rows_.resize(limbs.size() * plan.characters);
+    const formats::PoseColumns wanted = columns();
+    if (wanted.stretch || wanted.clavicle || wanted.twist_count > 0) extras_.resize(rows_.size());
+    write_sizes();
+}
 
-    std::mt19937_64 random(seed);
-    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(characters)));
-    const double spacing = 3 * arm_span(arms);
-    for (std::uint32_t n = 1; n < characters; ++n)
-        characters_[n] = {0.85 + 0.3 * unit(random), static_cast<std::size_t>(random() % clip.frame_count),
+void ClipCrowd::place_characters(const CrowdPlan& plan)
+{
+    std::mt19937_64 random(plan.seed);
+    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)));
+    const double spacing = plan.spacing * limb_span(limbs_);
+    for (std::uint32_t n = 1; n < plan.characters; ++n) {
+        const double size = plan.least_size + (plan.most_size - plan.least_size) * unit(random);
+        const auto start = static_cast<std::size_t>(random() % motion_.frame_count());
+        characters_[n] = {size, plan.stagger ? start : 0,
                           Vector3d(spacing * (n % columns), 0, spacing * (n / columns))};
-    goals_.resize(arms.size(), std::vector<Goal>(characters));
-    inputs_.resize(arms.size(), std::vector<Input>(characters));
-    rows_.resize(arms.size() * characters);
+    }
 }
 
-const ClipCrowd::Source& ClipCrowd::source(std::size_t arm, std::uint32_t character) const
+// What goes with a character's size and stays the same.
+void ClipCrowd::write_sizes()
 {
-    const std::size_t frame = (frame_ + characters_[character].start) % clip_.frame_count;
-    return sources_[frame * arms_.size() + arm];
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+        struct Value {
+            float lengths[2], effector[3];
+        };
+        std::vector<Value> values(characters_.size());
+        for (std::size_t n = 0; n < characters_.size(); ++n) {
+            for (int bone = 0; bone < 2; ++bone)
+                values[n].lengths[bone] = static_cast<float>(characters_[n].size) * limbs_[limb].bound.lengths[bone];
+            store(characters_[n].size * plans_[limb].effector, values[n].effector);
+            std::copy_n(values[n].lengths, 2, inputs_[limb][n].lengths);
+        }
+        crowds_.write(limb, SWIVEL_LENGTHS, values[0].lengths, sizeof(Value));
+        if (crowds_.has(limb, SWIVEL_EFFECTOR)) crowds_.write(limb, SWIVEL_EFFECTOR, values[0].effector, sizeof(Value));
+    }
 }
 
-ClipCrowd::Goal ClipCrowd::goal_from_clip(std::size_t arm, std::uint32_t character) const
+// As the plan's kind of pole has it.
+Vector3d ClipCrowd::pole_from_clip(std::size_t limb, std::uint32_t character) const
 {
-    const Source& from = source(arm, character);
-    const double reach = characters_[character].reach;
-    return {from.shoulder + reach * (from.wrist - from.shoulder), from.shoulder + reach * (from.elbow - from.shoulder),
-            from.hand, true};
+    const LimbInClip& from = in_clip(limb, character);
+    const LimbPlan& plan = plans_[limb];
+    const Vector3d elbow = from.elbow - from.shoulder;
+    if (plan.pole == PoleKind::point)
+        return from.shoulder + (plan.pole_fixed ? *plan.pole_fixed : characters_[character].size * elbow);
+    if (plan.pole_fixed) return *plan.pole_fixed;
+    return plan.pole == PoleKind::normal ? Vector3d(from.wrist - from.shoulder).cross(elbow) : elbow;
 }
 
-void ClipCrowd::put(std::size_t arm, std::uint32_t character, const Goal& goal)
+ClipCrowd::Goal ClipCrowd::goal_from_plan(std::size_t limb, std::uint32_t character) const
 {
-    const Source& from = source(arm, character);
-    const auto reach = static_cast<float>(characters_[character].reach);
-    Input& input = inputs_[arm][character];
-    goals_[arm][character] = goal;
-    store(goal.wrist, input.target);
+    const LimbInClip& from = in_clip(limb, character);
+    const LimbPlan& plan = plans_[limb];
+    const double size = characters_[character].size;
+    const Vector3d at_clip = from.shoulder + size * (from.wrist - from.shoulder + from.hand * plan.effector);
+    const Vector3d at = plan.target_point ? *plan.target_point - motion_.root(clip_frame(character)) : at_clip;
+    const bool from_clip = !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole;
+    return {at + plan.target_offset, pole_from_clip(limb, character), from.hand, from_clip};
+}
+
+ClipCrowd::Goal ClipCrowd::goal_given(std::size_t limb, const formats::Target& target) const
+{
+    const LimbPlan& plan = plans_[limb];
+    const Vector3d root = motion_.root(clip_frame(target.character)) + characters_[target.character].place;
+    const bool is_point = plan.pole == PoleKind::point;
+    const Vector3d pole = plan.pole_fixed ? pole_from_clip(limb, target.character)
+                                          : Vector3d(is_point ? target.pole - root : target.pole);
+    return {target.position - root + plan.target_offset, pole,
+            target.has_orientation ? target.orientation : in_clip(limb, target.character).hand, false};
+}
+
+void ClipCrowd::put(std::size_t limb, std::uint32_t character, const Goal& goal)
+{
+    const LimbInClip& from = in_clip(limb, character);
+    Input& input = inputs_[limb][character];
+    goals_[limb][character] = goal;
+    store(goal.target, input.target);
     store(goal.pole, input.pole);
-    for (int n = 0; n < 2; ++n) input.lengths[n] = reach * arms_[arm].limb.lengths[n];
     store(from.shoulder, input.position);
     store(from.parent, input.rotation);
-    store(goal.hand, input.hand);
+    store(plans_[limb].has(SWIVEL_WITH_AIM) ? from.local_wrist() : goal.hand, input.hand);
+    if (!crowds_.has(limb, SWIVEL_INCOMING_SHOULDER)) return;
+    store(from.local_shoulder(), input.shoulder);
+    store(from.local_elbow(), input.elbow);
+    store(from.local_wrist(), input.wrist);
+}
+
+void ClipCrowd::write_inputs(std::size_t limb)
+{
+    const Input& first = inputs_[limb][0];
+    for (const auto& [field, from] : {std::pair{SWIVEL_TARGET, &first.target[0]},
+                                      {SWIVEL_POLE, first.pole},
+                                      {SWIVEL_PARENT_POSITION, first.position},
+                                      {SWIVEL_PARENT_ROTATION, first.rotation},
+                                      {SWIVEL_HAND, first.hand},
+                                      {SWIVEL_INCOMING_SHOULDER, first.shoulder},
+                                      {SWIVEL_INCOMING_ELBOW, first.elbow},
+                                      {SWIVEL_INCOMING_WRIST, first.wrist}})
+        if (crowds_.has(limb, field)) crowds_.write(limb, field, from, sizeof(Input));
 }
 
 void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> given)
 {
     frame_ = frame;
-    for (std::size_t arm = 0; arm < arms_.size(); ++arm)
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
         for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            for (std::uint32_t n = begin; n < end; ++n) put(arm, n, goal_from_clip(arm, n));
+            for (std::uint32_t n = begin; n < end; ++n) put(limb, n, goal_from_plan(limb, n));
         });
     for (const formats::Target& target : given) {
-        const std::size_t arm = arms_[0].side == target.side ? 0 : 1;
-        const Character& who = characters_[target.character];
-        const Vector3d root = roots_[(frame + who.start) % clip_.frame_count] + who.place;
-        put(arm, target.character,
-            {target.position - root, target.pole - root,
-             target.has_orientation ? target.orientation : source(arm, target.character).hand, false});
+        const auto of = [&](const Limb& each) { return each.name == target.limb; };
+        const auto limb = static_cast<std::size_t>(std::find_if(limbs_.begin(), limbs_.end(), of) - limbs_.begin());
+        put(limb, target.character, goal_given(limb, target));
     }
-    for (std::uint32_t arm = 0; arm < arms_.size(); ++arm) {
-        const auto write = [&](swivel_field field, const float* first) {
-            check(swivel_write(crowd_.get(), field, arm, 0, character_count(), {first, sizeof(Input)}));
-        };
-        const Input& first = inputs_[arm][0];
-        write(SWIVEL_TARGET, first.target);
-        write(SWIVEL_POLE, first.pole);
-        write(SWIVEL_LENGTHS, first.lengths);
-        write(SWIVEL_PARENT_POSITION, first.position);
-        write(SWIVEL_PARENT_ROTATION, first.rotation);
-        write(SWIVEL_HAND, first.hand);
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+        write_inputs(limb);
+        if (frame == 0 || !crowds_.has(limb, SWIVEL_NORMAL)) continue;
+        for (std::uint32_t n = 0; n < character_count(); ++n)  // from the clip's end to its start is no motion
+            if (clip_frame(n) == 0) crowds_.reset(limb, n);
     }
 }
 
 void ClipCrowd::solve(Statistics& statistics)
 {
     const auto before = std::chrono::steady_clock::now();
-    crowd_.solve();
+    crowds_.solve();
     statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
-formats::PoseRow ClipCrowd::pose(std::size_t arm, std::uint32_t character) const
+formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row;
     row.character = character;
-    row.side = arms_[arm].side;
-    const auto read = [&](swivel_field field, void* to, std::size_t bytes) {
-        check(swivel_read(crowd_.get(), field, static_cast<std::uint32_t>(arm), character, 1, {to, bytes}));
-    };
-    read(SWIVEL_SHOULDER, row.shoulder.data(), sizeof row.shoulder);
-    read(SWIVEL_ELBOW, row.elbow.data(), sizeof row.elbow);
-    read(SWIVEL_WRIST, row.wrist.data(), sizeof row.wrist);
-    read(SWIVEL_FLAGS, &row.flags, sizeof row.flags);
+    row.limb = limbs_[limb].name;
+    crowds_.read(limb, SWIVEL_SHOULDER, character, 1, {row.shoulder.data(), sizeof row.shoulder});
+    crowds_.read(limb, SWIVEL_ELBOW, character, 1, {row.elbow.data(), sizeof row.elbow});
+    if (crowds_.has(limb, SWIVEL_WRIST))
+        crowds_.read(limb, SWIVEL_WRIST, character, 1, {row.wrist.data(), sizeof row.wrist});
+    else
+        store(in_clip(limb, character).local_wrist(), row.wrist);
+    crowds_.read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
     return row;
+}
+
+Quaterniond ClipCrowd::clavicle(std::size_t limb, std::uint32_t character) const
+{
+    float turn[4];
+    crowds_.read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
+    return in_clip(limb, character).local_parent * Quaterniond(turn[3], turn[0], turn[1], turn[2]);
+}
+
+formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) const
+{
+    formats::PoseExtra extra;
+    if (crowds_.has(limb, SWIVEL_STRETCH))
+        crowds_.read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
+    if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) {
+        extra.has_clavicle = true;
+        store(clavicle(limb, character), extra.clavicle);
+    }
+    extra.twist_count = plans_[limb].twist_count();
+    if (extra.twist_count > 0) crowds_.read(limb, SWIVEL_TWIST, character, 1, {extra.twist.data(), sizeof extra.twist});
+    return extra;
+}
+
+formats::PoseColumns ClipCrowd::columns() const
+{
+    formats::PoseColumns columns;
+    for (const LimbPlan& plan : plans_) {
+        columns.stretch = columns.stretch || plan.has(SWIVEL_WITH_REACH);
+        columns.clavicle = columns.clavicle || plan.has(SWIVEL_WITH_CLAVICLE);
+        columns.twist_count = std::max(columns.twist_count, plan.twist_count());
+    }
+    return columns;
 }
 
 std::span<const formats::PoseRow> ClipCrowd::poses()
 {
     for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t n = begin; n < end; ++n)
-            for (std::size_t arm = 0; arm < arms_.size(); ++arm) rows_[n * arms_.size() + arm] = pose(arm, n);
+            for (std::size_t limb = 0; limb < limbs_.size(); ++limb) rows_[n * limbs_.size() + limb] = pose(limb, n);
     });
     return rows_;
 }
 
-void ClipCrowd::measure(Statistics& statistics) const
+std::span<const formats::PoseExtra> ClipCrowd::extras()
 {
-    std::mutex mutex;
-    for (std::size_t arm = 0; arm < arms_.size(); ++arm)
-        for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            Statistics range;
-            measure_range(arm, begin, end, range);
-            const std::lock_guard lock(mutex);
-            statistics.add(range);
-        });
-}
-
-void ClipCrowd::measure_range(std::size_t arm, std::uint32_t begin, std::uint32_t end, Statistics& statistics) const
-{
-    struct Reached {
-        double elbow[3], wrist[3], hand[4];
-    };
-    std::vector<Reached> reached(end - begin);
-    std::vector<std::uint32_t> flags(end - begin);
-    const auto group = static_cast<std::uint32_t>(arm);
-    check(swivel_forward(crowd_.get(), group, begin, end - begin, {reached[0].elbow, sizeof(Reached)},
-                         {reached[0].wrist, sizeof(Reached)}, {reached[0].hand, sizeof(Reached)}));
-    check(swivel_read(crowd_.get(), SWIVEL_FLAGS, group, begin, end - begin, {flags.data(), sizeof flags[0]}));
-    for (std::uint32_t n = begin; n < end; ++n) {
-        const Reached& at = reached[n - begin];
-        const Goal& goal = goals_[arm][n];
-        const float(&lengths)[2] = inputs_[arm][n].lengths;
-        const double length = double{lengths[0]} + lengths[1];
-        statistics.add_flags(flags[n - begin]);
-        if (flags[n - begin] & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
-        const double missed = (Vector3d(at.wrist) - goal.wrist).norm() / length;
-        (flags[n - begin] & SWIVEL_REACHED ? statistics.wrist : statistics.missed).add(missed);
-        statistics.hand.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)));
-        if (goal.from_clip) measure_against_clip(arm, n, Vector3d(at.elbow), statistics);
-    }
-}
-
-void ClipCrowd::measure_against_clip(std::size_t arm, std::uint32_t character, const Vector3d& elbow,
-                                     Statistics& statistics) const
-{
-    const Source& from = source(arm, character);
-    const Goal& goal = goals_[arm][character];
-    const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
-    const float(&lengths)[2] = inputs_[arm][character].lengths;
-    const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
-    (bent ? statistics.elbow_bent : statistics.elbow_straight)
-        .add((elbow - goal.pole).norm() / (double{lengths[0]} + lengths[1]));
-    if (character != 0) return;
-
-    const formats::PoseRow row = pose(arm, character);
-    const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
-    const Quaterniond turned = from.upper.conjugate() * shoulder_w;
-    const Vector3d axis = clip_.joints[static_cast<std::size_t>(arms_[arm].elbow)].offset.normalized();
-    statistics.upper_arm_swing.add(swing(turned, axis));
-    statistics.upper_arm_twist.add(twist(turned, axis));
-    statistics.forearm.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)));
+    if (extras_.empty()) return {};
+    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t n = begin; n < end; ++n)
+            for (std::size_t limb = 0; limb < limbs_.size(); ++limb) extras_[n * limbs_.size() + limb] = extra(limb, n);
+    });
+    return extras_;
 }
 
 }  // namespace swivel::tools

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd that performs a clip: every character has the clip's skeleton, its own arm lengths, place and start, and
-// wrist, elbow and hand targets for each frame, taken from the clip or given. Knows clips and the public interface; no
-// file format.
+// A crowd that performs a clip: every character has the clip's skeleton, its own limb lengths, place and start, and
+// targets for wrists, elbows and hands, ankles, knees and feet for each frame, taken from the clip or given. Knows
+// clips and the public interface; no file format.
 #pragma once
 
 #include <span>
@@ -10,72 +10,92 @@
 
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/targets_csv.h"
-#include "tools/swivel/arms.h"
+#include "tools/swivel/clip_motion.h"
+#include "tools/swivel/limb_crowds.h"
 #include "tools/swivel/statistics.h"
 
 namespace swivel::tools {
 
 class ClipCrowd {
 public:
-    // Character 0 is the clip's own. The others differ by the seed: arm lengths by a factor in 0.85..1.15, and targets
-    // taken from the clip reach by the same factor; start anywhere in the clip. Character n stands 3 arm spans apart
-    // from its neighbours on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)). clip and
-    // arms must outlive the crowd. Memory grows with characters and with frames, not with their product.
-    ClipCrowd(const formats::Clip& clip, std::span<const Arm> arms, std::uint32_t characters, std::uint64_t seed);
+    // Character 0 is the clip's own. The others differ by the seed: limb lengths by a factor within the plan's sizes,
+    // and targets taken from the clip reach by the same factor; start anywhere in the clip, if the plan staggers them.
+    // Character n stands the plan's spacing, in arm spans (leg spans where no arm is solved), apart from its neighbours
+    // on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)). The incoming pose is the
+    // clip's. limbs and plan must outlive the crowd. file: of the plan, for messages. Memory grows with characters and
+    // with frames, not with their product.
+    ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
+              const std::filesystem::path& file);
 
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
 
-    // Sets all inputs for a frame. given: this frame's targets in the world; arms without one follow the clip, and
-    // hands without an orientation keep the clip's. Every character and side in given must exist.
+    // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world; limbs without
+    // one take their plan's point or follow the clip, and hands and feet without an orientation keep the clip's. Every
+    // character and limb in given must exist.
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
 
     // Solves the frame; adds the time it took.
     void solve(Statistics& statistics);
 
-    // Adds what the solved frame's errors and flags are, by forward kinematics in double.
+    // Adds what the errors and flags of the limbs solved in this frame are, by forward kinematics in double.
     void measure(Statistics& statistics) const;
 
-    // One arm's solved local rotations: shoulder, elbow, wrist.
-    formats::PoseRow pose(std::size_t arm, std::uint32_t character) const;
-    // All of them, in order of character, then arm.
+    // One limb's local rotations: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that is not solved is the
+    // clip's.
+    formats::PoseRow pose(std::size_t limb, std::uint32_t character) const;
+    // The local rotation of the joint above a limb whose plan has a clavicle.
+    Eigen::Quaterniond clavicle(std::size_t limb, std::uint32_t character) const;
+    // All of them, in order of character, then limb, and the columns that the plan asks for beside.
     std::span<const formats::PoseRow> poses();
+    std::span<const formats::PoseExtra> extras();
+    formats::PoseColumns columns() const;
 
 private:
-    struct Source {  // where the clip has one arm in one frame, relative to the root joint
-        Eigen::Vector3d shoulder, elbow, wrist;
-        Eigen::Quaterniond parent, hand, upper, fore;
-    };
     struct Character {
-        double reach = 1;       // factor of arm lengths and of targets
+        double size = 1;        // factor of limb lengths and of targets
         std::size_t start = 0;  // frame of the clip it starts at
         Eigen::Vector3d place = Eigen::Vector3d::Zero();
     };
     struct Goal {  // what one limb was asked for, relative to its character's root
-        Eigen::Vector3d wrist, pole;
+        Eigen::Vector3d target, pole;
         Eigen::Quaterniond hand;
-        bool from_clip;
+        bool from_clip;  // elbow and upper arm may be held against the clip's
     };
     struct Input {  // the same as the solver takes it
         float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
+        float shoulder[4], elbow[4], wrist[4];  // the incoming pose
     };
 
-    const Source& source(std::size_t arm, std::uint32_t character) const;
-    Goal goal_from_clip(std::size_t arm, std::uint32_t character) const;
-    void put(std::size_t arm, std::uint32_t character, const Goal& goal);
-    void measure_range(std::size_t arm, std::uint32_t begin, std::uint32_t end, Statistics& statistics) const;
-    void measure_against_clip(std::size_t arm, std::uint32_t character, const Eigen::Vector3d& elbow,
-                              Statistics& statistics) const;
+    std::size_t clip_frame(std::uint32_t character) const
+    {
+        return (frame_ + characters_[character].start) % motion_.frame_count();
+    }
+    const LimbInClip& in_clip(std::size_t limb, std::uint32_t character) const
+    {
+        return motion_.at(clip_frame(character), limb);
+    }
+    void place_characters(const CrowdPlan& plan);
+    void write_sizes();
+    Eigen::Vector3d pole_from_clip(std::size_t limb, std::uint32_t character) const;
+    Goal goal_from_plan(std::size_t limb, std::uint32_t character) const;
+    Goal goal_given(std::size_t limb, const formats::Target& target) const;
+    void put(std::size_t limb, std::uint32_t character, const Goal& goal);
+    void write_inputs(std::size_t limb);
+    formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
+    void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
+    void measure_against_clip(std::size_t limb, std::uint32_t character, const Eigen::Vector3d& elbow,
+                              LimbStatistics& statistics) const;
 
-    const formats::Clip& clip_;
-    std::span<const Arm> arms_;
-    std::vector<Source> sources_;         // [frame * arms + arm]
-    std::vector<Eigen::Vector3d> roots_;  // the root joint in the world, by frame
+    ClipMotion motion_;
+    std::span<const Limb> limbs_;
+    std::span<const LimbPlan> plans_;
     std::vector<Character> characters_;
-    std::vector<std::vector<Goal>> goals_;    // [arm][character]
-    std::vector<std::vector<Input>> inputs_;  // [arm][character]
+    std::vector<std::vector<Goal>> goals_;    // [limb][character]
+    std::vector<std::vector<Input>> inputs_;  // [limb][character]
     std::vector<formats::PoseRow> rows_;
+    std::vector<formats::PoseExtra> extras_;  // empty unless there are columns for them
     std::size_t frame_ = 0;
-    Crowd crowd_;
+    LimbCrowds crowds_;
 };
 
 }  // namespace swivel::tools

@@ -116,8 +116,8 @@ public:
             crowd_.residuals(group, residuals_);
             crowd_.read(SWIVEL_FLAGS, group, flags_);
             for (std::size_t n = 0; n < flags_.size(); ++n) {
-                statistics.add_flags(flags_[n]);
-                (flags_[n] & SWIVEL_REACHED ? statistics.wrist : statistics.missed).add(residuals_[n]);
+                statistics.arms.add_flags(flags_[n]);
+                (flags_[n] & SWIVEL_REACHED ? statistics.arms.reached : statistics.arms.missed).add(residuals_[n]);
             }
         }
     }

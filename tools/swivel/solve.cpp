@@ -17,14 +17,16 @@
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
-#include "tools/formats/targets_csv.h"
-#include "tools/swivel/clip_crowd.h"
+#include "tools/swivel/bvh_keys.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_checks.h"
+#include "tools/swivel/given_targets.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/solve_report.h"
 #include "tools/swivel/validators.h"
 
 namespace swivel::tools {
@@ -32,105 +34,50 @@ namespace swivel::tools {
 namespace {
 
 struct Options {
-    std::string clip, targets = "clip", out;
-    std::vector<std::string> arms;
-    std::uint32_t characters = 1;
-    std::uint64_t seed = 1;
+    std::string clip, crowd, out;
+    std::vector<std::string> arms, legs;
+    std::string kinds;
+    std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
+    std::optional<std::uint32_t> characters;
+    std::optional<std::uint64_t> seed;
     unsigned threads = 0;
     bool json = false;
 };
 
+// What the options and the crowd file come to.
+struct Job {
+    std::optional<formats::CrowdFile> crowd;
+    std::vector<Limb> limbs;
+    CrowdPlan plan;
+    std::string targets;  // "clip" or a file
+};
+
 enum class OutKind { none, bvh, csv };
 
-OutKind out_kind(const Options& options)
+OutKind out_kind(const Options& options, std::uint32_t characters)
 {
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = std::filesystem::path(options.out).extension().string();
     if (suffix == ".csv") return OutKind::csv;
     if (suffix != ".bvh")
         throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh or .csv", options.out));
-    if (options.characters > 1)
-        throw CommandError(2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv", options.out,
-                                          options.characters));
+    if (characters > 1)
+        throw CommandError(
+            2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv", options.out, characters));
     return OutKind::bvh;
 }
 
-// The given targets, frame by frame.
-class GivenTargets {
-public:
-    GivenTargets(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
-    {
-        if (options.targets == "clip") return;
-        targets_ = formats::read_targets_csv(options.targets);
-        for (const formats::Target& target : targets_) {
-            const auto refuse = [&](const std::string& cause) {
-                throw formats::InputError(options.targets, target.line, cause);
-            };
-            if (target.frame >= clip.frame_count)
-                refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame,
-                                   clip.frame_count - 1));
-            if (target.character >= options.characters)
-                refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
-                                   target.character, options.characters));
-            if (std::none_of(arms.begin(), arms.end(), [&](const Arm& arm) { return arm.side == target.side; }))
-                refuse(fmt::format("the skeleton has no {} arm; name it with --arm", formats::side_name(target.side)));
-        }
-    }
-
-    // Those of a frame; frames must be asked for in order.
-    std::span<const formats::Target> of_frame(std::size_t frame)
-    {
-        const std::size_t begin = next_;
-        while (next_ < targets_.size() && targets_[next_].frame == frame) ++next_;
-        return std::span(targets_).subspan(begin, next_ - begin);
-    }
-
-private:
-    std::vector<formats::Target> targets_;  // sorted by frame
-    std::size_t next_ = 0;
-};
-
-// The first character's solved rotations, kept for a BVH file: three joints for each arm.
-class BvhKeys {
-public:
-    explicit BvhKeys(std::size_t arm_count) : keys_(3 * arm_count) {}
-
-    void add(const ClipCrowd& crowd)
-    {
-        for (std::size_t arm = 0; 3 * arm < keys_.size(); ++arm) {
-            const formats::PoseRow row = crowd.pose(arm, 0);
-            for (std::size_t n = 0; n < 3; ++n) {
-                const auto& q = n == 0 ? row.shoulder : n == 1 ? row.elbow : row.wrist;
-                keys_[3 * arm + n].emplace_back(q[3], q[0], q[1], q[2]);
-            }
-        }
-    }
-    void write(const std::filesystem::path& path, const formats::BvhFile& file, std::span<const Arm> arms) const
-    {
-        std::vector<formats::RotationOverride> overrides;
-        for (std::size_t arm = 0; arm < arms.size(); ++arm)
-            for (std::size_t n = 0; n < 3; ++n)
-                overrides.push_back({n == 0   ? arms[arm].shoulder
-                                     : n == 1 ? arms[arm].elbow
-                                              : arms[arm].wrist,
-                                     keys_[3 * arm + n]});
-        formats::write_bvh(path, file, overrides);
-    }
-
-private:
-    std::vector<std::vector<Eigen::Quaterniond>> keys_;
-};
-
-Statistics solve_clip(const Options& options, const formats::BvhFile& file, std::span<const Arm> arms)
+Statistics solve_clip(const Options& options, const formats::BvhFile& file, const Job& job)
 {
-    const OutKind kind = out_kind(options);
-    GivenTargets given(options, file.clip, arms);
-    ClipCrowd crowd(file.clip, arms, options.characters, options.seed);
+    const OutKind kind = out_kind(options, job.plan.characters);
+    if (kind == OutKind::bvh && job.crowd) require_fits_bvh(*job.crowd, job.limbs);
+    GivenTargets given(job.targets, file.clip, job.limbs, job.plan.characters);
+    ClipCrowd crowd(file.clip, job.limbs, job.plan, options.crowd);
     std::optional<formats::PosesCsv> csv;
-    if (kind == OutKind::csv) csv.emplace(options.out);
+    if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
     if (kind == OutKind::bvh)
         const formats::OutputFile can_be_written(options.out);  // says so before the work, not after
-    BvhKeys keys(arms.size());
+    BvhKeys keys(job.limbs, job.plan);
     Statistics statistics;
     {
         Progress progress("frames", file.clip.frame_count);
@@ -140,67 +87,70 @@ Statistics solve_clip(const Options& options, const formats::BvhFile& file, std:
             crowd.set_frame(frame, given.of_frame(frame));
             crowd.solve(statistics);
             crowd.measure(statistics);
-            if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses());
+            if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
             if (kind == OutKind::bvh) keys.add(crowd);
         }
     }
     if (csv) csv->commit();
-    if (kind == OutKind::bvh) keys.write(options.out, file, arms);
+    if (kind == OutKind::bvh) keys.write(options.out, file);
     return statistics;
 }
 
-const std::string& joint_name(const formats::Clip& clip, int joint)
+void require_named_limbs_solved(const LimbChoice& choice)
 {
-    return clip.joints[static_cast<std::size_t>(joint)].name;
+    if (choice.kinds == "legs" && !choice.arms.empty())
+        throw CommandError(2, "--arm names an arm, but --limbs legs solves none; use --limbs all");
+    if (choice.kinds == "arms" && !choice.legs.empty())
+        throw CommandError(2, "--leg names a leg, but --limbs arms solves none; use --limbs all");
 }
 
-void print_clip(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
+LimbChoice choice_of(const Options& options)
 {
-    fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", options.clip, clip.joints.size(),
-               clip.frame_count, 1 / clip.frame_time);
-    for (const Arm& arm : arms)
-        fmt::print("arm      {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
-                   formats::side_name(arm.side), joint_name(clip, arm.shoulder), joint_name(clip, arm.elbow),
-                   joint_name(clip, arm.wrist), arm.limb.lengths[0], arm.limb.lengths[1], arm.hinge.x(), arm.hinge.y(),
-                   arm.hinge.z(), arm.hinge_source);
-    const std::size_t arm_count = arms.size() * options.characters;
-    fmt::print("crowd    {} character{}, {} arm{}, targets from {}\n", options.characters,
-               options.characters == 1 ? "" : "s", arm_count, arm_count == 1 ? "" : "s",
-               options.targets == "clip" ? "the clip" : options.targets);
+    LimbChoice choice;
+    choice.kinds = options.kinds;
+    for (const std::string& arm : options.arms) choice.arms.push_back({arm, "--arm"});
+    for (const std::string& leg : options.legs) choice.legs.push_back({leg, "--leg"});
+    require_named_limbs_solved(choice);
+    return choice;
 }
 
-nlohmann::ordered_json json_of(const Options& options, const formats::Clip& clip, std::span<const Arm> arms)
+// The command line before the crowd file before what is so without both.
+Job make_job(const Options& options, LimbChoice choice, const formats::Clip& clip)
 {
-    nlohmann::ordered_json out{
-        {"clip", options.clip},          {"joints", clip.joints.size()},     {"frames", clip.frame_count},
-        {"frame_time", clip.frame_time}, {"characters", options.characters}, {"seed", options.seed},
-        {"targets", options.targets}};
-    for (const Arm& arm : arms)
-        out["arms_bound"].push_back({{"side", formats::side_name(arm.side)},
-                                     {"shoulder", joint_name(clip, arm.shoulder)},
-                                     {"elbow", joint_name(clip, arm.elbow)},
-                                     {"wrist", joint_name(clip, arm.wrist)},
-                                     {"lengths", {arm.limb.lengths[0], arm.limb.lengths[1]}},
-                                     {"hinge", {arm.hinge.x(), arm.hinge.y(), arm.hinge.z()}},
-                                     {"hinge_source", arm.hinge_source}});
-    return out;
+    Job job;
+    if (!options.crowd.empty()) {
+        job.crowd = formats::read_crowd_file(options.crowd);
+        add_choice(*job.crowd, choice);
+        require_named_limbs_solved(choice);
+    }
+    job.limbs = find_limbs(clip, options.clip, choice);
+    job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
+    if (options.characters) job.plan.characters = *options.characters;
+    if (options.seed) job.plan.seed = *options.seed;
+    job.targets = "clip";
+    if (job.crowd && job.crowd->targets && job.crowd->targets->value != "clip")
+        job.targets = (job.crowd->path.parent_path() / job.crowd->targets->value).string();
+    if (options.targets) job.targets = *options.targets;
+    return job;
 }
 
 void run(const Options& options)
 {
     note_interrupts();
     const auto before = std::chrono::steady_clock::now();
-    out_kind(options);  // usage errors first
+    out_kind(options, options.characters.value_or(1));  // usage errors first
+    const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const formats::BvhFile file = formats::read_bvh(options.clip);
-    const std::vector<Arm> arms = find_arms(file.clip, options.clip, options.arms);
-    if (!options.json) print_clip(options, file.clip, arms);
+    const Job job = make_job(options, choice, file.clip);
+    const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed};
+    if (!options.json) print_clip(facts, file.clip, job.limbs);
 
     const ThreadLimit limit(options.threads);
-    const Statistics statistics = solve_clip(options, file, arms);
+    const Statistics statistics = solve_clip(options, file, job);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
-        nlohmann::ordered_json out = json_of(options, file.clip, arms);
+        nlohmann::ordered_json out = json_of(facts, file.clip, job.limbs);
         out.update(json_of(statistics));
         out["seconds"] = seconds;
         if (!options.out.empty()) out["out"] = options.out;
@@ -216,31 +166,46 @@ void run(const Options& options)
 
 void add_solve(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand("solve", "Solve the arms of a BVH clip, or of a crowd that performs it");
+    CLI::App* command =
+        app.add_subcommand("solve", "Solve the arms and legs of a BVH clip, or of a crowd that performs it");
     auto options = std::make_shared<Options>();
     command->add_option("clip", options->clip, "Motion file, .bvh")->required()->check(file_name());
     command
+        ->add_option("--targets", options->targets,
+                     "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
+                     "motion, or a CSV "
+                     "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
+                     "world; limb is "
+                     "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip")
+        ->default_str("clip");
+    command
         ->add_option(
-            "--targets", options->targets,
-            "Where wrists, elbows and hands must be: 'clip' for the clip's own motion, or a CSV file with the columns\n"
-            "frame,character,side,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the world; arms without a row follow "
-            "the clip")
-        ->capture_default_str();
+            "--crowd", options->crowd,
+            "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, reach, limits, "
+            "budget; docs/crowd_file.md has every key. Options given here go before it")
+        ->check(file_name());
     command
         ->add_option("--out", options->out, "Write the poses: .bvh (one character) or .csv; without it statistics only")
         ->check(file_name());
+    command
+        ->add_option("--limbs", options->kinds,
+                     "Which limbs to solve: arms, legs or all; without it those named by --arm and --leg, or else the "
+                     "arms")
+        ->check(CLI::IsMember({"arms", "legs", "all"}));
     command
         ->add_option("--arm", options->arms,
                      "Joints of an arm, SHOULDER,ELBOW,WRIST, by name or path; up to twice; left: or right: in front "
                      "sets the side")
         ->allow_extra_args(false);
+    command->add_option("--leg", options->legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
+        ->allow_extra_args(false);
     command
         ->add_option("--characters", options->characters,
                      "Characters, differing in arm lengths, place and start; the first is the clip's own")
-        ->capture_default_str()
+        ->default_str("1")
         ->check(whole_number(1, 10'000'000));
     command->add_option("--seed", options->seed, "Seed of the characters' differences")
-        ->capture_default_str()
+        ->default_str("1")
         ->check(whole_number(0, UINT64_MAX));
     command->add_option("--threads", options->threads, "Threads at most; 0 for all")
         ->capture_default_str()

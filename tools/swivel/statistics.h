@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tools/formats/limb_name.h"
+
 namespace swivel::tools {
 
 struct ErrorStat {
@@ -32,36 +34,44 @@ struct ErrorStat {
     double rms() const { return count ? std::sqrt(sum2 / static_cast<double>(count)) : 0; }
 };
 
-struct Statistics {
-    ErrorStat wrist;   // arm lengths, between wrist and target, of limbs that reach it
-    ErrorStat missed;  // the same, of limbs out of reach
-    ErrorStat hand;    // radians, between hand and wanted orientation
+// Of the limbs of one kind.
+struct LimbStatistics {
+    ErrorStat reached;      // limb lengths, between wrist or ankle and target, of limbs that reach it
+    ErrorStat missed;       // the same, of limbs out of reach
+    ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim
+    ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
     // Against the motion the targets came from; empty when they came from elsewhere:
-    ErrorStat elbow_bent, elbow_straight;                 // arm lengths; bent by more than 5 degrees, and the rest
-    ErrorStat upper_arm_swing, upper_arm_twist, forearm;  // radians; of the first character
-    std::array<std::uint64_t, 32> flags{};                // limbs with flag bit n
-    std::uint64_t arm_count = 0;
-    double solve_seconds = 0;
+    ErrorStat bent, straight;  // limb lengths, of elbow or knee; bent by more than 5 degrees, and the rest
+    ErrorStat upper_swing, upper_twist, lower;  // radians; of the first character
+    std::array<std::uint64_t, 32> flags{};      // limbs with flag bit n
+    std::uint64_t limb_count = 0;
 
     void add_flags(std::uint32_t word)
     {
-        ++arm_count;
+        ++limb_count;
         for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit] += word >> bit & 1u;
     }
-    void add(const Statistics& other)
+    void add(const LimbStatistics& other)
     {
-        wrist.add(other.wrist);
+        reached.add(other.reached);
         missed.add(other.missed);
-        hand.add(other.hand);
-        elbow_bent.add(other.elbow_bent);
-        elbow_straight.add(other.elbow_straight);
-        upper_arm_swing.add(other.upper_arm_swing);
-        upper_arm_twist.add(other.upper_arm_twist);
-        forearm.add(other.forearm);
+        aimed.add(other.aimed);
+        orientation.add(other.orientation);
+        bent.add(other.bent);
+        straight.add(other.straight);
+        upper_swing.add(other.upper_swing);
+        upper_twist.add(other.upper_twist);
+        lower.add(other.lower);
         for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit] += other.flags[bit];
-        arm_count += other.arm_count;
-        solve_seconds += other.solve_seconds;
+        limb_count += other.limb_count;
     }
+};
+
+struct Statistics {
+    LimbStatistics arms, legs;
+    double solve_seconds = 0;
+
+    LimbStatistics& of(formats::LimbKind kind) { return kind == formats::LimbKind::arm ? arms : legs; }
 };
 
 }  // namespace swivel::tools

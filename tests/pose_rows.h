@@ -1,0 +1,71 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// The table of poses that `swivel solve --out poses.csv` writes, read by name of column.
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace swivel::test {
+
+inline const std::string kPoseHeader =
+    "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
+    "wrist_x,wrist_y,wrist_z,wrist_w,flags";
+
+struct PoseLine {
+    std::size_t frame = 0, character = 0;
+    std::string limb;
+    std::array<Eigen::Quaterniond, 3> joint;  // shoulder, elbow, wrist
+    unsigned flags = 0;
+    std::map<std::string, std::string> cell;  // all of them
+
+    auto place() const { return std::tuple(frame, character, limb); }
+    double number(const std::string& column) const { return std::strtod(cell.at(column).c_str(), nullptr); }
+    Eigen::Quaterniond rotation(const std::string& column) const
+    {
+        return {number(column + "_w"), number(column + "_x"), number(column + "_y"), number(column + "_z")};
+    }
+};
+
+inline std::vector<std::string> cells_of(const std::string& line)
+{
+    std::vector<std::string> cells(1);
+    for (const char c : line)
+        if (c == ',')
+            cells.emplace_back();
+        else
+            cells.back() += c;
+    return cells;
+}
+
+// more: what the header has after the flags.
+inline std::vector<PoseLine> pose_lines(const std::string& text, const std::string& more = "")
+{
+    std::istringstream in(text);
+    std::string line;
+    REQUIRE(std::getline(in, line));
+    REQUIRE(line == kPoseHeader + more);
+    const std::vector<std::string> names = cells_of(line);
+    std::vector<PoseLine> lines;
+    while (std::getline(in, line)) {
+        const std::vector<std::string> cells = cells_of(line);
+        REQUIRE(cells.size() == names.size());
+        PoseLine& to = lines.emplace_back();
+        for (std::size_t n = 0; n < names.size(); ++n) to.cell[names[n]] = cells[n];
+        to.frame = static_cast<std::size_t>(to.number("frame"));
+        to.character = static_cast<std::size_t>(to.number("character"));
+        to.limb = to.cell["limb"];
+        to.joint = {to.rotation("shoulder"), to.rotation("elbow"), to.rotation("wrist")};
+        to.flags = static_cast<unsigned>(to.number("flags"));
+    }
+    return lines;
+}
+
+}  // namespace swivel::test

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+//
+// What a crowd file bounds is bounded in the poses that `swivel solve` writes: joint limits by an oracle of angles,
+// reach by its formula, steps of the swivel, twist bones, budgets. And what does not go together is refused.
+#include <catch2/catch.hpp>
+
+#include <functional>
+#include <set>
+
+#include "tests/crowd_stage.h"
+#include "tests/limit_oracle.h"
+
+using namespace swivel::test;
+
+namespace {
+
+// How far a pose is outside of a limit, as a cosine, about the arm frame's axes.
+using Violation = std::function<double(const Quaterniond& shoulder, const Quaterniond& wrist)>;
+
+constexpr double kKept = 3e-5;  // of a cosine: what a CSV's rotations of floats leave of the solver's 1e-6
+
+// The clip's own wishes break the limit, all poses keep it where any swivel can, and flags tell.
+void require_limit(const CrowdStage& stage, std::size_t arm, const std::string& limits, unsigned flag,
+                   const Violation& violation)
+{
+    INFO(limits);
+    const std::string limb = arm == 0 ? "left_arm" : "right_arm";
+    const ArmAxes axes = stage.axes(arm);
+    const auto outside = [&](const PoseLine& row) { return violation(axes.of(row.joint[0]), axes.of(row.joint[2])); };
+    const auto wished = stage.rows("[crowd]\n", limb), kept = stage.rows(limits, limb);
+    REQUIRE(wished.size() == kept.size());
+    std::size_t broken = 0, mended = 0, unlike_flag = 0;
+    double worst = -1;
+    for (std::size_t n = 0; n < wished.size(); ++n) {
+        const double was = outside(wished[n]), is = outside(kept[n]);
+        const bool limited = (kept[n].flags & flag) != 0, feasible = (kept[n].flags & SWIVEL_INFEASIBLE) == 0;
+        broken += was > kKept;
+        unlike_flag += std::abs(was) > kKept && limited != (was > 0);
+        mended += limited && feasible;
+        if (feasible) worst = std::max(worst, is);
+    }
+    CHECK(broken > 10);
+    CHECK(unlike_flag == 0);
+    CHECK(mended > 5);
+    CHECK(worst < kKept);
+}
+
+AngleRange degrees(double least, double most)
+{
+    return {0.5 * (least + most) / kDegrees, 0.5 * (most - least) / kDegrees};
+}
+
+const Vector3d kZ = Vector3d::UnitZ();
+
+Violation cone(const Vector3d& axis, double opening_deg, bool of_hand)
+{
+    return [=](const Quaterniond& shoulder, const Quaterniond& wrist) {
+        const Vector3d unit = axis.normalized();
+        return of_hand ? cone_violation(kZ, std::cos(opening_deg / kDegrees), wrist * unit)
+                       : cone_violation(unit, std::cos(opening_deg / kDegrees), shoulder * kZ);
+    };
+}
+Violation twist(const Vector3d& axis, const AngleRange& range, bool of_wrist)
+{
+    return [=](const Quaterniond& shoulder, const Quaterniond& wrist) {
+        return twist_violation(axis.normalized(), range, of_wrist ? wrist : shoulder);
+    };
+}
+Violation box(const AngleBox& box, bool of_wrist)
+{
+    return [=](const Quaterniond& shoulder, const Quaterniond& wrist) {
+        return box_violation(box, (of_wrist ? wrist : shoulder).toRotationMatrix());
+    };
+}
+
+}  // namespace
+
+TEST_CASE("crowd bounds: shoulder and wrist limits are kept wherever a swivel can")
+{
+    const CrowdStage stage;
+    const std::string limits = "[limb.left_arm.limits]\n";
+    require_limit(stage, 0, "[limb.left_arm.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
+                  SWIVEL_LIMITED_SHOULDER_CONE, cone({0.3, 0.2, 0.6}, 74, false));
+    require_limit(stage, 0, limits + "humeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
+                  twist(kZ, degrees(-20, 25), false));
+    require_limit(stage, 0, limits + "forearm_twist_deg = [-8, 4]\n", SWIVEL_LIMITED_FOREARM_TWIST,
+                  twist(kZ, degrees(-8, 4), true));
+    require_limit(stage, 0, "[limb.left_arm.limits.hand_cone]\naxis = [0.3, 0, 1]\nopening_deg = 14\n",
+                  SWIVEL_LIMITED_HAND_CONE, cone({0.3, 0, 1}, 14, true));
+    require_limit(stage, 0, "[limb.left_arm.limits.hand_twist]\naxis = [0.2, 0, 1]\nrange_deg = [-8, 4]\n",
+                  SWIVEL_LIMITED_HAND_TWIST, twist({0.2, 0, 1}, degrees(-8, 4), true));
+}
+
+TEST_CASE("crowd bounds: boxes of Euler angles, in their order")
+{
+    const CrowdStage stage;
+    require_limit(
+        stage, 0, "[limb.left_arm.limits.shoulder_box]\norder = \"YZX\"\nx_deg = [-60, 20]\nz_deg = [-50, 50]\n",
+        SWIVEL_LIMITED_SHOULDER_BOX, box({{1, 2, 0}, {degrees(-180, 180), degrees(-50, 50), degrees(-60, 20)}}, false));
+    require_limit(stage, 0, "[limb.left_arm.limits.wrist_box]\nz_deg = [-15, 10]\n", SWIVEL_LIMITED_WRIST_BOX,
+                  box({{0, 1, 2}, {degrees(-180, 180), degrees(-180, 180), degrees(-15, 10)}}, true));
+}
+
+TEST_CASE("crowd bounds: limits for both sides are mirrored on the right one, its own are not")
+{
+    const CrowdStage stage;
+    require_limit(stage, 1, "[limb.arms.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
+                  SWIVEL_LIMITED_SHOULDER_CONE, cone({-0.3, 0.2, 0.6}, 74, false));
+    require_limit(stage, 1, "[limb.all.limits]\nhumeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
+                  twist(kZ, degrees(-25, 20), false));
+    require_limit(stage, 1, "[limb.right.limits]\nhumeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
+                  twist(kZ, degrees(-20, 25), false));
+    require_limit(stage, 1, "[limb.arms.limits.wrist_box]\norder = \"ZXY\"\nz_deg = [-15, 10]\n",
+                  SWIVEL_LIMITED_WRIST_BOX,
+                  box({{2, 0, 1}, {degrees(-10, 15), degrees(-180, 180), degrees(-180, 180)}}, true));
+}
+
+TEST_CASE("crowd bounds: the elbow's flexion")
+{
+    const CrowdStage stage;
+    const PlainMotion kept = stage.motion("[limb.left_arm.limits]\nflexion_deg = [30, 60]\n");
+    std::size_t broken = 0;
+    for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
+        const double was = arm_pose(stage.clip, stage.arms[0], frame).bend() * kDegrees,
+                     is = arm_pose(kept, stage.arms[0], frame).bend() * kDegrees;
+        broken += was < 30 || was > 60;
+        CHECK(is == Approx(std::clamp(was, 30.0, 60.0)).margin(0.1));
+    }
+    CHECK(broken > 20);
+}
+
+TEST_CASE("crowd bounds: reach")
+{
+    const CrowdStage one(1200, 100000);
+    const PlainArm& left = one.arms[0];
+    const PlainArmPose at = arm_pose(one.clip, left, 0);
+    const Vector3d way = Vector3d(1, 1, 2).normalized();
+    const double length = left.length();
+    const auto toml = [&](double share, const std::string& reach) {
+        return "[limb.left_arm.target]\npoint = " + text_of(at.shoulder + share * length * way) +
+               "\n[limb.left_arm.reach]\n" + reach;
+    };
+    const auto distance = [&](double share, const std::string& reach) {
+        return (arm_pose(one.motion(toml(share, reach)), left, 0).wrist - at.shoulder).norm() / length;
+    };
+    // d - (d - R + s)^2 / 4s about R = 1, and its mirror image about the least distance.
+    CHECK(distance(0.95, "soft_far = 0.2\n") == Approx(0.95 - 0.15 * 0.15 / 0.8).epsilon(1e-5));
+    CHECK(distance(1.3, "soft_far = 0.2\n") == Approx(1).epsilon(1e-5));
+    CHECK(distance(0.5, "soft_far = 0.2\n") == Approx(0.5).epsilon(1e-5));
+    CHECK(distance(0.3, "least_distance = 0.4\n") == Approx(0.4).epsilon(1e-5));
+    CHECK(distance(0.45, "least_distance = 0.4\nsoft_near = 0.1\n") == Approx(0.45 + 0.05 * 0.05 / 0.4).epsilon(1e-5));
+
+    const auto stretch = [&](double share, const std::string& reach) {
+        return one.rows(toml(share, reach), "left_arm", ",stretch")[0].number("stretch");
+    };
+    CHECK(stretch(1.2, "most_stretch = 1.5\n") == Approx(1.2).epsilon(1e-5));
+    CHECK(stretch(2, "most_stretch = 1.5\n") == 1.5);
+    CHECK(stretch(0.8, "most_stretch = 1.5\n") == 1);
+    one.require_refused(toml(1.2, "most_stretch = 1.5\n"),
+                        "c.toml:4: limb.left_arm.reach.most_stretch: the bones of a BVH file keep their length",
+                        "out.bvh");
+    CHECK(one.motion(toml(1.2, "most_stretch = 1\n")).lines.size() == 1);
+}
+
+namespace {
+
+// How far the swivel plane turns from frame to frame, in degrees, carried across the new line as the shoulder's parent
+// sees both.
+std::vector<double> steps(const PlainMotion& motion, const PlainArm& arm)
+{
+    std::vector<double> steps;
+    Vector3d before = Vector3d::Zero();
+    for (std::size_t frame = 0; frame < motion.lines.size(); ++frame) {
+        const PlainArmPose at = arm_pose(motion, arm, frame);
+        const Vector3d line = at.parent.transpose() * (at.wrist - at.shoulder),
+                       normal = at.parent.transpose() * plane_normal(at);
+        if (frame > 0) steps.push_back(std::abs(angle_about(line.normalized(), before, normal)));
+        before = normal.normalized();
+    }
+    return steps;
+}
+
+}  // namespace
+
+TEST_CASE("crowd bounds: the swivel turns no further in a frame than it may")
+{
+    const CrowdStage stage(1000, 4);
+    const PlainArm& left = stage.arms[0];
+    const auto most = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
+    REQUIRE(most(steps(stage.clip, left)) > 3);
+    const std::string swivel = "[limb.left_arm.swivel]\nmost_deg_per_";
+    CHECK(most(steps(stage.motion(swivel + "frame = 1.5\n"), left)) < 1.52);
+    CHECK(most(steps(stage.motion(swivel + "frame = 1.5\n"), left)) > 1.48);
+    const double frame_time = stage.json("[crowd]\n").at("frame_time");
+    const PlainMotion by_time = stage.motion(swivel + "second = " + std::to_string(1.5 / frame_time) + "\n");
+    CHECK(most(steps(by_time, left)) < 1.52);
+    CHECK(most(steps(by_time, left)) > 1.48);
+    CHECK(stage.json(swivel + "frame = 1.5\n").at("flags").at("limited by most swivel") > 10);
+
+    // Character 1 starts within the clip. Where it starts the clip again nothing holds its elbow back.
+    const std::string crowd = "[crowd]\ncharacters = 2\nsize = [1, 1]\n";
+    const auto free = stage.rows("[crowd]\n", "left_arm"),
+               held = stage.rows(crowd + swivel + "frame = 0.01\n", "left_arm");
+    std::size_t as_at_first = 0;
+    for (const PoseLine& row : held)
+        as_at_first += row.character == 1 && row.joint[0].angularDistance(free[0].joint[0]) < 1e-5;
+    CHECK(as_at_first == 1);
+}
+
+TEST_CASE("crowd bounds: twist bones share the hand's twist")
+{
+    const CrowdStage stage;
+    const std::string columns = ",twist1_x,twist1_y,twist1_z,twist1_w,twist2_x,twist2_y,twist2_z,twist2_w";
+    const std::string toml = "[limb.left_arm]\ntwist_bones = 2\n";
+    const ArmAxes axes = stage.axes(0);
+    std::size_t turned = 0;
+    for (const PoseLine& row : stage.rows(toml, "left_arm", columns)) {
+        const Quaterniond wrist = axes.of(row.joint[2]);
+        const double whole = 2 * std::atan2(wrist.z(), wrist.w()) * kDegrees;
+        for (int bone = 1; bone <= 2; ++bone) {
+            const Quaterniond twist = axes.of(row.rotation("twist" + std::to_string(bone)));
+            CHECK(2 * std::atan2(twist.z(), twist.w()) * kDegrees == Approx(bone * whole / 3).margin(0.13));
+            CHECK(std::hypot(twist.x(), twist.y()) < 1e-5);
+        }
+        turned += std::abs(whole) > 10;
+    }
+    CHECK(turned > 10);
+    CHECK(stage.rows(toml, "right_arm", columns)[0].cell.at("twist1_x").empty());
+    stage.require_refused(toml, "c.toml:2: limb.left_arm.twist_bones: a BVH file keeps the joints it has", "out.bvh");
+}
+
+TEST_CASE("crowd bounds: a budget solves so many blocks in a frame, the urgent ones more often")
+{
+    const CrowdStage stage(100, 50);
+    const std::size_t frames = stage.clip.lines.size();
+    const std::string crowd = "[crowd]\ncharacters = 32\nstagger = false\n[budget]\nblocks = 1\n";
+    const auto solved = [&](const std::string& toml, const std::string& limb) {
+        std::map<std::size_t, std::string> before;
+        std::vector<std::set<std::size_t>> changed(frames);
+        for (const PoseLine& row : stage.rows(toml, limb)) {
+            const std::string pose = row.cell.at("shoulder_x") + row.cell.at("shoulder_y") + row.cell.at("elbow_x");
+            if (before[row.character] != pose) changed[row.frame].insert(row.character);
+            before[row.character] = pose;
+        }
+        return changed;
+    };
+    CHECK(stage.json(crowd).at("arms") == 64 + 16 * (frames - 1));
+    std::size_t limbs = 0;
+    for (const std::string limb : {"left_arm", "right_arm"}) {
+        const auto changed = solved(crowd, limb);
+        CHECK(changed[0].size() == 32);
+        for (std::size_t frame = 1; frame < frames; ++frame) {
+            CHECK((changed[frame].empty() || changed[frame].size() == 16));
+            limbs += changed[frame].size();
+        }
+    }
+    CHECK(limbs == 16 * (frames - 1));
+    const std::string left_alone = crowd + "[limb.right_arm]\npriority = 0\n";
+    const auto of_right = solved(left_alone, "right_arm"), of_left = solved(left_alone, "left_arm");
+    for (std::size_t frame = 1; frame < frames; ++frame) {
+        CHECK(of_right[frame].empty());
+        CHECK(of_left[frame].size() == 16);
+    }
+}
+
+TEST_CASE("crowd bounds: what does not go together is refused")
+{
+    const CrowdStage stage(100, 500);
+    const std::string loose = "[limb.arms]\nhand = false\n";
+    for (const std::string key :
+         {"effector = [1, 0, 0]\n", "twist_bones = 1\n", "weights.hand = 0.5\n", "limits.forearm_twist_deg = [0, 1]\n",
+          "limits.hand_cone.opening_deg = 3\n", "limits.wrist_box.x_deg = [0, 1]\n",
+          "limits.hand_twist.range_deg = [0, 1]\n", "aim = {axis = [0, 0, 1], flexion_deg = 3}\n"})
+        stage.require_refused(loose + key, "means nothing beside limb.arms.hand = false in line 2");
+    stage.require_refused(
+        "[limb.arms.pole]\nkind = \"incoming\"\nfixed = [1, 0, 0]\n",
+        "c.toml:3: limb.arms.pole.fixed: means nothing beside limb.arms.pole.kind = \"incoming\" in line 2");
+    stage.require_refused("[limb.arms]\npole.kind = \"incoming\"\nweights.pole = 0.5\n",
+                          "c.toml:3: limb.arms.weights.pole: means nothing beside limb.arms.pole.kind");
+    stage.require_refused("[limb.arms]\npriority = 2\n",
+                          "c.toml:2: limb.arms.priority: means nothing without budget.blocks");
+    stage.require_refused("[limb.legs]\nhand = true\n", "c.toml:1: limb.legs: no such limb is solved");
+    stage.require_refused("[budget]\nblocks = 1\n[limb.left_arm]\nhand = false\n",
+                          "c.toml: budget.blocks: limbs that share a budget");
+    stage.require_refused("[crowd]\ncharacters = 0\n", "c.toml:2: crowd.characters: 0 is less than 1", "out.bvh");
+    const Outcome two = stage.run("[crowd]\ncharacters = 2\n", {"--out", "out.bvh"});
+    CHECK(two.exit_code == 2);
+    CHECK_THAT(two.err, Catch::Matchers::Contains("one character, not 2"));
+}
+
+TEST_CASE("crowd bounds: limbs of different kinds of poles, hands and boxes are solved side by side")
+{
+    const CrowdStage stage;
+    const std::string left = "[limb.left_arm.pole]\nkind = \"normal\"\nfixed = [0, -1, 0.3]\n",
+                      right =
+                          "[limb.right_arm]\nhand = false\n[limb.right_arm.limits.shoulder_box]\norder = "
+                          "\"ZYX\"\nx_deg = [-60, 60]\n",
+                      legs = "[limb.legs.limits.shoulder_box]\nx_deg = [-30, 90]\n", all = "[crowd]\nlimbs = \"all\"\n";
+    const std::string both = stage.output(all + left + right + legs, "both.csv");
+    for (const auto& [limb, toml] :
+         {std::pair{std::string("left_arm"), all + left}, {"right_arm", all + right}, {"left_leg", all + legs}}) {
+        const auto alone = stage.rows(toml, limb);
+        std::size_t n = 0;
+        for (const PoseLine& row : pose_lines(both)) {
+            if (row.limb != limb) continue;
+            for (std::size_t j = 0; j < 3; ++j) CHECK(row.joint[j].angularDistance(alone[n].joint[j]) < 1e-5);
+            ++n;
+        }
+        CHECK(n == alone.size());
+    }
+}
+
+TEST_CASE("crowd bounds: the examples run")
+{
+    const CrowdStage stage;
+    const fs::path examples = fs::path(SWIVEL_SOURCE_DIR) / "examples";
+    const std::string columns =
+        ",stretch,clavicle_x,clavicle_y,clavicle_z,clavicle_w,twist1_x,twist1_y,twist1_z,twist1_w,twist2_x,twist2_y,"
+        "twist2_z,twist2_w";
+    CHECK(stage.rows(slurp(examples / "crowd.toml"), "left_leg", columns).size() == 40 * stage.clip.lines.size());
+    const PlainMotion kick = stage.motion(slurp(examples / "kick.toml"));
+    const PlainArmPose at = arm_pose(kick, stage.legs[1], 10);
+    CHECK(angle_between(at.hand.col(2), Vector3d(0, 12, 60) - at.wrist) < 0.01);
+}

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+//
+// What a crowd file asks of where limbs go is in the poses that `swivel solve` writes: each key by forward kinematics
+// of the written file, or against what the same crowd does without it. Limits and reach are in test_crowd_bounds.cpp.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/crowd_stage.h"
+
+using namespace swivel::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+// Frames of an arm bent enough for its plane to be known.
+template <class See>
+std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
+{
+    std::size_t seen = 0;
+    for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
+        if (arm_pose(stage.clip, limb, frame).bend() < 0.1) continue;
+        see(frame);
+        ++seen;
+    }
+    REQUIRE(seen > 30);
+    return seen;
+}
+
+double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
+{
+    REQUIRE(a.size() == b.size());
+    double worst = 0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+        for (std::size_t j = 0; j < 3; ++j) worst = std::max(worst, a[n].joint[j].angularDistance(b[n].joint[j]));
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("crowd file: without a key all is as without a file; options go before it")
+{
+    const CrowdStage stage;
+    const auto plain = [&](const Words& more) {
+        Words arguments = {"solve", "clip.bvh", "--out", "plain.csv"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        REQUIRE(run_command(stage.folder.path, arguments).exit_code == 0);
+        return slurp(stage.folder / "plain.csv");
+    };
+    CHECK(stage.output("[crowd]\n", "out.csv") == plain({}));
+    const std::string file = "[crowd]\ncharacters = 5\nseed = 3\nlimbs = \"legs\"\n";
+    CHECK(stage.output(file, "out.csv") == plain({"--characters", "5", "--seed", "3", "--limbs", "legs"}));
+    CHECK(stage.output(file, "out.csv", {"--characters", "2", "--seed", "4", "--limbs", "all"}) ==
+          plain({"--characters", "2", "--seed", "4", "--limbs", "all"}));
+    const auto json = stage.json(file);
+    CHECK(json.at("characters") == 5);
+    CHECK(json.at("seed") == 3);
+    CHECK(json.at("crowd") == "c.toml");
+    CHECK(json.contains("legs_bound"));
+    CHECK_FALSE(json.contains("arms_bound"));
+    CHECK(json.at("legs") == 10 * stage.clip.lines.size());
+}
+
+TEST_CASE("crowd file: size, stagger, spacing and targets beside the file")
+{
+    const CrowdStage stage(1200, 50);
+    const std::string same = "[crowd]\ncharacters = 4\nsize = [1, 1]\nstagger = false\n";
+    const std::vector<PoseLine> rows = stage.rows(same, "left_arm");
+    for (std::size_t n = 0; n < rows.size(); n += 4)
+        for (std::size_t c = 1; c < 4; ++c) CHECK(rows[n].joint[0].coeffs() == rows[n + c].joint[0].coeffs());
+    const std::vector<PoseLine> staggered = stage.rows("[crowd]\ncharacters = 4\nsize = [1, 1]\n", "left_arm");
+    CHECK(worst_rotation(rows, staggered) > 0.1);
+
+    // Targets where the clip has its wrists, moved to where each character stands: the clip's poses come back.
+    const PlainArm& left = stage.arms[0];
+    const double span = 2 * std::max(stage.arms[0].length(), stage.arms[1].length());
+    std::string table = "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n";
+    const auto add = [&](const Vector3d& v) {
+        table += "," + std::to_string(v.x()) + "," + std::to_string(v.y()) + "," + std::to_string(v.z());
+    };
+    for (std::size_t c = 0; c < 4; ++c) {
+        const Vector3d place = 5 * span * Vector3d(static_cast<double>(c % 2), 0, static_cast<double>(c / 2));
+        const PlainArmPose at = arm_pose(stage.clip, left, 0);
+        table += "0," + std::to_string(c) + ",left_arm";
+        add(at.wrist + place);
+        add(at.elbow + place);
+        table += "\n";
+    }
+    fs::create_directory(stage.folder / "sub");
+    spill(stage.folder / "sub" / "t.csv", table);
+    spill(stage.folder / "sub" / "c.toml", same + "spacing = 5\ntargets = \"t.csv\"\n");
+    const Outcome outcome =
+        run_command(stage.folder.path, {"solve", "clip.bvh", "--crowd", "sub/c.toml", "--out", "out.csv"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const std::vector<PoseLine> placed = pose_lines(slurp(stage.folder / "out.csv"));
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t j = 0; j < 3; ++j)
+            CHECK(placed[2 * c].joint[j].angularDistance(rows[c].joint[j]) < 1e-4);  // targets have 6 decimals
+}
+
+TEST_CASE("crowd file: joints and hinge")
+{
+    const CrowdStage stage;
+    const std::string swapped =
+        "[limb.left_arm]\njoints = [\"RightArm\", \"RightForeArm\", \"RightHand\"]\n"
+        "[limb.right_arm]\njoints = [\"LeftArm\", \"LeftForeArm\", \"LeftHand\"]\n";
+    CHECK(worst_rotation(stage.rows(swapped, "left_arm"), stage.rows("[crowd]\n", "right_arm")) == 0);
+    CHECK(stage.json("[limb.right_leg]\njoints = [\"RightUpLeg\", \"RightLeg\", \"RightFoot\"]\n")
+              .contains("legs_bound"));
+    stage.require_refused("[limb.left_arm]\njoints = [\"Left\", \"LeftForeArm\", \"LeftHand\"]\n",
+                          "no joint is called 'Left' (limb.left_arm.joints)");
+
+    // The elbow's own rotation is about the hinge's opposite, whichever way that is.
+    for (const std::string hinge : {"[0, 1, 0]", "[0, -1, 0]"}) {
+        const double sign = hinge == "[0, 1, 0]" ? 1 : -1;
+        const std::string toml = "[limb.left_arm]\nhinge = " + hinge + "\n";
+        CHECK(stage.json(toml).at("arms_bound").at(0).at("hinge") == nlohmann::json({0.0, sign, 0.0}));
+        std::size_t bent = 0;
+        for (const PoseLine& row : stage.rows(toml, "left_arm")) {
+            if (row.joint[1].vec().norm() < 0.05) continue;
+            CHECK(angle_between(row.joint[1].vec(), Vector3d(0, -sign, 0)) < 0.1);
+            ++bent;
+        }
+        CHECK(bent > 30);
+    }
+    stage.require_refused("[limb.left_arm]\nhinge = [1, 0, 0]\n",
+                          "hinge, limb.left_arm.hinge of c.toml, is along its upper bone");
+}
+
+TEST_CASE("crowd file: target.offset and target.point")
+{
+    const CrowdStage stage;
+    const PlainArm& left = stage.arms[0];
+    const PlainMotion moved = stage.motion("[limb.left_arm.target]\noffset = [0.3, -0.2, 0.1]\n");
+    std::size_t reached = 0;
+    for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
+        const PlainArmPose from = arm_pose(stage.clip, left, frame), to = arm_pose(moved, left, frame);
+        const Vector3d target = from.wrist + Vector3d(0.3, -0.2, 0.1);
+        if ((target - from.shoulder).norm() > left.length()) continue;
+        CHECK((to.wrist - target).norm() < 1e-5 * left.length());
+        ++reached;
+    }
+    CHECK(reached > 50);
+    CHECK((arm_pose(moved, stage.arms[1], 3).wrist - arm_pose(stage.clip, stage.arms[1], 3).wrist).norm() < 1e-4);
+
+    const CrowdStage one(1200, 100000);
+    const PlainArmPose at = arm_pose(one.clip, left, 0);
+    const Vector3d point = at.shoulder + 0.7 * left.length() * Vector3d(1, 2, 2).normalized();
+    const PlainMotion pointed = one.motion("[limb.left_arm.target]\npoint = " + text_of(point) + "\n");
+    CHECK((arm_pose(pointed, left, 0).wrist - point).norm() < 1e-5 * left.length());
+}
+
+TEST_CASE("crowd file: hand off keeps the wrist's own channels; an effector goes to the target")
+{
+    const CrowdStage stage;
+    const PlainArm& left = stage.arms[0];
+    const PlainMotion loose = stage.motion("[limb.left_arm]\nhand = false\n");
+    const PlainJoint& wrist = stage.clip.joint(left.wrist);
+    for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK(loose.values[frame][wrist.first_channel + c] == stage.clip.values[frame][wrist.first_channel + c]);
+        CHECK((arm_pose(loose, left, frame).wrist - arm_pose(stage.clip, left, frame).wrist).norm() <
+              1e-5 * left.length());
+    }
+    const std::vector<PoseLine> rows = stage.rows("[limb.left_arm]\nhand = false\n", "left_arm");
+    const std::vector<PlainPose> pose = pose_of(stage.clip, 4);
+    const Matrix3d fore = pose[static_cast<std::size_t>(left.elbow)].rotation;
+    CHECK(rows[4].joint[2].angularDistance(Quaterniond(fore.transpose() * arm_pose(stage.clip, left, 4).hand)) < 1e-6);
+
+    const CrowdStage one(1200, 100000);
+    const PlainArmPose at = arm_pose(one.clip, left, 0);
+    const Vector3d effector(1, -0.5, 0.25), point = at.shoulder + 0.6 * left.length() * Vector3d(1, 0, 2).normalized();
+    const std::string toml = "[limb.left_arm]\neffector = [1, -0.5, 0.25]\n";
+    const PlainArmPose to =
+        arm_pose(one.motion(toml + "[limb.left_arm.target]\npoint = " + text_of(point) + "\n"), left, 0);
+    CHECK((to.wrist + to.hand * effector - point).norm() < 1e-5 * left.length());
+    CHECK((to.hand - at.hand).norm() < 1e-5);
+    CHECK((arm_pose(one.motion(toml), left, 0).wrist - at.wrist).norm() <
+          1e-5 * left.length());  // the clip's own point
+}
+
+TEST_CASE("crowd file: kinds of poles")
+{
+    const CrowdStage stage;
+    const PlainArm& left = stage.arms[0];
+    const std::string pole = "[limb.left_arm.pole]\nkind = ";
+    for (const std::string kind : {"\"point\"", "\"direction\"", "\"normal\""}) {
+        INFO(kind);
+        const PlainMotion back = stage.motion(pole + kind + "\n");
+        for_bent(stage, left, [&](std::size_t frame) {
+            CHECK((arm_pose(back, left, frame).elbow - arm_pose(stage.clip, left, frame).elbow).norm() <
+                  1e-4 * left.length());
+        });
+    }
+    // Fixed: the plane of line and elbow holds the direction, on the elbow's side; or has the normal.
+    const Vector3d fixed(0.2, -1, 0.3);
+    const std::string vector = "\nfixed = " + text_of(fixed) + "\n";
+    const PlainMotion directed = stage.motion(pole + "\"direction\"" + vector),
+                      normal = stage.motion(pole + "\"normal\"" + vector),
+                      point = stage.motion(pole + "\"point\"" + vector),
+                      incoming = stage.motion(pole + "\"incoming\"\n"),
+                      turned = stage.motion("[limb.left_arm.pole]\nangle_deg = 40\n");
+    const Vector3d hinge = stage.axes(0).in_joint.col(0);
+    for_bent(stage, left, [&](std::size_t frame) {
+        const PlainArmPose from = arm_pose(stage.clip, left, frame);
+        const Vector3d line = (from.wrist - from.shoulder).normalized();
+        const auto plane = [&](const PlainMotion& motion) { return plane_normal(arm_pose(motion, left, frame)); };
+        const auto off = [&](const Vector3d& got, const Vector3d& want) {
+            return std::abs(angle_about(line, want, got));
+        };
+        if (angle_between(line, fixed) > 5 && angle_between(line, fixed) < 175) {
+            CHECK(off(plane(directed), line.cross(fixed)) < 0.02);
+            CHECK(off(plane(point), line.cross(fixed)) < 0.02);  // from the shoulder
+        }
+        CHECK(off(plane(normal), fixed) < 0.02);
+        const Matrix3d upper = pose_of(stage.clip, frame)[static_cast<std::size_t>(left.shoulder)].rotation;
+        CHECK(off(plane(incoming), upper * hinge) < 0.02);
+        CHECK(angle_about(line, plane_normal(from), plane(turned)) == Approx(40).margin(0.02));
+    });
+}
+
+TEST_CASE("crowd file: an angle for both sides is mirrored on the right one")
+{
+    const CrowdStage stage;
+    const PlainMotion turned = stage.motion("[limb.arms.pole]\nangle_deg = 25\n"),
+                      own = stage.motion("[limb.right_arm.pole]\nangle_deg = 25\n");
+    for (std::size_t arm = 0; arm < 2; ++arm)
+        for_bent(stage, stage.arms[arm], [&](std::size_t frame) {
+            const PlainArmPose from = arm_pose(stage.clip, stage.arms[arm], frame);
+            const Vector3d line = (from.wrist - from.shoulder).normalized();
+            const auto turn = [&](const PlainMotion& motion) {
+                return angle_about(line, plane_normal(from), plane_normal(arm_pose(motion, stage.arms[arm], frame)));
+            };
+            CHECK(turn(turned) == Approx(arm == 0 ? 25 : -25).margin(0.02));
+            CHECK(turn(own) == Approx(arm == 0 ? 0 : 25).margin(0.02));
+        });
+}
+
+TEST_CASE("crowd file: weights blend with the clip's own pose")
+{
+    const CrowdStage stage;
+    const PlainArm& left = stage.arms[0];
+    const std::string offset = "[limb.left_arm.target]\noffset = [0.4, -0.3, 0]\n",
+                      weights = "[limb.left_arm.weights]\n";
+    for (const double weight : {0.0, 0.5}) {
+        const PlainMotion blended = stage.motion(offset + weights + "position = " + std::to_string(weight) + "\n");
+        for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
+            const PlainArmPose from = arm_pose(stage.clip, left, frame);
+            const Vector3d target = from.wrist + weight * Vector3d(0.4, -0.3, 0);
+            if ((target - from.shoulder).norm() < left.length())
+                CHECK((arm_pose(blended, left, frame).wrist - target).norm() < 1e-5 * left.length());
+        }
+    }
+    const std::string pole = "[limb.left_arm.pole]\nkind = \"direction\"\nfixed = [0, 1, 0]\n";
+    const auto of_pole = stage.rows(pole + weights + "pole = 0\n", "left_arm");
+    CHECK(worst_rotation(of_pole, stage.rows("[limb.left_arm.pole]\nkind = \"incoming\"\n", "left_arm")) < 1e-3);
+    CHECK(worst_rotation(of_pole, stage.rows(pole, "left_arm")) > 0.1);
+
+    // A table asks for another orientation; without weight the hand keeps its own, relative to the forearm or not.
+    const PlainArmPose at = arm_pose(stage.clip, left, 7);
+    spill(stage.folder / "t.csv", "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n7,0,left_arm," +
+                                      text_of(at.wrist).substr(1, text_of(at.wrist).size() - 2) + "," +
+                                      text_of(at.elbow).substr(1, text_of(at.elbow).size() - 2) + ",0,0,0,1\n");
+    const auto hand = [&](const std::string& toml) {
+        return arm_pose(stage.motion("[crowd]\ntargets = \"t.csv\"\n" + toml), left, 7).hand;
+    };
+    CHECK((hand("") - Matrix3d::Identity()).norm() < 1e-5);
+    CHECK((hand(weights + "hand = 0\n") - Matrix3d::Identity()).norm() > 0.1);
+    const Quaterniond asked = Quaterniond::Identity(), own(hand(weights + "hand = 0\n")),
+                      half(hand(weights + "hand = 0.5\n"));
+    CHECK(half.angularDistance(asked) == Approx(half.angularDistance(own)).margin(0.02));
+}
+
+TEST_CASE("crowd file: aim points the hand at the target, flexion as given")
+{
+    const CrowdStage stage;
+    const PlainArm& right = stage.arms[1];
+    const Vector3d point(3, 25, 60), axis = Vector3d(-1, 0.2, 0).normalized();
+    const PlainMotion aimed =
+        stage.motion("[limb.right_arm.target]\npoint = [3, 25, 60]\n[limb.right_arm.aim]\naxis = " + text_of(axis) +
+                     "\nflexion_deg = 35\n");
+    for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
+        const PlainArmPose at = arm_pose(aimed, right, frame);
+        CHECK(angle_between(at.hand * axis, point - at.wrist) < 0.01);
+        CHECK(at.bend() * kDegrees == Approx(35).margin(0.01));
+    }
+    stage.require_refused("[limb.arms.aim]\naxis = [1, 0, 0]\nflexion_deg = 3\n[limb.arms.reach]\nsoft_far = 0.1\n",
+                          "c.toml:5: limb.arms.reach.soft_far: means nothing beside limb.arms.aim in line 1");
+}
+
+TEST_CASE("crowd file: a clavicle takes its share")
+{
+    CrowdStage one(1200, 100000);
+    const PlainArm& left = one.arms[0];
+    const int clavicle = one.clip.joint(left.shoulder).parent;
+    // This clip's own clavicles never turn; this one has.
+    for (std::size_t c = 0; c < 3; ++c)
+        one.clip.values[0][one.clip.joint(clavicle).first_channel + c] = 10.0 + 5 * static_cast<double>(c);
+    std::string line;
+    for (const double value : one.clip.values[0]) line += std::to_string(value) + " ";
+    spill(one.folder / "clip.bvh", one.clip.header + line + "\n");
+    one.clip = plain_motion_of(one.folder / "clip.bvh");
+    const Vector3d bone = one.clip.joint(left.shoulder).offset;
+    const PlainPose rest = pose_of(one.clip, 0)[static_cast<std::size_t>(clavicle)];
+    const Vector3d ahead = (rest.rotation * bone).normalized(), aside = ahead.unitOrthogonal();
+    const Vector3d point = rest.position + 0.9 * left.length() * (ahead + 0.7 * aside);
+    const auto angle = [&](double share) {
+        const PlainMotion solved = one.motion("[limb.left_arm.target]\npoint = " + text_of(point) +
+                                              "\n[limb.left_arm.clavicle]\nshare = " + std::to_string(share) + "\n");
+        CHECK((arm_pose(solved, left, 0).wrist - point).norm() < 1e-5 * left.length());
+        const PlainPose turned = pose_of(solved, 0)[static_cast<std::size_t>(clavicle)];
+        return angle_between(turned.rotation * bone, point - turned.position);
+    };
+    CHECK(angle(0) == Approx(angle_between(ahead, point - rest.position)).margin(1e-3));
+    CHECK(angle(1) < 0.01);
+    CHECK(angle(0.5) == Approx(0.5 * angle(0)).epsilon(0.1));
+    const std::string share = "[limb.left_arm.clavicle]\nshare = 0.5\n";
+    const PoseLine row = one.rows(share, "left_arm", ",clavicle_x,clavicle_y,clavicle_z,clavicle_w")[0];
+    const PlainMotion solved = one.motion(share);
+    const Matrix3d above = pose_of(solved, 0)[static_cast<std::size_t>(one.clip.joint(clavicle).parent)].rotation;
+    const Matrix3d local = above.transpose() * pose_of(solved, 0)[static_cast<std::size_t>(clavicle)].rotation;
+    CHECK((row.rotation("clavicle").toRotationMatrix() - local).norm() < 1e-5);
+    spill(one.folder / "clip.bvh", kTwoArms);
+    one.require_refused(
+        share, "c.toml:2: limb.left_arm.clavicle.share: the joint above the left arm, Hips, carries other joints");
+}

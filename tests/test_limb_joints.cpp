@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// Arms and legs are found by the names that exporters give joints: each habit once, as its files spell it, on a
+// skeleton where every limb's joints stand among others.
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+#include "tools/swivel/limb_joints.h"
+
+using namespace swivel;
+using formats::Clip;
+using formats::LimbKind;
+using formats::Side;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+// A root, and chains of joints on it.
+Clip skeleton(const std::vector<Names>& chains)
+{
+    Clip clip;
+    clip.joints.push_back({"Root"});
+    for (const Names& chain : chains) {
+        int parent = 0;
+        for (const std::string& name : chain) {
+            clip.joints.push_back({name, parent});
+            parent = static_cast<int>(clip.joints.size()) - 1;
+        }
+    }
+    return clip;
+}
+
+// The names of the limb found, in order; none if there is none.
+Names found(const Clip& clip, LimbKind kind, Side side)
+{
+    const auto joints = tools::joints_by_habit(clip, {kind, side});
+    Names names;
+    if (joints)
+        for (const int joint : *joints) names.push_back(clip.joints[static_cast<std::size_t>(joint)].name);
+    return names;
+}
+
+void require_found(LimbKind kind, const Names& left, const Names& right)
+{
+    const Clip clip = skeleton({right, left});
+    INFO(left[0]);
+    const auto last_three = [](const Names& names) { return Names(names.end() - 3, names.end()); };
+    CHECK(found(clip, kind, Side::left) == last_three(left));
+    CHECK(found(clip, kind, Side::right) == last_three(right));
+    const LimbKind other = kind == LimbKind::arm ? LimbKind::leg : LimbKind::arm;
+    CHECK(found(clip, other, Side::left).empty());
+    CHECK(found(clip, other, Side::right).empty());
+}
+
+}  // namespace
+
+TEST_CASE("limb joints: legs by the names in use")
+{
+    const auto legs = [](const Names& left, const Names& right) { require_found(LimbKind::leg, left, right); };
+    legs({"LHipJoint", "LeftUpLeg", "LeftLeg", "LeftFoot"}, {"RHipJoint", "RightUpLeg", "RightLeg", "RightFoot"});
+    legs({"mixamorig:LeftUpLeg", "mixamorig:LeftLeg", "mixamorig:LeftFoot"},
+         {"mixamorig:RightUpLeg", "mixamorig:RightLeg", "mixamorig:RightFoot"});
+    legs({"mixamorigLeftUpLeg", "mixamorigLeftLeg", "mixamorigLeftFoot"},
+         {"mixamorigRightUpLeg", "mixamorigRightLeg", "mixamorigRightFoot"});
+    legs({"thigh_l", "calf_l", "foot_l"}, {"thigh_r", "calf_r", "foot_r"});
+    legs({"LeftUpperLeg", "LeftLowerLeg", "LeftFoot"}, {"RightUpperLeg", "RightLowerLeg", "RightFoot"});
+    legs({"leftUpperLeg", "leftLowerLeg", "leftFoot"}, {"rightUpperLeg", "rightLowerLeg", "rightFoot"});
+    legs({"J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg", "J_Bip_L_Foot"},
+         {"J_Bip_R_UpperLeg", "J_Bip_R_LowerLeg", "J_Bip_R_Foot"});
+    legs({"thigh.L", "shin.L", "foot.L"}, {"thigh.R", "shin.R", "foot.R"});
+    legs({"DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"}, {"DEF-thigh.R", "DEF-shin.R", "DEF-foot.R"});
+    legs({"UpperLeg.L", "LowerLeg.L", "Foot.L"}, {"UpperLeg.R", "LowerLeg.R", "Foot.R"});
+    legs({"LeftHip", "LeftKnee", "LeftAnkle"}, {"RightHip", "RightKnee", "RightAnkle"});
+    legs({"LeftUpLeg", "LeftLowLeg", "LeftFoot"}, {"RightUpLeg", "RightLowLeg", "RightFoot"});
+    legs({"lThigh", "lShin", "lFoot"}, {"rThigh", "rShin", "rFoot"});
+    legs({"Bip01 L Thigh", "Bip01 L Calf", "Bip01 L Foot"}, {"Bip01 R Thigh", "Bip01 R Calf", "Bip01 R Foot"});
+}
+
+TEST_CASE("limb joints: arms by the names in use")
+{
+    const auto arms = [](const Names& left, const Names& right) { require_found(LimbKind::arm, left, right); };
+    arms({"LeftShoulder", "LeftArm", "LeftForeArm", "LeftHand"},
+         {"RightShoulder", "RightArm", "RightForeArm", "RightHand"});
+    arms({"mixamorig:LeftArm", "mixamorig:LeftForeArm", "mixamorig:LeftHand"},
+         {"mixamorig:RightArm", "mixamorig:RightForeArm", "mixamorig:RightHand"});
+    arms({"clavicle_l", "upperarm_l", "lowerarm_l", "hand_l"}, {"clavicle_r", "upperarm_r", "lowerarm_r", "hand_r"});
+    arms({"LeftUpperArm", "LeftLowerArm", "LeftHand"}, {"RightUpperArm", "RightLowerArm", "RightHand"});
+    arms({"J_Bip_L_UpperArm", "J_Bip_L_LowerArm", "J_Bip_L_Hand"},
+         {"J_Bip_R_UpperArm", "J_Bip_R_LowerArm", "J_Bip_R_Hand"});
+    arms({"DEF-upper_arm.L", "DEF-forearm.L", "DEF-hand.L"}, {"DEF-upper_arm.R", "DEF-forearm.R", "DEF-hand.R"});
+    arms({"LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist"},
+         {"RightCollar", "RightShoulder", "RightElbow", "RightWrist"});
+    arms({"lCollar", "lShldr", "lForeArm", "lHand"}, {"rCollar", "rShldr", "rForeArm", "rHand"});
+    arms({"Bip01 L UpperArm", "Bip01 L Forearm", "Bip01 L Hand"},
+         {"Bip01 R UpperArm", "Bip01 R Forearm", "Bip01 R Hand"});
+}
+
+TEST_CASE("limb joints: no guess where names repeat, joints are no chain, or a joint is missing")
+{
+    const auto left_leg = [](const std::vector<Names>& chains) {
+        return found(skeleton(chains), LimbKind::leg, Side::left);
+    };
+    REQUIRE_FALSE(left_leg({{"LeftUpLeg", "LeftLeg", "LeftFoot"}}).empty());
+    CHECK(left_leg({{"LeftUpLeg", "LeftLeg", "LeftFoot"}, {"LeftLeg"}}).empty());
+    CHECK(left_leg({{"LeftUpLeg", "LeftLeg"}, {"LeftFoot"}}).empty());
+    CHECK(left_leg({{"LeftUpLeg", "LeftLeg"}}).empty());
+    CHECK(left_leg({{"LeftUpLeg", "LeftLegTwist", "LeftLeg", "LeftFoot"}}).empty());
+    CHECK(left_leg({{"RightUpLeg", "RightLeg", "RightFoot"}}).empty());
+}
+
+TEST_CASE("limb joints: the side a name speaks of")
+{
+    for (const std::string name : {"LeftUpLeg", "thigh_l", "thigh.L", "lThigh", "mixamorig:LeftArm", "DEF-thigh.L"})
+        CHECK(tools::side_of(name, Side::right) == Side::left);
+    for (const std::string name : {"RightUpLeg", "thigh_r", "thigh.R", "rThigh", "mixamorig:RightArm", "DEF-thigh.R"})
+        CHECK(tools::side_of(name, Side::left) == Side::right);
+    for (const std::string name : {"Bone3", "Shoulder"}) {
+        CHECK(tools::side_of(name, Side::left) == Side::left);
+        CHECK(tools::side_of(name, Side::right) == Side::right);
+    }
+}

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/crowd_file.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "tools/formats/error.h"
+
+namespace swivel::formats {
+namespace {
+
+constexpr double kMostPriority = 1e15;  // above it the solver counts no further
+constexpr std::array<std::string_view, 9> kSelectors = {"all",      "arms",      "legs",     "left",     "right",
+                                                        "left_arm", "right_arm", "left_leg", "right_leg"};
+constexpr std::array<std::string_view, 4> kPoleKinds = {"point", "direction", "normal", "incoming"};
+constexpr std::array<std::string_view, 6> kOrders = {"XYZ", "XZY", "YZX", "YXZ", "ZXY", "ZYX"};
+constexpr std::array<std::string_view, 3> kLimbKinds = {"arms", "legs", "all"};
+constexpr NumberRange kFree = {-180, 180};
+
+bool speaks_of_both_sides(std::string_view selector)
+{
+    return selector == "all" || selector == "arms" || selector == "legs";
+}
+
+// A value under another type.
+template <class To, class From, class Make>
+Maybe<To> converted(const Maybe<From>& from, Make make)
+{
+    if (!from) return std::nullopt;
+    return Given<To>{make(from->value), from->line, from->key};
+}
+
+// A value that is a table of its own, read whole.
+template <class T>
+Maybe<T> given_by(const TomlTable& table, T value)
+{
+    if (!table.is_there()) return std::nullopt;
+    return Given<T>{value, table.line(), table.key()};
+}
+
+Maybe<NumberRange> angles(TomlTable& table, std::string_view key) { return table.range(key, -360, 360, 360); }
+
+// Of a key that its table, all read, cannot do without.
+template <class T>
+T needed(const TomlTable& table, std::string_view key, const Maybe<T>& value)
+{
+    if (table.is_there() && !value) table.fail("", std::string(key) + " is missing");
+    return value ? value->value : T{};
+}
+
+const Eigen::Vector3d kAlong = {0, 0, 1};  // the resting limb
+
+Maybe<ConeLimit> read_cone(TomlTable table)
+{
+    const auto axis = table.axis("axis");
+    const auto opening_deg = table.number("opening_deg", 0, 180);
+    table.finish();
+    return given_by(table, ConeLimit{axis ? axis->value : kAlong, needed(table, "opening_deg", opening_deg)});
+}
+
+Maybe<TwistLimit> read_twist(TomlTable table)
+{
+    const auto axis = table.axis("axis");
+    const auto range_deg = angles(table, "range_deg");
+    table.finish();
+    return given_by(table, TwistLimit{axis ? axis->value : kAlong, needed(table, "range_deg", range_deg)});
+}
+
+Maybe<AimGoal> read_aim(TomlTable table)
+{
+    const auto axis = table.axis("axis");
+    const auto flexion_deg = table.number("flexion_deg", 0, 180);
+    table.finish();
+    return given_by(table, AimGoal{needed(table, "axis", axis), needed(table, "flexion_deg", flexion_deg)});
+}
+
+Maybe<BoxLimit> read_box(TomlTable table)
+{
+    BoxLimit box;
+    if (const auto order = table.word("order", kOrders)) box.order = static_cast<EulerOrder>(order->value);
+    bool any = false;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const auto about = angles(table, std::array{"x_deg", "y_deg", "z_deg"}[n]);
+        box.about_deg[n] = about ? about->value : kFree;
+        any = any || about;
+    }
+    table.finish();
+    if (table.is_there() && !any) table.fail("", "limits nothing; give x_deg, y_deg or z_deg, or leave the table out");
+    return given_by(table, box);
+}
+
+void read_pole(TomlTable table, LimbSettings& to)
+{
+    to.pole_kind =
+        converted<PoleKind>(table.word("kind", kPoleKinds), [](std::size_t n) { return static_cast<PoleKind>(n); });
+    to.pole_fixed = table.vector("fixed");
+    to.pole_angle_deg = table.number("angle_deg", -360, 360);
+    table.finish();
+}
+
+void read_weights(TomlTable table, LimbSettings& to)
+{
+    to.position_weight = table.number("position", 0, 1);
+    to.hand_weight = table.number("hand", 0, 1);
+    to.pole_weight = table.number("pole", 0, 1);
+    table.finish();
+}
+
+void read_reach(TomlTable table, LimbSettings& to)
+{
+    to.soft_far = table.number("soft_far", 0, 1);
+    to.soft_near = table.number("soft_near", 0, 1);
+    to.most_stretch = table.number("most_stretch", 1, 1000);
+    to.least_distance = table.number("least_distance", 0, 1);
+    table.finish();
+}
+
+void read_swivel(TomlTable table, LimbSettings& to)
+{
+    to.most_swivel_deg_per_frame = table.number("most_deg_per_frame", 0, 180);
+    to.most_swivel_deg_per_second = table.number("most_deg_per_second", 0, 1e6);
+    if (to.most_swivel_deg_per_frame && to.most_swivel_deg_per_second)
+        table.fail("most_deg_per_second", "most_deg_per_frame is given, too; keep one of them");
+    table.finish();
+}
+
+void read_limits(TomlTable table, LimbSettings& to)
+{
+    to.flexion_deg = table.range("flexion_deg", 0, 180, 180);
+    to.shoulder_cone = read_cone(table.table("shoulder_cone"));
+    to.humeral_twist_deg = angles(table, "humeral_twist_deg");
+    to.shoulder_box = read_box(table.table("shoulder_box"));
+    to.hand_cone = read_cone(table.table("hand_cone"));
+    to.forearm_twist_deg = angles(table, "forearm_twist_deg");
+    to.hand_twist = read_twist(table.table("hand_twist"));
+    to.wrist_box = read_box(table.table("wrist_box"));
+    table.finish();
+}
+
+LimbSettings read_limb(TomlTable table, bool is_one)
+{
+    LimbSettings to;
+    if (is_one) {  // others speak of several limbs, which do not share joints
+        to.joints = table.texts("joints", 3);
+        to.hinge = table.axis("hinge");
+    }
+    TomlTable target = table.table("target");
+    to.target_point = target.vector("point");
+    to.target_offset = target.vector("offset");
+    target.finish();
+    to.hand = table.flag("hand");
+    to.effector = table.vector("effector");
+    to.aim = read_aim(table.table("aim"));
+    TomlTable clavicle = table.table("clavicle");
+    to.clavicle_share = clavicle.number("share", 0, 1);
+    clavicle.finish();
+    read_pole(table.table("pole"), to);
+    read_weights(table.table("weights"), to);
+    read_reach(table.table("reach"), to);
+    read_swivel(table.table("swivel"), to);
+    read_limits(table.table("limits"), to);
+    to.twist_bones = table.whole("twist_bones", 0, 7);
+    to.priority = table.number("priority", 0, kMostPriority);
+    table.finish();
+    return to;
+}
+
+void read_crowd(TomlTable table, CrowdFile& to)
+{
+    to.characters = table.whole("characters", 1, 10'000'000);
+    to.seed = table.whole("seed", 0, INT64_MAX);
+    to.spacing = table.number("spacing", 0, 1e6);
+    to.size = table.range("size", 0.01, 100, 100);
+    to.stagger = table.flag("stagger");
+    to.limbs = converted<std::string>(table.word("limbs", kLimbKinds),
+                                      [](std::size_t n) { return std::string(kLimbKinds[n]); });
+    to.targets = table.text("targets");
+    table.finish();
+}
+
+void read_root(TomlTable root, CrowdFile& to)
+{
+    read_crowd(root.table("crowd"), to);
+    TomlTable budget = root.table("budget");
+    to.budget_blocks = budget.whole("blocks", 1, UINT32_MAX);
+    budget.finish();
+    TomlTable limbs = root.table("limb");
+    for (const std::string_view selector : kSelectors) {
+        const TomlTable limb = limbs.table(selector);
+        LimbSettings settings = read_limb(limb, limb_of_word(selector).has_value());
+        if (limb.is_there()) to.sections.push_back({std::string(selector), limb.line(), std::move(settings)});
+    }
+    limbs.finish();
+    root.finish();
+}
+
+// All members, for merging.
+template <class Settings>
+auto members(Settings& s)
+{
+    return std::tie(s.joints, s.hinge, s.target_point, s.target_offset, s.hand, s.effector, s.aim, s.clavicle_share,
+                    s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight, s.pole_weight,
+                    s.soft_far, s.soft_near, s.least_distance, s.most_stretch, s.most_swivel_deg_per_frame,
+                    s.most_swivel_deg_per_second, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
+                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.twist_bones, s.priority);
+}
+
+void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)
+{
+    if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)  // one says what the other does
+        to.most_swivel_deg_per_frame.reset(), to.most_swivel_deg_per_second.reset();
+    const auto take = [mirrored](auto& into, const auto& value) {
+        if (!value) return;
+        into = value;
+        into->mirrored = mirrored;
+    };
+    std::apply(
+        [&](auto&... into) { std::apply([&](const auto&... values) { (take(into, values), ...); }, members(from)); },
+        members(to));
+}
+
+}  // namespace
+
+CrowdFile read_crowd_file(const std::filesystem::path& path)
+{
+    const toml::table root = read_toml(path);
+    CrowdFile file;
+    file.path = path;
+    read_root(TomlTable(path, root), file);
+    return file;
+}
+
+bool selects(std::string_view selector, LimbName limb)
+{
+    return selector == "all" || selector == limb_word(limb) || selector == side_name(limb.side) ||
+           selector == (limb.kind == LimbKind::arm ? "arms" : "legs");
+}
+
+LimbSettings settings_of(const CrowdFile& file, LimbName limb)
+{
+    LimbSettings settings;
+    for (const LimbSection& section : file.sections)
+        if (selects(section.selector, limb))
+            merge(settings, section.settings, limb.side == Side::right && speaks_of_both_sides(section.selector));
+    return settings;
+}
+
+std::vector<std::string> crowd_file_keys()
+{
+    std::vector<std::string> keys;
+    const std::filesystem::path none;
+    const toml::table empty;
+    CrowdFile file;
+    read_root(TomlTable(none, empty, &keys), file);
+    for (std::string& key : keys)
+        for (const std::string_view selector : kSelectors) {
+            const std::string prefix = "limb." + std::string(selector);
+            if (key == prefix || key.starts_with(prefix + ".")) key.replace(5, selector.size(), "SELECTOR");
+        }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    return keys;
+}
+
+}  // namespace swivel::formats

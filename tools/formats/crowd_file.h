@@ -1,0 +1,102 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// The crowd file: what a crowd is and what is asked of its limbs, in TOML. docs/crowd_file.md explains every key;
+// examples/crowd.toml shows them all. Angles are degrees. Knows no solver and no skeleton: whether a joint or a limb
+// exists is the caller's question, and every value brings its line and key for the answer.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/formats/limb_name.h"
+#include "tools/formats/toml_table.h"
+
+namespace swivel::formats {
+
+enum class PoleKind : std::uint8_t { point, direction, normal, incoming };
+enum class EulerOrder : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
+
+struct ConeLimit {
+    Eigen::Vector3d axis{0, 0, 1};  // unit
+    double opening_deg = 0;         // the largest angle to it, 0 to 180
+};
+struct TwistLimit {
+    Eigen::Vector3d axis{0, 0, 1};  // unit
+    NumberRange range_deg;
+};
+struct BoxLimit {
+    EulerOrder order = EulerOrder::xyz;
+    std::array<NumberRange, 3> about_deg;  // x, y, z, whatever the order
+};
+
+struct AimGoal {
+    Eigen::Vector3d axis{0, 0, 1};  // in the hand joint's frame, unit
+    double flexion_deg = 0;         // 0 to 180
+};
+
+// What the file says of a limb; what it does not say is as without a file.
+struct LimbSettings {
+    Maybe<std::vector<std::string>> joints;  // three
+    Maybe<Eigen::Vector3d> hinge;            // in the upper joint's frame, unit
+
+    Maybe<Eigen::Vector3d> target_point, target_offset;  // world axes
+    Maybe<bool> hand;
+    Maybe<Eigen::Vector3d> effector;  // in the hand joint's frame
+
+    Maybe<AimGoal> aim;
+    Maybe<double> clavicle_share;  // 0 to 1
+
+    Maybe<PoleKind> pole_kind;
+    Maybe<Eigen::Vector3d> pole_fixed;
+    Maybe<double> pole_angle_deg;
+
+    Maybe<double> position_weight, hand_weight, pole_weight;              // 0 to 1
+    Maybe<double> soft_far, soft_near, least_distance;                    // shares of the limb's length
+    Maybe<double> most_stretch;                                           // 1 to 1000
+    Maybe<double> most_swivel_deg_per_frame, most_swivel_deg_per_second;  // at most one of them
+
+    Maybe<NumberRange> flexion_deg, humeral_twist_deg, forearm_twist_deg;
+    Maybe<ConeLimit> shoulder_cone, hand_cone;
+    Maybe<TwistLimit> hand_twist;
+    Maybe<BoxLimit> shoulder_box, wrist_box;
+
+    Maybe<std::int64_t> twist_bones;  // 0 to 7
+    Maybe<double> priority;           // 0 to 1e15
+};
+
+// One table [limb.SELECTOR].
+struct LimbSection {
+    std::string selector;  // all, arms, legs, left, right, left_arm, ...
+    std::size_t line = 0;
+    LimbSettings settings;
+};
+
+struct CrowdFile {
+    std::filesystem::path path;
+    Maybe<std::int64_t> characters, seed;
+    Maybe<double> spacing;
+    Maybe<NumberRange> size;
+    Maybe<bool> stagger;
+    Maybe<std::string> limbs, targets;  // targets as written; a relative path starts at the file's folder
+    Maybe<std::int64_t> budget_blocks;
+    std::vector<LimbSection> sections;  // those in the file, the general before the special
+};
+
+// Throws InputError naming line and key for what is no TOML, an unknown key (and the known one that looks like it), a
+// wrong type, a value out of its range, an axis of no length, two keys that exclude each other.
+CrowdFile read_crowd_file(const std::filesystem::path& path);
+
+// What the file says of one limb: of each key the most special table's value. Values of tables that speak of both sides
+// are written for the left; those of a right limb are marked mirrored.
+LimbSettings settings_of(const CrowdFile& file, LimbName limb);
+
+// True if [limb.SELECTOR] speaks of this limb.
+bool selects(std::string_view selector, LimbName limb);
+
+// Every key the reader knows, tables included, as crowd.seed or limb.SELECTOR.reach.soft_far.
+std::vector<std::string> crowd_file_keys();
+
+}  // namespace swivel::formats

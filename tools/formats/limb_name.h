@@ -1,0 +1,49 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// Which of a character's four limbs a row of a table or a section of a file speaks of.
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace swivel::formats {
+
+enum class LimbKind : std::uint8_t { arm, leg };
+enum class Side : std::uint8_t { left, right };
+
+struct LimbName {
+    LimbKind kind = LimbKind::arm;
+    Side side = Side::left;
+
+    friend auto operator<=>(const LimbName&, const LimbName&) = default;
+};
+
+// In the order in which tables list them.
+constexpr std::array<LimbName, 4> kLimbNames = {{{LimbKind::arm, Side::left},
+                                                 {LimbKind::arm, Side::right},
+                                                 {LimbKind::leg, Side::left},
+                                                 {LimbKind::leg, Side::right}}};
+
+// "arm" or "leg".
+constexpr std::string_view kind_name(LimbKind kind) { return kind == LimbKind::arm ? "arm" : "leg"; }
+// "left" or "right".
+constexpr std::string_view side_name(Side side) { return side == Side::left ? "left" : "right"; }
+
+// The word that files use: left_arm, right_arm, left_leg or right_leg.
+constexpr std::string_view limb_word(LimbName name)
+{
+    const bool left = name.side == Side::left;
+    if (name.kind == LimbKind::arm) return left ? "left_arm" : "right_arm";
+    return left ? "left_leg" : "right_leg";
+}
+// The limb of such a word; nothing for any other.
+constexpr std::optional<LimbName> limb_of_word(std::string_view word)
+{
+    for (const LimbName name : kLimbNames)
+        if (limb_word(name) == word) return name;
+    return std::nullopt;
+}
+
+}  // namespace swivel::formats

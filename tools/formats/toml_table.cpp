@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/toml_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
+
+namespace swivel::formats {
+namespace {
+
+constexpr double kMaxNorm = 1e15;  // the engine's range for lengths
+
+std::string_view type_name(const toml::node& node)
+{
+    switch (node.type()) {
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return "a list";
+        case toml::node_type::string:
+            return "text";
+        case toml::node_type::integer:
+            return "a whole number";
+        case toml::node_type::floating_point:
+            return "a number";
+        case toml::node_type::boolean:
+            return "true or false";
+        default:
+            return "a date or time";
+    }
+}
+
+// How many letters must be put in, taken out or changed to make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t before = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = before + (a[i] != b[j]);
+            before = row[j + 1];
+            row[j + 1] = std::min({changed, before + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+// The words, the nearest first where one is near enough to be meant: a third of its letters wrong at most.
+std::string suggestion(std::string_view wrong, std::span<const std::string> words)
+{
+    const auto far = [&](const std::string& word) { return edit_distance(wrong, word); };
+    const auto nearest =
+        std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
+    if (nearest != words.end() && 3 * far(*nearest) <= nearest->size() + 1)
+        return fmt::format("did you mean {}?", *nearest);
+    return fmt::format("known are {}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+toml::table read_toml(const std::filesystem::path& path)
+{
+    const std::string text = read_text(path);
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error& error) {
+        throw InputError(path, error.source().begin.line, printable(error.description(), 200));
+    }
+}
+
+TomlTable::TomlTable(const std::filesystem::path& path, const toml::table& root, std::vector<std::string>* asked)
+    : path_(&path), table_(&root), asked_(asked), line_(1)
+{
+}
+
+std::string TomlTable::whole_key(std::string_view key) const
+{
+    if (key.empty() || key_.empty()) return key_ + std::string(key);
+    return fmt::format("{}.{}", key_, key);
+}
+
+std::size_t TomlTable::line_of(std::string_view key) const
+{
+    const toml::node* const node = table_ && !key.empty() ? table_->get(key) : nullptr;
+    return node ? node->source().begin.line : line_;
+}
+
+void TomlTable::fail(std::string_view key, std::string_view cause) const
+{
+    throw InputError(*path_, line_of(key), fmt::format("{}: {}", printable(whole_key(key), 120), cause));
+}
+
+void TomlTable::fail_type(std::string_view key, const toml::node& node, std::string_view wanted) const
+{
+    fail(key, fmt::format("is {}; write {}", type_name(node), wanted));
+}
+
+const toml::node* TomlTable::find(std::string_view key)
+{
+    known_.emplace_back(key);
+    if (asked_) asked_->push_back(whole_key(key));
+    return table_ ? table_->get(key) : nullptr;
+}
+
+Maybe<bool> TomlTable::flag(std::string_view key)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    if (!node->is_boolean()) fail_type(key, *node, "true or false");
+    return given(key, node->as_boolean()->get());
+}
+
+Maybe<std::int64_t> TomlTable::whole(std::string_view key, std::int64_t least, std::int64_t most)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    const std::string wanted = fmt::format("a whole number from {} to {}", least, most);
+    if (!node->is_integer()) fail_type(key, *node, wanted);
+    const std::int64_t value = node->as_integer()->get();
+    if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));
+    if (value > most) fail(key, fmt::format("{} is more than {}; write {}", value, most, wanted));
+    return given(key, value);
+}
+
+double TomlTable::number_of(std::string_view key, const toml::node& node, std::string_view wanted) const
+{
+    if (!node.is_number()) fail_type(key, node, wanted);
+    const double value = *node.value<double>();
+    if (!std::isfinite(value)) fail(key, fmt::format("{} is not finite; write {}", value, wanted));
+    return value;
+}
+
+std::vector<double> TomlTable::numbers_of(std::string_view key, const toml::node& node, std::size_t count,
+                                          std::string_view wanted) const
+{
+    const toml::array* const array = node.as_array();
+    if (!array) fail_type(key, node, wanted);
+    if (array->size() != count) fail(key, fmt::format("has {} values; write {}", array->size(), wanted));
+    std::vector<double> values;
+    for (const toml::node& each : *array) values.push_back(number_of(key, each, wanted));
+    return values;
+}
+
+Maybe<double> TomlTable::number(std::string_view key, double least, double most)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    const std::string wanted = fmt::format("a number from {} to {}", least, most);
+    const double value = number_of(key, *node, wanted);
+    if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));
+    if (value > most) fail(key, fmt::format("{} is more than {}; write {}", value, most, wanted));
+    return given(key, value);
+}
+
+Maybe<std::string> TomlTable::text(std::string_view key)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    if (!node->is_string()) fail_type(key, *node, "text in quotes");
+    if (node->as_string()->get().empty()) fail(key, "is empty; write text in quotes, or leave the key out");
+    return given(key, node->as_string()->get());
+}
+
+Maybe<std::vector<std::string>> TomlTable::texts(std::string_view key, std::size_t count)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    const std::string wanted = fmt::format("a list of {} texts in quotes", count);
+    const toml::array* const array = node->as_array();
+    if (!array) fail_type(key, *node, wanted);
+    if (array->size() != count) fail(key, fmt::format("has {} values; write {}", array->size(), wanted));
+    std::vector<std::string> values;
+    for (const toml::node& each : *array) {
+        if (!each.is_string()) fail_type(key, each, wanted);
+        values.push_back(each.as_string()->get());
+    }
+    return given(key, std::move(values));
+}
+
+Maybe<std::size_t> TomlTable::word(std::string_view key, std::span<const std::string_view> words)
+{
+    const Maybe<std::string> value = text(key);
+    if (!value) return std::nullopt;
+    const auto found = std::find(words.begin(), words.end(), value->value);
+    if (found != words.end()) return given(key, static_cast<std::size_t>(found - words.begin()));
+    const std::vector<std::string> known(words.begin(), words.end());
+    fail(key, fmt::format("there is no '{}'; {}", printable(value->value), suggestion(value->value, known)));
+}
+
+Maybe<NumberRange> TomlTable::range(std::string_view key, double least, double most, double widest)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    const std::string wanted = fmt::format("[least, most], two numbers from {} to {}", least, most);
+    const std::vector<double> ends = numbers_of(key, *node, 2, wanted);
+    for (const double end : ends) {
+        if (end < least) fail(key, fmt::format("{} is less than {}; write {}", end, least, wanted));
+        if (end > most) fail(key, fmt::format("{} is more than {}; write {}", end, most, wanted));
+    }
+    if (ends[0] > ends[1])
+        fail(key, fmt::format("the least, {}, is more than the most, {}; write {}", ends[0], ends[1], wanted));
+    if (ends[1] - ends[0] > widest)
+        fail(key, fmt::format("{} to {} is wider than {}; leave the key out for no limit", ends[0], ends[1], widest));
+    return given(key, NumberRange{ends[0], ends[1]});
+}
+
+Maybe<Eigen::Vector3d> TomlTable::vector(std::string_view key)
+{
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    const std::vector<double> xyz = numbers_of(key, *node, 3, "[x, y, z], three numbers");
+    const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
+    if (!(length <= kMaxNorm)) fail(key, fmt::format("is {:g} long; at most {:g} can be solved", length, kMaxNorm));
+    return given(key, Eigen::Vector3d(xyz[0], xyz[1], xyz[2]));
+}
+
+Maybe<Eigen::Vector3d> TomlTable::axis(std::string_view key)
+{
+    Maybe<Eigen::Vector3d> value = vector(key);
+    if (!value) return std::nullopt;
+    const double length = value->value.stableNorm();
+    if (!(length > 1e-15)) fail(key, "has no length, so no direction; write [x, y, z], not all of them 0");
+    value->value /= length;
+    return value;
+}
+
+TomlTable TomlTable::table(std::string_view key)
+{
+    const toml::node* const node = find(key);
+    if (node && !node->is_table()) fail_type(key, *node, fmt::format("a table, [{}]", whole_key(key)));
+    TomlTable inner;
+    inner.path_ = path_;
+    inner.asked_ = asked_;
+    inner.key_ = whole_key(key);
+    if (node) {
+        inner.table_ = node->as_table();
+        inner.line_ = std::max<std::size_t>(node->source().begin.line, 1);
+    }
+    return inner;
+}
+
+void TomlTable::finish() const
+{
+    if (!table_) return;
+    const toml::key* first = nullptr;
+    for (const auto& [key, node] : *table_)
+        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end() &&
+            (!first || key.source().begin.line < first->source().begin.line))
+            first = &key;
+    if (!first) return;
+    throw InputError(
+        *path_, first->source().begin.line,
+        fmt::format("{}: unknown key; {}", printable(whole_key(first->str()), 120), suggestion(first->str(), known_)));
+}
+
+}  // namespace swivel::formats

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/bvh_keys.h"
+
+namespace swivel::tools {
+
+void BvhKeys::add(const ClipCrowd& crowd)
+{
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+        const formats::PoseRow row = crowd.pose(limb, 0);
+        for (std::size_t n = 0; n < 3; ++n) {
+            const auto& q = n == 0 ? row.shoulder : n == 1 ? row.elbow : row.wrist;
+            keys_[3 * limb + n].emplace_back(q[3], q[0], q[1], q[2]);
+        }
+        if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) clavicles_[limb].push_back(crowd.clavicle(limb, 0));
+    }
+}
+
+void BvhKeys::write(const std::filesystem::path& path, const formats::BvhFile& file) const
+{
+    std::vector<formats::RotationOverride> overrides;
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
+        for (std::size_t n = 0; n < (plans_[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
+            overrides.push_back({limbs_[limb].joints[n], keys_[3 * limb + n]});
+        const int above = file.clip.joints[static_cast<std::size_t>(limbs_[limb].upper())].parent;
+        if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) overrides.push_back({above, clavicles_[limb]});
+    }
+    formats::write_bvh(path, file, overrides);
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/solve_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tools/swivel/limb_words.h"
+
+namespace swivel::tools {
+
+namespace {
+
+const std::string& joint_name(const formats::Clip& clip, int joint)
+{
+    return clip.joints[static_cast<std::size_t>(joint)].name;
+}
+
+}  // namespace
+
+void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
+{
+    fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", facts.clip, clip.joints.size(), clip.frame_count,
+               1 / clip.frame_time);
+    for (const Limb& limb : limbs)
+        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
+                   kind_name(limb.name.kind), side_name(limb.name.side), joint_name(clip, limb.upper()),
+                   joint_name(clip, limb.lower()), joint_name(clip, limb.end()), limb.bound.lengths[0],
+                   limb.bound.lengths[1], limb.hinge.x(), limb.hinge.y(), limb.hinge.z(), limb.hinge_source);
+    std::string counts;
+    for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
+        const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
+        const auto count = static_cast<std::size_t>(std::count_if(limbs.begin(), limbs.end(), of_kind));
+        if (count > 0)
+            counts += fmt::format(", {} {}{}", count * facts.characters, kind_name(kind),
+                                  count * facts.characters == 1 ? "" : "s");
+    }
+    fmt::print("crowd    {} character{}{}, targets from {}{}\n", facts.characters, facts.characters == 1 ? "" : "s",
+               counts, facts.targets == "clip" ? "the clip" : facts.targets,
+               facts.crowd.empty() ? "" : fmt::format(", all else from {}", facts.crowd));
+}
+
+nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
+{
+    nlohmann::ordered_json out{{"clip", facts.clip},
+                               {"joints", clip.joints.size()},
+                               {"frames", clip.frame_count},
+                               {"frame_time", clip.frame_time},
+                               {"characters", facts.characters},
+                               {"seed", facts.seed},
+                               {"targets", facts.targets}};
+    if (!facts.crowd.empty()) out["crowd"] = facts.crowd;
+    for (const Limb& limb : limbs) {
+        const LimbWords& words = words_of(limb.name.kind);
+        out[fmt::format("{}_bound", words.limbs)].push_back(
+            {{"side", side_name(limb.name.side)},
+             {words.upper_joint, joint_name(clip, limb.upper())},
+             {words.lower_joint, joint_name(clip, limb.lower())},
+             {words.end_joint, joint_name(clip, limb.end())},
+             {"lengths", {limb.bound.lengths[0], limb.bound.lengths[1]}},
+             {"hinge", {limb.hinge.x(), limb.hinge.y(), limb.hinge.z()}},
+             {"hinge_source", limb.hinge_source}});
+    }
+    return out;
+}
+
+}  // namespace swivel::tools

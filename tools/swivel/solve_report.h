@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// What `swivel solve` says of its work before the figures: the clip, the limbs bound, the crowd.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "tools/swivel/limbs.h"
+
+namespace swivel::tools {
+
+struct SolveFacts {
+    std::string clip, crowd;  // files; crowd may be empty
+    std::string targets;      // "clip" or a file
+    std::uint32_t characters = 1;
+    std::uint64_t seed = 1;
+};
+
+// Lines for people, on stdout.
+void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
+nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
+
+}  // namespace swivel::tools
