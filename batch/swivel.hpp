@@ -41,7 +41,8 @@ inline BoundLimb bind(const swivel_chain& chain)
     return limb;
 }
 
-// Values of limit fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_turn().
+// Values of limit fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
+// swivel_turn().
 inline std::array<float, 4> range(double least, double most)
 {
     std::array<float, 4> value;
@@ -58,6 +59,12 @@ inline std::array<float, 2> flexion(double least, double most)
 {
     std::array<float, 2> value;
     check(swivel_flexion(least, most, value.data()));
+    return value;
+}
+inline std::array<float, 5> aim(const std::array<double, 3>& axis, double flexion)
+{
+    std::array<float, 5> value;
+    check(swivel_aim(axis.data(), flexion, value.data()));
     return value;
 }
 inline std::array<float, 2> turn(double angle)

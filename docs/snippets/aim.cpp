@@ -8,9 +8,7 @@ TEST_CASE("docs: aiming")
     swivel::Crowd crowd(SWIVEL_WITH_AIM, {&arms, 1});
     // Along the hand, +z at rest, with the elbow bent by half a radian.
     const Double3 along_hand{0, 0, 1};
-    std::array<float, 5> aim;
-    swivel::check(swivel_aim(along_hand.data(), 0.5, aim.data()));
-    crowd.write_all(SWIVEL_AIM, 0, aim);
+    crowd.write_all(SWIVEL_AIM, 0, swivel::aim(along_hand, 0.5));
     crowd.write_all(SWIVEL_TARGET, 0, Float3{2, 1, 5});  // what to point at
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.solve();
