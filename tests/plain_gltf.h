@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace swivel::test {
 struct PlainGltf {
     nlohmann::json json;
     std::vector<std::string> buffers;
-    std::vector<int> parents;  // of each node; -1: a root
+    std::vector<int> parents;                              // of each node; -1: a root
+    mutable std::map<int, std::vector<double>> accessors;  // those asked for so far
 
     const nlohmann::json& nodes() const { return json.at("nodes"); }
     int node_named(const std::string& name) const
@@ -81,8 +83,9 @@ inline PlainGltf plain_gltf_of(const fs::path& path)
 }
 
 // An accessor's elements, one after the other.
-inline std::vector<double> plain_numbers(const PlainGltf& gltf, int index)
+inline const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index)
 {
+    if (const auto known = gltf.accessors.find(index); known != gltf.accessors.end()) return known->second;
     const auto& accessor = gltf.json.at("accessors").at(static_cast<std::size_t>(index));
     REQUIRE(accessor.at("componentType") == 5126);
     REQUIRE_FALSE(accessor.contains("sparse"));
@@ -100,7 +103,7 @@ inline std::vector<double> plain_numbers(const PlainGltf& gltf, int index)
         std::memcpy(&number, bytes.data() + begin + n / width * stride + n % width * 4, 4);
         numbers.push_back(number);
     }
-    return numbers;
+    return gltf.accessors[index] = numbers;
 }
 
 // The value of one node's channel at a time, as the specification's appendix C has it; `rest` where there is none.
@@ -113,7 +116,8 @@ inline Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int nod
         const auto& target = channel.at("target");
         if (target.value("node", -1) != node || target.at("path") != path) continue;
         const auto& sampler = from.at("samplers").at(channel.at("sampler").get<std::size_t>());
-        const auto times = plain_numbers(gltf, sampler.at("input")), values = plain_numbers(gltf, sampler.at("output"));
+        const auto &times = plain_numbers(gltf, sampler.at("input")),
+                   &values = plain_numbers(gltf, sampler.at("output"));
         const std::string kind = sampler.value("interpolation", "LINEAR");
         const Eigen::Index width = rest.size(), step = kind == "CUBICSPLINE" ? 3 : 1;
         const auto at = [&](std::size_t key, Eigen::Index part) -> Eigen::VectorXd {
