@@ -171,6 +171,10 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
                                   joint_at(clip, between).name, top.name, bottom.name);
         }
     }
+    const auto is_bone = [&](int joint) { return joint_at(clip, joint).is_bone; };
+    if (problem.empty() && std::none_of(joints.begin(), joints.end(), is_bone))
+        problem =
+            fmt::format("'{}' and what is below it are no bones of the file's skin", joint_at(clip, joints[0]).name);
     if (problem.empty()) made.result.joints = joints;
     return made;
 }

@@ -60,8 +60,9 @@ std::string list(const Clip& clip, const std::vector<int>& joints)
 
 void print_limb(const Clip& clip, const Limb& limb)
 {
-    fmt::print("{:<10} {} > {} > {}, named as {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
-               name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.habit);
+    fmt::print("{:<10} {} > {} > {}, named {} {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
+               name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.habit.starts_with('-') ? "by" : "as",
+               limb.habit);
     fmt::print("           {:.6g} + {:.6g} long in the world, scale {:.6g}{}\n", limb.bound.lengths[0],
                limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
     fmt::print("           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
