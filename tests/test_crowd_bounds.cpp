@@ -226,7 +226,8 @@ TEST_CASE("crowd bounds: twist bones share the hand's twist")
     }
     CHECK(turned > 10);
     CHECK(stage.rows(toml, "right_arm", columns)[0].cell.at("twist1_x").empty());
-    stage.require_refused(toml, "c.toml:2: limb.left_arm.twist_bones: a written clip keeps the joints it has", "out.bvh");
+    stage.require_refused(toml, "c.toml:2: limb.left_arm.twist_bones: a written clip keeps the joints it has",
+                          "out.bvh");
 }
 
 TEST_CASE("crowd bounds: a budget solves so many blocks in a frame, the urgent ones more often")

@@ -24,7 +24,8 @@ struct LimbByName {
 
 // The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces and common
 // prefixes do not count. Each must be its name's only bearer among the bones (among all joints if no bone bears it)
-// and lie above the next, and one at least must be a bone; what lies between must be a twist bone by name, or at the same place as one of them.
+// and lie above the next, and one at least must be a bone; what lies between must be a twist bone by name, or at the
+// same place as one of them.
 LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);
 
 // True if each is above the next.
