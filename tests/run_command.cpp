@@ -111,10 +111,7 @@ void listen(pid_t child, Channel& out, Channel& err, Outcome& outcome)
     }
 }
 
-}  // namespace
-
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                    const Surroundings& surroundings)
+Outcome run(const std::filesystem::path& folder, std::vector<std::string> words, const Surroundings& surroundings)
 {
     Channel out, err;
     open_channel(out, false);
@@ -124,8 +121,6 @@ Outcome run_command(const std::filesystem::path& folder, const std::vector<std::
         out.writing = ::open(surroundings.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);
         REQUIRE(out.writing >= 0);
     }
-    std::vector<std::string> words = {SWIVEL_COMMAND};
-    words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<std::string> environment = merged_environment(surroundings.environment);
     const std::vector<char*> argv = pointers(words), envp = pointers(environment);
 
@@ -148,6 +143,24 @@ Outcome run_command(const std::filesystem::path& folder, const std::vector<std::
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     REQUIRE(outcome.exit_code != 127);
     return outcome;
+}
+
+}  // namespace
+
+Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                    const Surroundings& surroundings)
+{
+    std::vector<std::string> words = {SWIVEL_COMMAND};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run(folder, std::move(words), surroundings);
+}
+
+Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& words,
+                    const Surroundings& surroundings)
+{
+    std::vector<std::string> all = {"/usr/bin/env"};
+    all.insert(all.end(), words.begin(), words.end());
+    return run(folder, std::move(all), surroundings);
 }
 
 }  // namespace swivel::test

@@ -27,4 +27,8 @@ struct Surroundings {
 Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                     const Surroundings& surroundings = {});
 
+// The same for another program, found as a shell finds it; peak_kib stays 0.
+Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& words,
+                    const Surroundings& surroundings = {});
+
 }  // namespace swivel::test

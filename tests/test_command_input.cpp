@@ -170,7 +170,7 @@ TEST_CASE("input: skeletons without arms, and --arm that names none")
     require_arms_refused({"LeftArm,LeftForeArm,Nope"}, {"clip.bvh: ", "'Nope'"});
     require_arms_refused({"LeftArm,LeftForeArm"}, {"clip.bvh: ", "'LeftArm,LeftForeArm'", "SHOULDER,ELBOW,WRIST"});
     require_arms_refused({"LeftHand,LeftForeArm,LeftArm"}, {"clip.bvh: ", "'LeftHand,LeftForeArm,LeftArm'"});
-    require_arms_refused({"Hips,LeftForeArm,LeftHand"}, {"clip.bvh: ", "child"});
+    require_arms_refused({"LeftArm,RightForeArm,RightHand"}, {"clip.bvh: ", "one below it"});
     require_arms_refused({"LeftArm,LeftForeArm,LeftHand", "left:RightArm,RightForeArm,RightHand"},
                          {"clip.bvh: ", "both arms are taken as left"});
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:LeftArm,LeftForeArm,LeftHand"}, {"clip.bvh: "});

@@ -157,7 +157,7 @@ TEST_CASE("crowd bounds: reach")
     CHECK(stretch(2, "most_stretch = 1.5\n") == 1.5);
     CHECK(stretch(0.8, "most_stretch = 1.5\n") == 1);
     one.require_refused(toml(1.2, "most_stretch = 1.5\n"),
-                        "c.toml:4: limb.left_arm.reach.most_stretch: the bones of a BVH file keep their length",
+                        "c.toml:4: limb.left_arm.reach.most_stretch: the bones of a written clip keep their length",
                         "out.bvh");
     CHECK(one.motion(toml(1.2, "most_stretch = 1\n")).lines.size() == 1);
 }
@@ -226,7 +226,8 @@ TEST_CASE("crowd bounds: twist bones share the hand's twist")
     }
     CHECK(turned > 10);
     CHECK(stage.rows(toml, "right_arm", columns)[0].cell.at("twist1_x").empty());
-    stage.require_refused(toml, "c.toml:2: limb.left_arm.twist_bones: a BVH file keeps the joints it has", "out.bvh");
+    stage.require_refused(toml, "c.toml:2: limb.left_arm.twist_bones: a written clip keeps the joints it has",
+                          "out.bvh");
 }
 
 TEST_CASE("crowd bounds: a budget solves so many blocks in a frame, the urgent ones more often")

@@ -23,10 +23,11 @@ namespace fs = std::filesystem;
 inline std::vector<fs::path> data_folders()
 {
     std::vector<fs::path> folders;
-    if (const char* own = std::getenv("SWIVEL_TEST_DATA")) folders = {own, fs::path(own) / "bvh"};
-    folders.push_back("/usr/share/assimp/models/BVH");
+    if (const char* own = std::getenv("SWIVEL_TEST_DATA"))
+        folders = {own, fs::path(own) / "bvh", fs::path(own) / "gltf"};
+    folders.insert(folders.end(), {"/usr/share/assimp/models/BVH", "/usr/share/assimp/models/glTF2"});
     const fs::path shared = fs::path(SWIVEL_SOURCE_DIR) / ".." / "shared" / "data";
-    folders.insert(folders.end(), {shared, shared / "bvh"});
+    folders.insert(folders.end(), {shared, shared / "bvh", shared / "gltf"});
     return folders;
 }
 

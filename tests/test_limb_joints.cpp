@@ -22,11 +22,11 @@ using Names = std::vector<std::string>;
 Clip skeleton(const std::vector<Names>& chains)
 {
     Clip clip;
-    clip.joints.push_back({"Root"});
+    clip.joints.push_back({"Root", -1, {0, 0, 0}});
     for (const Names& chain : chains) {
         int parent = 0;
         for (const std::string& name : chain) {
-            clip.joints.push_back({name, parent});
+            clip.joints.push_back({name, parent, {1, 0, 0}});
             parent = static_cast<int>(clip.joints.size()) - 1;
         }
     }
@@ -36,7 +36,7 @@ Clip skeleton(const std::vector<Names>& chains)
 // The names of the limb found, in order; none if there is none.
 Names found(const Clip& clip, LimbKind kind, Side side)
 {
-    const auto joints = tools::joints_by_habit(clip, {kind, side});
+    const auto joints = tools::limb_by_name(clip, {kind, side}).joints;
     Names names;
     if (joints)
         for (const int joint : *joints) names.push_back(clip.joints[static_cast<std::size_t>(joint)].name);
@@ -79,6 +79,24 @@ TEST_CASE("limb joints: legs by the names in use")
     legs({"Bip01 L Thigh", "Bip01 L Calf", "Bip01 L Foot"}, {"Bip01 R Thigh", "Bip01 R Calf", "Bip01 R Foot"});
 }
 
+TEST_CASE("limb joints: legs by rarer names, with twist bones in between")
+{
+    const auto legs = [](const Names& left, const Names& right) { require_found(LimbKind::leg, left, right); };
+    legs({"CC_Base_L_Thigh", "CC_Base_L_Calf", "CC_Base_L_Foot"},
+         {"CC_Base_R_Thigh", "CC_Base_R_Calf", "CC_Base_R_Foot"});
+    legs({"ValveBiped.Bip01_L_Thigh", "ValveBiped.Bip01_L_Calf", "ValveBiped.Bip01_L_Foot"},
+         {"ValveBiped.Bip01_R_Thigh", "ValveBiped.Bip01_R_Calf", "ValveBiped.Bip01_R_Foot"});
+    legs({"L_Hip", "L_Knee", "L_Ankle"}, {"R_Hip", "R_Knee", "R_Ankle"});
+    legs({"mHipLeft", "mKneeLeft", "mAnkleLeft"}, {"mHipRight", "mKneeRight", "mAnkleRight"});
+    legs({"左足", "左ひざ", "左足首"}, {"右足", "右ひざ", "右足首"});
+    const auto found_leg = [](const Names& names) { return found(skeleton({names}), LimbKind::leg, Side::left); };
+    CHECK(found_leg({"lThighBend", "lThighTwist", "lShin", "lFoot"}) == Names{"lThighBend", "lShin", "lFoot"});
+    CHECK(found_leg({"DEF-thigh.L", "DEF-thigh.L.001", "DEF-shin.L", "DEF-shin.L.001", "DEF-foot.L"}) ==
+          Names{"DEF-thigh.L", "DEF-shin.L", "DEF-foot.L"});
+    CHECK(found_leg({"upperleg01.L", "upperleg02.L", "lowerleg01.L", "lowerleg02.L", "foot.L"}) ==
+          Names{"upperleg01.L", "lowerleg01.L", "foot.L"});
+}
+
 TEST_CASE("limb joints: arms by the names in use")
 {
     const auto arms = [](const Names& left, const Names& right) { require_found(LimbKind::arm, left, right); };
@@ -107,7 +125,7 @@ TEST_CASE("limb joints: no guess where names repeat, joints are no chain, or a j
     CHECK(left_leg({{"LeftUpLeg", "LeftLeg", "LeftFoot"}, {"LeftLeg"}}).empty());
     CHECK(left_leg({{"LeftUpLeg", "LeftLeg"}, {"LeftFoot"}}).empty());
     CHECK(left_leg({{"LeftUpLeg", "LeftLeg"}}).empty());
-    CHECK(left_leg({{"LeftUpLeg", "LeftLegTwist", "LeftLeg", "LeftFoot"}}).empty());
+    CHECK(left_leg({{"LeftUpLeg", "LeftLeg2", "LeftLeg", "LeftFoot"}}).empty());
     CHECK(left_leg({{"RightUpLeg", "RightLeg", "RightFoot"}}).empty());
 }
 

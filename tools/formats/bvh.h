@@ -55,12 +55,6 @@ struct BvhFile {
 // Holds the text once, and 32 bytes a frame and joint; the count a file announces allocates nothing by itself.
 BvhFile read_bvh(const std::filesystem::path& path);
 
-// New local rotations for one joint of a file.
-struct RotationOverride {
-    int joint = -1;                                // index in clip.joints, at most once a call
-    std::span<const Eigen::Quaterniond> rotation;  // one per frame, not zero, made unit; borrowed for the call
-};
-
 // Writes `file` with the rotation channels of the overridden joints replaced; all other text is copied byte for byte,
 // so without overrides the copy is identical. Angles have nine decimals, which give the rotation back to better than
 // 1e-9 rad. Keys are continuous: each angle triple is the one nearest to the frame before, the first to the file's own.

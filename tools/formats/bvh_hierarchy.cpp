@@ -82,6 +82,7 @@ void open_joint(Scanner& scan, BvhFile& file, std::vector<OpenJoint>& open)
         open.back().has_child = true;
     }
     open.push_back({file.clip.joints.size()});
+    joint.number = static_cast<int>(file.clip.joints.size());
     file.clip.joints.push_back(std::move(joint));
     expect(scan, "{");
 }

@@ -3,6 +3,8 @@
 
 #include <cassert>
 
+#include "tools/formats/text.h"
+
 namespace swivel::formats {
 namespace {
 
@@ -28,7 +30,59 @@ bool has_path(const Clip& clip, int joint, std::string_view path)
     return path.empty();
 }
 
+// Turns what `next` gives for each joint, its pose against its parent, into poses in the world.
+template <class Next>
+void chain_up(const Clip& clip, std::span<JointPose> pose_w, const Next& next)
+{
+    for (std::size_t joint = 0; joint < clip.joints.size(); ++joint) {
+        const int parent = clip.joints[joint].parent;
+        const JointPose local = next(joint);
+        pose_w[joint] = parent < 0 ? local : pose_w[static_cast<std::size_t>(parent)] * local;
+    }
+}
+
 }  // namespace
+
+Eigen::Vector3d mirrored(const Eigen::Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
+Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
+
+JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation,
+                     const Eigen::Vector3d& scale)
+{
+    JointPose pose{translation, rotation};
+    if (scale == Eigen::Vector3d::Ones()) return pose;
+    const Eigen::Vector3d size = scale.cwiseAbs();
+    pose.scale = size.mean();
+    pose.is_uniform = size.maxCoeff() - size.minCoeff() <= 1e-4 * size.maxCoeff();
+    pose.mirrored = scale.x() * scale.y() * scale.z() < 0;
+    // The signs are a mirror in x, or none, and then half a turn about an axis, or none: the one that keeps its sign.
+    const Eigen::Array3d sign(pose.mirrored == (scale.x() < 0) ? 1 : -1, scale.y() < 0 ? -1 : 1,
+                              scale.z() < 0 ? -1 : 1);
+    if ((sign < 0).any()) pose.rotation = rotation * Eigen::Quaterniond(0, sign[0] > 0, sign[1] > 0, sign[2] > 0);
+    return pose;
+}
+
+JointPose operator*(const JointPose& outer, const JointPose& inner)
+{
+    JointPose pose;
+    pose.position = to_outer(outer, inner.position);
+    pose.rotation = outer.rotation * (outer.mirrored ? mirrored(inner.rotation) : inner.rotation);
+    pose.scale = outer.scale * inner.scale;
+    pose.mirrored = outer.mirrored != inner.mirrored;
+    pose.is_uniform = outer.is_uniform && inner.is_uniform;
+    return pose;
+}
+
+Eigen::Vector3d to_outer(const JointPose& pose, const Eigen::Vector3d& point)
+{
+    return pose.position + pose.scale * (pose.rotation * (pose.mirrored ? mirrored(point) : point));
+}
+
+Eigen::Vector3d to_inner(const JointPose& pose, const Eigen::Vector3d& point)
+{
+    const Eigen::Vector3d turned = pose.rotation.conjugate() * (point - pose.position) / pose.scale;
+    return pose.mirrored ? mirrored(turned) : turned;
+}
 
 Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size_t joint)
 {
@@ -37,21 +91,29 @@ Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size
     return clip.translation[frame * clip.track_count + static_cast<std::size_t>(at.track)];
 }
 
+JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint)
+{
+    const Joint& at = clip.joints[joint];
+    const Eigen::Vector3d& scale =
+        at.scale_track < 0 ? at.rest_scale
+                           : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(at.scale_track)];
+    JointPose pose =
+        local_pose(local_translation(clip, frame, joint), clip.rotation[frame * clip.joints.size() + joint], scale);
+    pose.is_uniform = pose.is_uniform && !at.is_sheared;
+    return pose;
+}
+
+JointPose local_rest_pose(const Joint& joint)
+{
+    JointPose pose = local_pose(joint.offset, joint.rest_rotation, joint.rest_scale);
+    pose.is_uniform = pose.is_uniform && !joint.is_sheared;
+    return pose;
+}
+
 void world_pose(const Clip& clip, std::size_t frame, std::span<JointPose> pose_w)
 {
-    const std::size_t joint_count = clip.joints.size();
-    assert(pose_w.size() == joint_count && frame < clip.frame_count);
-    for (std::size_t joint = 0; joint < joint_count; ++joint) {
-        const int parent = clip.joints[joint].parent;
-        const Eigen::Vector3d translation = local_translation(clip, frame, joint);
-        const Eigen::Quaterniond& rotation = clip.rotation[frame * joint_count + joint];
-        if (parent < 0) {
-            pose_w[joint] = {translation, rotation};
-        } else {
-            const JointPose& from = pose_w[static_cast<std::size_t>(parent)];
-            pose_w[joint] = {from.position + from.rotation * translation, from.rotation * rotation};
-        }
-    }
+    assert(pose_w.size() == clip.joints.size() && frame < clip.frame_count);
+    chain_up(clip, pose_w, [&](std::size_t joint) { return local_pose(clip, frame, joint); });
 }
 
 std::vector<JointPose> world_pose(const Clip& clip, std::size_t frame)
@@ -61,24 +123,29 @@ std::vector<JointPose> world_pose(const Clip& clip, std::size_t frame)
     return pose_w;
 }
 
+std::vector<JointPose> rest_pose(const Clip& clip)
+{
+    std::vector<JointPose> pose_w(clip.joints.size());
+    chain_up(clip, pose_w, [&](std::size_t joint) { return local_rest_pose(clip.joints[joint]); });
+    return pose_w;
+}
+
 std::vector<Eigen::Vector3d> rest_positions(const Clip& clip)
 {
     std::vector<Eigen::Vector3d> position_w;
-    position_w.reserve(clip.joints.size());
-    for (const Joint& joint : clip.joints) {
-        const bool is_root = joint.parent < 0;
-        const Eigen::Vector3d from_w =
-            is_root ? Eigen::Vector3d(0, 0, 0) : position_w[static_cast<std::size_t>(joint.parent)];
-        position_w.push_back(from_w + joint.offset);
-    }
+    for (const JointPose& pose : rest_pose(clip)) position_w.push_back(pose.position);
     return position_w;
 }
 
 std::vector<int> find_joints(const Clip& clip, std::string_view name_or_path)
 {
     std::vector<int> found;
+    const bool is_number = name_or_path.starts_with('#');
+    const auto number = is_number ? parse_integer(name_or_path.substr(1)) : std::nullopt;
     for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint) {
-        if (joint_at(clip, joint).name == name_or_path || has_path(clip, joint, name_or_path)) found.push_back(joint);
+        const Joint& at = joint_at(clip, joint);
+        const bool has_number = number && *number == at.number;
+        if (has_number || at.name == name_or_path || has_path(clip, joint, name_or_path)) found.push_back(joint);
     }
     return found;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // A moving skeleton in memory, whatever file it came from: joints, and one local rotation per frame and joint.
 // Lengths are the file's unit, quaternions are Hamilton's and turn child coordinates into the parent's:
-// x_parent = translation + rotation * x_child. Knows no file and no solver.
+// x_parent = translation + rotation * (scale * x_child), scale by component. Knows no file and no solver.
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -16,9 +16,15 @@ namespace swivel::formats {
 struct Joint {
     std::string name;  // need not be unique, may hold blanks
     int parent = -1;   // index in Clip::joints, always smaller than the joint's own; -1: a root
-    // From the parent's origin, in the parent's axes. The rest pose is these, with no rotation.
+    // The rest pose, relative to the parent: from its origin, in its axes. BVH rests without rotation or scale.
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-    int track = -1;  // column in Clip::translation; -1: the joint never leaves its offset
+    Eigen::Quaterniond rest_rotation = Eigen::Quaterniond::Identity();  // unit
+    Eigen::Vector3d rest_scale = Eigen::Vector3d::Ones();               // may be negative: a mirror
+    bool is_sheared = false;  // the file's matrix is more than these three say
+    int track = -1;           // column in Clip::translation; -1: the joint never leaves its offset
+    int scale_track = -1;     // column in Clip::scale; -1: always rest_scale
+    int number = -1;          // what the file calls it besides its name, "#12": its place in the file's own list
+    bool is_bone = true;      // false: the file says which nodes are joints of a skin, and this is none
 };
 
 struct Clip {
@@ -28,17 +34,51 @@ struct Clip {
     std::size_t track_count = 0;               // joints that move against their parent; often the root alone
     std::vector<Eigen::Quaterniond> rotation;  // local, unit; [frame * joints.size() + joint]
     std::vector<Eigen::Vector3d> translation;  // local, takes the place of offset; [frame * track_count + track]
+    std::size_t scale_track_count = 0;         // joints whose scale changes
+    std::vector<Eigen::Vector3d> scale;        // takes the place of rest_scale; [frame * scale_track_count + track]
 };
 
-// Where a joint is in world space: x_w = position + rotation * x_joint.
-struct JointPose {
-    Eigen::Vector3d position;
-    Eigen::Quaterniond rotation;
+// New local rotations for one joint of a clip, for its writer.
+struct RotationOverride {
+    int joint = -1;                                // index in Clip::joints, at most once a call
+    std::span<const Eigen::Quaterniond> rotation;  // one per frame, not zero, made unit; borrowed for the call
 };
+
+// Where a joint is in another space, mostly the world: x_w = position + scale * (rotation * x), with x mirrored in its
+// own x before that if `mirrored`. So a rotation stays a rotation below a mirror.
+struct JointPose {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    double scale = 1;       // above 0; 0 where a joint at or above is scaled to nothing
+    bool mirrored = false;  // an odd number of mirrors at and above
+    // False: a joint at or above is scaled by different factors along its axes (by more than 1e-4; exporters
+    // make noise of up to 3e-5). Then no rotation and scale say it all, and these hold the mean factor: not to be
+    // relied on.
+    bool is_uniform = true;
+};
+
+// v with its x turned over, and the same turn seen in that mirror.
+Eigen::Vector3d mirrored(const Eigen::Vector3d& v);
+Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q);
+
+// A joint's own pose against its parent, from what files store.
+JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaterniond& rotation,
+                     const Eigen::Vector3d& scale);
+
+// `inner`, given in the space of `outer`, in the space that `outer` is given in.
+JointPose operator*(const JointPose& outer, const JointPose& inner);
+
+// A point given in the pose's space, in the space the pose is given in; and back (scale not 0).
+Eigen::Vector3d to_outer(const JointPose& pose, const Eigen::Vector3d& point);
+Eigen::Vector3d to_inner(const JointPose& pose, const Eigen::Vector3d& point);
 
 // A joint's translation against its parent in one frame: its track where it has one, else its offset.
 // joint: 0 to joints.size()-1; frame: 0 to frame_count-1; here and below the caller answers for them.
 Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size_t joint);
+
+// The whole of it: translation, rotation and scale; and the same at rest.
+JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint);
+JointPose local_rest_pose(const Joint& joint);
 
 // Forward kinematics: every joint of one frame in world space, in double.
 // pose_w: joints.size() elements, all written; must not overlap the clip.
@@ -48,11 +88,14 @@ void world_pose(const Clip& clip, std::size_t frame, std::span<JointPose> pose_w
 // The same in a vector of its own.
 std::vector<JointPose> world_pose(const Clip& clip, std::size_t frame);
 
-// World positions of all joints in the rest pose: sums of offsets, no rotation, no track.
+// Every joint in world space in the rest pose.
+std::vector<JointPose> rest_pose(const Clip& clip);
+
+// World positions of all joints in the rest pose.
 std::vector<Eigen::Vector3d> rest_positions(const Clip& clip);
 
-// All joints of this name or of this path, in the clip's order; none, or several where names repeat: the caller
-// decides.
+// All joints of this name, of this path or, written "#12", of this number, in the clip's order; none, or several where
+// names repeat: the caller decides.
 std::vector<int> find_joints(const Clip& clip, std::string_view name_or_path);
 
 // The direct children of a joint, in the clip's order; of -1, the roots. Looks at every joint.

@@ -33,6 +33,8 @@ void store(const Vector3d& v, float (&to)[3])
 {
     for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(v[n]);
 }
+Quaterniond quaternion(const std::array<float, 4>& q) { return Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
+
 template <class Floats>
 void store(const Quaterniond& q, Floats& to)
 {
@@ -43,7 +45,12 @@ void store(const Quaterniond& q, Floats& to)
 
 ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
                      const std::filesystem::path& file)
-    : motion_(clip, limbs), limbs_(limbs), plans_(plan.limbs), characters_(plan.characters), crowds_(limbs, plan, file)
+    : clip_(clip),
+      motion_(clip, limbs),
+      limbs_(limbs),
+      plans_(plan.limbs),
+      characters_(plan.characters),
+      crowds_(limbs, plan, file)
 {
     place_characters(plan);
     goals_.resize(limbs.size(), std::vector<Goal>(plan.characters));
@@ -93,8 +100,9 @@ Vector3d ClipCrowd::pole_from_clip(std::size_t limb, std::uint32_t character) co
     const LimbPlan& plan = plans_[limb];
     const Vector3d elbow = from.elbow - from.shoulder;
     if (plan.pole == PoleKind::point)
-        return from.shoulder + (plan.pole_fixed ? *plan.pole_fixed : characters_[character].size * elbow);
-    if (plan.pole_fixed) return *plan.pole_fixed;
+        return from.shoulder +
+               (plan.pole_fixed ? as_solved(limb, *plan.pole_fixed) : characters_[character].size * elbow);
+    if (plan.pole_fixed) return as_solved(limb, *plan.pole_fixed);
     return plan.pole == PoleKind::normal ? Vector3d(from.wrist - from.shoulder).cross(elbow) : elbow;
 }
 
@@ -104,20 +112,27 @@ ClipCrowd::Goal ClipCrowd::goal_from_plan(std::size_t limb, std::uint32_t charac
     const LimbPlan& plan = plans_[limb];
     const double size = characters_[character].size;
     const Vector3d at_clip = from.shoulder + size * (from.wrist - from.shoulder + from.hand * plan.effector);
-    const Vector3d at = plan.target_point ? *plan.target_point - motion_.root(clip_frame(character)) : at_clip;
+    const Vector3d at =
+        plan.target_point ? as_solved(limb, *plan.target_point - motion_.origin(clip_frame(character), limb)) : at_clip;
     const bool from_clip = !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole;
-    return {at + plan.target_offset, pole_from_clip(limb, character), from.hand, from_clip};
+    return {at + as_solved(limb, plan.target_offset), pole_from_clip(limb, character), from.hand, from_clip};
 }
 
 ClipCrowd::Goal ClipCrowd::goal_given(std::size_t limb, const formats::Target& target) const
 {
     const LimbPlan& plan = plans_[limb];
-    const Vector3d root = motion_.root(clip_frame(target.character)) + characters_[target.character].place;
+    const Vector3d origin = motion_.origin(clip_frame(target.character), limb) + characters_[target.character].place;
     const bool is_point = plan.pole == PoleKind::point;
     const Vector3d pole = plan.pole_fixed ? pole_from_clip(limb, target.character)
-                                          : Vector3d(is_point ? target.pole - root : target.pole);
-    return {target.position - root + plan.target_offset, pole,
-            target.has_orientation ? target.orientation : in_clip(limb, target.character).hand, false};
+                                          : as_solved(limb, is_point ? target.pole - origin : target.pole);
+    const Quaterniond hand = limbs_[limb].mirrored ? formats::mirrored(target.orientation) : target.orientation;
+    return {as_solved(limb, target.position - origin + plan.target_offset), pole,
+            target.has_orientation ? hand : in_clip(limb, target.character).hand, false};
+}
+
+Vector3d ClipCrowd::as_solved(std::size_t limb, const Vector3d& v) const
+{
+    return limbs_[limb].mirrored ? formats::mirrored(v) : v;
 }
 
 void ClipCrowd::put(std::size_t limb, std::uint32_t character, const Goal& goal)
@@ -130,6 +145,10 @@ void ClipCrowd::put(std::size_t limb, std::uint32_t character, const Goal& goal)
     store(from.shoulder, input.position);
     store(from.parent, input.rotation);
     store(plans_[limb].has(SWIVEL_WITH_AIM) ? from.local_wrist() : goal.hand, input.hand);
+    if (motion_.stretches(limb)) {
+        input.lengths[0] = static_cast<float>(characters_[character].size * from.upper_length());
+        input.lengths[1] = static_cast<float>(characters_[character].size * from.fore_length());
+    }
     if (!crowds_.has(limb, SWIVEL_INCOMING_SHOULDER)) return;
     store(from.local_shoulder(), input.shoulder);
     store(from.local_elbow(), input.elbow);
@@ -148,6 +167,7 @@ void ClipCrowd::write_inputs(std::size_t limb)
                                       {SWIVEL_INCOMING_ELBOW, first.elbow},
                                       {SWIVEL_INCOMING_WRIST, first.wrist}})
         if (crowds_.has(limb, field)) crowds_.write(limb, field, from, sizeof(Input));
+    if (motion_.stretches(limb)) crowds_.write(limb, SWIVEL_LENGTHS, first.lengths, sizeof(Input));
 }
 
 void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> given)
@@ -178,6 +198,24 @@ void ClipCrowd::solve(Statistics& statistics)
 }
 
 formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) const
+{
+    formats::PoseRow row = solved_pose(limb, character);
+    const LimbInClip& from = in_clip(limb, character);
+    const LimbChain& chain = limbs_[limb].chain;
+    const auto is_none = [](const Quaterniond& q) { return q.vec().isZero(0); };
+    // The joints of most skeletons are the solver's own, to the last bit.
+    if (chain.is_plain && is_none(from.upper_aim) && is_none(from.fore_aim)) return row;
+    const Quaterniond shoulder = quaternion(row.shoulder), fore = shoulder * quaternion(row.elbow);
+    const std::array<Quaterniond, 3> own = local_rotations(
+        clip_, clip_frame(character), chain,
+        {shoulder * from.upper_aim.conjugate(), fore * from.fore_aim.conjugate(), fore * quaternion(row.wrist)});
+    store(own[0], row.shoulder);
+    store(own[1], row.elbow);
+    store(own[2], row.wrist);
+    return row;
+}
+
+formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row;
     row.character = character;

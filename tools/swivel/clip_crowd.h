@@ -23,7 +23,7 @@ public:
     // Character n stands the plan's spacing, in arm spans (leg spans where no arm is solved), apart from its neighbours
     // on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)). The incoming pose is the
     // clip's. limbs and plan must outlive the crowd. file: of the plan, for messages. Memory grows with characters and
-    // with frames, not with their product.
+    // with frames, not with their product. The clip must outlive the crowd, too.
     ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
               const std::filesystem::path& file);
 
@@ -40,8 +40,8 @@ public:
     // Adds what the errors and flags of the limbs solved in this frame are, by forward kinematics in double.
     void measure(Statistics& statistics) const;
 
-    // One limb's local rotations: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that is not solved is the
-    // clip's.
+    // One limb's local rotations as the skeleton stores them: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that
+    // is not solved is the clip's.
     formats::PoseRow pose(std::size_t limb, std::uint32_t character) const;
     // The local rotation of the joint above a limb whose plan has a clavicle.
     Eigen::Quaterniond clavicle(std::size_t limb, std::uint32_t character) const;
@@ -74,6 +74,10 @@ private:
     {
         return motion_.at(clip_frame(character), limb);
     }
+    // What lies in the world, as the limb is solved: mirrored where the limb is.
+    Eigen::Vector3d as_solved(std::size_t limb, const Eigen::Vector3d& v) const;
+    // The same rotations between the two bones that the solver knows.
+    formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
     void place_characters(const CrowdPlan& plan);
     void write_sizes();
     Eigen::Vector3d pole_from_clip(std::size_t limb, std::uint32_t character) const;
@@ -86,6 +90,7 @@ private:
     void measure_against_clip(std::size_t limb, std::uint32_t character, const Eigen::Vector3d& elbow,
                               LimbStatistics& statistics) const;
 
+    const formats::Clip& clip_;
     ClipMotion motion_;
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;

@@ -91,7 +91,7 @@ void ClipCrowd::measure_against_clip(std::size_t limb, std::uint32_t character, 
     (bent ? statistics.bent : statistics.straight).add((elbow - wanted).norm() / (double{lengths[0]} + lengths[1]));
     if (character != 0) return;
 
-    const formats::PoseRow row = pose(limb, character);
+    const formats::PoseRow row = solved_pose(limb, character);
     const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
     const Quaterniond turned = from.upper.conjugate() * shoulder_w;
     statistics.upper_swing.add(swing(turned, limbs_[limb].upper_bone));

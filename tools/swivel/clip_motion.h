@@ -10,11 +10,17 @@
 
 namespace swivel::tools {
 
-// One limb in one frame: places relative to the root joint, rotations in the world. Words are an arm's.
+// One limb in one frame, as the solver sees it: two bones that at rest point where the limb's do. Places relative to
+// the limb's origin, rotations in the world, both in the world's mirror image (x turned over) for a mirrored limb.
+// Words are an arm's.
 struct LimbInClip {
     Eigen::Vector3d shoulder, elbow, wrist;
     Eigen::Quaterniond parent, hand, upper, fore;
-    Eigen::Quaterniond local_parent;  // of the joint above
+    Eigen::Quaterniond local_parent = Eigen::Quaterniond::Identity();  // of the joint above
+    Eigen::Quaterniond upper_aim, fore_aim;  // the bone's direction at rest to this frame's, in its joint's axes
+
+    double upper_length() const { return (elbow - shoulder).norm(); }
+    double fore_length() const { return (wrist - elbow).norm(); }
 
     Eigen::Quaterniond local_shoulder() const { return parent.conjugate() * upper; }
     Eigen::Quaterniond local_elbow() const { return upper.conjugate() * fore; }
@@ -23,18 +29,25 @@ struct LimbInClip {
 
 class ClipMotion {
 public:
-    // Takes what it needs from the clip; limbs are joints of it. Memory: 488 bytes a frame for two limbs.
+    // Takes what it needs from the clip; limbs are joints of it. Memory: 640 bytes a frame for two limbs.
     ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs);
 
-    std::size_t frame_count() const { return roots_.size(); }
+    std::size_t frame_count() const { return frame_count_; }
     const LimbInClip& at(std::size_t frame, std::size_t limb) const { return limbs_[frame * limb_count_ + limb]; }
-    // The root joint in the world.
-    const Eigen::Vector3d& root(std::size_t frame) const { return roots_[frame]; }
+    // The limb's origin in the world, its shoulder: near it single precision is finest.
+    const Eigen::Vector3d& origin(std::size_t frame, std::size_t limb) const
+    {
+        return origins_[frame * limb_count_ + limb];
+    }
+    // Whether the clip stretches the limb's bones: by more than 1e-7 of their length.
+    bool stretches(std::size_t limb) const { return stretches_[limb]; }
 
 private:
     std::size_t limb_count_;
-    std::vector<LimbInClip> limbs_;  // [frame * limbs + limb]
-    std::vector<Eigen::Vector3d> roots_;
+    std::vector<LimbInClip> limbs_;         // [frame * limbs + limb]
+    std::vector<Eigen::Vector3d> origins_;  // the same
+    std::vector<bool> stretches_;
+    std::size_t frame_count_;
 };
 
 }  // namespace swivel::tools

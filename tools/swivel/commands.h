@@ -10,6 +10,7 @@ namespace swivel::tools {
 
 void add_demo(CLI::App& app);
 void add_solve(CLI::App& app);
+void add_rig(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_info(CLI::App& app);

@@ -92,18 +92,24 @@ void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const fo
         refuse(
             file, *s.clavicle_share,
             fmt::format("the {} starts where the joint above it is; there is no bone to turn", plain_name(limb.name)));
+    const formats::Joint& joint = clip.joints[static_cast<std::size_t>(above)];
+    if (limb.mirrored || joint.rest_scale.minCoeff() < 0 || joint.scale_track >= 0)
+        refuse(file, *s.clavicle_share,
+               fmt::format("the joint above the {}, {}, is mirrored or changes its scale; such a joint is not turned",
+                           plain_name(limb.name), joint.name));
 }
 
-void require_fits_bvh(const CrowdFile& file, std::span<const Limb> limbs)
+void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)
 {
     for (const Limb& limb : limbs) {
         const LimbSettings settings = settings_of(file, limb.name);
         if (settings.most_stretch && settings.most_stretch->value > 1)
-            refuse(file, *settings.most_stretch,
-                   "the bones of a BVH file keep their length; write a .csv, which has the stretch, or take this out");
+            refuse(
+                file, *settings.most_stretch,
+                "the bones of a written clip keep their length; write a .csv, which has the stretch, or take this out");
         if (settings.twist_bones && settings.twist_bones->value > 0)
             refuse(file, *settings.twist_bones,
-                   "a BVH file keeps the joints it has; write a .csv, which has the twist bones, or take this out");
+                   "a written clip keeps the joints it has; write a .csv, which has the twist bones, or take this out");
     }
 }
 

@@ -22,7 +22,7 @@ void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& 
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                           const formats::Clip& clip, const Limb& limb);
 
-// Nothing is asked for that a BVH file has no room for: stretched bones and twist bones.
-void require_fits_bvh(const formats::CrowdFile& file, std::span<const Limb> limbs);
+// Nothing is asked for that a written clip, BVH or glTF, has no room for: stretched bones and twist bones.
+void require_fits_motion(const formats::CrowdFile& file, std::span<const Limb> limbs);
 
 }  // namespace swivel::tools

@@ -90,7 +90,8 @@ struct Planner {
     void clavicle(const formats::Clip& clip, const Limb& limb)
     {
         if (!from.clavicle_share) return;
-        const Eigen::Vector3f bone = clip.joints[static_cast<std::size_t>(limb.upper())].offset.cast<float>();
+        const Eigen::Vector3d& offset = clip.joints[static_cast<std::size_t>(limb.upper())].offset;
+        const Eigen::Vector3f bone = (limb.scale * offset).cast<float>();
         put(SWIVEL_WITH_CLAVICLE, SWIVEL_CLAVICLE,
             std::array{bone.x(), bone.y(), bone.z(), static_cast<float>(from.clavicle_share->value)});
     }

@@ -16,7 +16,7 @@ namespace {
 std::string no_limb(const formats::Clip& clip, formats::LimbName name)
 {
     const LimbWords& words = words_of(name.kind);
-    if (joints_by_habit(clip, name))
+    if (limb_by_name(clip, name).joints)
         return fmt::format("the {} is not solved; take it in with --limbs", plain_name(name));
     return fmt::format("the skeleton has no {}; name it with {} {}", plain_name(name), words.option, words.joints);
 }

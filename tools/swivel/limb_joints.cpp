@@ -1,60 +1,97 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/limb_joints.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cctype>
 #include <span>
-#include <string>
+#include <vector>
+
+#include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
 
 namespace {
 
 using formats::Clip;
+using formats::Joint;
 using formats::LimbKind;
+using formats::LimbName;
 using formats::Side;
 
-// What exporters put before every joint's name, in the form of plain().
-constexpr std::array<std::string_view, 5> kPrefixes = {"def", "mixamorig", "bip001", "bip01", "jbip"};
+// What exporters put before every joint's name, in the form of plain(), with a number after some.
+constexpr std::array<std::string_view, 8> kPrefixes = {"def",  "mixamorig", "valvebiped", "bip0",
+                                                       "jbip", "ccbase",    "mavg",       "favg"};
 
-// A joint's name in the form the tables below are written in: lower case, no name space before a colon, no separators,
-// no prefix.
+const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// A joint's name in the form the tables below are written in: lower case, no name space before a colon or bar, no
+// separators, no prefix. Letters beyond ASCII stay as they are.
 std::string plain(std::string_view name)
 {
-    if (const std::size_t colon = name.rfind(':'); colon != std::string_view::npos) name.remove_prefix(colon + 1);
+    if (const std::size_t space = name.find_last_of(":|"); space != std::string_view::npos)
+        name.remove_prefix(space + 1);
     std::string out;
-    for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)))
-            out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const std::string_view prefix : kPrefixes)
-        if (out.starts_with(prefix)) return out.substr(prefix.size());
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x80 || std::isalnum(byte)) out += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
+    }
+    for (bool again = true; again;) {
+        again = false;
+        for (const std::string_view prefix : kPrefixes) {
+            if (!out.starts_with(prefix) || out.size() == prefix.size()) continue;
+            out.erase(0, prefix.size());
+            while (!out.empty() && is_digit(out[0])) out.erase(0, 1);
+            again = true;
+        }
+    }
     return out;
 }
 
 // How exporters name a limb's three joints; * is the side, as a word or a letter.
-using Naming = std::array<std::string_view, 3>;
-constexpr std::array<Naming, 10> kArmNamings = {{
-    {"*arm", "*forearm", "*hand"},         // CMU, Mixamo, MotionBuilder
-    {"*upperarm", "*lowerarm", "*hand"},   // Unity, VRM
-    {"*upperarm", "*forearm", "*hand"},    // 3ds Max Biped
-    {"upperarm*", "lowerarm*", "hand*"},   // Unreal
-    {"upperarm*", "forearm*", "hand*"},    // Blender Rigify
-    {"upperarm*", "lowerarm*", "palm2*"},  // Quaternius
-    {"*shldr", "*forearm", "*hand"},       // Poser, DAZ
-    {"*shoulder", "*elbow", "*wrist"},     // Biovision
-    {"*uparm", "*lowarm", "*hand"},        // Biovision, older
-    {"*collar", "*elbow", "*wrist"},
-}};
-constexpr std::array<Naming, 9> kLegNamings = {{
-    {"*upleg", "*leg", "*foot"},          // CMU, Mixamo, MotionBuilder
-    {"*upperleg", "*lowerleg", "*foot"},  // Unity, VRM
-    {"*thigh", "*calf", "*foot"},         // 3ds Max Biped
-    {"thigh*", "calf*", "foot*"},         // Unreal
-    {"thigh*", "shin*", "foot*"},         // Blender Rigify
-    {"upperleg*", "lowerleg*", "foot*"},  // Quaternius
-    {"*thigh", "*shin", "*foot"},         // Poser, DAZ
-    {"*hip", "*knee", "*ankle"},          // Biovision
-    {"*upleg", "*lowleg", "*foot"},       // Biovision, older
-}};
+struct Naming {
+    std::array<std::string_view, 3> joints;
+    std::string_view habit;
+};
+constexpr Naming kArmNamings[] = {
+    {{"*arm", "*forearm", "*hand"}, "Mixamo, CMU, MotionBuilder"},
+    {{"*upperarm", "*lowerarm", "*hand"}, "Unity, VRM, Godot"},
+    {{"*upperarm", "*forearm", "*hand"}, "3ds Max Biped, Character Creator"},
+    {{"upperarm*", "lowerarm*", "hand*"}, "Unreal, Mesh2Motion"},
+    {{"upperarm*", "forearm*", "hand*"}, "Blender Rigify"},
+    {{"upperarm*", "lowerarm*", "palm2*"}, "Quaternius"},
+    {{"upperarm*", "lowerarm*", "palm*"}, "Quaternius"},
+    {{"upperarm*", "lowerarm*", "fist*"}, "Quaternius"},
+    {{"upperarm01*", "lowerarm01*", "wrist*"}, "MakeHuman"},
+    {{"arm*", "forearm*", "hand*"}, "Blender"},
+    {{"*shldr", "*forearm", "*hand"}, "Poser, DAZ"},
+    {{"*shldrbend", "*forearmbend", "*hand"}, "DAZ Genesis"},
+    {{"*shoulder", "*elbow", "*wrist"}, "Biovision, SMPL"},
+    {{"shoulder*", "elbow*", "wrist*"}, "Advanced Skeleton"},
+    {{"mshoulder*", "melbow*", "mwrist*"}, "Second Life"},
+    {{"*uparm", "*lowarm", "*hand"}, "Biovision, older"},
+    {{"*collar", "*elbow", "*wrist"}, "Biovision, older"},
+    {{"*腕", "*ひじ", "*手首"}, "MikuMikuDance"},
+};
+constexpr Naming kLegNamings[] = {
+    {{"*upleg", "*leg", "*foot"}, "Mixamo, CMU, MotionBuilder"},
+    {{"*upperleg", "*lowerleg", "*foot"}, "Unity, VRM, Godot"},
+    {{"*thigh", "*calf", "*foot"}, "3ds Max Biped, Character Creator"},
+    {{"thigh*", "calf*", "foot*"}, "Unreal, Mesh2Motion"},
+    {{"thigh*", "shin*", "foot*"}, "Blender Rigify"},
+    {{"upperleg*", "lowerleg*", "foot*"}, "Quaternius"},
+    {{"upperleg01*", "lowerleg01*", "foot*"}, "MakeHuman"},
+    {{"*thigh", "*shin", "*foot"}, "Poser, DAZ"},
+    {{"*thighbend", "*shin", "*foot"}, "DAZ Genesis"},
+    {{"*hip", "*knee", "*ankle"}, "Biovision, SMPL"},
+    {{"hip*", "knee*", "ankle*"}, "Advanced Skeleton"},
+    {{"mhip*", "mknee*", "mankle*"}, "Second Life"},
+    {{"*upleg", "*lowleg", "*foot"}, "Biovision, older"},
+    {{"*足", "*ひざ", "*足首"}, "MikuMikuDance"},
+};
 
 std::string with_side(std::string_view naming, std::string_view side)
 {
@@ -62,52 +99,127 @@ std::string with_side(std::string_view naming, std::string_view side)
     return std::string(naming.substr(0, star)).append(side).append(naming.substr(star + 1));
 }
 
-// The only joint of that plain name, or -1.
-int joint_named(const Clip& clip, const std::string& name)
+// The joints of a plain name: bones where any bears it.
+std::vector<int> joints_named(const Clip& clip, std::span<const std::string> plain_names, const std::string& name)
 {
-    int found = -1;
-    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
-        if (plain(clip.joints[n].name) != name) continue;
-        if (found >= 0) return -1;
-        found = static_cast<int>(n);
+    std::vector<int> found;
+    for (const bool bones : {true, false}) {
+        for (std::size_t n = 0; n < clip.joints.size(); ++n)
+            if (clip.joints[n].is_bone == bones && plain_names[n] == name) found.push_back(static_cast<int>(n));
+        if (!found.empty()) break;
     }
     return found;
 }
 
-std::optional<LimbJoints> joints_named(const Clip& clip, const Naming& naming, std::string_view side)
+// `name` without digits: what "DEF-upper_arm.L.001" and "DEF-upper_arm.L" share.
+std::string without_digits(std::string name)
 {
-    LimbJoints joints;
-    for (std::size_t n = 0; n < joints.size(); ++n) {
-        joints[n] = joint_named(clip, with_side(naming[n], side));
-        if (joints[n] < 0) return std::nullopt;
+    std::erase_if(name, is_digit);
+    return name;
+}
+
+// The first joint between the two that is neither a twist bone by name, nor named as `top` but for a number, nor at
+// the place of its parent; -1 if there is none.
+int stranger_between(const Clip& clip, int top, int bottom)
+{
+    int stranger = -1, below = bottom;
+    for (int up = joint_at(clip, bottom).parent; up != top; below = up, up = joint_at(clip, up).parent) {
+        const Joint& joint = joint_at(clip, up);
+        const bool no_step = joint.offset.isZero(0) || joint_at(clip, below).offset.isZero(0);
+        const bool is_part = without_digits(plain(joint.name)) == without_digits(plain(joint_at(clip, top).name));
+        if (!no_step && !is_part && !is_twist_name(joint.name)) stranger = up;
     }
-    return is_chain(clip, joints) ? std::optional(joints) : std::nullopt;
+    return stranger;
+}
+
+bool is_above(const Clip& clip, int top, int joint)
+{
+    while (joint >= 0 && joint != top) joint = joint_at(clip, joint).parent;
+    return joint >= 0;
+}
+
+// What came of one naming; `fits` counts joints that bear its names.
+struct Attempt {
+    LimbByName result;
+    int fits = 0;
+};
+
+Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, LimbName limb, const Naming& naming,
+                std::string_view side)
+{
+    const LimbWords& words = words_of(limb.kind);
+    const std::string_view parts[] = {words.upper_joint, words.lower_joint, words.end_joint};
+    Attempt made{{std::nullopt, std::string(naming.habit), {}}, 0};
+    LimbJoints joints{-1, -1, -1};
+    std::string& problem = made.result.problem;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const std::string name = with_side(naming.joints[n], side);
+        const std::vector<int> found = joints_named(clip, plain_names, name);
+        if (!found.empty()) joints[n] = found[0];
+        made.fits += !found.empty();
+        if (found.size() > 1 && problem.empty())
+            problem = fmt::format("{} joints are called '{}'", found.size(), joint_at(clip, found[0]).name);
+        else if (found.empty() && problem.empty())
+            problem = fmt::format("no joint is called '{}' or alike for its {}", name, parts[n]);
+    }
+    for (std::size_t n = 0; n < 2 && problem.empty(); ++n) {
+        const Joint &top = joint_at(clip, joints[n]), &bottom = joint_at(clip, joints[n + 1]);
+        if (joints[n] == joints[n + 1] || !is_above(clip, joints[n], joints[n + 1])) {
+            problem = fmt::format("'{}' is not below '{}' in the hierarchy", bottom.name, top.name);
+        } else if (const int between = stranger_between(clip, joints[n], joints[n + 1]); between >= 0) {
+            problem = fmt::format("'{}' lies between '{}' and '{}' and is no twist bone by its name",
+                                  joint_at(clip, between).name, top.name, bottom.name);
+        }
+    }
+    const auto is_bone = [&](int joint) { return joint_at(clip, joint).is_bone; };
+    if (problem.empty() && std::none_of(joints.begin(), joints.end(), is_bone))
+        problem =
+            fmt::format("'{}' and what is below it are no bones of the file's skin", joint_at(clip, joints[0]).name);
+    if (problem.empty()) made.result.joints = joints;
+    return made;
 }
 
 }  // namespace
 
 bool is_chain(const Clip& clip, const LimbJoints& joints)
 {
-    const auto parent = [&](int joint) { return clip.joints[static_cast<std::size_t>(joint)].parent; };
-    return parent(joints[2]) == joints[1] && parent(joints[1]) == joints[0];
+    return joints[0] != joints[1] && joints[1] != joints[2] && is_above(clip, joints[0], joints[1]) &&
+           is_above(clip, joints[1], joints[2]);
 }
 
-std::optional<LimbJoints> joints_by_habit(const Clip& clip, formats::LimbName limb)
+bool is_twist_name(std::string_view joint_name)
 {
+    const std::string name = plain(joint_name);
+    for (const std::string_view word : {"twist", "roll", "捩"})
+        if (name.find(word) != std::string::npos) return true;
+    return false;
+}
+
+LimbByName limb_by_name(const Clip& clip, LimbName limb)
+{
+    std::vector<std::string> plain_names;
+    for (const Joint& joint : clip.joints) plain_names.push_back(plain(joint.name));
     const auto namings = limb.kind == LimbKind::arm ? std::span<const Naming>(kArmNamings) : kLegNamings;
-    const auto sides = limb.side == Side::left ? std::array{"left", "l"} : std::array{"right", "r"};
+    const auto sides = limb.side == Side::left ? std::array{"left", "l", "左"} : std::array{"right", "r", "右"};
+    Attempt best;
+    best.fits = 1;  // one name alone says nothing: half the world has a "LeftHand"
     for (const Naming& naming : namings)
-        for (const std::string_view side : sides)
-            if (const std::optional<LimbJoints> joints = joints_named(clip, naming, side)) return joints;
-    return std::nullopt;
+        for (const std::string_view side : sides) {
+            Attempt made = attempt(clip, plain_names, limb, naming, side);
+            if (made.result.joints) return made.result;
+            if (made.fits > best.fits) best = std::move(made);
+        }
+    return best.result;
 }
 
 Side side_of(std::string_view joint_name, Side otherwise)
 {
     const std::string name = plain(joint_name);
-    const bool left = name.starts_with("l") || name.ends_with("l") || name.find("left") != std::string::npos;
+    const bool left = name.starts_with("l") || name.ends_with("l") || name.find("left") != std::string::npos ||
+                      name.starts_with("左");
     const bool right = name.find("right") != std::string::npos ||
-                       (!name.ends_with("shoulder") && name.ends_with("r")) || name.starts_with("r");
+                       (!name.ends_with("shoulder") && name.ends_with("r")) || name.starts_with("r") ||
+                       name.starts_with("右");
     return left == right ? otherwise : left ? Side::left : Side::right;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "tools/formats/clip.h"
@@ -15,13 +16,23 @@ namespace swivel::tools {
 // Shoulder, elbow and wrist, or hip, knee and ankle: joints of a clip.
 using LimbJoints = std::array<int, 3>;
 
-// True if each is the parent of the next.
+struct LimbByName {
+    std::optional<LimbJoints> joints;
+    std::string habit;    // whose names they are, for people: "Mixamo, CMU, MotionBuilder"
+    std::string problem;  // without joints: why names that fit are no limb; empty if none fit
+};
+
+// The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces and common
+// prefixes do not count. Each must be its name's only bearer among the bones (among all joints if no bone bears it)
+// and lie above the next, and one at least must be a bone; what lies between must be a twist bone by name, or at the
+// same place as one of them.
+LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);
+
+// True if each is above the next.
 bool is_chain(const formats::Clip& clip, const LimbJoints& joints);
 
-// The limb's joints by the habits of exporters: CMU, Mixamo, MotionBuilder, Unity, VRM, Unreal, Blender's Rigify,
-// Quaternius, 3ds Max Biped, Poser, DAZ, Biovision. Case, separators and name spaces do not count. Nothing where no
-// habit gives three joints, each its name's only bearer and the parent of the next.
-std::optional<LimbJoints> joints_by_habit(const formats::Clip& clip, formats::LimbName limb);
+// True if a joint's name says that it shares out another's twist: "upperarm_twist_01_l", "lForearmRoll".
+bool is_twist_name(std::string_view joint_name);
 
 // The side that a joint's name speaks of, or `otherwise` where it speaks of none or of both.
 formats::Side side_of(std::string_view joint_name, formats::Side otherwise);

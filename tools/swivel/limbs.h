@@ -5,38 +5,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "swivel/swivel.hpp"
-#include "tools/formats/clip.h"
-#include "tools/swivel/limb_joints.h"
+#include "tools/swivel/limb_bind.h"
 
 namespace swivel::tools {
 
-struct Limb {
-    formats::LimbName name;
-    LimbJoints joints{-1, -1, -1};  // shoulder, elbow and wrist, or hip, knee and ankle
-    BoundLimb bound{};
-    Eigen::Vector3d upper_bone = Eigen::Vector3d::Zero();  // its direction at rest, in the upper joint's frame
-    Eigen::Vector3d hinge = Eigen::Vector3d::Zero();       // in the same frame
-    std::string hinge_source;                              // how it was chosen, for people
-
-    int upper() const { return joints[0]; }
-    int lower() const { return joints[1]; }
-    int end() const { return joints[2]; }
-};
-
 // A limb named by the user.
 struct NamedLimb {
-    std::string joints;  // "SHOULDER,ELBOW,WRIST" or "HIP,KNEE,ANKLE", by name or path; see LimbChoice
+    std::string joints;  // "SHOULDER,ELBOW,WRIST" or "HIP,KNEE,ANKLE", by name, path or number; see LimbChoice
     std::string option;  // where it was named, for messages: "--arm"
-};
-// A hinge given by the user.
-struct GivenHinge {
-    formats::LimbName limb;
-    Eigen::Vector3d axis;  // in the upper joint's frame, unit
-    std::string where;     // for people
 };
 
 // Which limbs to solve. At most two of each kind are named; a leading "left:" or "right:" sets the side, else the names
@@ -47,9 +27,22 @@ struct LimbChoice {
     std::vector<GivenHinge> hinges;
 };
 
-// The limbs chosen, bound, arms first. Throws InputError naming the file and what is missing: a kind without limbs, an
-// unknown or ambiguous joint, joints that are not parent and child, a bone of no length, a hinge along the
-// bone, two limbs of a kind on one side, a joint in two limbs. choice: names of no kind that kinds leaves out.
+// What became of one limb: bound, or why not.
+struct LimbFinding {
+    formats::LimbName name;
+    std::optional<Limb> limb;
+    std::string problem;     // one line; also without any joint that fits
+    bool has_names = false;  // joints fit, by habit or by the user, though they do not bind
+};
+
+// All limbs of the kinds chosen, arms first, each bound or with its reason. Throws InputError, naming the file, for
+// what the user named wrongly: an unknown or ambiguous joint, joints that are not above each other, two limbs of a
+// kind on one side, a joint in two limbs. choice: names of no kind that kinds leaves out.
+std::vector<LimbFinding> look_for_limbs(const formats::Clip& clip, const std::filesystem::path& file,
+                                        const LimbChoice& choice);
+
+// The limbs that bind. Throws as look_for_limbs() does, and for a kind of which no limb has names in use, and for a
+// limb that has them and cannot be bound.
 std::vector<Limb> find_limbs(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 }  // namespace swivel::tools

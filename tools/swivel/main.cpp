@@ -37,6 +37,7 @@ int main(int argc, char** argv)
         "Exit codes: 0 done, 1 failed, 2 bad usage. SWIVEL_FORCE_ISA=NAME forces an instruction set (swivel info).");
     add_demo(app);
     add_solve(app);
+    add_rig(app);
     add_verify(app);
     add_bench(app);
     add_info(app);

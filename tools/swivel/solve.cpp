@@ -13,16 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "tools/formats/bvh.h"
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
-#include "tools/swivel/bvh_keys.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/crowd_checks.h"
 #include "tools/swivel/given_targets.h"
 #include "tools/swivel/interrupt.h"
+#include "tools/swivel/motion_keys.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
@@ -35,6 +34,7 @@ namespace {
 
 struct Options {
     std::string clip, crowd, out;
+    MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;
     std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
@@ -52,47 +52,48 @@ struct Job {
     std::string targets;  // "clip" or a file
 };
 
-enum class OutKind { none, bvh, csv };
+enum class OutKind { none, motion, csv };
 
 OutKind out_kind(const Options& options, std::uint32_t characters)
 {
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = std::filesystem::path(options.out).extension().string();
     if (suffix == ".csv") return OutKind::csv;
-    if (suffix != ".bvh")
-        throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh or .csv", options.out));
-    if (characters > 1)
+    if (!is_bvh(options.out) && !is_gltf(options.out))
         throw CommandError(
-            2, fmt::format("--out {}: a BVH file holds one character, not {}; write a .csv", options.out, characters));
-    return OutKind::bvh;
+            2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf or .csv", options.out));
+    if (characters > 1)
+        throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", options.out,
+                                          suffix == ".bvh" ? "BVH" : "glTF", characters));
+    return OutKind::motion;
 }
 
-Statistics solve_clip(const Options& options, const formats::BvhFile& file, const Job& job)
+Statistics solve_clip(const Options& options, const MotionFile& file, const Job& job)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
-    if (kind == OutKind::bvh && job.crowd) require_fits_bvh(*job.crowd, job.limbs);
-    GivenTargets given(job.targets, file.clip, job.limbs, job.plan.characters);
-    ClipCrowd crowd(file.clip, job.limbs, job.plan, options.crowd);
+    if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
+    GivenTargets given(job.targets, file.clip(), job.limbs, job.plan.characters);
+    ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
-    if (kind == OutKind::bvh)
+    if (kind == OutKind::motion)
         const formats::OutputFile can_be_written(options.out);  // says so before the work, not after
-    BvhKeys keys(job.limbs, job.plan);
+    MotionKeys keys(job.limbs, job.plan);
     Statistics statistics;
     {
-        Progress progress("frames", file.clip.frame_count);
-        for (std::size_t frame = 0; frame < file.clip.frame_count; ++frame) {
+        Progress progress("frames", file.clip().frame_count);
+        for (std::size_t frame = 0; frame < file.clip().frame_count; ++frame) {
             check_interrupt();
             progress.show(frame);
             crowd.set_frame(frame, given.of_frame(frame));
             crowd.solve(statistics);
             crowd.measure(statistics);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
-            if (kind == OutKind::bvh) keys.add(crowd);
+            if (kind == OutKind::motion) keys.add(crowd);
         }
     }
     if (csv) csv->commit();
-    if (kind == OutKind::bvh) keys.write(options.out, file);
+    if (kind == OutKind::motion) keys.write(options.out, file);
     return statistics;
 }
 
@@ -141,16 +142,18 @@ void run(const Options& options)
     out_kind(options, options.characters.value_or(1));  // usage errors first
     const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    const formats::BvhFile file = formats::read_bvh(options.clip);
-    const Job job = make_job(options, choice, file.clip);
+    const MotionFile file(options.clip, options.motion);
+    if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".csv")
+        file.require_can_write(options.out);
+    const Job job = make_job(options, choice, file.clip());
     const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed};
-    if (!options.json) print_clip(facts, file.clip, job.limbs);
+    if (!options.json) print_clip(facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);
     const Statistics statistics = solve_clip(options, file, job);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
-        nlohmann::ordered_json out = json_of(facts, file.clip, job.limbs);
+        nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
         out.update(json_of(statistics));
         out["seconds"] = seconds;
         if (!options.out.empty()) out["out"] = options.out;
@@ -167,9 +170,19 @@ void run(const Options& options)
 void add_solve(CLI::App& app)
 {
     CLI::App* command =
-        app.add_subcommand("solve", "Solve the arms and legs of a BVH clip, or of a crowd that performs it");
+        app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
     auto options = std::make_shared<Options>();
-    command->add_option("clip", options->clip, "Motion file, .bvh")->required()->check(file_name());
+    command->add_option("clip", options->clip, "Motion file: .bvh, .glb, .gltf or .vrm")
+        ->required()
+        ->check(file_name());
+    command->add_option("--clip", options->motion.clip,
+                        "Animation of a glTF file, by name or, counted from 0, index; else the first; a file without "
+                        "animations is solved in its rest pose");
+    command
+        ->add_option("--fps", options->motion.rate,
+                     "Sample a glTF animation so many times a second; else its keys are the frames, or 60 a second "
+                     "where they lie on no even grid")
+        ->check(number(0.001, 10'000));
     command
         ->add_option("--targets", options->targets,
                      "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
@@ -185,7 +198,9 @@ void add_solve(CLI::App& app)
             "budget; docs/crowd_file.md has every key. Options given here go before it")
         ->check(file_name());
     command
-        ->add_option("--out", options->out, "Write the poses: .bvh (one character) or .csv; without it statistics only")
+        ->add_option("--out", options->out,
+                     "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
+                     "else of the asset is kept), or .csv; without it statistics only")
         ->check(file_name());
     command
         ->add_option("--limbs", options->kinds,
@@ -193,9 +208,11 @@ void add_solve(CLI::App& app)
                      "arms")
         ->check(CLI::IsMember({"arms", "legs", "all"}));
     command
-        ->add_option("--arm", options->arms,
-                     "Joints of an arm, SHOULDER,ELBOW,WRIST, by name or path; up to twice; left: or right: in front "
-                     "sets the side")
+        ->add_option(
+            "--arm", options->arms,
+            "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12); up to twice; left: or right: in "
+            "front "
+            "sets the side")
         ->allow_extra_args(false);
     command->add_option("--leg", options->legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
         ->allow_extra_args(false);

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// The first character's solved rotations, kept for a BVH file that is written at the end.
+// The first character's solved rotations, kept for a file of motion that is written at the end.
 #pragma once
 
 #include <filesystem>
 #include <span>
 #include <vector>
 
-#include "tools/formats/bvh.h"
 #include "tools/swivel/clip_crowd.h"
+#include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {
 
-class BvhKeys {
+class MotionKeys {
 public:
     // Of a limb three joints, or two where the hand is not solved, and the joint above one with a clavicle. limbs and
     // plan must outlive it.
-    BvhKeys(std::span<const Limb> limbs, const CrowdPlan& plan)
+    MotionKeys(std::span<const Limb> limbs, const CrowdPlan& plan)
         : limbs_(limbs), plans_(plan.limbs), keys_(3 * limbs.size()), clavicles_(limbs.size())
     {
     }
@@ -24,8 +24,8 @@ public:
     // Takes the frame that the crowd has solved.
     void add(const ClipCrowd& crowd);
 
-    // Writes the clip's file with them; throws as formats::write_bvh() does.
-    void write(const std::filesystem::path& path, const formats::BvhFile& file) const;
+    // Writes the clip's file with them; throws as MotionFile::write() does.
+    void write(const std::filesystem::path& path, const MotionFile& file) const;
 
 private:
     std::span<const Limb> limbs_;

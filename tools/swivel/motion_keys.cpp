@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "tools/swivel/bvh_keys.h"
+#include "tools/swivel/motion_keys.h"
 
 namespace swivel::tools {
 
-void BvhKeys::add(const ClipCrowd& crowd)
+void MotionKeys::add(const ClipCrowd& crowd)
 {
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
         const formats::PoseRow row = crowd.pose(limb, 0);
@@ -15,16 +15,16 @@ void BvhKeys::add(const ClipCrowd& crowd)
     }
 }
 
-void BvhKeys::write(const std::filesystem::path& path, const formats::BvhFile& file) const
+void MotionKeys::write(const std::filesystem::path& path, const MotionFile& file) const
 {
     std::vector<formats::RotationOverride> overrides;
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
         for (std::size_t n = 0; n < (plans_[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
             overrides.push_back({limbs_[limb].joints[n], keys_[3 * limb + n]});
-        const int above = file.clip.joints[static_cast<std::size_t>(limbs_[limb].upper())].parent;
+        const int above = file.clip().joints[static_cast<std::size_t>(limbs_[limb].upper())].parent;
         if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) overrides.push_back({above, clavicles_[limb]});
     }
-    formats::write_bvh(path, file, overrides);
+    file.write(path, overrides);
 }
 
 }  // namespace swivel::tools

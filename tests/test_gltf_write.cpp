@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+//
+// The writer of glTF: new rotations are where they belong, everything else is what it was, value by value and byte by
+// byte; Khronos' validator and three.js read the result.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "tests/gltf_judges.h"
+#include "tests/gltf_rig.h"
+#include "tests/plain_gltf.h"
+#include "tools/formats/error.h"
+#include "tools/formats/gltf.h"
+
+using namespace swivel::test;
+using namespace std::literals;
+using namespace swivel::formats;
+using Eigen::Quaterniond;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::string_view kPixel =  // a PNG of one pixel
+    "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\6\0\0\0\x1f\x15\xc4\x89\0\0\0\rIDAT\x78\xda\x63\x64\xf8\xcf\x50"
+    "\x0f\0"
+    "\3\x86\1\x80\x5a\x34\x7d\x6b\0\0\0\0IEND\xae\x42\x60\x82"sv;
+
+// A skeleton of four with a mesh, a material with a picture, extras and an extension nobody knows.
+GltfRig furnished_rig()
+{
+    GltfRig rig;
+    const int hips = rig.add("hips", -1, {0, 1, 0}), arm = rig.add("arm", hips, {0.2, 0.3, 0}),
+              fore = rig.add("fore", arm, {0.3, 0, 0}), hand = rig.add("hand", fore, {0.25, 0, 0});
+    rig.json["nodes"][static_cast<std::size_t>(fore)] = {
+        {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.3, 0, 0, 1}},
+        {"children", {hand}},
+        {"extras", {{"note", "1.10 kept"}, {"deep", {1, 2.5, nullptr}}}}};
+    const int wave = rig.add_animation("wave"), rest = rig.add_animation("rest");
+    const std::vector<float> times = {0, 0.5f, 1};
+    rig.add_keys(wave, arm, "rotation", times, {0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1}, "STEP");
+    rig.add_keys(wave, hips, "translation", times, {0, 1, 0, 0, 2, 0, 0, 1, 0});
+    rig.add_keys(rest, arm, "rotation", times, {0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 1});
+    // The hand shares the arm's sampler.
+    rig.json["animations"][0]["channels"].push_back(
+        {{"sampler", 0}, {"target", {{"node", hand}, {"path", "rotation"}}}});
+    rig.json["animations"][0]["samplers"][0]["extras"] = "sampler's own";
+    rig.json["images"] = {{{"uri", "pic%20ture.png"}}};
+    rig.json["textures"] = {{{"source", 0}}};
+    rig.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.1}}}}};
+    rig.json["extensionsUsed"] = {"VENDOR_unknown"};
+    rig.json["extensions"] = {{"VENDOR_unknown", {{"answer", 42}}}};
+    const int positions = rig.add_accessor({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+    auto& accessor = rig.json["accessors"][static_cast<std::size_t>(positions)];
+    accessor["min"] = {0, 0, 0};
+    accessor["max"] = {1, 1, 0};
+    const int uv = rig.add_accessor({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+    rig.json["meshes"] = {
+        {{"primitives", {{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}}}, {"material", 0}}}}}};
+    rig.json["nodes"][0]["mesh"] = 0;
+    return rig;
+}
+
+std::vector<Quaterniond> turns(std::size_t count, double step)
+{
+    std::vector<Quaterniond> all;
+    for (std::size_t n = 0; n < count; ++n) {
+        const double angle = step * static_cast<double>(n + 1);
+        all.emplace_back(-std::cos(angle), 0, std::sin(angle), 0);
+        if (n % 2) all.back().coeffs() *= -3;  // same rotations, on any side and of any length
+    }
+    return all;
+}
+
+int joint_of(const GltfFile& file, int node) { return find_joints(file.clip, "#" + std::to_string(node)).at(0); }
+
+// What must survive of a file: its JSON without what the writer owns.
+json kept(json whole, std::size_t accessors, std::size_t views)
+{
+    whole.erase("buffers");
+    whole.erase("images");
+    whole["animations"][0].erase("samplers");
+    whole["animations"][0].erase("channels");
+    whole["nodes"][2] = {{"children", whole["nodes"][2]["children"]}, {"extras", whole["nodes"][2]["extras"]}};
+    whole["accessors"].get_ref<json::array_t&>().resize(accessors);
+    whole["bufferViews"].get_ref<json::array_t&>().resize(views);
+    return whole;
+}
+
+}  // namespace
+
+TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "in");
+    fs::create_directory(folder / "out put");
+    const GltfRig rig = furnished_rig();
+    rig.write(folder / "in/rig.gltf");
+    rig.write(folder / "in/rig.glb");
+    spill(folder / "in/pic ture.png", kPixel);
+    for (const char* from : {"in/rig.gltf", "in/rig.glb"})
+        for (const char* to : {"out put/new.gltf", "out put/new.glb", "in/new.gltf"}) {
+            INFO(from << " to " << to);
+            const GltfFile file = read_gltf(folder / from, {"wave"});
+            const auto arm = turns(3, 0.4), fore = turns(3, -0.3), hand = turns(3, 0.1);
+            const RotationOverride changes[] = {
+                {joint_of(file, 1), arm}, {joint_of(file, 2), fore}, {joint_of(file, 3), hand}};
+            write_gltf(folder / to, file, changes);
+            std::multiset<std::string> warnings;
+            CHECK(gltf_errors(folder / to, &warnings).empty());
+            CHECK(warnings.empty());
+
+            const PlainGltf before = plain_gltf_of(folder / from), after = plain_gltf_of(folder / to);
+            const std::size_t accessors = rig.json["accessors"].size(), views = rig.json["bufferViews"].size();
+            json wanted = kept(before.json, accessors, views), found = kept(after.json, accessors, views);
+            CHECK(found == wanted);
+            CHECK(after.buffers[0].substr(0, rig.bytes.size()) == rig.bytes);
+            CHECK(after.json["animations"][1] == before.json["animations"][1]);
+            CHECK(after.json["animations"][0]["channels"].size() == 4);
+
+            const auto poses = three_poses(folder / to, 0, {0.5});
+            for (std::size_t n = 0; n < 3; ++n) {
+                const double time = static_cast<double>(file.times[n]);
+                const auto wanted_of = [&](const Quaterniond& q) { return q.normalized().toRotationMatrix(); };
+                CHECK((plain_local(after, 0, 1, time).linear() - wanted_of(arm[n])).norm() < 1e-6);
+                CHECK((plain_local(after, 0, 2, time).linear() - wanted_of(fore[n])).norm() < 1e-6);
+                CHECK((plain_local(after, 0, 3, time).linear() - wanted_of(hand[n])).norm() < 1e-6);
+                CHECK(plain_local(after, 0, 0, time).isApprox(plain_local(before, 0, 0, time), 1e-15));
+                CHECK(plain_local(after, 0, 2, time).translation() == Eigen::Vector3d(0.3, 0, 0));
+            }
+            CHECK((poses[0][3] - plain_world(after, 0, 3, 0.5).matrix()).norm() < 1e-5);
+            // The picture: in the GLB, or still found from where the text lies now.
+            const json& image = after.json["images"][0];
+            if (fs::path(to).extension() == ".glb" && std::string_view(from).ends_with("gltf"))
+                CHECK(image.contains("bufferView"));
+            // The arm moved by steps and shared its sampler with the hand: each has its own now, still by steps.
+            for (const auto& channel : after.json["animations"][0]["channels"])
+                if (channel["target"]["path"] == "rotation")
+                    CHECK(after.json["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()]
+                                    ["interpolation"] == "STEP");
+        }
+}
+
+TEST_CASE("gltf write: without overrides a file keeps its values and bytes")
+{
+    const TempFolder folder;
+    const GltfRig rig = furnished_rig();
+    rig.write(folder / "rig.glb");
+    spill(folder / "pic ture.png", kPixel);
+    write_gltf(folder / "same.gltf", read_gltf(folder / "rig.glb"), {});
+    write_gltf(folder / "again.gltf", read_gltf(folder / "same.gltf"), {});
+    CHECK(slurp(folder / "again.gltf") == slurp(folder / "same.gltf"));
+    const PlainGltf plain = plain_gltf_of(folder / "again.gltf");
+    json document = plain.json;
+    document.erase("buffers");
+    CHECK(document == rig.json);
+    CHECK(plain.buffers[0] == rig.bytes);
+}
+
+TEST_CASE("gltf write: successive keys lie on one side, and move evenly unless all went by steps")
+{
+    const TempFolder folder;
+    GltfRig rig = furnished_rig();
+    rig.write(folder / "rig.glb");
+    const GltfFile file = read_gltf(folder / "rig.glb", {"rest"});
+    const auto arm = turns(3, 2.0);
+    const RotationOverride change[] = {{joint_of(file, 1), arm}};
+    write_gltf(folder / "rig.glb", file, change);  // onto itself
+    const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
+    const json& sampler = plain.json["animations"][1]["samplers"][0];
+    CHECK(sampler["interpolation"] == "LINEAR");
+    const auto keys = plain_numbers(plain, sampler["output"]);
+    REQUIRE(keys.size() == 12);
+    for (std::size_t n = 4; n < 12; n += 4) {
+        double dot = 0;
+        for (std::size_t c = 0; c < 4; ++c) dot += keys[n + c] * keys[n + c - 4];
+        CHECK(dot >= 0);
+    }
+}
+
+TEST_CASE("gltf write: a file without animations gets one")
+{
+    const TempFolder folder;
+    GltfRig rig;
+    const int root = rig.add("root", -1, {0, 0, 0});
+    rig.add("arm", root, {1, 0, 0});
+    rig.write(folder / "rig.glb");
+    const GltfFile file = read_gltf(folder / "rig.glb");
+    const std::vector<Quaterniond> turn = {Quaterniond(0, 1, 0, 0)};
+    const RotationOverride change[] = {{1, turn}};
+    write_gltf(folder / "new.glb", file, change);
+    CHECK(gltf_errors(folder / "new.glb").empty());
+    const GltfFile written = read_gltf(folder / "new.glb");
+    CHECK(written.animation_names == std::vector<std::string>{"swivel"});
+    CHECK(written.clip.rotation[1].isApprox(turn[0], 1e-7));
+}
+
+TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
+{
+    const TempFolder folder;
+    furnished_rig().write(folder / "rig.glb");
+    const GltfFile file = read_gltf(folder / "rig.glb");
+    const auto good = turns(3, 1), few = turns(2, 1);
+    std::vector<Quaterniond> zero = good;
+    zero[1].coeffs().setZero();
+    const auto write = [&](std::vector<RotationOverride> changes, const char* name = "new.glb") {
+        write_gltf(folder / name, file, changes);
+    };
+    CHECK_THROWS_AS(write({{99, good}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{-1, good}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, few}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, zero}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, good}, {1, good}}), std::invalid_argument);
+    CHECK_THROWS_AS(write({{1, good}}, "no/new.glb"), InputError);
+    CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("gltf write: real files gain no error")
+{
+    for (const char* name : {"RobotExpressive.glb", "m2m_human_ymca.glb", "m2m_human_male.glb", "cesium_man.gltf",
+                             "simple_skin/simple_skin.gltf"}) {
+        const fs::path path = find_data(name);
+        if (path.empty()) {
+            WARN("skipped: this machine has no " << name);
+            continue;
+        }
+        INFO(name);
+        const TempFolder folder;
+        const GltfFile file = read_gltf(path);
+        const auto turned = turns(file.clip.frame_count, 0.1);
+        const RotationOverride change[] = {{static_cast<int>(file.clip.joints.size()) - 1, turned}};
+        write_gltf(folder / "new.glb", file, change);
+        CHECK(gltf_errors(folder / "new.glb") == gltf_errors(path));
+        const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / "new.glb");
+        CHECK(after.buffers[0].substr(0, before.buffers[0].size()) == before.buffers[0]);
+    }
+}

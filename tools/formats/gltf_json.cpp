@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/gltf_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
+
+namespace swivel::formats {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr int kFloat = 5126;  // glTF's componentType
+
+// How deep brackets lie in each other, those in strings aside.
+std::size_t depth_of(std::string_view json)
+{
+    std::size_t depth = 0, deepest = 0;
+    bool in_string = false;
+    for (std::size_t at = 0; at < json.size(); ++at) {
+        const char c = json[at];
+        if (in_string && c == '\\')
+            ++at;
+        else if (c == '"')
+            in_string = !in_string;
+        else if (!in_string && (c == '{' || c == '['))
+            deepest = std::max(deepest, ++depth);
+        else if (!in_string && (c == '}' || c == ']') && depth > 0)
+            --depth;
+    }
+    return deepest;
+}
+
+Json parse(const fs::path& path, std::string_view text)
+{
+    if (depth_of(text) > 500)
+        throw InputError(path, "its JSON is nested deeper than 500 levels; no exporter does that");
+    try {
+        Json document = Json::parse(text);
+        if (document.is_object()) return document;
+    } catch (const Json::exception& error) {
+        throw InputError(path, fmt::format("is not glTF: {}", printable(error.what(), 160)));
+    }
+    throw InputError(path, "is not glTF: its JSON is no object");
+}
+
+void copy_members(const Json& from, Json& to, std::initializer_list<const char*> names)
+{
+    if (!from.is_object()) return;
+    for (const char* name : names)
+        if (const auto found = from.find(name); found != from.end()) to[name] = *found;
+}
+
+// An array's elements with the named members only; nothing where it is no array.
+void copy_array(const Json& from, Json& to, const char* array, std::initializer_list<const char*> names)
+{
+    const auto found = from.find(array);
+    if (found == from.end() || !found->is_array()) return;
+    to[array] = Json::array();
+    for (const Json& element : *found) {
+        to[array].push_back(Json::object());
+        copy_members(element, to[array].back(), names);
+    }
+}
+
+void refuse_compression(const fs::path& path, const Json& document)
+{
+    const auto found = document.find("extensionsRequired");
+    if (found == document.end() || !found->is_array()) return;
+    for (const Json& name : *found)
+        if (name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression")
+            throw InputError(path, fmt::format("its buffers are compressed ({}); export it without, or decompress it",
+                                               name.get<std::string>()));
+}
+
+// The address of a file at `uri`, for a glTF file that is written elsewhere.
+std::string moved_uri(const std::string& uri, const fs::path& from, const fs::path& to)
+{
+    const bool has_scheme = uri.find(':') != std::string::npos, is_rooted = uri.starts_with('/');
+    std::error_code failed;
+    const auto folder = [&](const fs::path& file) {
+        return fs::weakly_canonical(fs::absolute(file).parent_path(), failed);
+    };
+    const fs::path way = folder(from).lexically_relative(folder(to));
+    if (has_scheme || is_rooted || failed || way.empty() || way == ".") return uri;
+    std::string moved;
+    for (const char c : way.generic_string() + '/') {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) || std::strchr("-._~/", c))
+            moved += c;
+        else
+            moved += fmt::format("%{:02X}", byte);
+    }
+    return moved + uri;
+}
+
+// What an address without a scheme says, percent signs resolved.
+fs::path file_at(const std::string& uri, const fs::path& beside)
+{
+    std::string name;
+    for (std::size_t at = 0; at < uri.size(); ++at) {
+        const bool is_escape = uri[at] == '%' && at + 2 < uri.size() &&
+                               std::isxdigit(static_cast<unsigned char>(uri[at + 1])) &&
+                               std::isxdigit(static_cast<unsigned char>(uri[at + 2]));
+        name += is_escape ? static_cast<char>(std::stoi(uri.substr(at + 1, 2), nullptr, 16)) : uri[at];
+        if (is_escape) at += 2;
+    }
+    return beside.parent_path() / name;
+}
+
+std::string mime_of(std::string_view bytes)
+{
+    if (bytes.starts_with("\x89PNG")) return "image/png";
+    if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
+    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
+    if (bytes.starts_with("\xabKTX 20\xbb")) return "image/ktx2";
+    return {};
+}
+
+// An asset on its way into a file: its JSON, and where new bytes go.
+struct Asset {
+    Json document;
+    std::string bytes;       // of the GLB's chunk, or of a new buffer
+    std::size_t buffer = 0;  // whose bytes these are
+
+    Json& list(const char* name)
+    {
+        Json& found = document[name];
+        if (!found.is_array()) found = Json::array();
+        return found;
+    }
+    // Adds bytes as a buffer view; its index.
+    std::size_t add_view(std::string_view content)
+    {
+        bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+        list("bufferViews")
+            .push_back({{"buffer", buffer}, {"byteOffset", bytes.size()}, {"byteLength", content.size()}});
+        bytes += content;
+        return list("bufferViews").size() - 1;
+    }
+    std::size_t add_floats(std::span<const float> values, const char* type, std::size_t width)
+    {
+        const std::string_view content(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+        list("accessors")
+            .push_back({{"bufferView", add_view(content)},
+                        {"componentType", kFloat},
+                        {"count", values.size() / width},
+                        {"type", type}});
+        return list("accessors").size() - 1;
+    }
+};
+
+std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + base64_of(bytes); }
+
+bool is_beside(const Json& object)
+{
+    return object.contains("uri") && !object["uri"].get<std::string>().starts_with("data:");
+}
+
+// Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
+void settle_text(Asset& asset, std::span<const std::string> buffers, const fs::path& from, const fs::path& to)
+{
+    Json& list = asset.list("buffers");
+    for (std::size_t n = 0; n < list.size(); ++n) {
+        if (!list[n].contains("uri"))
+            list[n]["uri"] = data_uri(buffers[n]);
+        else if (is_beside(list[n]))
+            list[n]["uri"] = moved_uri(list[n]["uri"], from, to);
+    }
+    asset.buffer = list.size();
+    list.push_back({{"byteLength", 0}});
+}
+
+// Buffers of a GLB: the first is its chunk; others move into the text.
+void settle_binary(Asset& asset, std::span<const std::string> buffers)
+{
+    Json& list = asset.list("buffers");
+    for (std::size_t n = 1; n < list.size(); ++n)
+        if (is_beside(list[n])) list[n]["uri"] = data_uri(buffers[n]);
+    if (list.empty()) list.push_back({{"byteLength", 0}});
+    list[0].erase("uri");
+    if (!buffers.empty()) asset.bytes = buffers[0];
+}
+
+void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool binary)
+{
+    if (!asset.document.contains("images")) return;
+    for (Json& image : asset.list("images")) {
+        if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string() || !is_beside(image)) continue;
+        const std::string uri = image["uri"];
+        std::ifstream in(file_at(uri, from), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        const std::string mime = binary ? mime_of(bytes) : std::string();
+        if (mime.empty()) {  // also an image that is missing: then the address stays what it was
+            image["uri"] = moved_uri(uri, from, to);
+            continue;
+        }
+        image.erase("uri");
+        image["mimeType"] = mime;
+        image["bufferView"] = asset.add_view(bytes);
+    }
+}
+
+// An animated node must not have a matrix.
+void take_matrix_apart(Json& node, const GltfKeys::Track& track)
+{
+    if (!node.contains("matrix")) return;
+    node.erase("matrix");
+    const Eigen::Quaterniond& q = track.rotation;
+    node["translation"] = {track.translation.x(), track.translation.y(), track.translation.z()};
+    node["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+    node["scale"] = {track.scale.x(), track.scale.y(), track.scale.z()};
+}
+
+bool is_rotation_of(const Json& channel, int node)
+{
+    const auto target = channel.find("target");
+    return target != channel.end() && target->value("path", "") == "rotation" && target->value("node", -1) == node;
+}
+
+// Gives the node's rotation channel the sampler: in the place of the one it had, unless others use that one too.
+void put_sampler(Json& animation, int node, const Json& sampler)
+{
+    Json &channels = animation["channels"], &samplers = animation["samplers"];
+    const auto channel =
+        std::find_if(channels.begin(), channels.end(), [&](const Json& each) { return is_rotation_of(each, node); });
+    if (channel == channels.end()) {
+        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", "rotation"}}}});
+        samplers.push_back(sampler);
+        return;
+    }
+    const std::size_t old = (*channel)["sampler"];
+    const auto users = std::count_if(channels.begin(), channels.end(),
+                                     [&](const Json& each) { return each.value("sampler", -1) == int(old); });
+    if (users == 1) {
+        samplers[old].update(sampler);
+    } else {
+        (*channel)["sampler"] = samplers.size();
+        samplers.push_back(sampler);
+    }
+}
+
+void add_keys(Asset& asset, const GltfKeys& keys)
+{
+    if (keys.tracks.empty()) return;
+    const std::size_t times = asset.add_floats(keys.times, "SCALAR", 1);
+    asset.list("accessors")[times]["min"] = {keys.times.front()};
+    asset.list("accessors")[times]["max"] = {keys.times.back()};
+    Json& animations = asset.list("animations");
+    if (keys.animation < 0)
+        animations.push_back({{"name", "swivel"}, {"channels", Json::array()}, {"samplers", Json::array()}});
+    Json& animation = keys.animation < 0 ? animations.back() : animations[static_cast<std::size_t>(keys.animation)];
+    for (const GltfKeys::Track& track : keys.tracks) {
+        take_matrix_apart(asset.list("nodes")[static_cast<std::size_t>(track.node)], track);
+        put_sampler(animation, track.node,
+                    {{"input", times},
+                     {"interpolation", keys.is_stepped ? "STEP" : "LINEAR"},
+                     {"output", asset.add_floats(track.xyzw, "VEC4", 4)}});
+    }
+}
+
+}  // namespace
+
+std::string skeleton_json(const fs::path& path, std::string_view json)
+{
+    const Json whole = parse(path, json);
+    refuse_compression(path, whole);
+    Json part = Json::object();
+    copy_members(whole, part, {"asset"});
+    copy_array(whole, part, "buffers", {"uri", "byteLength"});
+    copy_array(whole, part, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
+    copy_array(whole, part, "accessors",
+               {"bufferView", "byteOffset", "componentType", "normalized", "count", "type", "sparse"});
+    copy_array(whole, part, "nodes", {"name", "children", "translation", "rotation", "scale", "matrix"});
+    copy_array(whole, part, "skins", {"joints"});
+    copy_array(whole, part, "animations", {"name", "channels", "samplers"});
+    return part.dump();
+}
+
+GltfContainer with_keys(const GltfContainer& file, std::span<const std::string> buffers, const GltfKeys& keys,
+                        const fs::path& from, const fs::path& to, bool binary)
+{
+    Asset asset{parse(from, file.json), {}, 0};
+    if (binary)
+        settle_binary(asset, buffers);
+    else
+        settle_text(asset, buffers, from, to);
+    settle_images(asset, from, to, binary);
+    add_keys(asset, keys);
+    Json& list = asset.list("buffers");
+    list[asset.buffer]["byteLength"] = asset.bytes.size();
+    if (!binary && asset.bytes.empty()) list.erase(asset.buffer);
+    if (!binary && !asset.bytes.empty()) list[asset.buffer]["uri"] = data_uri(asset.bytes);
+    if (list.empty() || (binary && asset.bytes.empty() && buffers.empty())) asset.document.erase("buffers");
+    GltfContainer out;
+    out.json = asset.document.dump();
+    out.is_binary = binary;
+    if (binary) {
+        out.bytes = std::move(asset.bytes);
+        out.other_chunks = file.other_chunks;
+    }
+    return out;
+}
+
+}  // namespace swivel::formats

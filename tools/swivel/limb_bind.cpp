@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/limb_bind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/swivel/limb_words.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::Clip;
+using formats::Joint;
+using formats::JointPose;
+
+const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
+
+// What is wrong with a joint's scale; empty if nothing is.
+std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
+{
+    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", joint.name);
+    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", joint.name, when);
+    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", joint.name, when);
+    return {};
+}
+
+// Every joint that the limb's size hangs on: all above the end joint.
+void check_scales(const Clip& clip, const LimbChain& chain)
+{
+    for (int joint = joint_at(clip, chain.end()).parent; joint >= 0; joint = joint_at(clip, joint).parent) {
+        const Joint& at = joint_at(clip, joint);
+        std::string fault = scale_fault(at, formats::local_rest_pose(at), "");
+        for (std::size_t frame = 0; frame < clip.frame_count && fault.empty() && at.scale_track >= 0; ++frame)
+            fault = scale_fault(at, formats::local_pose(clip, frame, static_cast<std::size_t>(joint)),
+                                fmt::format(" in frame {}", frame));
+        if (!fault.empty())
+            throw CannotBind(fmt::format(
+                "{}, so its bones change shape as they turn; apply the scale where the rig was made", fault));
+    }
+}
+
+void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& rest)
+{
+    const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
+    for (std::size_t n = 0; n < 2; ++n)
+        if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
+            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length", joint_at(clip, joints[n]).name,
+                                         joint_at(clip, joints[n + 1]).name));
+}
+
+template <int size>
+void store(const Eigen::Matrix<double, size, 1>& v, float (&to)[size])
+{
+    for (int n = 0; n < size; ++n) to[n] = static_cast<float>(v[n]);
+}
+
+BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
+{
+    swivel_chain chain{};
+    store<4>(rest.turn[0].coeffs(), chain.shoulder_rotation);
+    store<4>((rest.turn[0].conjugate() * rest.turn[1]).coeffs(), chain.elbow_rotation);
+    store<4>((rest.turn[1].conjugate() * rest.turn[2]).coeffs(), chain.wrist_rotation);
+    store<3>(rest.upper_bone(), chain.elbow_offset);
+    store<3>(rest.lower_bone(), chain.wrist_offset);
+    store<3>(hinge, chain.hinge);
+    try {
+        return bind(chain);
+    } catch (const Error& error) {
+        throw CannotBind(error.what());
+    }
+}
+
+void take_given_hinge(std::span<const GivenHinge> hinges, Limb& limb)
+{
+    for (const GivenHinge& given : hinges) {
+        if (given.limb != limb.name) continue;
+        const Vector3d& upper = limb.upper_bone;
+        if (given.axis.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
+            throw CannotBind(fmt::format(
+                "its hinge, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend that way",
+                given.where, upper.x(), upper.y(), upper.z()));
+        limb.hinge = given.axis;
+        limb.hinge_source = given.where;
+    }
+}
+
+std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
+{
+    std::vector<int> found;
+    for (const int joint : chain.joints)
+        for (const int child : formats::child_joints(clip, joint))
+            if (joint != chain.end() && is_twist_name(joint_at(clip, child).name) &&
+                std::find(chain.joints.begin(), chain.joints.end(), child) == chain.joints.end())
+                found.push_back(child);
+    return found;
+}
+
+}  // namespace
+
+Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
+               std::span<const GivenHinge> hinges)
+{
+    Limb limb;
+    limb.name = name;
+    limb.joints = joints;
+    limb.chain = chain_of(clip, joints);
+    check_scales(clip, limb.chain);
+    const ChainPose rest = rest_pose(clip, limb.chain);
+    check_lengths(clip, joints, rest);
+    const int parent = joint_at(clip, limb.upper()).parent;
+    const JointPose parent_w = parent < 0 ? JointPose() : formats::rest_pose(clip)[static_cast<std::size_t>(parent)];
+    limb.scale = parent_w.scale;
+    limb.mirrored = parent_w.mirrored;
+    limb.upper_bone = rest.upper_bone().normalized();
+    limb.lower_bone = rest.lower_bone().normalized();
+    const Hinge hinge = choose_hinge(clip, name.kind, limb.chain, rest, parent_w, front);
+    limb.hinge = hinge.axis;
+    limb.hinge_source = hinge.source;
+    take_given_hinge(hinges, limb);
+    limb.bound = bind_rest(rest, limb.hinge);
+    for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));
+    limb.side_twists = side_twists(clip, limb.chain);
+    return limb;
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// One limb's joints made into what the solver takes: bones, lengths, hinge, scale and mirror from the rest pose. Knows
+// clips and the public interface.
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "swivel/swivel.hpp"
+#include "tools/formats/clip.h"
+#include "tools/swivel/limb_chain.h"
+#include "tools/swivel/limb_hinge.h"
+#include "tools/swivel/limb_joints.h"
+
+namespace swivel::tools {
+
+struct Limb {
+    formats::LimbName name;
+    LimbJoints joints{-1, -1, -1};  // shoulder, elbow and wrist, or hip, knee and ankle
+    LimbChain chain;                // these and what lies between
+    std::string habit;              // whose names these are, or where the user gave them; for people
+    BoundLimb bound{};              // lengths at rest, in the world
+    Eigen::Vector3d upper_bone = Eigen::Vector3d::Zero();  // its direction at rest, in the upper joint's axes
+    Eigen::Vector3d lower_bone = Eigen::Vector3d::Zero();  // the same of the lower bone, in the lower joint's
+    Eigen::Vector3d hinge = Eigen::Vector3d::Zero();       // in the upper joint's axes, unit
+    std::string hinge_source;                              // how it was chosen, for people
+    double scale = 1;                                      // world lengths for one of the upper joint's parent, at rest
+    bool mirrored = false;         // that parent is mirrored in the world: the limb is solved in the mirror image
+    std::vector<int> side_twists;  // twist bones that hang on the limb: they follow as they did
+
+    int upper() const { return joints[0]; }
+    int lower() const { return joints[1]; }
+    int end() const { return joints[2]; }
+};
+
+// A hinge given by the user.
+struct GivenHinge {
+    formats::LimbName limb;
+    Eigen::Vector3d axis;  // in the upper joint's axes, unit
+    std::string where;     // for people
+};
+
+// Why a skeleton's limb cannot be solved: one line, the file left out.
+struct CannotBind : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// The limb of these joints, bound. joints: as is_chain() says; front: see figure_front(). Throws CannotBind for a bone
+// of no length, a scale that is uneven or nothing (at rest or in any frame) at, between or above the joints, or a hinge
+// along a bone.
+Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
+               std::span<const GivenHinge> hinges);
+
+}  // namespace swivel::tools

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/limb_hinge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::Clip;
+using formats::JointPose;
+using formats::LimbKind;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+bool speaks_of_toes(std::string name)
+{
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name.find("toe") != std::string::npos || name.find("ball") != std::string::npos;
+}
+
+// The joint that a foot points to: the only one below it, or the one called so; -1 if there is none.
+int toes_of(const Clip& clip, int foot)
+{
+    const std::vector<int> below = formats::child_joints(clip, foot);
+    for (const int joint : below)
+        if (speaks_of_toes(clip.joints[static_cast<std::size_t>(joint)].name)) return joint;
+    return below.size() == 1 ? below[0] : -1;
+}
+
+// The joint that both hang on, or -1.
+int fork_of(const Clip& clip, int a, int b)
+{
+    while (a != b) {
+        int& later = a > b ? a : b;  // parents come before their children
+        later = clip.joints[static_cast<std::size_t>(later)].parent;
+    }
+    return a;
+}
+
+// `v` without its part along `axis`, unit; nothing where little is left.
+std::optional<Vector3d> across(const Vector3d& v, const Vector3d& axis)
+{
+    const Vector3d rest = v - v.dot(axis) * axis;
+    if (!(rest.norm() > 0.1 * v.norm())) return std::nullopt;
+    return rest.normalized();
+}
+
+// The bend of two bones given in one space: the axis, as long as its sine.
+Vector3d bend_of(const Vector3d& upper, const Vector3d& lower) { return lower.normalized().cross(upper.normalized()); }
+
+// Its bend in the upper joint's axes, the upper bone laid where it is at rest.
+Vector3d bend_of(const ChainPose& pose, const Vector3d& rest_bone)
+{
+    const Vector3d upper = pose.upper_bone(), lower = pose.turn[0].conjugate() * (pose.turn[1] * pose.lower_bone());
+    return aim(rest_bone, upper).conjugate() * bend_of(upper, lower);
+}
+
+// The mean bend of all frames, each counting by its sine; nothing for a clip that hardly bends the limb, or to both
+// sides.
+std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, const Vector3d& rest_bone)
+{
+    if (clip.frame_count < 2) return std::nullopt;  // one pose is no motion
+    Vector3d sum = Vector3d::Zero();
+    double weight = 0;
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const Vector3d bend = bend_of(chain_pose(clip, frame, chain), rest_bone);
+        if (!bend.allFinite()) continue;
+        sum += bend;
+        weight += bend.norm();
+    }
+    // 0.02: a mean bend of one degree; half: the bends must agree on an axis, not cancel.
+    const bool is_clear = weight > 0.02 * static_cast<double>(clip.frame_count) && sum.norm() > 0.5 * weight;
+    return is_clear ? std::optional(Vector3d(sum.normalized())) : std::nullopt;
+}
+
+// Where flexion takes the lower bone by the table, in the world.
+Vector3d flexion_by_table(LimbKind kind, const Vector3d& upper_w, const Front& front)
+{
+    const double sense = kind == LimbKind::arm ? 1 : -1;
+    const bool points_forwards = std::abs(upper_w.dot(front.forwards)) > 0.9;
+    return sense * (points_forwards ? front.up : front.forwards);
+}
+
+}  // namespace
+
+Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints)
+{
+    const std::vector<JointPose> pose_w = formats::rest_pose(clip);
+    const auto place = [&](std::size_t limb, std::size_t part) -> const Vector3d& {
+        return pose_w[static_cast<std::size_t>((*joints[limb])[part])].position;
+    };
+    const bool arms = joints[0] && joints[1], legs = joints[2] && joints[3];
+    Front front;
+    Vector3d up = Vector3d::Zero();
+    if (arms && legs) up = place(0, 0) + place(1, 0) - place(2, 0) - place(3, 0);
+    if (legs && !(up.norm() > 0)) up = place(2, 0) + place(3, 0) - place(2, 2) - place(3, 2);
+    if (up.norm() > 0) front.up = up.normalized();
+
+    if (legs) {
+        Vector3d forwards = Vector3d::Zero();
+        for (const std::size_t leg : {2u, 3u}) {
+            const int foot = (*joints[leg])[2], toes = toes_of(clip, foot);
+            if (toes < 0) continue;
+            const Vector3d step = pose_w[static_cast<std::size_t>(toes)].position - place(leg, 2);
+            if (step.norm() > 0) forwards += step.normalized();
+        }
+        if (const auto level = across(forwards, front.up)) return {*level, front.up, "the toes"};
+    }
+    if (!arms && !legs) return front;
+    const std::size_t pair = arms ? 0 : 2;
+    const Vector3d left = place(pair, 0) - place(pair + 1, 0);
+    const int fork = fork_of(clip, (*joints[pair])[0], (*joints[pair + 1])[0]);
+    const bool mirrored = fork >= 0 && pose_w[static_cast<std::size_t>(fork)].mirrored;
+    if (const auto level = across(mirrored ? Vector3d(-left) : left, front.up))
+        return {level->cross(front.up), front.up, arms ? "left and right shoulder" : "left and right hip"};
+    return front;
+}
+
+Hinge choose_hinge(const Clip& clip, LimbKind kind, const LimbChain& chain, const ChainPose& rest,
+                   const JointPose& parent_w, const Front& front)
+{
+    const Vector3d upper = rest.upper_bone().normalized();
+    const Vector3d bend = bend_of(rest, upper);
+    const double bend_deg = std::asin(std::min(bend.norm(), 1.0)) / kDegree;
+    if (bend_deg > 5) return {bend.normalized(), fmt::format("bend of the rest pose, {:.1f} degrees", bend_deg)};
+    if (const auto mean = mean_bend(clip, chain, upper)) return {*mean, "mean bend of the clip"};
+
+    const auto to_world = [&](const Vector3d& v) {
+        const Vector3d v_p = rest.turn[0] * v;
+        return Vector3d(parent_w.rotation * (parent_w.mirrored ? formats::mirrored(v_p) : v_p));
+    };
+    const Vector3d flexion_w = flexion_by_table(kind, to_world(upper), front);
+    const Vector3d turned = parent_w.rotation.conjugate() * flexion_w;
+    const Vector3d flexion = rest.turn[0].conjugate() * (parent_w.mirrored ? formats::mirrored(turned) : turned);
+    const Vector3d by_table = flexion.cross(upper).normalized();
+    if (bend_deg > 0.5 && bend.dot(by_table) > 0)
+        return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
+    return {by_table, fmt::format("{} {}, facing by {}, as neither rest pose nor clip shows a bend",
+                                  kind == LimbKind::arm ? "elbows bend" : "knees bend",
+                                  std::abs(to_world(upper).dot(front.forwards)) > 0.9
+                                      ? (kind == LimbKind::arm ? "upwards" : "downwards")
+                                      : (kind == LimbKind::arm ? "forwards" : "backwards"),
+                                  front.source)};
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// A file with a skeleton and its motion, whatever its format: the one place of the command that tells formats apart.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "tools/formats/bvh.h"
+#include "tools/formats/gltf.h"
+
+namespace swivel::tools {
+
+struct MotionChoice {
+    std::string clip;  // name or index of an animation; empty: the first
+    double rate = 0;   // frames a second; 0: as the file has them
+};
+
+class MotionFile {
+public:
+    // Reads .glb, .gltf and .vrm as glTF, everything else as BVH. Throws InputError as the readers do, and CommandError
+    // (bad usage) for a choice that a BVH file does not have.
+    MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
+
+    const formats::Clip& clip() const;
+    // What the clip is, for people: "clip 'Walk' (3 of 14)", "BVH", "no animation: its rest pose".
+    std::string describe() const;
+    // Throws CommandError (bad usage) for an output file that cannot hold this motion.
+    void require_can_write(const std::filesystem::path& path) const;
+    void write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const;
+
+private:
+    std::variant<formats::BvhFile, formats::GltfFile> file_;
+};
+
+// Whether a file of this name holds one character's motion, and of which format.
+bool is_bvh(const std::filesystem::path& path);
+bool is_gltf(const std::filesystem::path& path);
+
+}  // namespace swivel::tools
