@@ -31,7 +31,8 @@ inline nlohmann::json ask_check(std::vector<std::string> arguments)
 inline std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::string>* warnings = nullptr)
 {
     std::multiset<std::string> errors;
-    for (const auto& message : ask_check({"validate", path.string()}).at(0).at("messages"))
+    const nlohmann::json reports = ask_check({"validate", path.string()});
+    for (const auto& message : reports.at(0).at("messages"))
         if (message.at("severity") == 0)
             errors.insert(message.dump());
         else if (warnings)

@@ -143,6 +143,15 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
         }
 }
 
+TEST_CASE("gltf write: the validator does see what is wrong")
+{
+    const TempFolder folder;
+    GltfRig rig = furnished_rig();
+    rig.json["accessors"][1]["count"] = 99;
+    rig.write(folder / "rig.glb");
+    CHECK_FALSE(gltf_errors(folder / "rig.glb").empty());
+}
+
 TEST_CASE("gltf write: without overrides a file keeps its values and bytes")
 {
     const TempFolder folder;

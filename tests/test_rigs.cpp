@@ -174,7 +174,8 @@ TEST_CASE("rigs: what is no figure is refused")
         if (path.empty()) continue;
         INFO(name);
         const TempFolder folder;
-        for (const json& limb : rig_report(path, {}, 1).at("limbs"))
+        const json report = rig_report(path, {}, 1);
+        for (const json& limb : report.at("limbs"))
             CHECK(limb.at("problem").get<std::string>().starts_with("a limb takes three bones below each other"));
         const Outcome outcome = run_command(folder.path, {"solve", path.string(), "--out", "out.glb"});
         CHECK(outcome.exit_code == 1);
