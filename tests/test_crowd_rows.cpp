@@ -73,11 +73,14 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
     const swivel_group_def groups[] = {group_of(5), group_of(37)};
     // Every field there is: all features that go together.
     constexpr std::uint32_t others = SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING;
-    Crowd crowd((8 * SWIVEL_TWIST_BONES - 1) & ~others, groups);
+    Crowd most(((8 * SWIVEL_TWIST_BONES - 1) & ~others) | SWIVEL_WITH_CLAVICLE, groups),
+        aiming(SWIVEL_WITH_AIM, groups);
     Random random{1};
     for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
         const auto field = static_cast<swivel_field>(f);
+        Crowd& crowd = field == SWIVEL_AIM ? aiming : most;
         const std::uint32_t rows_of_field = swivel_field_row_count(crowd.get(), field), count = 30, first = 3;
+        REQUIRE(rows_of_field > 0);
         const bool input = field < SWIVEL_SHOULDER;
         const std::size_t bytes = rows_of_field * sizeof(float);
         for (const std::size_t stride : {bytes, bytes + 1, bytes + 3, bytes + 4, bytes + 81}) {

@@ -35,9 +35,12 @@ constexpr swivel_in swivel_frame::*kIn[] = {&swivel_frame::target,
                                             &swivel_frame::incoming_shoulder,
                                             &swivel_frame::incoming_elbow,
                                             &swivel_frame::incoming_wrist,
-                                            &swivel_frame::weights};
-constexpr swivel_out swivel_frame::*kOut[] = {&swivel_frame::shoulder, &swivel_frame::elbow,   &swivel_frame::wrist,
-                                              &swivel_frame::flags,    &swivel_frame::stretch, &swivel_frame::twist};
+                                            &swivel_frame::weights,
+                                            &swivel_frame::aim,
+                                            &swivel_frame::clavicle};
+constexpr swivel_out swivel_frame::*kOut[] = {&swivel_frame::shoulder,     &swivel_frame::elbow,   &swivel_frame::wrist,
+                                              &swivel_frame::flags,        &swivel_frame::stretch, &swivel_frame::twist,
+                                              &swivel_frame::clavicle_turn};
 constexpr std::uint32_t kInputs = std::size(kIn), kOutputs = std::size(kOut), kMembers = kInputs + kOutputs;
 struct Member {
     swivel_field field;
@@ -57,12 +60,15 @@ constexpr Member kMember[kMembers] = {
     {SWIVEL_INCOMING_ELBOW, "incoming_elbow", "SWIVEL_WITH_INCOMING"},
     {SWIVEL_INCOMING_WRIST, "incoming_wrist", "SWIVEL_WITH_INCOMING"},
     {SWIVEL_WEIGHTS, "weights", "SWIVEL_WITH_WEIGHTS"},
+    {SWIVEL_AIM, "aim", "SWIVEL_WITH_AIM"},
+    {SWIVEL_CLAVICLE, "clavicle", "SWIVEL_WITH_CLAVICLE"},
     {SWIVEL_SHOULDER, "shoulder", ""},
     {SWIVEL_ELBOW, "elbow", ""},
     {SWIVEL_WRIST, "wrist", "SWIVEL_WITH_HAND"},
     {SWIVEL_FLAGS, "flags", ""},
     {SWIVEL_STRETCH, "stretch", "SWIVEL_WITH_REACH"},
     {SWIVEL_TWIST, "twist", "SWIVEL_TWIST_BONES"},
+    {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "SWIVEL_WITH_CLAVICLE"},
 };
 
 swivel_field field_at(std::uint32_t n) { return kMember[n].field; }
@@ -199,6 +205,8 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
         problem.features |= SWIVEL_WITH_ANGLE | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH;
         if (problem.features & SWIVEL_WITH_HAND) problem.features |= SWIVEL_WITH_EFFECTOR | 2 * SWIVEL_TWIST_BONES;
     }
+    if (problem.features < 16 && random.below(4) == 0) problem.features |= SWIVEL_WITH_AIM;
+    if ((problem.features & SWIVEL_WORLD) && random.below(4) == 0) problem.features |= SWIVEL_WITH_CLAVICLE;
     for (std::uint32_t g = 1 + random.below(4); g > 0; --g) {
         problem.groups.push_back(group_of(1 + random.below(most_limbs)));
         const Quaterniond q = random.rotation();
