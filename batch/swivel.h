@@ -126,9 +126,9 @@
 // COST. Ordinary arms are solved fastest: bones between 1e-9 and 3e7 of a ratio below 1e6, wrists between 3e-5 and 5e3
 // from the shoulder, poles no further than 3e7 and off the target's line, all as the parent sees them, whose scale is
 // within 1e-5..1e5 and whose quaternion's squared length within 0.5..2. An arm outside of that is solved as exactly,
-// but the 4 to 32 limbs of its step take about four times as long. With any feature of THE WHOLE LIMB an arm
-// takes about four times as long as a plain one, with cones and twists eight, with a hand, a blend and limits fifteen;
-// boxes of Euler angles that leave some limbs no swivel, over a hundred.
+// but the 4 to 32 limbs of its step take about four times as long. With any feature of THE WHOLE LIMB an arm takes about
+// three times as long as a plain one, with cones and twists seven, with a hand, a blend and limits ten; with boxes of
+// Euler angles that leave one limb in eight no swivel, thirty.
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
