@@ -78,8 +78,9 @@ swivel_status check(const swivel_crowd_def* def)
     if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
     if (def->size != sizeof(swivel_crowd_def))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "crowd def has size %zu, this library's has %zu; start from swivel_default_crowd_def()", def->size,
-                    sizeof(swivel_crowd_def));
+                    "crowd def has size %zu, this library's has %zu; another version's header, or not from "
+                    "swivel_default_crowd_def()",
+                    def->size, sizeof(swivel_crowd_def));
     if (def->features & ~kAllFeatures)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
     for (const FeatureRule& rule : kFeatureRules)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
 
-// With any of these a crowd's limbs are whole ones, for which there is one kernel (simd/limb_step.h).
+// With any of these a crowd's limbs are whole ones, for which there is one kernel (simd/limb_run.h).
 constexpr std::uint32_t kLimbFeatures = ~std::uint32_t{SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND |
                                                        SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET};
 

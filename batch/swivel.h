@@ -88,13 +88,15 @@
 // joint's local one with JOINTS; without WITH_HAND the hand is at rest), and the shoulder turns so that the ray from
 // the effector (else the wrist) along the axis goes through the target. Axis and effector are of the hand, in the frame
 // that effectors are in. The elbow lies on the pole's side of the line from shoulder to target. A target too near for
-// that flexion is SWIVEL_CLAMPED_NEAR: then what points at it best is the effector itself. swivel_aim() makes the
-// value. Weights, reach, flexion limits and limits of the hand have nothing to do there and are refused.
+// that flexion is SWIVEL_CLAMPED_NEAR: then the ray's nearest point to the shoulder is brought onto the target's line.
+// swivel_aim() makes the value. Weights, reach, flexion limits and limits of the hand have nothing to do there and are
+// refused.
 //
-// Clavicle: the parent joint, given as it is without this, is turned towards the target by about the share of the angle
-// between its bone and the target (about its own origin, which is PARENT_POSITION less the bone; times the weight of
-// position). Limits, rotations and results of the arm are relative to the parent as turned. The
-// turn is smooth, and fades for targets on the body's other side.
+// Clavicle: the parent joint, given as it is without this, turns about its own origin, which is PARENT_POSITION less
+// the bone (in the parent joint's axes and the unit of the bones, before the parent's scale, no longer than 1e15):
+// towards the target by about the share of the angle between the bone and the target, times the weight of position.
+// Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is smooth,
+// and fades for targets on the body's other side.
 //
 // The hand's twist about the forearm is shared over n twist bones, children of the forearm: bone i of 1..n turns by
 // i / (n + 1) of it (within 0.12 degrees), about the forearm's axis, relative to rest: its local rotation is this
@@ -103,7 +105,8 @@
 // With WITH_STEP the plane's normal is carried from solve to solve as the arm frame has it, each time projected across
 // the new line: the step is the turn from there. swivel_reset() forgets it, after a teleport. Without it results depend
 // on the frame's own inputs alone, and the swivel is continuous but for targets passing through the shoulder, poles
-// passing through the line, and limits whose nearest swivel changes sides.
+// passing through the line, limits whose nearest swivel changes sides and, with WITH_AIM, elbows passing through the
+// line, which roll the arm over whatever MOST_SWIVEL says: it bounds the plane's normal.
 //
 // COMPACT RESULTS. With SWIVEL_COMPACT a result row is 16 uint16_t, 32 bytes, word r of limb i at
 // base[((i / 16) * row_count + r) * 16 + i % 16] of swivel_compact_rows(), the fields in the same order:
@@ -126,9 +129,9 @@
 // COST. Ordinary arms are solved fastest: bones between 1e-9 and 3e7 of a ratio below 1e6, wrists between 3e-5 and 5e3
 // from the shoulder, poles no further than 3e7 and off the target's line, all as the parent sees them, whose scale is
 // within 1e-5..1e5 and whose quaternion's squared length within 0.5..2. An arm outside of that is solved as exactly,
-// but the 4 to 32 limbs of its step take about four times as long. With any feature of THE WHOLE LIMB an arm takes about
-// three times as long as a plain one, with cones and twists seven, with a hand, a blend and limits ten; with boxes of
-// Euler angles that leave one limb in eight no swivel, thirty.
+// but the 4 to 32 limbs of its step take about four times as long. With any feature of THE WHOLE LIMB an arm takes
+// about three times as long as a plain one, with cones and twists seven, with a hand, a blend and limits ten; with
+// boxes of Euler angles that leave one limb in eight no swivel, thirty.
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
@@ -185,7 +188,7 @@ typedef enum swivel_status {
 
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
-    SWIVEL_REACHED = 1u << 0,      // the wrist is at the target, or at its blend with the incoming pose
+    SWIVEL_REACHED = 1u << 0,      // the wrist is at the target, or at its blend with the incoming pose, or aims at it
     SWIVEL_SOFTENED = 1u << 1,     // in a soft zone of reach, so the wrist is not quite at the target
     SWIVEL_STRETCHED = 1u << 2,    // SWIVEL_STRETCH is above 1
     SWIVEL_CLAMPED_FAR = 1u << 3,  // target out of reach: the wrist is at the nearest point that bones and limits allow

@@ -13,7 +13,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Further away than this, in sizes of the arm, only the direction counts.
+// Further away than this, in sizes of the arm, floats see the direction only.
 inline constexpr double kAimFar = 1e7;
 
 // The rotor from the arm, hand and all, to the frame that has e3 along the line to the aimed point and the elbow on the
@@ -22,7 +22,8 @@ template <class T>
 SWIVEL_INLINE constexpr Rotor<T> line_from_arm(const Vector<T>& point)
 {
     const Vector<T> line = normalise(point), hinge = vector(T(1), T(0), T(0));
-    // The elbow lies along e3. Where that is the line itself, the elbow bends about its hinge.
+    // The elbow lies along e3. Where that is the line itself no side is the elbow's, and its hinge is taken: beyond,
+    // the arm is rolled over.
     const Vector<T> normal = cross(line, vector(T(0), T(0), T(1)));
     const Mask<T> off = len2(normal) > T(kPoleOff * kPoleOff);
     return ~frame_along(line, normalise(select(off, normal, across(hinge, line))));
@@ -39,11 +40,11 @@ SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(const LimbUse& use,
     const T shrink = per_power_of_two(hi(size, T(kTiny)));
     const T distance = lo(wanted * shrink, T(kAimFar));
 
-    const Hinge<T> elbow = hinge(goal.aim.cos_half, -goal.aim.sin_half);
+    const Hinge<T> elbow = normalise(hinge(goal.aim.cos_half, -goal.aim.sin_half));
     Vector<T> tip = vector(T(0), T(0), goal.arm.fore * shrink);
     if (use.effector) tip = tip + sandwich(hand, shrink * goal.effector);
     tip = sandwich(elbow, tip) + vector(T(0), T(0), goal.arm.upper * shrink);
-    const Vector<T> axis = sandwich(elbow, sandwich(hand, goal.aim.axis));
+    const Vector<T> axis = normalise(sandwich(elbow, sandwich(hand, goal.aim.axis)));
 
     // The points of the line are off + s axis; those ahead of the tip have s >= along.
     const T along = scalar_product(tip, axis);
@@ -52,7 +53,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(const LimbUse& use,
     const Mask<T> too_near = (ahead2 < T(0)) | (ahead < along);
     const Vector<T> point = off + hi(ahead, along) * axis;
     const Rotor<T> lift = line_from_arm(select(len2(point) > T(kTiny2), point, axis));
-    return {lift, goal.aim.cos_half, goal.aim.sin_half, T(1),
+    return {lift, elbow.template at<kScalar>(), -elbow.template at<kI>(), T(1),
             bits_where(too_near, flag::clamped_near) | bits_where(!too_near, flag::reached)};
 }
 

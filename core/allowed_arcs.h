@@ -21,26 +21,26 @@ struct AllowedArcs {
     int count = 0;
 };
 
-// Grows with the angle from 0 to 2 pi: 0 to 4.
+// Of the turn from a to b. In double, where products of floats are exact: its sign is right for neighbours, too.
 template <class T>
-constexpr T around(const Turned<T>& turn)
+constexpr double sine_between(const Turned<T>& a, const Turned<T>& b)
 {
-    const T size = abs(turn.cos) + abs(turn.sin), x = turn.cos / size;
-    return turn.sin >= T(0) ? T(1) - x : T(3) + x;
+    return double{a.cos} * double{b.sin} - double{a.sin} * double{b.cos};
 }
-// Whether a comes before b on the way from 0 to 2 pi. What rounds to the same place around is told apart exactly.
+// Whether a comes before b on the way from 0 to 2 pi, exactly: by the half of the circle, then by the sine between.
 template <class T>
 constexpr bool is_before(const Turned<T>& a, const Turned<T>& b)
 {
-    if (around(a) < around(b) || around(b) < around(a)) return around(a) < around(b);
-    return double{a.cos} * double{b.sin} > double{a.sin} * double{b.cos};
+    const auto second_half = [](const Turned<T>& turn) { return turn.sin < 0 || (turn.sin == 0 && turn.cos < 0); };
+    if (second_half(a) != second_half(b)) return second_half(b);
+    return sine_between(a, b) > 0;
 }
 // In the middle of the way from a to b.
 template <class T>
 Turned<T> between(const Turned<T>& a, const Turned<T>& b)
 {
     // b as a sees it, half of that turn, and back; half of almost a whole turn is almost half a turn.
-    const T cos = a.cos * b.cos + a.sin * b.sin, sin = a.cos * b.sin - a.sin * b.cos;
+    const T cos = a.cos * b.cos + a.sin * b.sin, sin = static_cast<T>(sine_between(a, b));
     const T c = sqrt(hi(T(0), T(0.5) * (T(1) + cos))),
             s = cos > T(0) ? T(0.5) * abs(sin) / c : sqrt(hi(T(0), T(0.5) * (T(1) - cos)));
     const T half_cos = sin >= T(0) ? c : -c;

@@ -2,7 +2,7 @@
 //
 // The swivel that is taken: the wish, if the limits allow it; else the nearest end of an allowed arc; else, where no
 // swivel is allowed, the one that violates the limits least. The wish is phi = 0, so near means a large cosine. The
-// lane-wise choice among a fixed list of candidates, each of which costs one root: no angle, no search. The nearest
+// lane-wise choice among a fixed list of candidates, each of which costs one root and no angle. The nearest
 // legal swivel as such is Tolani, Goswami and Badler's (2000); they find it by angles. Lines that do not vary over the
 // circle allow all of it or nothing.
 #pragma once
@@ -37,7 +37,7 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> nearest_end(const Limits<T>& limits)
     return {best, nearest >= T(-1.5)};
 }
 
-// Whether two edges, one times the sign and the other, can be parts of the room at one place.
+// Whether x and sign times y are lines of one alternative.
 template <class T>
 SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
 {
@@ -82,8 +82,7 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 
-// Searches: whether the least violation is looked for, which takes ten times as long as the rest. If not, where no
-// swivel is allowed the answer means nothing.
+// Searches: whether the least violation is looked for. If not, where no swivel is allowed the answer means nothing.
 template <bool Searches, class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
 {

@@ -12,7 +12,8 @@ namespace swivel::inline SWIVEL_ISA {
 // The rotor of unit length that turns the clavicle's bone towards the target by about the share, 0 to 1, of the angle
 // theta between them: tan(turn / 2) = share sin theta / (2 (1 - share) + share (1 + cos theta)). So a whole share is
 // the whole turn, a small one grows with the angle up to about a right one, and fades to none for a target behind,
-// where no way round is shorter. Both vectors from the clavicle's joint; without a direction nothing turns.
+// where no way round is shorter. Both vectors from the clavicle's joint; one shorter than kTiny has no direction,
+// and nothing turns.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> clavicle_turn(const Vector<T>& bone, const Vector<T>& target, const T& share)
 {
@@ -21,7 +22,9 @@ SWIVEL_INLINE constexpr Rotor<T> clavicle_turn(const Vector<T>& bone, const Vect
     const T rest = T(1) - share;
     const Rotor<T> turn = rotor(axis.template at<kE1>(), axis.template at<kE2>(), axis.template at<kE3>(),
                                 (rest + rest) * lengths + share * (lengths + cos));
-    const Mask<T> turns = len2(turn) > T(1e-6) * (lengths * lengths);
+    // 1e-12: a hundred times what rounding leaves of a whole share straight behind.
+    const Mask<T> turns =
+        (len2(turn) > T(1e-12) * (lengths * lengths)) & (len2(bone) >= T(kTiny2)) & (len2(target) >= T(kTiny2));
     const Rotor<T> none = rotor(T(0), T(0), T(0), T(1));
     return normalise(select(turns, turn, none));
 }

@@ -20,7 +20,7 @@ struct LimbUse {
 
 template <class T>
 struct IncomingPose {
-    Rotor<T> shoulder, elbow, wrist;  // of lengths about 1; the elbow may turn about any axis
+    Rotor<T> shoulder, elbow, wrist;  // of lengths 1/4 to 2; the elbow may turn about any axis
 };
 
 // Weights are 0 to 1: 0 keeps the incoming pose's, 1 takes the goal's.
@@ -114,6 +114,7 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& 
 {
     Mask<T> valid = (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2)) &
                     is_length(goal.arm.upper) & is_length(goal.arm.fore) & is_valid(use.limits, goal.limits);
+    // A product of two rotors as is_orientation() allows them.
     if (use.hand) valid = valid & (len2(goal.hand) >= T(1e-37)) & (len2(goal.hand) <= T(1e37));
     if (use.effector) valid = valid & (len2(goal.effector) <= T(kHuge2));
     if (use.angle) {

@@ -22,8 +22,8 @@ struct Range {
     Turned<T> middle, half;
 };
 
-// An axis carried by the arm stays within a cone about a fixed one; cosine: of the angle between the two. Also the
-// other way round.
+// An axis carried by the arm stays within a cone about a fixed one, or a fixed axis within a carried cone: the cosine
+// of the angle between the two is at least the opening's.
 template <class T>
 SWIVEL_INLINE constexpr OnCircle<T> cone_limit(const OnCircle<T>& cosine, const T& cos_opening)
 {
@@ -96,7 +96,7 @@ template <class T>
 SWIVEL_INLINE constexpr Sines<T> sines(const Turned<T>& entry, const Mask<T>& entry_inside, const Turned<T>& leave,
                                        const Mask<T>& leave_inside, const Mask<T>& wide)
 {
-    const T outside_low = select(leave_inside | wide, T(-2), T(2));
+    const T outside_low = select(leave_inside | wide, T(-2), T(4));  // -3 and less: no other room is below -2
     const Mask<T> beyond = wide & entry_inside & leave_inside;
     return {select(entry_inside, entry.sin, outside_low), select(leave_inside, leave.sin, T(2)), beyond};
 }

@@ -133,20 +133,4 @@ SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& goal, const Mask<
     return all(holds) ? plain.pose : solve_any(goal, holds, goal, good, arm_axes<T>());
 }
 
-// One of the two quaternions of a rotation: q, or -q where leading is negative.
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> with_sign_of(const T& leading, const Rotor<T>& q)
-{
-    return for_each_blade<T, Rotor<T>::set>(
-        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(q.template at<B>(), leading); });
-}
-// The one with w >= 0, and at w = 0 with the first of x, y, z that is not zero positive.
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
-{
-    const T zero = T(0), x = q.template at<kI>(), y = q.template at<kJ>(), w = q.template at<kScalar>();
-    const T among_xyz = select(x == zero, select(y == zero, q.template at<kK>(), y), x);
-    return with_sign_of(select(w == zero, among_xyz, w), q);
-}
-
 }  // namespace swivel::inline SWIVEL_ISA

@@ -20,7 +20,7 @@ struct SolveRun {
     bool prefetch;  // rows come from memory: call for those of later blocks
 };
 
-// The same for crowds of whole limbs (simd/limb_step.h), whose features the kernel is told.
+// The same for crowds of whole limbs (simd/limb_run.h), whose features the kernel is told.
 struct LimbRun {
     const float* input;
     float* results;

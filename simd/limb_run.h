@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A run of whole limbs, step by step. A step takes as long as its slowest limb, and a search for the least violation of
-// limits of Euler boxes takes five to ten times as long as a solve: so limbs that need one are put aside and searched
-// together.
+// A run of whole limbs, step by step. A step takes as long as its slowest limb, and the least violation of Euler boxes
+// takes five to ten times as long to find as the rest: so limbs that need it are put aside and solved together.
 #pragma once
 
 #include "core/allowed_arcs.h"
@@ -14,10 +13,11 @@ inline constexpr std::uint32_t kEveryLimbFeature = ~std::uint32_t{SWIVEL_COMPACT
 
 // One block of limbs put aside, and where each of them belongs.
 struct LimbsAside {
-    alignas(64) float input[input_row_count(kEveryLimbFeature) * SWIVEL_LANES] = {};
-    alignas(64) float results[result_row_count(kEveryLimbFeature) * SWIVEL_LANES] = {};
+    alignas(64) float input[input_row_count(kEveryLimbFeature) * SWIVEL_LANES];
+    alignas(64) float results[result_row_count(kEveryLimbFeature) * SWIVEL_LANES];
     std::size_t limb[SWIVEL_LANES];
     std::size_t count = 0;
+    bool filled = false;  // lanes that nothing is put into hold numbers all the same
 
     static void copy_lane(std::uint32_t row_count, const float* from, float* to)
     {
@@ -25,6 +25,11 @@ struct LimbsAside {
     }
     void take(const LimbRun& run, std::size_t from)
     {
+        if (!filled) {
+            for (float& x : input) x = 0;
+            for (float& x : results) x = 0;
+            filled = true;
+        }
         copy_lane(run.input_row_count, run.input + row_offset(from, run.input_row_count, 0), input + count);
         copy_lane(run.result_row_count, run.results + row_offset(from, run.result_row_count, 0), results + count);
         limb[count++] = from;

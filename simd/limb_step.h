@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // One step of the whole limb: loads the rows that a crowd has, brings them into the arm frame, solves, and stores what
-// the crowd gives out. Which rows those are is the same for all of a run's limbs, so one function serves all crowds; it
-// asks once a step, never for a limb.
+// the crowd gives out. Which rows those are is the same for all of a run's limbs: it asks once a step,
+// never for a limb.
 #pragma once
 
 #include "core/clavicle.h"

@@ -91,7 +91,7 @@ TEST_CASE("the hand's ray goes through the target, with the flexion and the wris
     CHECK(aimed < count);
 }
 
-TEST_CASE("a target too near for the flexion: the effector itself points at it")
+TEST_CASE("a target too near for the flexion: the ray's nearest point to the shoulder is on its line")
 {
     // A straight arm of length 2 that aims along its forearm: from 2 on there is something to aim at.
     Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 4);
@@ -108,6 +108,16 @@ TEST_CASE("a target too near for the flexion: the effector itself points at it")
     CHECK(flags[2] == SWIVEL_REACHED);
     CHECK(residuals[2] <= 1e-6);
     CHECK(flags[3] == (SWIVEL_CLAMPED_NEAR | SWIVEL_SWIVEL_UNDEFINED));
+
+    // A ray that leads back past the shoulder, 1.6 from it at best.
+    const std::array<float, 5> back = {0.8f, 0, -0.6f, 1, 0};
+    crowd.write_all(SWIVEL_AIM, 0, back);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 0.5f});
+    crowd.solve();
+    const Quaterniond turn = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[0]).normalized();
+    const Vector3d nearest = turn * (Vector3d(0, 0, 2) + 1.2 * Vector3d(0.8, 0, -0.6));
+    CHECK((nearest.normalized() - Vector3d::UnitZ()).norm() <= 1e-6);
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == SWIVEL_CLAMPED_NEAR);
 }
 
 TEST_CASE("a straight arm that aims along itself bends its elbow the way the pole says once it bends")
@@ -123,11 +133,10 @@ TEST_CASE("a straight arm that aims along itself bends its elbow the way the pol
     CHECK(distance(quat(shoulders[0]), quat(shoulders[1])) <= 0.01);
 }
 
-TEST_CASE("limits of the shoulder and a carried swivel hold for aims")
+TEST_CASE("limits of the shoulder hold for aims")
 {
     constexpr std::uint32_t count = 200;
-    const std::uint32_t features =
-        SWIVEL_WITH_AIM | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_WITH_STEP;
+    const std::uint32_t features = SWIVEL_WITH_AIM | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
     Random random{4};
     Crowd crowd = crowd_of(features, count);
     std::vector<Vector3d> axes;
@@ -156,6 +165,41 @@ TEST_CASE("limits of the shoulder and a carried swivel hold for aims")
         kept += (flags[n] & SWIVEL_LIMITED_SHOULDER_CONE) != 0;
     }
     CHECK(kept > 20);
+}
+
+TEST_CASE("an aim's pair and axis need be of unit length within 5e-4 only; the results are")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 2);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{2, 1, 3});
+    const float c = std::cos(0.3f), s = std::sin(0.3f);
+    const std::array<float, 5> values[] = {{0, 0, 1, 0.9996f * c, 0.9996f * s}, {0, 0, 0.9996f, c, s}};
+    crowd.write(SWIVEL_AIM, 0, values);
+    crowd.solve();
+    const auto elbows = read<Float2>(crowd, SWIVEL_ELBOW);
+    std::vector<double> residuals(2);
+    crowd.residuals(0, residuals);
+    for (std::size_t n = 0; n < 2; ++n) {
+        CHECK(std::fabs(std::hypot(double{elbows[n][0]}, elbows[n][1]) - 1) <= 1e-6);
+        CHECK(residuals[n] <= 1e-6);
+    }
+}
+
+TEST_CASE("a carried swivel turns an aiming arm no further than its step")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_STEP, 1);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 5});
+    const Aim bent{Vector3d::UnitZ(), Vector3d::Zero(), 1};
+    crowd.write_all(SWIVEL_AIM, 0, value_of(bent));
+    const Float2 most = {std::cos(0.1f), std::sin(0.1f)};
+    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
+    crowd.solve();
+    const Quaterniond before = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[0]).normalized();
+    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, 0});
+    crowd.solve();
+    const Quaterniond after = quat(read<Float4>(crowd, SWIVEL_SHOULDER)[0]).normalized();
+    CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == (SWIVEL_REACHED | SWIVEL_LIMITED_STEP));
+    CHECK(2 * std::acos(std::fabs(before.dot(after))) == Approx(0.1).margin(1e-3));
 }
 
 TEST_CASE("an aim that is none is bad input, and features it cannot go with are refused")

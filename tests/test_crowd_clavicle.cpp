@@ -135,6 +135,32 @@ TEST_CASE("the turn is continuous all around, and fades behind")
     }
 }
 
+TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothly past behind")
+{
+    Crowd tiny = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 3);
+    tiny.write_all(SWIVEL_TARGET, 0, Float3{0.6f, 0.5f, 0.9f});
+    const Float4 bones[] = {{1e-36f, 0, 0, 0.5f}, {3e-37f, 0, 0, 0.5f}, {1e-26f, 0, 0, 0.5f}};
+    tiny.write(SWIVEL_CLAVICLE, 0, bones);
+    tiny.solve();
+    std::vector<double> residuals(3);
+    tiny.residuals(0, residuals);
+    for (const double residual : residuals) CHECK(residual <= kWristError);
+    for (const Float4& turn : read<Float4>(tiny, SWIVEL_CLAVICLE_TURN))
+        CHECK(distance(quat(turn), Quaterniond::Identity()) <= 1e-6);
+
+    constexpr std::uint32_t count = 4001;
+    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, count);
+    std::vector<Float3> targets;
+    for (std::uint32_t n = 0; n < count; ++n)
+        targets.push_back(floats(Vector3d(-1, 0, 0.01 * (double{n} - 2000) / 2000)));
+    crowd.write(SWIVEL_TARGET, 0, targets);
+    crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.25f, 0, 0});
+    crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 0.9999f});
+    crowd.solve();
+    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
+    for (std::uint32_t n = 1; n < count; ++n) CHECK(distance(quat(turns[n - 1]), quat(turns[n])) <= 0.1);
+}
+
 TEST_CASE("bones and shares out of range are bad input; without a world there is no clavicle")
 {
     Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 5);

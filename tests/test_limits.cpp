@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/limb.h"
-#include "tests/formula_arm.h"
+#include "tests/formula_limb.h"
 #include "tests/limit_oracle.h"
 
 namespace {
@@ -270,4 +270,23 @@ TEST_CASE("a locked angle does not allow its opposite")
     CHECK(room_between(locked, 1.0f, 0.0f, 1.0f) == 0);
     CHECK(room_between(locked, -1.0f, 0.0f, 1.0f) == -1);
     CHECK(room_between(locked, -1.0f, 0.0f, -1.0f) == 0);
+}
+
+TEST_CASE("where no middle angle is allowed, the one nearest its range is taken")
+{
+    // About -80 degrees, and the target keeps it at +69 and more.
+    LimbUse use;
+    use.limits.shoulder_box = true;
+    const Arm arm{Vector3d(1.9, 0, 0.1), Vector3d(0, -1, 0.3), 1, 1};
+    LimbGoal<float> goal = limb_goal<float>(arm);
+    goal.limits.shoulder_box[1] = {turned<float>(-1.3963), turned<float>(0.0873)};
+    const Solved<float> got = solve(use, goal);
+    REQUIRE((got.pose.arm.flags & flag::infeasible) != 0);
+    const auto sine_at = [&](double angle) {  // of the middle angle, the swivel turned on by an angle
+        const Quaterniond shoulder = eigen(got.pose.arm.shoulder).normalized();
+        return (Eigen::AngleAxisd(angle, arm.wrist.normalized()) * shoulder).toRotationMatrix()(0, 2);
+    };
+    double least = 1;
+    for (int n = 0; n < 3600; ++n) least = std::min(least, sine_at(n * kPi / 1800));
+    CHECK(sine_at(0) <= least + 1e-5);
 }
