@@ -93,8 +93,8 @@
 //
 // Clavicle: the parent joint, given as it is without this, is turned towards the target by about the share of the angle
 // between its bone and the target (about its own origin, which is PARENT_POSITION less the bone; times the weight of
-// position). Limits, rotations and results of the arm are relative to the parent as turned. The
-// turn is smooth, and fades for targets on the body's other side.
+// position). Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn
+// is smooth, and it fades for targets on the body's other side.
 //
 // The hand's twist about the forearm is shared over n twist bones, children of the forearm: bone i of 1..n turns by
 // i / (n + 1) of it (within 0.12 degrees), about the forearm's axis, relative to rest: its local rotation is this
