@@ -27,9 +27,10 @@ def pybind11_folder():
     return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
 
 
-def generator(arguments):
-    """Ninja where it is there, as a system may have no make; the caller's own choice comes first."""
-    chosen = "CMAKE_GENERATOR" in os.environ or any(each.startswith("-G") for each in arguments)
+def generator(build, arguments):
+    """Ninja where it is there, as a system may have no make; the caller's choice, and a build folder's own, come first."""
+    chosen = ("CMAKE_GENERATOR" in os.environ or any(each.startswith("-G") for each in arguments)
+              or (build / "CMakeCache.txt").exists())
     return [] if chosen or not shutil.which("ninja") else ["-G", "Ninja"]
 
 
@@ -40,7 +41,7 @@ class CMakeBuild(build_ext):
         given = shlex.split(os.environ.get("CMAKE_ARGS", ""))
         subprocess.check_call(["cmake", "-S", str(ROOT / "tools" / "python"), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
                                f"-DPython_EXECUTABLE={sys.executable}", f"-DSWIVEL_PYTHON_FOLDER={folder}", *pybind11_folder(),
-                               *generator(given), *given])
+                               *generator(build, given), *given])
         jobs = str(self.parallel or os.cpu_count() or 1)
         subprocess.check_call(["cmake", "--build", str(build), "--target", "swivel_python", "--parallel", jobs])
 
