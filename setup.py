@@ -7,6 +7,7 @@ CMAKE_ARGS in the environment is passed on, such as "-DSWIVEL_TBB=OFF".
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -26,13 +27,21 @@ def pybind11_folder():
     return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
 
 
+def generator(build, arguments):
+    """Ninja where it is there, as a system may have no make; the caller's choice, and a build folder's own, come first."""
+    chosen = ("CMAKE_GENERATOR" in os.environ or any(each.startswith("-G") for each in arguments)
+              or (build / "CMakeCache.txt").exists())
+    return [] if chosen or not shutil.which("ninja") else ["-G", "Ninja"]
+
+
 class CMakeBuild(build_ext):
     def build_extension(self, ext):
         folder = Path(self.get_ext_fullpath(ext.name)).resolve().parent
         build = Path(self.build_temp).resolve() / ext.name
+        given = shlex.split(os.environ.get("CMAKE_ARGS", ""))
         subprocess.check_call(["cmake", "-S", str(ROOT / "tools" / "python"), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
                                f"-DPython_EXECUTABLE={sys.executable}", f"-DSWIVEL_PYTHON_FOLDER={folder}", *pybind11_folder(),
-                               *shlex.split(os.environ.get("CMAKE_ARGS", ""))])
+                               *generator(build, given), *given])
         jobs = str(self.parallel or os.cpu_count() or 1)
         subprocess.check_call(["cmake", "--build", str(build), "--target", "swivel_python", "--parallel", jobs])
 

@@ -74,15 +74,16 @@
 // cos and sin of its middle, cos and sin of half its width, which is 0..pi. Axes, cosines with their sines and ranges
 // are of unit length within 5e-4, weights 0..1: anything else is bad input, which also forgets the carried swivel.
 //
-// Limits are about the rest pose and have the arm frame's axes at rest, also those of the hand: bones along +z, hinge
-// +x, whatever axes a skeleton's joints have. A twist is that of swing and twist, 2 atan2(v . axis, w) of what the
-// joint adds to rest, by the right hand about +z, from shoulder to hand, or about the given axis; it is none of the
-// Euler angles, and counts less the further the swing: by half of 1 + cos swing. Every limit is kept within 1e-6 of a
-// cosine. Where the wish breaks a limit, the nearest swivel that keeps all of them is taken; where none does, the one
-// that violates them least. Joint limits win over MOST_SWIVEL, and that over the wish. The elbow's flexion does not
-// depend on the swivel: its limit narrows the reach, and the wrist stops short. Softened at a reach R over a width s, a
-// wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; mirrored at the near end.
-// Stretch makes up for what is missing, up to the most.
+// Limits are about the rest pose with the elbow straightened, and have the arm frame's axes there, also those of the
+// hand: bones along +z, hinge +x, whatever axes a skeleton's joints have. A twist is that of swing and twist, 2 atan2(v
+// . axis, w) of what the joint adds to rest, by the right hand about +z, from shoulder to hand, or about the given
+// axis; it is none of the Euler angles, and counts less the further the swing: by half of 1 + cos swing. Where the wish
+// breaks a limit, the nearest swivel that keeps all of them is taken, within 1e-6 of a cosine. THE WRIST COMES FIRST:
+// where no swivel keeps them, the one that violates them least is taken, and flagged SWIVEL_INFEASIBLE; to keep a limit
+// even then, move the target, weigh it down or let the clavicle help. Joint limits win over MOST_SWIVEL, and that over
+// the wish. The elbow's flexion does not depend on the swivel: its limit narrows the reach, and the wrist stops short.
+// Softened at a reach R over a width s, a wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s,
+// and R beyond; mirrored at the near end. Stretch makes up for what is missing, up to the most.
 //
 // Aiming: the elbow keeps the flexion given, the wrist the rotation given in SWIVEL_HAND (relative to the forearm, the
 // joint's local one with JOINTS; without WITH_HAND the hand is at rest), and the shoulder turns so that the ray from

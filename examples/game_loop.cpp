@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A crowd in a game loop: the game moves in steps of fixed length, frames are as long as they are, and hands get no
-// more than their share of each frame's time. Hands near the camera are solved more often; none is forgotten.
+// A crowd in a game loop: the game moves in steps of fixed length, frames are as long as they are, and hands get about
+// their share of each frame's time. Hands near the camera are solved more often; none is forgotten.
 #include <algorithm>
 #include <array>
 #include <chrono>

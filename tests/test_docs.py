@@ -128,7 +128,7 @@ class Docs(unittest.TestCase):
         text = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
         for program in (DOCS / "snippets").glob("*.cpp"):
             for part in re.findall(r"// \[(\w+)\]", program.read_text(encoding="utf-8")):
-                if part != "end":
+                if part != "end" and program.name != "start.cpp":  # that one check_readme looks for
                     name = f"docs/snippets/{program.name}" + ("" if part == "shown" else f": {part}")
                     self.assertIn(f"// {name}\n", text, "shown on no page")
 

@@ -88,6 +88,18 @@ Arm unreal()
     return arm;
 }
 
+// The same arm as a skeletal mesh has it, which looks along +y.
+Arm unreal_mesh()
+{
+    // [unreal_mesh]
+    const Arm arm{chain({-30, 0, 0}, {-40, 0, 0}, {0, 0, 1}),  // bones along -x
+                  {-20, 0, 140},                               // shoulder
+                  {-20, 50, 140},  // target: half a metre in front
+                  {-20, 20, 40}};  // pole: below
+    // [end]
+    return arm;
+}
+
 Arm godot()
 {
     // [godot]
@@ -120,6 +132,15 @@ Float3 point_to_unreal(const Float3& p)
 }
 Float4 turn_to_unreal(const Float4& q) { return {-q[2], q[0], -q[1], q[3]}; }
 Float3 hinge_to_unreal(const Float3& a) { return {-a[2], a[0], -a[1]}; }
+// [end]
+
+// [to_unreal_mesh]
+Float3 point_to_unreal_mesh(const Float3& p)
+{
+    return {100 * p[0], 100 * p[2], 100 * p[1]};
+}
+Float4 turn_to_unreal_mesh(const Float4& q) { return {-q[0], -q[2], -q[1], q[3]}; }
+Float3 hinge_to_unreal_mesh(const Float3& a) { return {-a[0], -a[2], -a[1]}; }
 // [end]
 
 // [to_godot]
@@ -173,6 +194,13 @@ TEST_CASE("docs: Unreal")
     check_rotations(solved(unreal()), {-0.6708f, -0.2236f, -0.2236f, 0.6708f},
                     {0, 0, -0.7071f, 0.7071f});
     check_carried(unreal(), point_to_unreal, turn_to_unreal, hinge_to_unreal);
+}
+
+TEST_CASE("docs: Unreal's skeletal meshes")
+{
+    check_pose(unreal_mesh(), solved(unreal_mesh()), {-20, 18, 116});
+    check_carried(unreal_mesh(), point_to_unreal_mesh, turn_to_unreal_mesh,
+                  hinge_to_unreal_mesh);
 }
 
 TEST_CASE("docs: Godot")

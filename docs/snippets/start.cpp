@@ -15,13 +15,13 @@ struct Character {  // your own, as your engine keeps it
 
 int main()
 {
-    // Bind: the rest pose. These bones lie along +x of their joints, not turned at
-    // rest, and bend about +y.
+    // Bind: the rest pose. A left arm's bones lie along +x of their joints, not turned
+    // at rest; it bends forwards, towards +z, which is a turn about -y.
     swivel_chain chain{};
     chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
     chain.elbow_offset[0] = 0.30f;  // the elbow, as the shoulder joint has it
     chain.wrist_offset[0] = 0.26f;  // the wrist, as the elbow joint has it
-    chain.hinge[1] = -1;            // flexion turns the forearm about -hinge
+    chain.hinge[1] = 1;             // flexion turns the forearm about -hinge
     const swivel::BoundLimb arm = swivel::bind(chain);
 
     // A crowd: how many, what goes in and what comes out.

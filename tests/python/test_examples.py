@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import image
 
+import swivel
 from arms import joints_at
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -33,6 +34,16 @@ class Documentation(unittest.TestCase):
         np.testing.assert_allclose(wrists[0], names["targets"][0], atol=1e-6)
         np.testing.assert_allclose(np.linalg.norm(names["shoulder"], axis=1), 1, atol=1e-6)
         self.assertIsNotNone(names["limited"].wrist)
+
+    def test_flag_words_of_several_bits_have_names(self):
+        """NumPy's numbers are not Python's: enum refuses them for a word that is no single bit."""
+        text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+        line = re.search(r"^print\(\[swivel\.Flag.*$", text, re.MULTILINE)[0]
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(line, {"swivel": swivel, "arms": swivel.solve([[0.0, 0.0, 9.0]], (0.0, 0.0, 1.0), (0.3, 0.26))})
+        if sys.version_info >= (3, 11):  # before, only a single bit has a name
+            self.assertEqual(printed.getvalue(), "['CLAMPED_FAR|SWIVEL_UNDEFINED']\n")
 
 
 class Reach(unittest.TestCase):

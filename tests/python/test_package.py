@@ -21,7 +21,7 @@ assert folder.is_relative_to(sys.prefix), folder
 assert importlib.metadata.version("swivel") == swivel.__version__
 assert (folder / "py.typed").exists() and (folder / "_core.pyi").exists()
 arms = swivel.solve([[0.3, 0.1, 0.3], [0, 0.2, 9]], (0, -1, 0), (0.30, 0.26))
-assert [swivel.Flag(bits) for bits in arms.flags] == [swivel.Flag.REACHED, swivel.Flag.CLAMPED_FAR]
+assert [swivel.Flag(int(bits)) for bits in arms.flags] == [swivel.Flag.REACHED, swivel.Flag.CLAMPED_FAR]
 """
 
 

@@ -15,94 +15,94 @@ _Frame = Mapping[str, npt.ArrayLike]
 LANES: int
 
 class Feature(enum.IntFlag):
-    WORLD: int
-    JOINTS: int
-    WITH_HAND: int
-    POLE_DIRECTION: int
-    COMPACT: int
-    WITH_EFFECTOR: int
-    WITH_ANGLE: int
-    POLE_NORMAL: int
-    WITH_INCOMING: int
-    POLE_INCOMING: int
-    WITH_WEIGHTS: int
-    WITH_REACH: int
-    WITH_STEP: int
-    LIMIT_FLEXION: int
-    LIMIT_SHOULDER_CONE: int
-    LIMIT_HUMERAL_TWIST: int
-    LIMIT_SHOULDER_BOX: int
-    LIMIT_HAND_CONE: int
-    LIMIT_FOREARM_TWIST: int
-    LIMIT_HAND_TWIST: int
-    LIMIT_WRIST_BOX: int
-    TWIST_BONES: int
-    WITH_AIM: int
-    WITH_CLAVICLE: int
-    BUDGET: int 
+    WORLD = 1 << 0
+    JOINTS = 1 << 1
+    WITH_HAND = 1 << 2
+    POLE_DIRECTION = 1 << 3
+    COMPACT = 1 << 4
+    WITH_EFFECTOR = 1 << 5
+    WITH_ANGLE = 1 << 6
+    POLE_NORMAL = 1 << 7
+    WITH_INCOMING = 1 << 8
+    POLE_INCOMING = 1 << 9
+    WITH_WEIGHTS = 1 << 10
+    WITH_REACH = 1 << 11
+    WITH_STEP = 1 << 12
+    LIMIT_FLEXION = 1 << 13
+    LIMIT_SHOULDER_CONE = 1 << 14
+    LIMIT_HUMERAL_TWIST = 1 << 15
+    LIMIT_SHOULDER_BOX = 1 << 16
+    LIMIT_HAND_CONE = 1 << 17
+    LIMIT_FOREARM_TWIST = 1 << 18
+    LIMIT_HAND_TWIST = 1 << 19
+    LIMIT_WRIST_BOX = 1 << 20
+    TWIST_BONES = 1 << 21
+    WITH_AIM = 1 << 24
+    WITH_CLAVICLE = 1 << 25
+    BUDGET = 1 << 29
 
 class Field(enum.IntEnum):
-    TARGET: int
-    POLE: int
-    LENGTHS: int
-    PARENT_POSITION: int
-    PARENT_ROTATION: int
-    PARENT_SCALE: int
-    HAND: int
-    EFFECTOR: int
-    ANGLE: int
-    INCOMING_SHOULDER: int
-    INCOMING_ELBOW: int
-    INCOMING_WRIST: int
-    WEIGHTS: int
-    REACH: int
-    MOST_SWIVEL: int
-    FLEXION_LIMIT: int
-    SHOULDER_CONE: int
-    HUMERAL_TWIST: int
-    SHOULDER_BOX: int
-    HAND_CONE: int
-    FOREARM_TWIST: int
-    HAND_TWIST: int
-    WRIST_BOX: int
-    AIM: int
-    CLAVICLE: int
-    SHOULDER: int
-    ELBOW: int
-    WRIST: int
-    FLAGS: int
-    STRETCH: int
-    NORMAL: int
-    TWIST: int
-    CLAVICLE_TURN: int 
+    TARGET = 0
+    POLE = 1
+    LENGTHS = 2
+    PARENT_POSITION = 3
+    PARENT_ROTATION = 4
+    PARENT_SCALE = 5
+    HAND = 6
+    EFFECTOR = 7
+    ANGLE = 8
+    INCOMING_SHOULDER = 9
+    INCOMING_ELBOW = 10
+    INCOMING_WRIST = 11
+    WEIGHTS = 12
+    REACH = 13
+    MOST_SWIVEL = 14
+    FLEXION_LIMIT = 15
+    SHOULDER_CONE = 16
+    HUMERAL_TWIST = 17
+    SHOULDER_BOX = 18
+    HAND_CONE = 19
+    FOREARM_TWIST = 20
+    HAND_TWIST = 21
+    WRIST_BOX = 22
+    AIM = 23
+    CLAVICLE = 24
+    SHOULDER = 25
+    ELBOW = 26
+    WRIST = 27
+    FLAGS = 28
+    STRETCH = 29
+    NORMAL = 30
+    TWIST = 31
+    CLAVICLE_TURN = 32
 
 class Flag(enum.IntFlag):
-    REACHED: int
-    SOFTENED: int
-    STRETCHED: int
-    CLAMPED_FAR: int
-    CLAMPED_NEAR: int
-    SWIVEL_UNDEFINED: int
-    LIMITED_FLEXION: int
-    LIMITED_SHOULDER_CONE: int
-    LIMITED_HUMERAL_TWIST: int
-    LIMITED_SHOULDER_BOX: int
-    LIMITED_HAND_CONE: int
-    LIMITED_FOREARM_TWIST: int
-    LIMITED_HAND_TWIST: int
-    LIMITED_WRIST_BOX: int
-    LIMITED_STEP: int
-    INFEASIBLE: int
-    JUMPED: int
-    BAD_INPUT: int 
+    REACHED = 1 << 0
+    SOFTENED = 1 << 1
+    STRETCHED = 1 << 2
+    CLAMPED_FAR = 1 << 3
+    CLAMPED_NEAR = 1 << 4
+    SWIVEL_UNDEFINED = 1 << 5
+    LIMITED_FLEXION = 1 << 6
+    LIMITED_SHOULDER_CONE = 1 << 7
+    LIMITED_HUMERAL_TWIST = 1 << 8
+    LIMITED_SHOULDER_BOX = 1 << 9
+    LIMITED_HAND_CONE = 1 << 10
+    LIMITED_FOREARM_TWIST = 1 << 11
+    LIMITED_HAND_TWIST = 1 << 12
+    LIMITED_WRIST_BOX = 1 << 13
+    LIMITED_STEP = 1 << 14
+    INFEASIBLE = 1 << 15
+    JUMPED = 1 << 16
+    BAD_INPUT = 1 << 30
 
 class EulerOrder(enum.IntEnum):
-    XYZ: int
-    XZY: int
-    YZX: int
-    YXZ: int
-    ZXY: int
-    ZYX: int 
+    XYZ = 0
+    XZY = 1
+    YZX = 2
+    YXZ = 3
+    ZXY = 4
+    ZYX = 5
 
 class Binding:
     def __init__(self, *, parent_from_arm: npt.ArrayLike, upper_from_arm: npt.ArrayLike, fore_from_arm: npt.ArrayLike,
