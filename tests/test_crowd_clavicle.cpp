@@ -152,7 +152,7 @@ TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothl
     Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, count);
     std::vector<Float3> targets;
     for (std::uint32_t n = 0; n < count; ++n)
-        targets.push_back(floats(Vector3d(-1, 0, 0.01 * (double{n} - 2000) / 2000)));
+        targets.push_back(floats(Vector3d(-1, 0, 0.01 * (static_cast<double>(n) - 2000) / 2000)));
     crowd.write(SWIVEL_TARGET, 0, targets);
     crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.25f, 0, 0});
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 0.9999f});
