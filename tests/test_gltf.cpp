@@ -247,6 +247,7 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     says(with("/animations/1/samplers/0/output", 77), "accessor 77 does not exist");
     says(with("/animations/1/samplers/0/input", 1), "wrong type");
     says(with("/animations/1/samplers/0/interpolation", "MAGIC"), "interpolation 'MAGIC' is unknown");
+    says(with("/animations/1/channels/1/target/node", 1), "two channels of animation 1 are for the rotation of node 1");
     says(with("/accessors/2/count", 3), "different numbers of keys");
     says(with("/accessors/2/count", 400), "reads beyond the end of buffer view 2");
     says(with("/accessors/2/bufferView", 40), "buffer view 40 does not exist");

@@ -206,6 +206,37 @@ TEST_CASE("gltf write: a file without animations gets one")
     CHECK(written.clip.rotation[1].isApprox(turn[0], 1e-7));
 }
 
+// Skeletons with so few or so many members that one more makes their list of members move in memory.
+TEST_CASE("gltf write: keys go into files that have nothing yet to hold them")
+{
+    const TempFolder folder;
+    const json nodes = {{{"name", "root"}, {"children", {1}}}, {{"name", "arm"}, {"translation", {1, 0, 0}}}};
+    const json least = {{"asset", {{"version", "2.0"}}}, {"nodes", nodes}};
+    json six = least, named = least, pictured = least;
+    six.update({{"scene", 0},
+                {"scenes", {{{"nodes", {0}}}}},
+                {"extras", {{"a", 1}}},
+                {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}}}});
+    named["animations"] = {{{"name", "x"}}};
+    pictured["images"] = {{{"uri", "a.png"}}, {{"uri", "a.png"}}};
+    spill(folder / "a.png", kPixel);
+    const std::vector<Quaterniond> turn = {Quaterniond(0, 1, 0, 0)};
+    const RotationOverride changes[] = {{0, turn}, {1, turn}};
+    for (const json& whole : {least, six, named, pictured})
+        for (const char* to : {"new.glb", "new.gltf"}) {
+            INFO(whole.dump() << " to " << to);
+            spill(folder / "rig.gltf", whole.dump());
+            write_gltf(folder / to, read_gltf(folder / "rig.gltf"), changes);
+            CHECK(gltf_errors(folder / to).empty());
+            const PlainGltf after = plain_gltf_of(folder / to);
+            CHECK(plain_local(after, 0, 1, 0).linear().isApprox(turn[0].toRotationMatrix(), 1e-7));
+            for (const auto& [name, value] : whole.items())
+                if (name != "animations" && name != "images") CHECK(after.json[name] == value);
+            write_gltf(folder / to, read_gltf(folder / "rig.gltf"), {});
+            if (whole != pictured) CHECK(plain_gltf_of(folder / to).json == whole);
+        }
+}
+
 TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
 {
     const TempFolder folder;

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_frames.h"
@@ -280,6 +282,7 @@ GltfSampler read_sampler(const GltfFile& file, const tinygltf::Model& model, con
 void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vector<int>& joint_of)
 {
     const tinygltf::Animation& animation = model.animations[static_cast<std::size_t>(file.animation)];
+    std::set<std::pair<int, GltfPath>> seen;
     for (const tinygltf::AnimationChannel& from : animation.channels) {
         const auto is = [&](const char* path) { return from.target_path == path; };
         if (from.target_node < 0 || !(is("translation") || is("rotation") || is("scale"))) continue;
@@ -287,6 +290,9 @@ void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vect
         GltfChannel channel;
         channel.joint = joint_of[static_cast<std::size_t>(from.target_node)];
         channel.path = is("rotation") ? GltfPath::rotation : is("scale") ? GltfPath::scale : GltfPath::translation;
+        if (!seen.emplace(channel.joint, channel.path).second)
+            refuse(file, fmt::format("two channels of animation {} are for the {} of node {}; glTF allows one",
+                                     file.animation, from.target_path, from.target_node));
         channel.sampler =
             read_sampler(file, model, element(file, animation.samplers, from.sampler, "sampler"), channel.path);
         file.channels.push_back(std::move(channel));

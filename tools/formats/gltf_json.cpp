@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <fstream>
@@ -24,6 +25,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr int kFloat = 5126;  // glTF's componentType
+constexpr std::array kGrowing = {"buffers", "bufferViews", "accessors"};
 
 // How deep brackets lie in each other, those in strings aside.
 std::size_t depth_of(std::string_view json)
@@ -130,7 +132,8 @@ std::string mime_of(std::string_view bytes)
     return {};
 }
 
-// An asset on its way into a file: its JSON, and where new bytes go.
+// An asset on its way into a file: its JSON, and where new bytes go. An object of this Json is a vector of members: a
+// new one moves all others, so the lists that grow are there (open_lists()) before anything refers into the document.
 struct Asset {
     Json document;
     std::string bytes;       // of the GLB's chunk, or of a new buffer
@@ -141,6 +144,16 @@ struct Asset {
         Json& found = document[name];
         if (!found.is_array()) found = Json::array();
         return found;
+    }
+    void open_lists()
+    {
+        for (const char* name : kGrowing) list(name);
+    }
+    // An empty list is not legal glTF.
+    void drop_empty_lists()
+    {
+        for (const char* name : kGrowing)
+            if (document[name].empty()) document.erase(name);
     }
     // Adds bytes as a buffer view; its index.
     std::size_t add_view(std::string_view content)
@@ -154,11 +167,10 @@ struct Asset {
     std::size_t add_floats(std::span<const float> values, const char* type, std::size_t width)
     {
         const std::string_view content(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+        const std::size_t view = add_view(content);
         list("accessors")
-            .push_back({{"bufferView", add_view(content)},
-                        {"componentType", kFloat},
-                        {"count", values.size() / width},
-                        {"type", type}});
+            .push_back(
+                {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size() / width}, {"type", type}});
         return list("accessors").size() - 1;
     }
 };
@@ -197,7 +209,8 @@ void settle_binary(Asset& asset, std::span<const std::string> buffers)
 
 void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool binary)
 {
-    if (!asset.document.contains("images")) return;
+    const auto found = asset.document.find("images");
+    if (found == asset.document.end() || !found->is_array()) return;
     for (Json& image : asset.list("images")) {
         if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string() || !is_beside(image)) continue;
         const std::string uri = image["uri"];
@@ -234,6 +247,8 @@ bool is_rotation_of(const Json& channel, int node)
 // Gives the node's rotation channel the sampler: in the place of the one it had, unless others use that one too.
 void put_sampler(Json& animation, int node, const Json& sampler)
 {
+    for (const char* name : {"channels", "samplers"})  // both, before a reference is taken to one
+        if (!animation.contains(name)) animation[name] = Json::array();
     Json &channels = animation["channels"], &samplers = animation["samplers"];
     const auto channel =
         std::find_if(channels.begin(), channels.end(), [&](const Json& each) { return is_rotation_of(each, node); });
@@ -294,6 +309,7 @@ GltfContainer with_keys(const GltfContainer& file, std::span<const std::string> 
                         const fs::path& from, const fs::path& to, bool binary)
 {
     Asset asset{parse(from, file.json), {}, 0};
+    asset.open_lists();
     if (binary)
         settle_binary(asset, buffers);
     else
@@ -304,7 +320,8 @@ GltfContainer with_keys(const GltfContainer& file, std::span<const std::string> 
     list[asset.buffer]["byteLength"] = asset.bytes.size();
     if (!binary && asset.bytes.empty()) list.erase(asset.buffer);
     if (!binary && !asset.bytes.empty()) list[asset.buffer]["uri"] = data_uri(asset.bytes);
-    if (list.empty() || (binary && asset.bytes.empty() && buffers.empty())) asset.document.erase("buffers");
+    if (binary && asset.bytes.empty() && buffers.empty()) list.clear();
+    asset.drop_empty_lists();
     GltfContainer out;
     out.json = asset.document.dump();
     out.is_binary = binary;
