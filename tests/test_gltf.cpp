@@ -248,6 +248,17 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     says(with("/animations/1/samplers/0/input", 1), "wrong type");
     says(with("/animations/1/samplers/0/interpolation", "MAGIC"), "interpolation 'MAGIC' is unknown");
     says(with("/animations/1/channels/1/target/node", 1), "two channels of animation 1 are for the rotation of node 1");
+    says(with("/nodes/1/rotation", "0 0 1 0"), "node 1 has a bad rotation: a list of 4 numbers is needed");
+    says(with("/nodes/1/translation", {{"x", 5}}), "node 1 has a bad translation");
+    says(with("/nodes/1/children", {1.5}), "node 1 has a bad children");
+    says(with("/nodes/1", 5), "node 1 is no object");
+    says(with("/skins", {{{"joints", "all"}}}), "skin 0 has a bad joints");
+    says(with("/animations/1/channels/0", 5), "animation 1, channel 0 is no object");
+    says(with("/animations/1/channels/0", {{"target", {{"path", "rotation"}}}}), "channel 0 has a bad sampler");
+    says(with("/animations/1/channels/0/target/path", 5), "the target of animation 1, channel 0 has a bad path");
+    says(with("/accessors/2/componentType", 5124), "component type 5124 of an accessor in buffer view 2");
+    says(with("/accessors/2", {{"componentType", 5126}, {"count", 9}, {"type", "SCALAR"}}), "has no buffer view");
+    says(with("/accessors/3", {{"componentType", 5126}, {"count", 1 << 28}, {"type", "VEC4"}}), "different numbers");
     says(with("/accessors/2/count", 3), "different numbers of keys");
     says(with("/accessors/2/count", 400), "reads beyond the end of buffer view 2");
     says(with("/accessors/2/bufferView", 40), "buffer view 40 does not exist");
@@ -291,7 +302,13 @@ TEST_CASE("gltf: a broken file is read or refused, never worse")
     std::size_t refused = 0;
     for (int round = 0; round < 1500; ++round) {
         spill(folder / "bad.glb", mutated(good, random));
-        refused += refusal([&] { read_gltf(folder / "bad.glb", {"1"}); }) != "read";
+        const std::string said = refusal([&] {
+            const GltfFile file = read_gltf(folder / "bad.glb", {"1"});
+            const std::vector<Quaterniond> still(file.clip.frame_count, Quaterniond::Identity());
+            const RotationOverride change[] = {{0, still}};
+            write_gltf("/dev/null", file, change);
+        });
+        refused += said != "read";
     }
     CHECK(refused > 500);
     CHECK(refused < 1500);

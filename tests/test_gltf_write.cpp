@@ -254,6 +254,10 @@ TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
     CHECK_THROWS_AS(write({{1, zero}}), std::invalid_argument);
     CHECK_THROWS_AS(write({{1, good}, {1, good}}), std::invalid_argument);
     CHECK_THROWS_AS(write({{1, good}}, "no/new.glb"), InputError);
+    GltfFile sheared = file;
+    sheared.clip.joints[1].is_sheared = true;
+    const RotationOverride change[] = {{1, good}};
+    CHECK_THROWS_AS(write_gltf(folder / "new.glb", sheared, change), InputError);
     CHECK(folder.file_count() == 1);
 }
 

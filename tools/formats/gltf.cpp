@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+// tinygltf reads a reduced document (skeleton_json()), so that neither images nor meshes get in the way and nothing is
+// decoded that no pose needs. It does not write: it would drop or reorder what it does not know. The writer edits the
+// text itself, so that untouched values stay as they are and buffers stay byte for byte.
 #include "tools/formats/gltf.h"
 
 #include <fmt/format.h>
@@ -91,7 +94,7 @@ double component(const char* at, int type, bool is_normalized)
             return read(std::uint16_t{}, 65535);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
             return read(std::uint32_t{}, 1);
-        default:
+        default:  // float: read_view() lets no other pass
             return read(float{}, 1);
     }
 }
@@ -104,7 +107,11 @@ std::vector<double> read_view(const GltfFile& file, const tinygltf::Model& model
     const auto& bytes = element(file, model.buffers, view.buffer, "buffer").data;
     const auto size =
         static_cast<std::size_t>(std::max(tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(type)), 0));
-    if (size == 0) refuse(file, fmt::format("component type {} of an accessor does not exist", type));
+    const bool is_legal = (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) ||
+                          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT || type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    if (!is_legal)
+        refuse(file,
+               fmt::format("component type {} of an accessor in buffer view {} does not exist", type, view_index));
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : size * width;
     const bool fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset &&
                       offset <= view.byteLength && count <= bytes.size() &&
@@ -121,11 +128,19 @@ std::vector<double> read_view(const GltfFile& file, const tinygltf::Model& model
     return values;
 }
 
-std::vector<double> read_accessor(const GltfFile& file, const tinygltf::Model& model, int index, int type)
+// expected: how many elements there must be, so that no file makes more room than its keys need; 0: any number, but
+// then they must be bytes of the file.
+std::vector<double> read_accessor(const GltfFile& file, const tinygltf::Model& model, int index, int type,
+                                  std::size_t expected)
 {
     const tinygltf::Accessor& at = element(file, model.accessors, index, "accessor");
     if (at.type != type) refuse(file, fmt::format("accessor {} of an animation has the wrong type", index));
     const auto width = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<unsigned>(type)));
+    if (expected > 0 && at.count != expected)
+        refuse(file, fmt::format("accessor {} and its times have different numbers of keys: {} elements, {} are needed",
+                                 index, at.count, expected));
+    if (expected == 0 && at.bufferView < 0)
+        refuse(file, fmt::format("accessor {} of an animation's times has no buffer view", index));
     if (at.count == 0 || at.count > std::size_t{1} << 28)
         refuse(file, fmt::format("accessor {} of an animation has {} keys", index, at.count));
     std::vector<double> values(at.bufferView < 0 ? at.count * width : 0);
@@ -258,16 +273,15 @@ GltfSampler read_sampler(const GltfFile& file, const tinygltf::Model& model, con
         sampler.interpolation = Interpolation::cubic;
     else if (!from.interpolation.empty() && from.interpolation != "LINEAR")
         refuse(file, fmt::format("interpolation '{}' is unknown", printable(from.interpolation)));
-    sampler.time = read_accessor(file, model, from.input, TINYGLTF_TYPE_SCALAR);
+    sampler.time = read_accessor(file, model, from.input, TINYGLTF_TYPE_SCALAR, 0);
     for (std::size_t n = 1; n < sampler.time.size(); ++n)
         if (!(sampler.time[n] > sampler.time[n - 1]))
             refuse(file, fmt::format("times in accessor {} do not grow", from.input));
     const bool is_rotation = path == GltfPath::rotation;
     const std::size_t width = is_rotation ? 4 : 3;
-    const auto values = read_accessor(file, model, from.output, is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
     const std::size_t each = sampler.interpolation == Interpolation::cubic ? 3 : 1;
-    if (values.size() != each * width * sampler.time.size())
-        refuse(file, fmt::format("accessors {} and {} have different numbers of keys", from.input, from.output));
+    const auto values = read_accessor(file, model, from.output, is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
+                                      each * sampler.time.size());
     for (std::size_t n = 0; n < values.size(); n += width) {
         Vector4d value = Vector4d::Zero();
         std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(n), width, value.data());

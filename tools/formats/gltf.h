@@ -5,9 +5,8 @@
 // - Every node is a joint, so that what lies above a skeleton (an armature with its scale) counts. Nodes that a skin
 //   names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is "#12".
 // - The rest pose is the nodes' own transforms. A matrix is taken apart into translation, rotation and scale.
-// - The animation's keys become frames. If all keys of nodes lie on one even grid, a frame is a key; otherwise, or with
-// a
-//   rate of its own, the animation is sampled evenly from its first key to its last, 60 times a second.
+// - The animation's keys become frames. If all keys of nodes lie on one even grid, a frame is a key; otherwise it
+//   is sampled evenly from its first key to its last, 60 times a second or at the rate asked for.
 // - No animation: the clip is one frame, the rest pose, and writing adds an animation of one key.
 // Images are neither decoded nor needed. Weights, visibility and other targets than nodes' own poses are kept, not
 // read.
@@ -61,8 +60,8 @@ GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice =
 // path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). A .glb takes in the
 // buffers and images that lie in files beside the .gltf; a .gltf holds the new keys itself and goes on
 // using the same files, from wherever it is written.
-// Throws InputError on writing. Throws std::invalid_argument for a joint out of range or named twice, a wrong frame
-// count, a zero or non-finite quaternion.
+// Throws InputError on writing, and for a joint whose matrix is sheared, which keys cannot say. Throws
+// std::invalid_argument for a joint out of range or named twice, a wrong frame count, a zero or non-finite quaternion.
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides);
 
 }  // namespace swivel::formats

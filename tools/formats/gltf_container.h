@@ -18,7 +18,8 @@ struct GltfContainer {
 };
 
 // Reads a file of either shape, told apart by its first bytes, not by its suffix. Throws InputError for a file that
-// cannot be read, is empty, is of glTF 1.0, or whose chunks do not fill it.
+// cannot be read, is empty, is of glTF 1.0, or whose chunks run
+// beyond its end. Bytes after the length that a GLB gives for itself are not read.
 GltfContainer read_gltf_container(const std::filesystem::path& path);
 
 // A GLB of it, chunks padded to four bytes. Throws std::length_error beyond the format's 4 GiB.

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "tools/formats/error.h"
+#include "tools/formats/gltf_check.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -207,6 +208,16 @@ void settle_binary(Asset& asset, std::span<const std::string> buffers)
     if (!buffers.empty()) asset.bytes = buffers[0];
 }
 
+// A picture's bytes; none of what is no plain file (a device has no end) or larger than any picture is.
+std::string picture_at(const fs::path& path)
+{
+    constexpr std::uintmax_t kLargest = 512u << 20;
+    std::error_code failed;
+    if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) > kLargest || failed) return {};
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
 void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool binary)
 {
     const auto found = asset.document.find("images");
@@ -214,9 +225,8 @@ void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool 
     for (Json& image : asset.list("images")) {
         if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string() || !is_beside(image)) continue;
         const std::string uri = image["uri"];
-        std::ifstream in(file_at(uri, from), std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        const std::string mime = binary ? mime_of(bytes) : std::string();
+        const std::string bytes = binary ? picture_at(file_at(uri, from)) : std::string();
+        const std::string mime = mime_of(bytes);
         if (mime.empty()) {  // also an image that is missing: then the address stays what it was
             image["uri"] = moved_uri(uri, from, to);
             continue;
@@ -293,6 +303,7 @@ std::string skeleton_json(const fs::path& path, std::string_view json)
 {
     const Json whole = parse(path, json);
     refuse_compression(path, whole);
+    check_members(path, whole);
     Json part = Json::object();
     copy_members(whole, part, {"asset"});
     copy_array(whole, part, "buffers", {"uri", "byteLength"});
@@ -307,7 +318,7 @@ std::string skeleton_json(const fs::path& path, std::string_view json)
 
 GltfContainer with_keys(const GltfContainer& file, std::span<const std::string> buffers, const GltfKeys& keys,
                         const fs::path& from, const fs::path& to, bool binary)
-{
+try {
     Asset asset{parse(from, file.json), {}, 0};
     asset.open_lists();
     if (binary)
@@ -330,6 +341,8 @@ GltfContainer with_keys(const GltfContainer& file, std::span<const std::string> 
         out.other_chunks = file.other_chunks;
     }
     return out;
+} catch (const Json::exception& error) {
+    throw InputError(from, fmt::format("is not sound glTF: {}", printable(error.what(), 160)));
 }
 
 }  // namespace swivel::formats

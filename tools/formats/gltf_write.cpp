@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -61,6 +63,11 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
     std::set<int> joints;
     for (const RotationOverride& change : overrides) {
         check_override(file, change, joints);
+        const Joint& joint = file.clip.joints[static_cast<std::size_t>(change.joint)];
+        if (joint.is_sheared)
+            throw InputError(file.path, fmt::format("the matrix of node {} is sheared, so it cannot have keys; remove "
+                                                    "the shear where the rig was made",
+                                                    joint.number));
         keys.tracks.push_back(track_of(file, change));
     }
     keys.times = file.times;
