@@ -28,18 +28,33 @@ std::string scale_fault(const Joint& joint, const JointPose& pose, const std::st
     return {};
 }
 
+// How a frame's mirror differs from the rest pose's; empty if it does not.
+std::string mirror_fault(const Joint& joint, const JointPose& rest, const JointPose& pose, std::size_t frame)
+{
+    if (pose.mirrored == rest.mirrored) return {};
+    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", joint.name, frame)
+                         : fmt::format("'{}' is mirrored at rest and not in frame {}", joint.name, frame);
+}
+
 // Every joint that the limb's size hangs on: all above the end joint.
 void check_scales(const Clip& clip, const LimbChain& chain)
 {
     for (int joint = joint_at(clip, chain.end()).parent; joint >= 0; joint = joint_at(clip, joint).parent) {
         const Joint& at = joint_at(clip, joint);
-        std::string fault = scale_fault(at, formats::local_rest_pose(at), "");
-        for (std::size_t frame = 0; frame < clip.frame_count && fault.empty() && at.scale_track >= 0; ++frame)
-            fault = scale_fault(at, formats::local_pose(clip, frame, static_cast<std::size_t>(joint)),
-                                fmt::format(" in frame {}", frame));
+        const JointPose rest = formats::local_rest_pose(at);
+        std::string fault = scale_fault(at, rest, ""), turned_over;
+        for (std::size_t frame = 0; frame < clip.frame_count && fault.empty() && at.scale_track >= 0; ++frame) {
+            const JointPose pose = formats::local_pose(clip, frame, static_cast<std::size_t>(joint));
+            fault = scale_fault(at, pose, fmt::format(" in frame {}", frame));
+            if (turned_over.empty()) turned_over = mirror_fault(at, rest, pose, frame);
+        }
         if (!fault.empty())
             throw CannotBind(fmt::format(
                 "{}, so its bones change shape as they turn; apply the scale where the rig was made", fault));
+        if (!turned_over.empty())
+            throw CannotBind(fmt::format(
+                "{}, and a limb is solved on one side of a mirror; choose an animation that keeps the rest pose's",
+                turned_over));
     }
 }
 

@@ -154,6 +154,7 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
 {
     LimbFinding finding{candidate.name, std::nullopt, candidate.found.problem, candidate.found.joints.has_value()};
     if (!finding.has_names) {
+        finding.is_half = !finding.problem.empty();
         if (finding.problem.empty()) finding.problem = why_none_fits(clip);
         return finding;
     }
@@ -181,24 +182,31 @@ std::vector<LimbFinding> look_for_limbs(const Clip& clip, const std::filesystem:
     return findings;
 }
 
-std::vector<Limb> find_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
+FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
 {
-    const std::vector<LimbFinding> findings = look_for_limbs(clip, file, choice);
-    std::vector<Limb> limbs;
-    for (const LimbFinding& finding : findings) {
+    FoundLimbs found;
+    for (LimbFinding& finding : look_for_limbs(clip, file, choice)) {
         if (finding.has_names && !finding.limb)
             throw InputError(file,
                              fmt::format("the {} cannot be bound: {}", plain_name(finding.name), finding.problem));
-        if (finding.limb) limbs.push_back(*finding.limb);
+        if (finding.limb)
+            found.limbs.push_back(*finding.limb);
+        else
+            found.missing.push_back(std::move(finding));
     }
-    for (const LimbFinding& finding : findings) {
+    for (const LimbFinding& finding : found.missing) {
         const LimbWords& words = words_of(finding.name.kind);
         const auto is_same_kind = [&](const Limb& limb) { return limb.name.kind == finding.name.kind; };
-        if (std::none_of(limbs.begin(), limbs.end(), is_same_kind))
+        const auto other = std::find_if(found.limbs.begin(), found.limbs.end(), is_same_kind);
+        if (other == found.limbs.end())
             throw InputError(file, fmt::format("no {} found by the usual joint names ({}); name them with {} {}",
                                                words.limbs, finding.problem, words.option, words.joints));
+        if (finding.is_half)
+            throw InputError(file, fmt::format("the {} cannot be bound: {}; name both {} with {} {}, or the {} alone",
+                                               plain_name(finding.name), finding.problem, words.limbs, words.option,
+                                               words.joints, plain_name(other->name)));
     }
-    return limbs;
+    return found;
 }
 
 }  // namespace swivel::tools

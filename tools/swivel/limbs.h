@@ -33,6 +33,7 @@ struct LimbFinding {
     std::optional<Limb> limb;
     std::string problem;     // one line; also without any joint that fits
     bool has_names = false;  // joints fit, by habit or by the user, though they do not bind
+    bool is_half = false;    // some joints have a limb's names, and are no limb: one is missing, or its name repeats
 };
 
 // All limbs of the kinds chosen, arms first, each bound or with its reason. Throws InputError, naming the file, for
@@ -41,8 +42,14 @@ struct LimbFinding {
 std::vector<LimbFinding> look_for_limbs(const formats::Clip& clip, const std::filesystem::path& file,
                                         const LimbChoice& choice);
 
-// The limbs that bind. Throws as look_for_limbs() does, and for a kind of which no limb has names in use, and for a
-// limb that has them and cannot be bound.
-std::vector<Limb> find_limbs(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
+// The limbs to solve, and those of the same kinds that the skeleton has no names of.
+struct FoundLimbs {
+    std::vector<Limb> limbs;           // arms first
+    std::vector<LimbFinding> missing;  // each with its reason
+};
+
+// The limbs that bind. Throws as look_for_limbs() does, for a kind of which no limb has names in use, and for a limb
+// that has names, some or all, and cannot be bound: it is never left out in silence.
+FoundLimbs find_limbs(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 }  // namespace swivel::tools

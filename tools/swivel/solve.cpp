@@ -48,6 +48,7 @@ struct Options {
 struct Job {
     std::optional<formats::CrowdFile> crowd;
     std::vector<Limb> limbs;
+    std::vector<LimbFinding> missing;
     CrowdPlan plan;
     std::string targets;  // "clip" or a file
 };
@@ -124,7 +125,9 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
     }
-    job.limbs = find_limbs(clip, options.clip, choice);
+    FoundLimbs found = find_limbs(clip, options.clip, choice);
+    job.limbs = std::move(found.limbs);
+    job.missing = std::move(found.missing);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
@@ -146,7 +149,7 @@ void run(const Options& options)
     if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".csv")
         file.require_can_write(options.out);
     const Job job = make_job(options, choice, file.clip());
-    const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed};
+    const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed, job.missing};
     if (!options.json) print_clip(facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);
