@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -19,12 +20,15 @@ using formats::JointPose;
 
 const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
 
+// Its name for a message.
+std::string shown(const Joint& joint) { return formats::printable(joint.name, 80); }
+
 // What is wrong with a joint's scale; empty if nothing is.
 std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
 {
-    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", joint.name);
-    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", joint.name, when);
-    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", joint.name, when);
+    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", shown(joint));
+    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", shown(joint), when);
+    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", shown(joint), when);
     return {};
 }
 
@@ -32,8 +36,8 @@ std::string scale_fault(const Joint& joint, const JointPose& pose, const std::st
 std::string mirror_fault(const Joint& joint, const JointPose& rest, const JointPose& pose, std::size_t frame)
 {
     if (pose.mirrored == rest.mirrored) return {};
-    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", joint.name, frame)
-                         : fmt::format("'{}' is mirrored at rest and not in frame {}", joint.name, frame);
+    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", shown(joint), frame)
+                         : fmt::format("'{}' is mirrored at rest and not in frame {}", shown(joint), frame);
 }
 
 // Every joint that the limb's size hangs on: all above the end joint.
@@ -63,8 +67,8 @@ void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& 
     const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
     for (std::size_t n = 0; n < 2; ++n)
         if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
-            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length", joint_at(clip, joints[n]).name,
-                                         joint_at(clip, joints[n + 1]).name));
+            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length", shown(joint_at(clip, joints[n])),
+                                         shown(joint_at(clip, joints[n + 1]))));
 }
 
 template <int size>

@@ -101,17 +101,19 @@ Statistics solve_clip(const Options& options, const MotionFile& file, const Job&
 void require_named_limbs_solved(const LimbChoice& choice)
 {
     if (choice.kinds == "legs" && !choice.arms.empty())
-        throw CommandError(2, "--arm names an arm, but --limbs legs solves none; use --limbs all");
+        throw CommandError(2,
+                           fmt::format("--arm names an arm, but {} solves none; use --limbs all", choice.kinds_from));
     if (choice.kinds == "arms" && !choice.legs.empty())
-        throw CommandError(2, "--leg names a leg, but --limbs arms solves none; use --limbs all");
+        throw CommandError(2, fmt::format("--leg names a leg, but {} solves none; use --limbs all", choice.kinds_from));
 }
 
 LimbChoice choice_of(const Options& options)
 {
     LimbChoice choice;
     choice.kinds = options.kinds;
-    for (const std::string& arm : options.arms) choice.arms.push_back({arm, "--arm"});
-    for (const std::string& leg : options.legs) choice.legs.push_back({leg, "--leg"});
+    choice.kinds_from = fmt::format("--limbs {}", options.kinds);
+    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
+    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
     require_named_limbs_solved(choice);
     return choice;
 }
