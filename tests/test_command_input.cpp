@@ -185,7 +185,8 @@ TEST_CASE("input: skeletons without legs, and --leg that names none")
     spill(folder / "clip.bvh", kTwoArms);
     require_refused(folder, {"clip.bvh", "--limbs", "legs"}, {"clip.bvh: no legs", "--leg HIP,KNEE,ANKLE"});
     require_refused(folder, {"clip.bvh", "--limbs", "all"}, {"clip.bvh: no legs", "--leg HIP,KNEE,ANKLE"});
-    require_refused(folder, {"clip.bvh", "--leg", "LeftArm,LeftForeArm"}, {"--leg 'LeftArm,", "HIP,KNEE,ANKLE"});
+    require_refused(folder, {"clip.bvh", "--leg", "LeftArm,LeftForeArm"},
+                    {"'LeftArm,LeftForeArm' does not name three joints (--leg); write HIP,KNEE,ANKLE"});
     require_refused(folder, {"clip.bvh", "--leg", "Nope,LeftForeArm,LeftHand"}, {"'Nope' (--leg)"});
     require_refused(folder, {"clip.bvh", "--limbs", "all", "--leg", "LeftArm,LeftForeArm,LeftHand"},
                     {"the left arm and the left leg share a joint"});
@@ -202,6 +203,57 @@ TEST_CASE("input: targets of a limb that is not solved")
     require_refused(folder, {"clip.bvh", "--targets", "t.csv", "--leg", "LeftUpLeg,LeftLeg,LeftFoot"},
                     {"t.csv:2: the right leg is not solved; take it in with --limbs"});
     CHECK(run_command(folder.path, {"solve", "clip.bvh", "--targets", "t.csv", "--limbs", "legs"}).exit_code == 0);
+}
+
+TEST_CASE("input: what a crowd file names wrongly is said with file, line and key")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    const auto refused = [&](const std::string& toml, const std::string& said, const Words& more = {}) {
+        spill(folder / "c.toml", toml);
+        Words arguments = {"clip.bvh", "--crowd", "c.toml"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        INFO(toml);
+        require_refused(folder, arguments, {said});
+    };
+    const std::string left = "[limb.left_arm]\njoints = ";
+    const std::string good = left + "[\"LeftArm\", \"LeftForeArm\", \"LeftHand\"]\n";
+    refused(left + "[\"LeftArm\", \"LeftForeArm\", \"Nope\"]\n",
+            "c.toml:2: limb.left_arm.joints: no joint is called 'Nope' in clip.bvh; swivel rig --joints lists them");
+    refused(left + "[\"LeftHand\", \"LeftForeArm\", \"LeftArm\"]\n",
+            "c.toml:2: limb.left_arm.joints: 'LeftHand,LeftForeArm,LeftArm' does not name a joint, one below it");
+    refused(left + "[\"Left\\nArm\", \"LeftForeArm\", \"LeftHand\"]\n", "no joint is called 'Left\\x0aArm' in");
+    refused("[crowd]\nlimbs = \"legs\"\n" + good,
+            "c.toml:4: limb.left_arm.joints: crowd.limbs = \"legs\" in line 2 of c.toml solves no arms");
+    refused(good, "c.toml:2: limb.left_arm.joints: --limbs legs solves no arms", {"--limbs", "legs"});
+    for (const std::string kind : {"direction", "normal"})
+        refused(
+            "[limb.arms.pole]\nkind = \"" + kind + "\"\n[limb.left_arm.pole]\nfixed = [0, 0, 0]\n",
+            "c.toml:4: limb.left_arm.pole.fixed: has no length, so no direction, and limb.arms.pole.kind in line 2");
+
+    spill(folder / "c.toml", "[limb.left_arm.pole]\nfixed = [0, 0, 0]\n");  // of a point: the shoulder
+    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml"}).exit_code == 0);
+    spill(folder / "c.toml", "[crowd]\nlimbs = \"legs\"\n");
+    const Outcome clash =
+        run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml", "--arm", "LeftArm,LeftForeArm,LeftHand"});
+    CHECK(clash.exit_code == 2);
+    CHECK_THAT(clash.err, Contains("--arm names an arm, but crowd.limbs = \"legs\" in line 2 of c.toml solves none"));
+}
+
+TEST_CASE("input: a crowd file names joints with commas")
+{
+    const auto renamed = [](std::string text, const std::string& from, const std::string& to) {
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+        return text;
+    };
+    const TempFolder folder;
+    spill(folder / "clip.bvh", renamed(kTwoArms, "JOINT LeftArm", "JOINT Arm,L"));
+    spill(folder / "c.toml", "[limb.left_arm]\njoints = [\"Arm,L\", \"LeftForeArm\", \"LeftHand\"]\n");
+    const Outcome outcome = run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml", "--json"});
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("\"Arm,L\""));
 }
 
 TEST_CASE("input: arms whose channels cannot take a rotation")

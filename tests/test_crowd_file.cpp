@@ -221,6 +221,26 @@ TEST_CASE("crowd file: no TOML")
     CHECK_THROWS_WITH(read_crowd_file("/nowhere/c.toml"), Contains("/nowhere/c.toml: ") && Contains("No such file"));
 }
 
+TEST_CASE("crowd file: too large or too deep for the parser")
+{
+    const auto dotted = [](int parts, const char* between) {
+        std::string key = "a";
+        for (int n = 1; n < parts; ++n) key.append(between).append("a");
+        return key;
+    };
+    const std::string said = "c.toml:2: the line has more than 64 dots; no key has so many parts";
+    CHECK(complaint("[crowd]\n" + dotted(200'000, ".") + " = 1\n") == said);
+    CHECK(complaint("\n[" + dotted(200'000, " . ") + "]\n") == said);
+    CHECK(complaint("\nx = [ { " + dotted(66, ".") + " = 1 } ]\n") == said);
+    require_refused("[" + dotted(65, ".") + "]\n", "c.toml:1: a: unknown key");
+    std::string nested;  // a table in a list in a table, as deep as lines let it
+    for (int n = 0; n < 7'000; ++n) nested += dotted(60, ".") + " = [ {\n";
+    require_refused(nested, "c.toml:");
+    CHECK(complaint("# ..........................................................................\n[crowd]\n").empty());
+    CHECK(complaint("#" + std::string(1'000'000, 'x')) ==
+          "c.toml: has 1000001 bytes; a file of settings has at most 1000000");
+}
+
 TEST_CASE("crowd file: mutated files are read or refused in one line")
 {
     std::mt19937 random(11);

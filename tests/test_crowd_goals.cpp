@@ -109,7 +109,7 @@ TEST_CASE("crowd file: joints and hinge")
     CHECK(stage.json("[limb.right_leg]\njoints = [\"RightUpLeg\", \"RightLeg\", \"RightFoot\"]\n")
               .contains("legs_bound"));
     stage.require_refused("[limb.left_arm]\njoints = [\"Left\", \"LeftForeArm\", \"LeftHand\"]\n",
-                          "no joint is called 'Left' (limb.left_arm.joints)");
+                          "limb.left_arm.joints: no joint is called 'Left' in clip.bvh");
 
     // The elbow's own rotation is about the hinge's opposite, whichever way that is.
     for (const std::string hinge : {"[0, 1, 0]", "[0, -1, 0]"}) {

@@ -53,7 +53,7 @@ JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaternion
     if (scale == Eigen::Vector3d::Ones()) return pose;
     const Eigen::Vector3d size = scale.cwiseAbs();
     pose.scale = size.mean();
-    pose.is_uniform = size.maxCoeff() - size.minCoeff() <= 1e-4 * size.maxCoeff();
+    pose.is_uniform = size.maxCoeff() - size.minCoeff() <= 3e-5 * size.maxCoeff();
     pose.mirrored = scale.x() * scale.y() * scale.z() < 0;
     // The signs are a mirror in x, or none, and then half a turn about an axis, or none: the one that keeps its sign.
     const Eigen::Array3d sign(pose.mirrored == (scale.x() < 0) ? 1 : -1, scale.y() < 0 ? -1 : 1,

@@ -51,7 +51,7 @@ struct JointPose {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     double scale = 1;       // above 0; 0 where a joint at or above is scaled to nothing
     bool mirrored = false;  // an odd number of mirrors at and above
-    // False: a joint at or above is scaled by different factors along its axes (by more than 1e-4; exporters
+    // False: a joint at or above is scaled by different factors along its axes (by more than 3e-5; exporters
     // make noise of up to 3e-5). Then no rotation and scale say it all, and these hold the mean factor: not to be
     // relied on.
     bool is_uniform = true;

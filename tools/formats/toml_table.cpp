@@ -13,7 +13,8 @@
 namespace swivel::formats {
 namespace {
 
-constexpr double kMaxNorm = 1e15;  // the engine's range for lengths
+constexpr double kMaxNorm = 1e15;                              // the engine's range for lengths
+constexpr std::size_t kMostBytes = 1'000'000, kMostDots = 64;  // in a file, in a line
 
 std::string_view type_name(const toml::node& node)
 {
@@ -62,11 +63,28 @@ std::string suggestion(std::string_view wrong, std::span<const std::string> word
     return fmt::format("known are {}", fmt::join(words, ", "));
 }
 
+// The parser recurses for each part of a dotted key. What stands in a text or comment counts, too: telling it apart
+// would take the parser. Dots side by side, which no key has, count once, so that dotted rules may be drawn.
+void require_flat(const std::filesystem::path& path, std::string_view text)
+{
+    std::size_t line = 1, dots = 0;
+    for (std::size_t n = 0; n < text.size(); ++n) {
+        if (text[n] == '\n') ++line, dots = 0;
+        if (text[n] == '.' && (n == 0 || text[n - 1] != '.')) ++dots;
+        if (dots > kMostDots)
+            throw InputError(path, line,
+                             fmt::format("the line has more than {} dots; no key has so many parts", kMostDots));
+    }
+}
+
 }  // namespace
 
 toml::table read_toml(const std::filesystem::path& path)
 {
     const std::string text = read_text(path);
+    if (text.size() > kMostBytes)
+        throw InputError(path, fmt::format("has {} bytes; a file of settings has at most {}", text.size(), kMostBytes));
+    require_flat(path, text);
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {

@@ -32,7 +32,7 @@ struct NumberRange {
     double least = 0, most = 0;
 };
 
-// Parses a file. Throws InputError for what is no TOML, or cannot be read.
+// Parses a file. Throws InputError for what is no TOML, is too large or too deep for it, or cannot be read.
 toml::table read_toml(const std::filesystem::path& path);
 
 class TomlTable {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tools/formats/error.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -61,6 +62,13 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
                    fmt::format("means nothing beside {} = \"incoming\" in line {}; take one of them out",
                                s.pole_kind->key, s.pole_kind->line));
     };
+    const bool points =
+        s.pole_kind && (s.pole_kind->value == PoleKind::direction || s.pole_kind->value == PoleKind::normal);
+    if (points && s.pole_fixed && !(s.pole_fixed->value.stableNorm() > 1e-15))
+        refuse(file, *s.pole_fixed,
+               fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
+                           "them 0",
+                           s.pole_kind->key, s.pole_kind->line));
     needs_pole(s.pole_fixed);
     needs_pole(s.pole_weight);
     if (s.priority && !file.budget_blocks)
@@ -87,7 +95,8 @@ void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const fo
     if (formats::child_joints(clip, above).size() > 1)
         refuse(file, *s.clavicle_share,
                fmt::format("the joint above the {}, {}, carries other joints, which would turn along",
-                           plain_name(limb.name), clip.joints[static_cast<std::size_t>(above)].name));
+                           plain_name(limb.name),
+                           formats::printable(clip.joints[static_cast<std::size_t>(above)].name, 80)));
     if (clip.joints[static_cast<std::size_t>(limb.upper())].offset.isZero(0))
         refuse(
             file, *s.clavicle_share,
@@ -96,7 +105,7 @@ void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const fo
     if (limb.mirrored || joint.rest_scale.minCoeff() < 0 || joint.scale_track >= 0)
         refuse(file, *s.clavicle_share,
                fmt::format("the joint above the {}, {}, is mirrored or changes its scale; such a joint is not turned",
-                           plain_name(limb.name), joint.name));
+                           plain_name(limb.name), formats::printable(joint.name, 80)));
 }
 
 void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)

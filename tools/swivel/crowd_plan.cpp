@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/crowd_checks.h"
 
 namespace swivel::tools {
@@ -172,18 +174,27 @@ struct Planner {
 
 void add_choice(const CrowdFile& file, LimbChoice& choice)
 {
-    if (choice.kinds.empty() && file.limbs) choice.kinds = file.limbs->value;
+    if (choice.kinds.empty() && file.limbs) {
+        choice.kinds = file.limbs->value;
+        choice.kinds_from = fmt::format("{} = \"{}\" in line {} of {}", file.limbs->key, file.limbs->value,
+                                        file.limbs->line, formats::printable(file.path.string(), 400));
+    }
     const bool has_arms = !choice.arms.empty(), has_legs = !choice.legs.empty();  // named elsewhere
     for (const formats::LimbSection& section : file.sections) {
         const auto name = formats::limb_of_word(section.selector);
         if (!name) continue;
         const bool is_arm = name->kind == formats::LimbKind::arm;
         const auto& joints = section.settings.joints;
+        if (joints && choice.kinds == (is_arm ? "legs" : "arms"))
+            throw formats::InputError(file.path, joints->line,
+                                      fmt::format("{}: {} solves no {}; solve \"all\", or take this out", joints->key,
+                                                  choice.kinds_from, is_arm ? "arms" : "legs"));
         if (joints && !(is_arm ? has_arms : has_legs))
             (is_arm ? choice.arms : choice.legs)
-                .push_back({fmt::format("{}:{}", side_name(name->side), fmt::join(joints->value, ",")), joints->key});
+                .push_back({joints->value, name->side, joints->key, file.path, joints->line});
         if (const auto& hinge = section.settings.hinge)
-            choice.hinges.push_back({*name, hinge->value, fmt::format("{} of {}", hinge->key, file.path.string())});
+            choice.hinges.push_back({*name, hinge->value,
+                                     fmt::format("{} of {}", hinge->key, formats::printable(file.path.string(), 400))});
     }
 }
 

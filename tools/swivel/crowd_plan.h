@@ -51,7 +51,7 @@ struct CrowdPlan {
 };
 
 // What the crowd file names of limbs: adds its joints and hinges to the choice, and its limbs unless the choice has
-// kinds already.
+// kinds already. Throws InputError naming line and key for joints of a kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 
 // The plan for limbs of a clip. file: null without a crowd file; then all is as the clip has it. Throws InputError

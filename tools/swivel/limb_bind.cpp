@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -19,13 +20,24 @@ using formats::JointPose;
 
 const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
 
+// Its name for a message.
+std::string shown(const Joint& joint) { return formats::printable(joint.name, 80); }
+
 // What is wrong with a joint's scale; empty if nothing is.
 std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
 {
-    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", joint.name);
-    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", joint.name, when);
-    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", joint.name, when);
+    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", shown(joint));
+    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", shown(joint), when);
+    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", shown(joint), when);
     return {};
+}
+
+// How a frame's mirror differs from the rest pose's; empty if it does not.
+std::string mirror_fault(const Joint& joint, const JointPose& rest, const JointPose& pose, std::size_t frame)
+{
+    if (pose.mirrored == rest.mirrored) return {};
+    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", shown(joint), frame)
+                         : fmt::format("'{}' is mirrored at rest and not in frame {}", shown(joint), frame);
 }
 
 // Every joint that the limb's size hangs on: all above the end joint.
@@ -33,13 +45,20 @@ void check_scales(const Clip& clip, const LimbChain& chain)
 {
     for (int joint = joint_at(clip, chain.end()).parent; joint >= 0; joint = joint_at(clip, joint).parent) {
         const Joint& at = joint_at(clip, joint);
-        std::string fault = scale_fault(at, formats::local_rest_pose(at), "");
-        for (std::size_t frame = 0; frame < clip.frame_count && fault.empty() && at.scale_track >= 0; ++frame)
-            fault = scale_fault(at, formats::local_pose(clip, frame, static_cast<std::size_t>(joint)),
-                                fmt::format(" in frame {}", frame));
+        const JointPose rest = formats::local_rest_pose(at);
+        std::string fault = scale_fault(at, rest, ""), turned_over;
+        for (std::size_t frame = 0; frame < clip.frame_count && fault.empty() && at.scale_track >= 0; ++frame) {
+            const JointPose pose = formats::local_pose(clip, frame, static_cast<std::size_t>(joint));
+            fault = scale_fault(at, pose, fmt::format(" in frame {}", frame));
+            if (turned_over.empty()) turned_over = mirror_fault(at, rest, pose, frame);
+        }
         if (!fault.empty())
             throw CannotBind(fmt::format(
                 "{}, so its bones change shape as they turn; apply the scale where the rig was made", fault));
+        if (!turned_over.empty())
+            throw CannotBind(fmt::format(
+                "{}, and a limb is solved on one side of a mirror; choose an animation that keeps the rest pose's",
+                turned_over));
     }
 }
 
@@ -48,8 +67,8 @@ void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& 
     const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
     for (std::size_t n = 0; n < 2; ++n)
         if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
-            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length", joint_at(clip, joints[n]).name,
-                                         joint_at(clip, joints[n + 1]).name));
+            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length", shown(joint_at(clip, joints[n])),
+                                         shown(joint_at(clip, joints[n + 1]))));
 }
 
 template <int size>

@@ -49,8 +49,8 @@ struct CannotBind : std::runtime_error {
 };
 
 // The limb of these joints, bound. joints: as is_chain() says; front: see figure_front(). Throws CannotBind for a bone
-// of no length, a scale that is uneven or nothing (at rest or in any frame) at, between or above the joints, or a hinge
-// along a bone.
+// of no length, a scale that is uneven or nothing (at rest or in any frame) at, between or above the joints, a mirror
+// there that a frame has and the rest pose has not, or the other way round, or a hinge along a bone.
 Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
                std::span<const GivenHinge> hinges);
 

@@ -20,55 +20,52 @@ using formats::LimbKind;
 using formats::LimbName;
 using formats::Side;
 
+constexpr std::size_t kShownName = 80;  // bytes of a joint's name in a message
+
 // A limb's joints on their way to be bound.
 struct Candidate {
     LimbName name;
     LimbByName found;
 };
 
-// Reads what the user named for limbs of one kind.
+// Reads one limb that the user named.
 struct NameReader {
     const Clip& clip;
-    const std::filesystem::path& file;
+    const std::filesystem::path& file;  // the clip's
     const LimbWords& words;
-    std::string_view option;
+    const NamedLimb& from;
 
-    int joint(std::string_view name) const
+    [[noreturn]] void refuse(std::string_view cause, std::string_view advice) const
+    {
+        if (from.line == 0) throw InputError(file, fmt::format("{} ({}){}", cause, from.option, advice));
+        throw InputError(
+            from.file, from.line,
+            fmt::format("{}: {} in {}{}", from.option, cause, formats::printable(file.string(), 400), advice));
+    }
+
+    int joint(const std::string& name) const
     {
         const std::vector<int> found = formats::find_joints(clip, name);
-        if (found.empty())
-            throw InputError(file, fmt::format("no joint is called '{}' ({}); swivel rig --joints lists them",
-                                               formats::printable(name), option));
+        const std::string shown = formats::printable(name, kShownName);
+        if (found.empty()) refuse(fmt::format("no joint is called '{}'", shown), "; swivel rig --joints lists them");
         if (found.size() > 1)
-            throw InputError(
-                file, fmt::format("{} joints are called '{}' ({}); name one by its path or number, such as {} or #{}",
-                                  found.size(), name, option, formats::joint_path(clip, found[0]),
-                                  clip.joints[static_cast<std::size_t>(found[0])].number));
+            refuse(fmt::format("{} joints are called '{}'", found.size(), shown),
+                   fmt::format("; name one by its path or number, such as {} or #{}",
+                               formats::printable(formats::joint_path(clip, found[0]), 400),
+                               clip.joints[static_cast<std::size_t>(found[0])].number));
         return found[0];
     }
 
-    Candidate limb(LimbKind kind, std::string_view text, Side otherwise) const
+    Candidate limb(LimbKind kind, Side otherwise) const
     {
-        std::optional<Side> side;
-        for (const Side each : {Side::left, Side::right}) {
-            const std::string prefix = fmt::format("{}:", side_name(each));
-            if (!text.starts_with(prefix)) continue;
-            side = each;
-            text.remove_prefix(prefix.size());
-        }
-        const std::size_t first = text.find(','), second = text.find(',', first + 1);
-        if (first == std::string_view::npos || second == std::string_view::npos ||
-            text.find(',', second + 1) != std::string_view::npos)
-            throw InputError(file,
-                             fmt::format("{} '{}' does not name three joints; write {}", option, text, words.joints));
-        const std::string_view name = text.substr(0, first);
-        const LimbJoints joints{joint(name), joint(text.substr(first + 1, second - first - 1)),
-                                joint(text.substr(second + 1))};
+        const std::string text = formats::printable(fmt::format("{}", fmt::join(from.joints, ",")), 400);
+        if (from.joints.size() != 3)
+            refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
+        const LimbJoints joints{joint(from.joints[0]), joint(from.joints[1]), joint(from.joints[2])};
         if (!is_chain(clip, joints))
-            throw InputError(
-                file, fmt::format("{} '{}' does not name a joint, one below it and one below that", option, text));
+            refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text), "");
         const std::string_view speaks = clip.joints[static_cast<std::size_t>(joints[0])].name;
-        return {{kind, side ? *side : side_of(speaks, otherwise)}, {joints, std::string(option), {}}};
+        return {{kind, from.side ? *from.side : side_of(speaks, otherwise)}, {joints, from.option, {}}};
     }
 };
 
@@ -91,10 +88,8 @@ std::vector<Candidate> candidates(const Clip& clip, const std::filesystem::path&
     const LimbWords& words = words_of(kind);
     const std::vector<NamedLimb>& names = names_of(choice, kind);
     std::vector<Candidate> limbs;
-    for (const NamedLimb& named : names) {
-        const NameReader reader{clip, file, words, named.option};
-        limbs.push_back(reader.limb(kind, named.joints, limbs.empty() ? Side::left : Side::right));
-    }
+    for (const NamedLimb& named : names)
+        limbs.push_back(NameReader{clip, file, words, named}.limb(kind, limbs.empty() ? Side::left : Side::right));
     if (names.empty())
         for (const Side side : {Side::left, Side::right})
             limbs.push_back({{kind, side}, limb_by_name(clip, {kind, side})});
@@ -154,6 +149,7 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
 {
     LimbFinding finding{candidate.name, std::nullopt, candidate.found.problem, candidate.found.joints.has_value()};
     if (!finding.has_names) {
+        finding.is_half = !finding.problem.empty();
         if (finding.problem.empty()) finding.problem = why_none_fits(clip);
         return finding;
     }
@@ -168,6 +164,21 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
 
 }  // namespace
 
+NamedLimb limb_of_option(std::string_view text, std::string_view option)
+{
+    NamedLimb limb{{}, std::nullopt, std::string(option)};
+    for (const Side side : {Side::left, Side::right}) {
+        const std::string prefix = fmt::format("{}:", side_name(side));
+        if (!text.starts_with(prefix)) continue;
+        limb.side = side;
+        text.remove_prefix(prefix.size());
+    }
+    for (std::size_t comma; (comma = text.find(',')) != std::string_view::npos; text.remove_prefix(comma + 1))
+        limb.joints.emplace_back(text.substr(0, comma));
+    limb.joints.emplace_back(text);
+    return limb;
+}
+
 std::vector<LimbFinding> look_for_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
 {
     std::vector<Candidate> limbs;
@@ -181,24 +192,31 @@ std::vector<LimbFinding> look_for_limbs(const Clip& clip, const std::filesystem:
     return findings;
 }
 
-std::vector<Limb> find_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
+FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
 {
-    const std::vector<LimbFinding> findings = look_for_limbs(clip, file, choice);
-    std::vector<Limb> limbs;
-    for (const LimbFinding& finding : findings) {
+    FoundLimbs found;
+    for (LimbFinding& finding : look_for_limbs(clip, file, choice)) {
         if (finding.has_names && !finding.limb)
             throw InputError(file,
                              fmt::format("the {} cannot be bound: {}", plain_name(finding.name), finding.problem));
-        if (finding.limb) limbs.push_back(*finding.limb);
+        if (finding.limb)
+            found.limbs.push_back(*finding.limb);
+        else
+            found.missing.push_back(std::move(finding));
     }
-    for (const LimbFinding& finding : findings) {
+    for (const LimbFinding& finding : found.missing) {
         const LimbWords& words = words_of(finding.name.kind);
         const auto is_same_kind = [&](const Limb& limb) { return limb.name.kind == finding.name.kind; };
-        if (std::none_of(limbs.begin(), limbs.end(), is_same_kind))
+        const auto other = std::find_if(found.limbs.begin(), found.limbs.end(), is_same_kind);
+        if (other == found.limbs.end())
             throw InputError(file, fmt::format("no {} found by the usual joint names ({}); name them with {} {}",
                                                words.limbs, finding.problem, words.option, words.joints));
+        if (finding.is_half)
+            throw InputError(file, fmt::format("the {} cannot be bound: {}; name both {} with {} {}, or the {} alone",
+                                               plain_name(finding.name), finding.problem, words.limbs, words.option,
+                                               words.joints, plain_name(other->name)));
     }
-    return limbs;
+    return found;
 }
 
 }  // namespace swivel::tools

@@ -15,14 +15,21 @@ namespace swivel::tools {
 
 // A limb named by the user.
 struct NamedLimb {
-    std::string joints;  // "SHOULDER,ELBOW,WRIST" or "HIP,KNEE,ANKLE", by name, path or number; see LimbChoice
-    std::string option;  // where it was named, for messages: "--arm"
+    std::vector<std::string> joints;    // shoulder, elbow and wrist, or hip, knee and ankle, by name, path or number
+    std::optional<formats::Side> side;  // nothing: the names tell it, else the first is left
+    std::string option;                 // where it was named, for messages: "--arm", "limb.left_arm.joints"
+    std::filesystem::path file{};       // that has this key; empty for the command line
+    std::size_t line = 0;               // of it
 };
 
-// Which limbs to solve. At most two of each kind are named; a leading "left:" or "right:" sets the side, else the names
-// tell it, else the first is left.
+// What an option says: "SHOULDER,ELBOW,WRIST", with "left:" or "right:" in front or without. Any number of joints is
+// taken here; look_for_limbs() wants three.
+NamedLimb limb_of_option(std::string_view text, std::string_view option);
+
+// Which limbs to solve. At most two of each kind are named.
 struct LimbChoice {
     std::string kinds;                  // arms, legs or all; empty: those named, or the arms if none is
+    std::string kinds_from;             // where kinds was given, for messages: "--limbs legs"
     std::vector<NamedLimb> arms, legs;  // of a kind without names those are taken that have names in use for it
     std::vector<GivenHinge> hinges;
 };
@@ -33,16 +40,24 @@ struct LimbFinding {
     std::optional<Limb> limb;
     std::string problem;     // one line; also without any joint that fits
     bool has_names = false;  // joints fit, by habit or by the user, though they do not bind
+    bool is_half = false;    // some joints have a limb's names, and are no limb: one is missing, or its name repeats
 };
 
-// All limbs of the kinds chosen, arms first, each bound or with its reason. Throws InputError, naming the file, for
-// what the user named wrongly: an unknown or ambiguous joint, joints that are not above each other, two limbs of a
-// kind on one side, a joint in two limbs. choice: names of no kind that kinds leaves out.
+// All limbs of the kinds chosen, arms first, each bound or with its reason. Throws InputError, naming the file (and the
+// line, where a file named the joints), for what the user named wrongly: an unknown or ambiguous joint, joints that are
+// not above each other, two limbs of a kind on one side, a joint in two limbs. choice: names of no kind that kinds
+// leaves out.
 std::vector<LimbFinding> look_for_limbs(const formats::Clip& clip, const std::filesystem::path& file,
                                         const LimbChoice& choice);
 
-// The limbs that bind. Throws as look_for_limbs() does, and for a kind of which no limb has names in use, and for a
-// limb that has them and cannot be bound.
-std::vector<Limb> find_limbs(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
+// The limbs to solve, and those of the same kinds that the skeleton has no names of.
+struct FoundLimbs {
+    std::vector<Limb> limbs;           // arms first
+    std::vector<LimbFinding> missing;  // each with its reason
+};
+
+// The limbs that bind. Throws as look_for_limbs() does, for a kind of which no limb has names in use, and for a limb
+// that has names, some or all, and cannot be bound: it is never left out in silence.
+FoundLimbs find_limbs(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 }  // namespace swivel::tools

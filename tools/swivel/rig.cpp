@@ -150,8 +150,8 @@ void run(const Options& options)
     const MotionFile motion(options.file, options.motion);
     LimbChoice choice;
     choice.kinds = options.kinds;
-    for (const std::string& arm : options.arms) choice.arms.push_back({arm, "--arm"});
-    for (const std::string& leg : options.legs) choice.legs.push_back({leg, "--leg"});
+    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
+    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
     const std::vector<LimbFinding> findings = look_for_limbs(motion.clip(), options.file, choice);
     if (options.json)
         print_json_report(options, motion, findings);

@@ -48,6 +48,7 @@ struct Options {
 struct Job {
     std::optional<formats::CrowdFile> crowd;
     std::vector<Limb> limbs;
+    std::vector<LimbFinding> missing;
     CrowdPlan plan;
     std::string targets;  // "clip" or a file
 };
@@ -100,17 +101,19 @@ Statistics solve_clip(const Options& options, const MotionFile& file, const Job&
 void require_named_limbs_solved(const LimbChoice& choice)
 {
     if (choice.kinds == "legs" && !choice.arms.empty())
-        throw CommandError(2, "--arm names an arm, but --limbs legs solves none; use --limbs all");
+        throw CommandError(2,
+                           fmt::format("--arm names an arm, but {} solves none; use --limbs all", choice.kinds_from));
     if (choice.kinds == "arms" && !choice.legs.empty())
-        throw CommandError(2, "--leg names a leg, but --limbs arms solves none; use --limbs all");
+        throw CommandError(2, fmt::format("--leg names a leg, but {} solves none; use --limbs all", choice.kinds_from));
 }
 
 LimbChoice choice_of(const Options& options)
 {
     LimbChoice choice;
     choice.kinds = options.kinds;
-    for (const std::string& arm : options.arms) choice.arms.push_back({arm, "--arm"});
-    for (const std::string& leg : options.legs) choice.legs.push_back({leg, "--leg"});
+    choice.kinds_from = fmt::format("--limbs {}", options.kinds);
+    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
+    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
     require_named_limbs_solved(choice);
     return choice;
 }
@@ -124,7 +127,9 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
     }
-    job.limbs = find_limbs(clip, options.clip, choice);
+    FoundLimbs found = find_limbs(clip, options.clip, choice);
+    job.limbs = std::move(found.limbs);
+    job.missing = std::move(found.missing);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
@@ -146,7 +151,7 @@ void run(const Options& options)
     if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".csv")
         file.require_can_write(options.out);
     const Job job = make_job(options, choice, file.clip());
-    const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed};
+    const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed, job.missing};
     if (!options.json) print_clip(facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -23,11 +24,15 @@ void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<co
 {
     fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", facts.clip, clip.joints.size(), clip.frame_count,
                1 / clip.frame_time);
+    const auto shown = [&](int joint) { return formats::printable(joint_name(clip, joint), 80); };
     for (const Limb& limb : limbs)
         fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
-                   kind_name(limb.name.kind), side_name(limb.name.side), joint_name(clip, limb.upper()),
-                   joint_name(clip, limb.lower()), joint_name(clip, limb.end()), limb.bound.lengths[0],
-                   limb.bound.lengths[1], limb.hinge.x(), limb.hinge.y(), limb.hinge.z(), limb.hinge_source);
+                   kind_name(limb.name.kind), side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()),
+                   shown(limb.end()), limb.bound.lengths[0], limb.bound.lengths[1], limb.hinge.x(), limb.hinge.y(),
+                   limb.hinge.z(), limb.hinge_source);
+    for (const LimbFinding& finding : facts.missing)
+        fmt::print("{:<8} {:<5} missing: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
+                   finding.problem);
     std::string counts;
     for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
         const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
@@ -62,6 +67,8 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
              {"hinge", {limb.hinge.x(), limb.hinge.y(), limb.hinge.z()}},
              {"hinge_source", limb.hinge_source}});
     }
+    for (const LimbFinding& finding : facts.missing)
+        out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", finding.problem}});
     return out;
 }
 

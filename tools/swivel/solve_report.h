@@ -16,6 +16,7 @@ struct SolveFacts {
     std::string targets;      // "clip" or a file
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
+    std::span<const LimbFinding> missing{};  // limbs of the kinds solved that the skeleton has no names of
 };
 
 // Lines for people, on stdout.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// What a skeleton is refused for is said in one line, and nothing of it is left out in silence.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/gltf_rig.h"
+#include "tests/run_command.h"
+
+using namespace swivel::test;
+using Eigen::Vector3d;
+using nlohmann::json;
+
+TEST_CASE("rigs: joint names with line ends stay in their line")
+{
+    const TempFolder folder;
+    const auto solve = [&](const std::vector<std::string>& names, const Vector3d& step, const Vector3d& scale) {
+        GltfRig rig;
+        int parent = rig.add("ro\not", -1, {0, 0, 0}, Eigen::Quaterniond::Identity(), scale);
+        for (const std::string& name : names) parent = rig.add(name, parent, step);
+        rig.write(folder / "rig.glb");
+        return run_command(folder.path, {"solve", "rig.glb"});
+    };
+    const auto refused = [&](const Outcome& outcome, const std::string& part) {
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.err.find(part) != std::string::npos);
+        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    };
+    const Vector3d step = {1, 0, 0}, even = {1, 1, 1};
+    const std::vector<std::string> good = {"Left\nArm", "Left\nForeArm", "Left\nHand"};
+    refused(solve(good, {0, 0, 0}, even), R"(from 'Left\x0aArm' to 'Left\x0aForeArm' has no length)");
+    refused(solve(good, step, {1, 2, 1}), R"('ro\x0aot' is scaled unevenly)");
+    refused(solve({good[0], "Gad\nget", good[1], good[2]}, step, even),
+            R"('Gad\x0aget' lies between 'Left\x0aArm' and 'Left\x0aForeArm')");
+    refused(solve({good[0], good[2], good[1], good[1]}, step, even), R"(2 joints are called 'Left\x0aForeArm')");
+    CHECK(solve(good, step, even).out.find(R"(Left\x0aArm > Left\x0aForeArm > Left\x0aHand)") != std::string::npos);
+}
+
+TEST_CASE("rigs: a limb that cannot be told is never left out in silence")
+{
+    const TempFolder folder;
+    const auto solve = [&](const std::vector<std::string>& right, std::vector<std::string> options = {}) {
+        GltfRig rig;
+        const int root = rig.add("root", -1, {0, 0, 0});
+        for (const auto& names : {std::vector<std::string>{"LeftArm", "LeftForeArm", "LeftHand"}, right})
+            for (int parent = root; const std::string& name : names) parent = rig.add(name, parent, {1, 0, 0});
+        if (!right.empty()) rig.add("RightHand", root, {0, 1, 0});
+        rig.write(folder / "rig.glb");
+        options.insert(options.begin(), {"solve", "rig.glb", "--out", "out.glb"});
+        return run_command(folder.path, options);
+    };
+    const auto refused = [&](const std::vector<std::string>& right, const std::string& why) {
+        const Outcome outcome = solve(right);
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.err == "swivel: rig.glb: the right arm cannot be bound: " + why +
+                                 "; name both arms with --arm SHOULDER,ELBOW,WRIST, or the left arm alone\n");
+        CHECK_FALSE(fs::exists(folder / "out.glb"));
+    };
+    refused({"RightArm", "RightForeArm", "RightHand"}, "2 joints are called 'RightHand'");
+    refused({"RightForeArm"}, "no joint is called 'rightarm' or alike for its shoulder");
+    const std::vector<std::string> left = {"--arm", "LeftArm,LeftForeArm,LeftHand"};
+    CHECK(solve({"RightArm", "RightForeArm", "RightHand"}, left).exit_code == 0);
+    const Outcome outcome = solve({});
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.out.find("arm      right missing: no joints have names in use for it") != std::string::npos);
+    const json report = json::parse(solve({}, {"--json"}).out);
+    CHECK(report.at("missing")[0].at("limb") == "right_arm");
+}
+
+TEST_CASE("rigs: a mirror that comes or goes in the clip is refused, one that stays is followed")
+{
+    const TempFolder folder;
+    const auto solve = [&](double rest, const std::vector<float>& x) {
+        GltfRig rig;
+        const int root = rig.add("root", -1, {0, 0, 0}, Eigen::Quaterniond::Identity(), {rest, 1, 1});
+        int parent = root;
+        for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
+        std::vector<float> scales;
+        for (const float each : x) scales.insert(scales.end(), {each, 1, 1});
+        rig.add_keys(rig.add_animation("motion"), root, "scale", {0, 1, 2}, scales, "STEP");
+        rig.write(folder / "rig.glb");
+        return run_command(folder.path, {"solve", "rig.glb", "--out", "out.csv"});
+    };
+    const auto refused = [](const Outcome& outcome, const char* part) {
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.err.find(part) != std::string::npos);
+    };
+    refused(solve(1, {1, -1, 1}), "the left arm cannot be bound: 'root' is mirrored in frame 1 and not at rest, and");
+    refused(solve(-1, {-1, -1, 1}), "'root' is mirrored at rest and not in frame 2, and a limb");
+    CHECK(folder.file_count() == 1);
+    CHECK(solve(-1, {-1, -1, -1}).exit_code == 0);
+}
