@@ -247,7 +247,10 @@ TEST_CASE("command: names that are not UTF-8 do not break --json")
     spill(folder / "caf\xe9.bvh", edited(kTwoArms, "LeftForeArm",
                                          "Left\xe9"
                                          "ForeArm"));
-    const Json out = json_of(folder, {"solve", "caf\xe9.bvh", "--json", "--out", "caf\xe9.csv"});
+    const std::string left =
+        "LeftArm,Left\xe9"
+        "ForeArm,LeftHand";
+    const Json out = json_of(folder, {"solve", "caf\xe9.bvh", "--json", "--out", "caf\xe9.csv", "--arm", left});
     CHECK(out.at("frames") == 2);
     CHECK(fs::exists(folder / "caf\xe9.csv"));
 }
