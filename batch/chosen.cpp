@@ -27,7 +27,6 @@ constexpr std::uint32_t kRunBlocks = 2;
 constexpr std::uint32_t kAsideBlocks = 8;
 constexpr std::uint32_t kAsideLimbs = kAsideBlocks * SWIVEL_LANES;
 constexpr std::uint32_t kPlainFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
-constexpr std::uint32_t kEveryFeature = ~std::uint32_t{SWIVEL_COMPACT | SWIVEL_POLE_INCOMING};
 constexpr std::uint32_t kInputRows = kAsideBlocks * input_row_count(kPlainFeatures),
                         kResultRows = kAsideBlocks * result_row_count(kPlainFeatures);
 static_assert(kInputRows >= input_row_count(kEveryFeature) && kResultRows >= result_row_count(kEveryFeature));

@@ -4,6 +4,10 @@
 // statuses. Header only; adds no behaviour. Contracts, units and layouts are swivel.h's.
 #pragma once
 
+#if __cplusplus <= 201703L
+#error "swivel.hpp is C++20 (-std=c++20); older C++ and C programs use swivel.h"
+#endif
+
 #include <array>
 #include <concepts>
 #include <cstdint>
@@ -93,7 +97,7 @@ concept FieldValue = holds_words<std::remove_cv_t<Value>>();
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 
-// The same for positions in double: a struct or array of plain doubles.
+// The same for what is in double, positions and forward kinematics: a double, or a struct or array of plain doubles.
 template <class Value>
 constexpr bool holds_doubles()
 {
@@ -209,29 +213,29 @@ public:
         return arcs;
     }
 
-    template <std::ranges::contiguous_range R>
+    template <DoubleRange R>
     void elbows(std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
         check(swivel_forward(crowd_, group, first, count(values), {std::ranges::data(values), value_bytes<R>}, {}, {}));
     }
-    template <std::ranges::contiguous_range R>
+    template <DoubleRange R>
     void wrists(std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
         check(swivel_forward(crowd_, group, first, count(values), {}, {std::ranges::data(values), value_bytes<R>}, {}));
     }
-    template <std::ranges::contiguous_range R>
+    template <DoubleRange R>
     void hands(std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
         check(swivel_forward(crowd_, group, first, count(values), {}, {}, {std::ranges::data(values), value_bytes<R>}));
     }
-    template <std::ranges::contiguous_range R>
+    template <DoubleRange R>
     void joint_angles(std::uint32_t group, swivel_euler_order shoulder, swivel_euler_order wrist, int family,
                       R&& values, std::uint32_t first = 0) const
     {
         check(swivel_joint_angles(crowd_, group, first, count(values), shoulder, wrist, family,
                                   {std::ranges::data(values), value_bytes<R>}));
     }
-    template <std::ranges::contiguous_range R>
+    template <DoubleRange R>
     void residuals(std::uint32_t group, R&& values, std::uint32_t first = 0) const
     {
         check(swivel_residuals(crowd_, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));

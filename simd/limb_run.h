@@ -6,15 +6,14 @@
 
 #include "core/allowed_arcs.h"
 #include "simd/limb_step.h"
+#include "simd/rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-inline constexpr std::uint32_t kEveryLimbFeature = ~std::uint32_t{SWIVEL_COMPACT | SWIVEL_POLE_INCOMING};
-
 // One block of limbs put aside, and where each of them belongs.
 struct LimbsAside {
-    alignas(64) float input[input_row_count(kEveryLimbFeature) * SWIVEL_LANES];
-    alignas(64) float results[result_row_count(kEveryLimbFeature) * SWIVEL_LANES];
+    alignas(64) float input[input_row_count(kEveryFeature) * SWIVEL_LANES];
+    alignas(64) float results[result_row_count(kEveryFeature) * SWIVEL_LANES];
     std::size_t limb[SWIVEL_LANES];
     std::size_t count = 0;
     bool filled = false;  // lanes that nothing is put into hold numbers all the same

@@ -169,6 +169,9 @@ constexpr std::uint32_t result_row_count(std::uint32_t features)
     return field_first_row(features, last) + field_row_count(features, last);
 }
 
+// The features with the most rows that a block of floats can have.
+inline constexpr std::uint32_t kEveryFeature = ~std::uint32_t{SWIVEL_COMPACT | SWIVEL_POLE_INCOMING};
+
 // Bytes of a row, and of a block.
 inline constexpr std::size_t kInputRowBytes = SWIVEL_LANES * sizeof(float);
 constexpr std::size_t result_row_bytes(std::uint32_t features)

@@ -50,6 +50,13 @@ if(SHARED)
   include(${CMAKE_CURRENT_LIST_DIR}/package/exports.cmake)
 endif()
 
+# ---- an older C++ is told so in one line
+file(WRITE ${WORK}/old.cpp "#include <swivel/swivel.hpp>\n")
+execute_process(COMMAND ${CXX} -std=c++17 -fsyntax-only -Wfatal-errors -I${prefix}/include ${WORK}/old.cpp RESULT_VARIABLE result ERROR_VARIABLE said)
+if(result EQUAL 0 OR NOT said MATCHES "swivel.hpp is C\\+\\+20")
+  message(SEND_ERROR "C++17 and swivel.hpp: ${said}")
+endif()
+
 # ---- find_package: where the headers are, the library, and for a static one what it needs
 quote(${prefix} place)
 set(compile "-isystem|-I${place}/include")

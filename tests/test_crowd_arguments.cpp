@@ -273,6 +273,16 @@ concept WritableAll = requires(Crowd& crowd, const Value& value)
     crowd.write_all(SWIVEL_TARGET, 0, value);
 };
 
+template <class Values>
+concept Answerable = requires(const Crowd& crowd, Values& values)
+{
+    crowd.elbows(0, values);
+    crowd.wrists(0, values);
+    crowd.hands(0, values);
+    crowd.residuals(0, values);
+    crowd.joint_angles(0, SWIVEL_XYZ, SWIVEL_XYZ, 0, values);
+};
+
 struct Goal {
     float target[3];
     int other;
@@ -288,6 +298,10 @@ static_assert(!Writable<std::vector<double>> && !Writable<std::vector<int>> && !
 static_assert(!Writable<std::vector<std::array<double, 3>>> && !Writable<double[3][4]> &&
               !Writable<std::vector<Owner>>);
 static_assert(WritableAll<Float3> && WritableAll<float> && WritableAll<Goal> && WritableAll<float[3]>);
+static_assert(Answerable<std::vector<double>> && Answerable<std::vector<std::array<double, 3>>> &&
+              Answerable<double[2][7]>);
+static_assert(!Answerable<std::vector<float>> && !Answerable<std::vector<std::array<float, 6>>> &&
+              !Answerable<float[2][14]>);
 static_assert(!WritableAll<double> && !WritableAll<std::array<double, 3>> && !WritableAll<int> && !WritableAll<Owner>);
 
 }  // namespace
