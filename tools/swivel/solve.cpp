@@ -133,10 +133,7 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
-    job.targets = "clip";
-    if (job.crowd && job.crowd->targets && job.crowd->targets->value != "clip")
-        job.targets = (job.crowd->path.parent_path() / job.crowd->targets->value).string();
-    if (options.targets) job.targets = *options.targets;
+    job.targets = options.targets ? *options.targets : job.crowd ? targets_of(*job.crowd) : "clip";
     return job;
 }
 
@@ -209,15 +206,14 @@ void add_solve(CLI::App& app)
         ->check(file_name());
     command
         ->add_option("--limbs", options->kinds,
-                     "Which limbs to solve: arms, legs or all; without it those named by --arm and --leg, or else the "
-                     "arms")
+                     "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
+                     "without it those named alone, or else the arms")
         ->check(CLI::IsMember({"arms", "legs", "all"}));
     command
         ->add_option(
             "--arm", options->arms,
             "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12); up to twice; left: or right: in "
-            "front "
-            "sets the side")
+            "front sets the side; the side that is not named is looked for with --limbs")
         ->allow_extra_args(false);
     command->add_option("--leg", options->legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
         ->allow_extra_args(false);
