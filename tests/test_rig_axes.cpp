@@ -138,7 +138,9 @@ TEST_CASE("rig axes: a clip fits into the limits that are printed, and into none
         FigureWish wish;
         wish.scales = wish.mirrors = round == 0 ? 0 : 0.4;
         FigureMaker(random, wish).make(figure_names()[0]).rig.write(folder / "rig.glb");
-        for (const json& limb : rig_report(folder).at("limbs")) {
+        const json report = rig_report(folder);
+        REQUIRE(report.at("limbs").size() == 4);
+        for (const json& limb : report.at("limbs")) {
             INFO("round " << round << ": " << limb.dump());
             CHECK(limited(folder, cone_of(limb, 0), "limited by shoulder cone") == 0);
             CHECK(limited(folder, cone_of(limb, 0.2), "limited by shoulder cone") > 0);
