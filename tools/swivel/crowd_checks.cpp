@@ -31,6 +31,8 @@ std::string targets_of(const CrowdFile& file)
 {
     if (!file.targets || file.targets->value == "clip") return "clip";
     const std::filesystem::path path = file.path.parent_path() / file.targets->value;
+    std::error_code unknown;
+    if (std::filesystem::is_fifo(path, unknown)) return path.string();  // opened twice it would lose its writer
     try {
         formats::open_text(path);
     } catch (const InputError& error) {

@@ -15,6 +15,7 @@
 #include "tools/formats/text.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/limb_axes.h"
 #include "tools/swivel/limb_words.h"
 #include "tools/swivel/limbs.h"
@@ -40,7 +41,8 @@ std::string name_of(const Clip& clip, int joint) { return printable_name(joint_a
 
 std::string vector_text(const Eigen::Vector3d& v)
 {
-    return fmt::format("({:.3f} {:.3f} {:.3f})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+    const Eigen::Array3d shown = (1000 * v).array().round() / 1000 + 0.0;  // no -0.000
+    return fmt::format("({:.3f} {:.3f} {:.3f})", shown.x(), shown.y(), shown.z());
 }
 
 // The joints between the limb's three.
@@ -62,11 +64,11 @@ std::string list(const Clip& clip, const std::vector<int>& joints)
 // What limits are written by.
 void print_frame(const Clip& clip, const Limb& limb, const Front& front)
 {
-    const auto axis = [&](char name, int n) {
+    for (int n = 0; n < 3; ++n) {
         const Eigen::Vector3d axis_w = limb.axes_w.col(n);
-        return fmt::format("{} {} {}", name, vector_text(axis_w), direction_words(axis_w, front));
-    };
-    fmt::print("           limits' axes at rest: {}, {}, {}\n", axis('x', 0), axis('y', 1), axis('z', 2));
+        fmt::print("           {:<21} {} {} {}\n", n == 0 ? "limits' axes at rest:" : "", "xyz"[n], vector_text(axis_w),
+                   direction_words(axis_w, front));
+    }
     const std::optional<LimbRange> range = range_of(clip, limb);
     if (!range) return;
     const LimbWords& words = words_of(limb.name.kind);
@@ -222,17 +224,11 @@ void add_rig(CLI::App& app)
     command->add_option("--limbs", options->kinds, "Which limbs to look for: arms, legs or all")
         ->capture_default_str()
         ->check(CLI::IsMember({"arms", "legs", "all"}));
-    command
-        ->add_option("--arm", options->arms,
-                     "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12), where their names do not "
-                     "tell; up to twice; left: or right: in front sets the side; the other side is still looked for")
-        ->allow_extra_args(false);
-    command->add_option("--leg", options->legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
-        ->allow_extra_args(false);
+    add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
     command->add_option("--clip", options->motion.clip,
                         "Animation of a glTF file that shows the hinges, by name or index; else the first");
     command->add_flag("--joints", options->joints, "List every joint, too: number and path");
-    command->add_flag("--json", options->json, "Print JSON");
+    add_json(*command, options->json);
     command->callback([options] { run(*options); });
 }
 

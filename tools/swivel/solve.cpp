@@ -18,6 +18,7 @@
 #include "tools/formats/poses_csv.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/crowd_checks.h"
 #include "tools/swivel/given_targets.h"
 #include "tools/swivel/interrupt.h"
@@ -209,26 +210,13 @@ void add_solve(CLI::App& app)
                      "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
                      "without it those named alone, or else the arms")
         ->check(CLI::IsMember({"arms", "legs", "all"}));
-    command
-        ->add_option(
-            "--arm", options->arms,
-            "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12); up to twice; left: or right: in "
-            "front sets the side; the side that is not named is looked for with --limbs")
-        ->allow_extra_args(false);
-    command->add_option("--leg", options->legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--characters", options->characters,
-                     "Characters, differing in arm lengths, place and start; the first is the clip's own")
-        ->default_str("1")
-        ->check(whole_number(1, 10'000'000));
-    command->add_option("--seed", options->seed, "Seed of the characters' differences")
-        ->default_str("1")
-        ->check(whole_number(0, UINT64_MAX));
-    command->add_option("--threads", options->threads, "Threads at most; 0 for all")
-        ->capture_default_str()
-        ->check(whole_number(0, 1024));
-    command->add_flag("--json", options->json, "Print JSON");
+    add_named_limbs(*command, options->arms, options->legs, "the side that is not named is looked for with --limbs");
+    add_characters(*command, options->characters,
+                   "Characters, differing in arm lengths, place and start; the first is the clip's own")
+        ->default_str("1");
+    add_seed(*command, options->seed, "the characters' differences");
+    add_threads(*command, options->threads);
+    add_json(*command, options->json);
     command->callback([options] { run(*options); });
 }
 
