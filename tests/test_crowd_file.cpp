@@ -158,7 +158,9 @@ TEST_CASE("crowd file: wrong types")
     require_refused("crowd = 3\n", "c.toml:1: crowd: is a whole number; write a table, [crowd]");
     require_refused("[crowd]\ncharacters = \"3\"\n",
                     "c.toml:2: crowd.characters: is text; write a whole number from 1");
-    require_refused("[crowd]\ncharacters = 3.0\n", "crowd.characters: is a number; write a whole number");
+    require_refused("[crowd]\ncharacters = 6.5\n",
+                    "c.toml:2: crowd.characters: must be a whole number from 1 to 10000000, not 6.5");
+    require_refused("[crowd]\ncharacters = 3.0\n", "10000000, not 3.0");
     require_refused("[crowd]\nstagger = 1\n", "crowd.stagger: is a whole number; write true or false");
     require_refused("[crowd]\nsize = 1\n", "crowd.size: is a whole number; write [least, most]");
     require_refused("[crowd]\ntargets = 1979-05-27\n", "crowd.targets: is a date or time; write text");
@@ -215,8 +217,9 @@ TEST_CASE("crowd file: impossible values")
 
 TEST_CASE("crowd file: no TOML")
 {
-    require_refused("[crowd\n", "c.toml:1: ");
-    require_refused("[crowd]\nseed = 1\nseed = 2\n", "c.toml:3: ");
+    require_refused("[crowd\n", "c.toml:1: column 7: is no TOML: expected ']', saw '\\n' (table header)");
+    require_refused("[crowd]\nseed = 1\nseed = 2\n",
+                    "c.toml:3: column 8: is no TOML: cannot redefine existing integer");
     require_refused("", "c.toml: ");
     CHECK_THROWS_WITH(read_crowd_file("/nowhere/c.toml"), Contains("/nowhere/c.toml: ") && Contains("No such file"));
 }

@@ -16,6 +16,9 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools/site"))
+import snippets  # noqa: E402
+
 DOCS = ROOT / "docs"
 FETCHED = {("script", "src"), ("img", "src"), ("iframe", "src"), ("source", "src"), ("link", "href")}
 NOT_FETCHED = {"canonical", "next", "prev", "edit"}  # rel of links that only say where something is
@@ -49,6 +52,34 @@ def build(folder):
         raise RuntimeError("mkdocs is missing; run: tools/setup mkdocs mkdocs-material libjs-katex nodejs")
     return subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--site-dir", folder], cwd=ROOT, capture_output=True, text=True,
                           env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
+
+
+class Programs(unittest.TestCase):
+    """What pages show is what docs_snippets and docs_start build and run."""
+
+    def test_pages_show_the_programs_that_are_tested(self):
+        for page in DOCS.rglob("*.md"):
+            with self.subTest(page=page.relative_to(ROOT)):
+                snippets.check(page.read_text(encoding="utf-8"), ROOT)
+
+    def test_every_program_is_shown(self):
+        text = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
+        for program in (DOCS / "snippets").glob("*.cpp"):
+            for part in re.findall(r"// \[(\w+)\]", program.read_text(encoding="utf-8")):
+                if part != "end":
+                    name = f"docs/snippets/{program.name}" + ("" if part == "shown" else f": {part}")
+                    self.assertIn(f"<!-- {name} -->\n", text, "shown on no page")
+
+    def test_another_program_is_told_and_written_anew(self):
+        mark = "<!-- docs/snippets/limits.cpp: cone -->\n"
+        page = f"Text.\n\n{mark}```cpp\nint old;\n```\n\nMore.\n"
+        for wrong in (page, f"{mark}Text.\n", "<!-- docs/snippets/none.cpp -->\n```cpp\n```\n", page.replace("cone", "none")):
+            with self.assertRaises(snippets.Missing):
+                snippets.check(wrong, ROOT)
+        new = snippets.filled(page, ROOT)
+        snippets.check(new, ROOT)
+        self.assertIn("swivel::cone(", new)
+        self.assertTrue(new.startswith("Text.\n\n") and new.endswith("```\n\nMore.\n"))
 
 
 class Docs(unittest.TestCase):
@@ -123,14 +154,6 @@ class Docs(unittest.TestCase):
         features = re.search(r"typedef enum swivel_feature \{(.*?)\}", without_comments(self.header), re.S)[1]
         for name in re.findall(r"SWIVEL_\w+", features):
             self.assertIn(f"`{name}`", text, "no page of docs/howto says it")
-
-    def test_every_program_is_shown(self):
-        text = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
-        for program in (DOCS / "snippets").glob("*.cpp"):
-            for part in re.findall(r"// \[(\w+)\]", program.read_text(encoding="utf-8")):
-                if part != "end" and program.name != "start.cpp":  # that one check_readme looks for
-                    name = f"docs/snippets/{program.name}" + ("" if part == "shown" else f": {part}")
-                    self.assertIn(f"// {name}\n", text, "shown on no page")
 
     def test_pictures_are_as_drawn(self):
         with tempfile.TemporaryDirectory() as folder:

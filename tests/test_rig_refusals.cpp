@@ -64,12 +64,78 @@ TEST_CASE("rigs: a limb that cannot be told is never left out in silence")
     refused({"RightForeArm"}, "no joint is called 'rightarm' or alike for its shoulder");
     const std::vector<std::string> left = {"--arm", "LeftArm,LeftForeArm,LeftHand"};
     CHECK(solve({"RightArm", "RightForeArm", "RightHand"}, left).exit_code == 0);
+    // With --limbs the other side is looked for, too; where its names are no limb, that is said, as it was not asked
+    // for.
+    const std::vector<std::string> arms = {"--limbs", "arms", "--arm", "left:LeftArm,LeftForeArm,LeftHand", "--json"};
+    const json half = json::parse(solve({"RightForeArm"}, arms).out);
+    CHECK(half.at("missing")[0].at("problem") == "no joint is called 'rightarm' or alike for its shoulder");
     const Outcome outcome = solve({});
     INFO(outcome.err);
     CHECK(outcome.exit_code == 0);
     CHECK(outcome.out.find("arm      right missing: no joints have names in use for it") != std::string::npos);
     const json report = json::parse(solve({}, {"--json"}).out);
     CHECK(report.at("missing")[0].at("limb") == "right_arm");
+}
+
+TEST_CASE("rigs: naming one side leaves the other to the names in use, where the kind is asked for")
+{
+    const TempFolder folder;
+    GltfRig rig;
+    const int root = rig.add("root", -1, {0, 0, 0});
+    for (const std::string side : {"Left", "Right", "Third"})
+        for (int parent = root; const std::string name : {"Arm", "ForeArm", "Hand"})
+            parent = rig.add(side + name, parent, {1, 0, 0});
+    rig.write(folder / "rig.glb");
+    const auto bound = [&](const char* command, std::vector<std::string> options) {
+        options.insert(options.begin(), {command, "rig.glb", "--json"});
+        const Outcome outcome = run_command(folder.path, options);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        const json report = json::parse(outcome.out);
+        std::vector<std::string> found;
+        if (report.contains("arms_bound"))
+            for (const json& limb : report["arms_bound"]) found.push_back(limb.at("shoulder"));
+        else
+            for (const json& limb : report["limbs"])
+                if (limb.at("bound") == true) found.push_back(limb.at("joints")[0]);
+        return found;
+    };
+    using Found = std::vector<std::string>;
+    const std::string left = "left:ThirdArm,ThirdForeArm,ThirdHand", right = "right:ThirdArm,ThirdForeArm,ThirdHand";
+    CHECK(bound("solve", {"--limbs", "arms", "--arm", left}) == Found{"ThirdArm", "RightArm"});
+    CHECK(bound("solve", {"--limbs", "arms", "--arm", right}) == Found{"LeftArm", "ThirdArm"});
+    CHECK(bound("rig", {"--arm", right}) == Found{"LeftArm", "ThirdArm"});
+    CHECK(bound("solve", {"--arm", right}) == Found{"ThirdArm"});
+    spill(folder / "crowd.toml",
+          "[crowd]\nlimbs = \"arms\"\n[limb.right_arm]\njoints = [\"ThirdArm\", \"ThirdForeArm\", \"ThirdHand\"]\n");
+    CHECK(bound("solve", {"--crowd", "crowd.toml"}) == Found{"LeftArm", "ThirdArm"});
+    const Outcome shared = run_command(
+        folder.path, {"solve", "rig.glb", "--limbs", "arms", "--arm", "left:RightArm,RightForeArm,RightHand"});
+    CHECK(shared.err.find("the left arm and the right arm share a joint") != std::string::npos);
+}
+
+TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, line and key")
+{
+    const TempFolder folder;
+    GltfRig rig;
+    int parent = rig.add("root", -1, {0, 0, 0});
+    for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
+    rig.write(folder / "rig.glb");
+    const auto refused = [&](const char* toml, const std::string& message) {
+        spill(folder / "crowd.toml", toml);
+        const Outcome outcome = run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml"});
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.err == message);
+    };
+    refused(
+        "[crowd]\nlimbs = \"legs\"\n",
+        "swivel: crowd.toml:2: crowd.limbs: no legs found in rig.glb by the usual joint names (no joints have names in "
+        "use for it); name them with --leg HIP,KNEE,ANKLE\n");
+    refused(
+        "[crowd]\n\ntargets = \"no.csv\"\n",
+        "swivel: crowd.toml:3: crowd.targets: no.csv: cannot be opened: No such file or directory; check the path\n");
+    spill(folder / "crowd.toml", "[crowd]\ntargets = \"no.csv\"\n");
+    CHECK(run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml", "--targets", "clip"}).exit_code == 0);
 }
 
 TEST_CASE("rigs: a mirror that comes or goes in the clip is refused, one that stays is followed")

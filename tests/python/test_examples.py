@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib import image
 
 import swivel
-from arms import joints_at
+from arms import joints_at, rotate, times
 
 ROOT = Path(__file__).resolve().parents[2]
 REACH = ROOT / "tools" / "python" / "examples" / "reach.py"
@@ -24,7 +24,7 @@ class Documentation(unittest.TestCase):
     def test_programs_run(self):
         text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertEqual(len(programs), 3)
+        self.assertEqual(len(programs), 4)
         names, printed = {}, io.StringIO()
         with contextlib.redirect_stdout(printed):
             for program in programs:
@@ -34,6 +34,16 @@ class Documentation(unittest.TestCase):
         np.testing.assert_allclose(wrists[0], names["targets"][0], atol=1e-6)
         np.testing.assert_allclose(np.linalg.norm(names["shoulder"], axis=1), 1, atol=1e-6)
         self.assertIsNotNone(names["limited"].wrist)
+        for group, side in enumerate((1, -1)):  # a skeleton's own joints, from the shoulders on
+            upper, fore = names["upper_arms"][group], names["forearms"][group]
+            shoulders = names["stand"] + (0.2 * side, 1.4, 0)
+            elbows = shoulders + rotate(upper, (0.30 * side, 0, 0))
+            wrists = elbows + rotate(times(upper, fore), (0.26 * side, 0, 0))
+            self.assertEqual(len(wrists), 1000)
+            np.testing.assert_allclose(wrists, names["stand"] + (0.1 * side, 1.3, 0.35), atol=1e-4)  # floats a kilometre off
+            self.assertTrue(np.all(elbows[:, 1] < 1.3))
+            np.testing.assert_allclose(fore[:, (0, 2)], 0, atol=1e-6)  # about the hinge alone, and forwards
+            self.assertTrue(np.all(rotate(fore, (side, 0, 0))[:, 2] > 0.1))
 
     def test_flag_words_of_several_bits_have_names(self):
         """NumPy's numbers are not Python's: enum refuses them for a word that is no single bit."""

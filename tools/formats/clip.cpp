@@ -8,8 +8,6 @@
 namespace swivel::formats {
 namespace {
 
-const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
-
 // Takes `name`, and the slash before it, off the end of `path`; false if the path ends otherwise.
 bool take_last_name(std::string_view& path, std::string_view name, bool is_root)
 {
@@ -42,6 +40,8 @@ void chain_up(const Clip& clip, std::span<JointPose> pose_w, const Next& next)
 }
 
 }  // namespace
+
+std::string printable_name(const Joint& joint) { return printable(joint.name, 80); }
 
 Eigen::Vector3d mirrored(const Eigen::Vector3d& v) { return {-v.x(), v.y(), v.z()}; }
 Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }

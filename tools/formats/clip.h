@@ -44,6 +44,12 @@ struct RotationOverride {
     std::span<const Eigen::Quaterniond> rotation;  // one per frame, not zero, made unit; borrowed for the call
 };
 
+// joint: 0 to joints.size()-1, as parents and find_joints() count; the caller answers for it.
+inline const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
+
+// A joint's name for a message: one line, not too long.
+std::string printable_name(const Joint& joint);
+
 // Where a joint is in another space, mostly the world: x_w = position + scale * (rotation * x), with x mirrored in its
 // own x before that if `mirrored`. So a rotation stays a rotation below a mirror.
 struct JointPose {

@@ -26,7 +26,6 @@ constexpr std::array<const char*, kColumnCount> kColumns = {"frame",  "character
                                                             "pole_y", "pole_z",    "qx",   "qy", "qz", "qw", "side"};
 constexpr std::string_view kColumnList =
     "frame,character,limb,x,y,z,pole_x,pole_y,pole_z and all or none of qx,qy,qz,qw";
-constexpr double kMaxNorm = 1e15;  // the engine's range for lengths
 constexpr double kMinNorm = 1 / kMaxNorm;
 
 using Csv = io::CSVReader<kColumnCount, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>, io::throw_on_overflow,

@@ -46,6 +46,9 @@ bool same_ignoring_case(std::string_view a, std::string_view b);
 // infinity, hexadecimal, trailing characters, more than a double can hold.
 std::optional<double> parse_number(std::string_view text);
 
+// The longest position or axis that the engine solves; files may hold none longer.
+constexpr double kMaxNorm = 1e15;
+
 // The whole of `text` as a whole decimal number. Nothing for anything else, 1.0 included.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 

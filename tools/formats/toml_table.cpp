@@ -13,7 +13,6 @@
 namespace swivel::formats {
 namespace {
 
-constexpr double kMaxNorm = 1e15;                              // the engine's range for lengths
 constexpr std::size_t kMostBytes = 1'000'000, kMostDots = 64;  // in a file, in a line
 
 std::string_view type_name(const toml::node& node)
@@ -77,6 +76,15 @@ void require_flat(const std::filesystem::path& path, std::string_view text)
     }
 }
 
+// The parser's own words, without those that it starts most errors with.
+std::string cause_of(std::string_view description)
+{
+    const std::size_t colon = description.find(": ");
+    if (description.starts_with("Error while parsing ") && colon != std::string_view::npos)
+        return fmt::format("{} ({})", description.substr(colon + 2), description.substr(20, colon - 20));
+    return std::string(description);
+}
+
 }  // namespace
 
 toml::table read_toml(const std::filesystem::path& path)
@@ -88,7 +96,9 @@ toml::table read_toml(const std::filesystem::path& path)
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {
-        throw InputError(path, error.source().begin.line, printable(error.description(), 200));
+        throw InputError(path, error.source().begin.line,
+                         fmt::format("column {}: is no TOML: {}", error.source().begin.column,
+                                     printable(cause_of(error.description()), 200)));
     }
 }
 
@@ -139,6 +149,7 @@ Maybe<std::int64_t> TomlTable::whole(std::string_view key, std::int64_t least, s
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
     const std::string wanted = fmt::format("a whole number from {} to {}", least, most);
+    if (node->is_floating_point()) fail(key, fmt::format("must be {}, not {:#}", wanted, *node->value<double>()));
     if (!node->is_integer()) fail_type(key, *node, wanted);
     const std::int64_t value = node->as_integer()->get();
     if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));

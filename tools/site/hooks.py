@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What mkdocs is told beyond mkdocs.yml: programs shown from docs/snippets, the reference made of batch/swivel.h, links out of
+"""What mkdocs is told beyond mkdocs.yml: programs held against docs/snippets, the reference made of batch/swivel.h, links out of
 docs/, and formulas set by KaTeX while building, so that pages fetch nothing and run without scripts."""
 import json
 import posixpath
@@ -46,7 +46,8 @@ def on_files(files, config):
 
 def on_page_markdown(markdown, page, config, files):
     try:
-        markdown = snippets.fill_in(markdown, ROOT)
+        snippets.check(markdown, ROOT)
+        markdown = snippets.without_marks(markdown)
         if page.file.src_uri == "api.md":
             markdown = markdown.replace("<!-- swivel.h -->", api_page.reference((ROOT / HEADER).read_text()))
     except (snippets.Missing, api_page.Unread) as error:

@@ -1,20 +1,24 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Programs on pages. A block of code that holds nothing but
+"""Programs on pages. A block of code below a line
 
-    // docs/snippets/NAME.cpp
+    <!-- docs/snippets/NAME.cpp -->
 or
-    // docs/snippets/NAME.cpp: PART
+    <!-- docs/snippets/NAME.cpp: PART -->
 
-is filled with that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`. The files are built and run by the
-test docs_snippets."""
+holds that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`, so that pages read the same in the repository and on
+the site. The files are built and run by the test docs_snippets. Run as a program it writes the lines into the pages."""
 import re
+import sys
 import textwrap
+from pathlib import Path
 
-BLOCK = re.compile(r"^(?P<indent> *)```cpp\n *// docs/snippets/(?P<name>[\w.]+)(?:: (?P<part>\w+))?\n *```$", re.M)
+BLOCK = re.compile(r"^(?P<indent> *)<!-- docs/snippets/(?P<name>[\w.]+)(?:: (?P<part>\w+))? -->\n"
+                   r"(?P<code> *```cpp\n(?:.*\n)*? *```)$", re.M)
 
 
 class Missing(Exception):
-    """A page asks for a program that is not there."""
+    """A page asks for a program that is not there, or shows another."""
 
 
 def part_of(text, name, part):
@@ -24,11 +28,45 @@ def part_of(text, name, part):
     return textwrap.dedent(found[1]).rstrip()
 
 
-def fill_in(markdown, root):
-    def filled(match):
-        path = root / "docs/snippets" / match["name"]
-        if not path.exists():
-            raise Missing(f"docs/snippets/{match['name']} does not exist")
-        code = part_of(path.read_text(), match["name"], match["part"] or "shown")
-        return textwrap.indent(f"```cpp\n{code}\n```", match["indent"])
-    return BLOCK.sub(filled, markdown)
+def code_of(match, root):
+    """What the block must hold."""
+    path = root / "docs/snippets" / match["name"]
+    if not path.exists():
+        raise Missing(f"docs/snippets/{match['name']} does not exist")
+    code = part_of(path.read_text(encoding="utf-8"), match["name"], match["part"] or "shown")
+    return textwrap.indent(f"```cpp\n{code}\n```", match["indent"])
+
+
+def check(markdown, root):
+    """Raises Missing where a page shows another program than the one that is tested."""
+    if markdown.count("<!-- docs/snippets/") != len(BLOCK.findall(markdown)):
+        raise Missing("a line <!-- docs/snippets/... --> has no block of code below it")
+    for match in BLOCK.finditer(markdown):
+        if match["code"] != code_of(match, root):
+            raise Missing(f"does not show docs/snippets/{match['name']} as it is; run tools/docs --update")
+
+
+def filled(markdown, root):
+    return BLOCK.sub(lambda match: match[0].replace(match["code"], code_of(match, root)), markdown)
+
+
+def without_marks(markdown):
+    """For the site, whose readers have no use for them."""
+    return re.sub(r"^ *<!-- docs/snippets/.*-->\n", "", markdown, flags=re.M)
+
+
+def main():
+    root = Path(__file__).resolve().parents[2]
+    for page in sorted((root / "docs").rglob("*.md")):
+        before = page.read_text(encoding="utf-8")
+        try:
+            after = filled(before, root)
+        except Missing as error:
+            sys.exit(f"{page.relative_to(root)}: {error}")
+        if after != before:
+            page.write_text(after, encoding="utf-8")
+            print(f"wrote the programs of {page.relative_to(root)}")
+
+
+if __name__ == "__main__":
+    main()

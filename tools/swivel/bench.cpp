@@ -9,6 +9,7 @@
 
 #include "bench/rivals/level.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/measure.h"
 #include "tools/swivel/report.h"
@@ -131,7 +132,7 @@ void add_bench(CLI::App& app)
     command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed")
         ->capture_default_str()
         ->check(number(0.1, 3600));
-    command->add_flag("--json", options->json, "Print JSON");
+    add_json(*command, options->json);
     command->footer(
         "Takes about two seconds more, and some 500 MB. For figures to keep, leave the machine alone meanwhile.");
     command->callback([options] { run(*options); });

@@ -33,7 +33,6 @@ void store(const Vector3d& v, float (&to)[3])
 {
     for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(v[n]);
 }
-Quaterniond quaternion(const std::array<float, 4>& q) { return Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
 
 template <class Floats>
 void store(const Quaterniond& q, Floats& to)

@@ -17,8 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double kBentSine = 0.08715574274765817;  // sin 5 degrees
 
-Quaterniond quaternion(const std::array<float, 4>& q) { return Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
-
 // Of a rotation: its whole angle, and its parts about an axis and across it.
 double angle(const Quaterniond& q) { return 2 * std::atan2(q.vec().norm(), std::fabs(q.w())); }
 double twist(const Quaterniond& q, const Vector3d& axis)

@@ -27,6 +27,20 @@ template <class T>
 
 }  // namespace
 
+std::string targets_of(const CrowdFile& file)
+{
+    if (!file.targets || file.targets->value == "clip") return "clip";
+    const std::filesystem::path path = file.path.parent_path() / file.targets->value;
+    std::error_code unknown;
+    if (std::filesystem::is_fifo(path, unknown)) return path.string();  // opened twice it would lose its writer
+    try {
+        formats::open_text(path);
+    } catch (const InputError& error) {
+        refuse(file, *file.targets, error.what());
+    }
+    return path.string();
+}
+
 void require_sense(const CrowdFile& file, const LimbSettings& s)
 {
     const auto needs_hand = [&](const auto& given) {
@@ -89,23 +103,22 @@ void require_solved(const CrowdFile& file, std::span<const Limb> limbs)
 void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
 {
     if (!s.clavicle_share) return;
-    const int above = clip.joints[static_cast<std::size_t>(limb.upper())].parent;
+    const int above = formats::joint_at(clip, limb.upper()).parent;
     if (above < 0)
         refuse(file, *s.clavicle_share, fmt::format("there is no joint above the {}", plain_name(limb.name)));
     if (formats::child_joints(clip, above).size() > 1)
         refuse(file, *s.clavicle_share,
                fmt::format("the joint above the {}, {}, carries other joints, which would turn along",
-                           plain_name(limb.name),
-                           formats::printable(clip.joints[static_cast<std::size_t>(above)].name, 80)));
-    if (clip.joints[static_cast<std::size_t>(limb.upper())].offset.isZero(0))
+                           plain_name(limb.name), formats::printable_name(formats::joint_at(clip, above))));
+    if (formats::joint_at(clip, limb.upper()).offset.isZero(0))
         refuse(
             file, *s.clavicle_share,
             fmt::format("the {} starts where the joint above it is; there is no bone to turn", plain_name(limb.name)));
-    const formats::Joint& joint = clip.joints[static_cast<std::size_t>(above)];
+    const formats::Joint& joint = formats::joint_at(clip, above);
     if (limb.mirrored || joint.rest_scale.minCoeff() < 0 || joint.scale_track >= 0)
         refuse(file, *s.clavicle_share,
                fmt::format("the joint above the {}, {}, is mirrored or changes its scale; such a joint is not turned",
-                           plain_name(limb.name), formats::printable(joint.name, 80)));
+                           plain_name(limb.name), formats::printable_name(joint)));
 }
 
 void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)

@@ -5,11 +5,15 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "tools/formats/crowd_file.h"
 #include "tools/swivel/limbs.h"
 
 namespace swivel::tools {
+
+// The targets' file that the crowd file names, a relative path from the crowd file's folder, or "clip"; it is there.
+std::string targets_of(const formats::CrowdFile& file);
 
 // Every table speaks of a limb that is solved.
 void require_solved(const formats::CrowdFile& file, std::span<const Limb> limbs);

@@ -92,7 +92,7 @@ struct Planner {
     void clavicle(const formats::Clip& clip, const Limb& limb)
     {
         if (!from.clavicle_share) return;
-        const Eigen::Vector3d& offset = clip.joints[static_cast<std::size_t>(limb.upper())].offset;
+        const Eigen::Vector3d& offset = formats::joint_at(clip, limb.upper()).offset;
         const Eigen::Vector3f bone = (limb.scale * offset).cast<float>();
         put(SWIVEL_WITH_CLAVICLE, SWIVEL_CLAVICLE,
             std::array{bone.x(), bone.y(), bone.z(), static_cast<float>(from.clavicle_share->value)});
@@ -178,6 +178,9 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
         choice.kinds = file.limbs->value;
         choice.kinds_from = fmt::format("{} = \"{}\" in line {} of {}", file.limbs->key, file.limbs->value,
                                         file.limbs->line, formats::printable(file.path.string(), 400));
+        choice.kinds_key = file.limbs->key;
+        choice.kinds_file = file.path;
+        choice.kinds_line = file.limbs->line;
     }
     const bool has_arms = !choice.arms.empty(), has_legs = !choice.legs.empty();  // named elsewhere
     for (const formats::LimbSection& section : file.sections) {

@@ -14,6 +14,7 @@
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
@@ -176,19 +177,13 @@ void add_demo(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("demo", "Solve a made-up crowd and report throughput, errors and flags");
     auto options = std::make_shared<Options>();
-    command->add_option("--characters", options->characters, "Characters, two arms each")
-        ->capture_default_str()
-        ->check(whole_number(1, 10'000'000));
+    add_characters(*command, options->characters, "Characters, two arms each")->capture_default_str();
     command->add_option("--frames", options->frames, "Frames")
         ->capture_default_str()
         ->check(whole_number(1, 1'000'000));
-    command->add_option("--seed", options->seed, "Seed of the characters' differences")
-        ->capture_default_str()
-        ->check(whole_number(0, UINT64_MAX));
-    command->add_option("--threads", options->threads, "Threads at most; 0 for all")
-        ->capture_default_str()
-        ->check(whole_number(0, 1024));
-    command->add_flag("--json", options->json, "Print JSON");
+    add_seed(*command, options->seed, "the characters' differences");
+    add_threads(*command, options->threads);
+    add_json(*command, options->json);
     command->callback([options] { run(*options); });
 }
 

@@ -12,6 +12,7 @@
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {
@@ -61,7 +62,7 @@ void add_info(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("info", "CPU, instruction set in use, version, build");
     auto as_json = std::make_shared<bool>(false);
-    command->add_flag("--json", *as_json, "Print JSON");
+    add_json(*command, *as_json);
     command->callback([as_json] { print_info(*as_json); });
 }
 

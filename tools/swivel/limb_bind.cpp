@@ -18,17 +18,12 @@ using formats::Clip;
 using formats::Joint;
 using formats::JointPose;
 
-const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
-
-// Its name for a message.
-std::string shown(const Joint& joint) { return formats::printable(joint.name, 80); }
-
 // What is wrong with a joint's scale; empty if nothing is.
 std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
 {
-    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", shown(joint));
-    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", shown(joint), when);
-    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", shown(joint), when);
+    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", printable_name(joint));
+    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", printable_name(joint), when);
+    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", printable_name(joint), when);
     return {};
 }
 
@@ -36,8 +31,8 @@ std::string scale_fault(const Joint& joint, const JointPose& pose, const std::st
 std::string mirror_fault(const Joint& joint, const JointPose& rest, const JointPose& pose, std::size_t frame)
 {
     if (pose.mirrored == rest.mirrored) return {};
-    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", shown(joint), frame)
-                         : fmt::format("'{}' is mirrored at rest and not in frame {}", shown(joint), frame);
+    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", printable_name(joint), frame)
+                         : fmt::format("'{}' is mirrored at rest and not in frame {}", printable_name(joint), frame);
 }
 
 // Every joint that the limb's size hangs on: all above the end joint.
@@ -67,8 +62,9 @@ void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& 
     const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
     for (std::size_t n = 0; n < 2; ++n)
         if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
-            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length", shown(joint_at(clip, joints[n])),
-                                         shown(joint_at(clip, joints[n + 1]))));
+            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length",
+                                         printable_name(joint_at(clip, joints[n])),
+                                         printable_name(joint_at(clip, joints[n + 1]))));
 }
 
 template <int size>
@@ -91,6 +87,17 @@ BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
     } catch (const Error& error) {
         throw CannotBind(error.what());
     }
+}
+
+// The arm frame's axes in the world, by those of the upper joint's parent.
+Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w)
+{
+    Eigen::Matrix3d axes_w = quaternion(binding.parent_from_arm).toRotationMatrix();
+    for (int n = 0; n < 3; ++n) {
+        const Vector3d axis = axes_w.col(n);
+        axes_w.col(n) = parent_w.rotation * (parent_w.mirrored ? formats::mirrored(axis) : axis);
+    }
+    return axes_w;
 }
 
 void take_given_hinge(std::span<const GivenHinge> hinges, Limb& limb)
@@ -142,6 +149,7 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     take_given_hinge(hinges, limb);
     limb.bound = bind_rest(rest, limb.hinge);
     for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));
+    limb.axes_w = axes_of(limb.bound.binding, parent_w);
     limb.side_twists = side_twists(clip, limb.chain);
     return limb;
 }

@@ -28,13 +28,20 @@ struct Limb {
     Eigen::Vector3d hinge = Eigen::Vector3d::Zero();       // in the upper joint's axes, unit
     std::string hinge_source;                              // how it was chosen, for people
     double scale = 1;                                      // world lengths for one of the upper joint's parent, at rest
-    bool mirrored = false;         // that parent is mirrored in the world: the limb is solved in the mirror image
-    std::vector<int> side_twists;  // twist bones that hang on the limb: they follow as they did
+    bool mirrored = false;  // that parent is mirrored in the world: the limb is solved in the mirror image
+    Eigen::Matrix3d axes_w = Eigen::Matrix3d::Zero();  // columns: the arm frame's x, y and z at rest, in the world
+    std::vector<int> side_twists;                      // twist bones that hang on the limb: they follow as they did
 
     int upper() const { return joints[0]; }
     int lower() const { return joints[1]; }
     int end() const { return joints[2]; }
 };
+
+// A rotation as the solver has it, x, y, z, w, made unit.
+inline Eigen::Quaterniond quaternion(std::span<const float, 4> q)
+{
+    return Eigen::Quaterniond(double{q[3]}, double{q[0]}, double{q[1]}, double{q[2]}).normalized();
+}
 
 // A hinge given by the user.
 struct GivenHinge {

@@ -19,7 +19,7 @@ struct Step {
 
 Step step_at_rest(const Clip& clip, int joint)
 {
-    const formats::Joint& at = clip.joints[static_cast<std::size_t>(joint)];
+    const formats::Joint& at = formats::joint_at(clip, joint);
     return {{at.offset, at.rest_rotation}, formats::local_rest_pose(at)};
 }
 
@@ -57,7 +57,7 @@ ChainPose walk(const LimbChain& chain, const StepOf& step_of)
 LimbChain chain_of(const Clip& clip, const LimbJoints& joints)
 {
     LimbChain chain;
-    for (int joint = joints[2]; joint != joints[0]; joint = clip.joints[static_cast<std::size_t>(joint)].parent)
+    for (int joint = joints[2]; joint != joints[0]; joint = formats::joint_at(clip, joint).parent)
         chain.joints.push_back(joint);
     chain.joints.push_back(joints[0]);
     std::reverse(chain.joints.begin(), chain.joints.end());
@@ -65,7 +65,7 @@ LimbChain chain_of(const Clip& clip, const LimbJoints& joints)
         static_cast<std::size_t>(std::find(chain.joints.begin(), chain.joints.end(), joints[1]) - chain.joints.begin());
     chain.is_plain = chain.joints.size() == 3;
     for (const int joint : chain.joints) {
-        const formats::Joint& at = clip.joints[static_cast<std::size_t>(joint)];
+        const formats::Joint& at = formats::joint_at(clip, joint);
         if (at.scale_track >= 0 || at.rest_scale.minCoeff() < 0) chain.is_plain = false;
     }
     return chain;

@@ -31,7 +31,7 @@ int toes_of(const Clip& clip, int foot)
 {
     const std::vector<int> below = formats::child_joints(clip, foot);
     for (const int joint : below)
-        if (speaks_of_toes(clip.joints[static_cast<std::size_t>(joint)].name)) return joint;
+        if (speaks_of_toes(formats::joint_at(clip, joint).name)) return joint;
     return below.size() == 1 ? below[0] : -1;
 }
 
@@ -40,7 +40,7 @@ int fork_of(const Clip& clip, int a, int b)
 {
     while (a != b) {
         int& later = a > b ? a : b;  // parents come before their children
-        later = clip.joints[static_cast<std::size_t>(later)].parent;
+        later = formats::joint_at(clip, later).parent;
     }
     return a;
 }

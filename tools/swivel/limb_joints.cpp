@@ -25,11 +25,6 @@ using formats::Side;
 constexpr std::array<std::string_view, 8> kPrefixes = {"def",  "mixamorig", "valvebiped", "bip0",
                                                        "jbip", "ccbase",    "mavg",       "favg"};
 
-const Joint& joint_at(const Clip& clip, int joint) { return clip.joints[static_cast<std::size_t>(joint)]; }
-
-// Its name for a message.
-std::string shown(const Joint& joint) { return formats::printable(joint.name, 80); }
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // A joint's name in the form the tables below are written in: lower case, no name space before a colon or bar, no
@@ -162,23 +157,24 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
         if (!found.empty()) joints[n] = found[0];
         made.fits += !found.empty();
         if (found.size() > 1 && problem.empty())
-            problem = fmt::format("{} joints are called '{}'", found.size(), shown(joint_at(clip, found[0])));
+            problem = fmt::format("{} joints are called '{}'", found.size(), printable_name(joint_at(clip, found[0])));
         else if (found.empty() && problem.empty())
             problem = fmt::format("no joint is called '{}' or alike for its {}", name, parts[n]);
     }
     for (std::size_t n = 0; n < 2 && problem.empty(); ++n) {
         const Joint &top = joint_at(clip, joints[n]), &bottom = joint_at(clip, joints[n + 1]);
         if (joints[n] == joints[n + 1] || !is_above(clip, joints[n], joints[n + 1])) {
-            problem = fmt::format("'{}' is not below '{}' in the hierarchy", shown(bottom), shown(top));
+            problem =
+                fmt::format("'{}' is not below '{}' in the hierarchy", printable_name(bottom), printable_name(top));
         } else if (const int between = stranger_between(clip, joints[n], joints[n + 1]); between >= 0) {
             problem = fmt::format("'{}' lies between '{}' and '{}' and is no twist bone by its name",
-                                  shown(joint_at(clip, between)), shown(top), shown(bottom));
+                                  printable_name(joint_at(clip, between)), printable_name(top), printable_name(bottom));
         }
     }
     const auto is_bone = [&](int joint) { return joint_at(clip, joint).is_bone; };
     if (problem.empty() && std::none_of(joints.begin(), joints.end(), is_bone))
-        problem =
-            fmt::format("'{}' and what is below it are no bones of the file's skin", shown(joint_at(clip, joints[0])));
+        problem = fmt::format("'{}' and what is below it are no bones of the file's skin",
+                              printable_name(joint_at(clip, joints[0])));
     if (problem.empty()) made.result.joints = joints;
     return made;
 }

@@ -26,6 +26,7 @@ constexpr std::size_t kShownName = 80;  // bytes of a joint's name in a message
 struct Candidate {
     LimbName name;
     LimbByName found;
+    bool beside_named = false;  // looked for by names, the other side was named by the user
 };
 
 // Reads one limb that the user named.
@@ -52,7 +53,7 @@ struct NameReader {
             refuse(fmt::format("{} joints are called '{}'", found.size(), shown),
                    fmt::format("; name one by its path or number, such as {} or #{}",
                                formats::printable(formats::joint_path(clip, found[0]), 400),
-                               clip.joints[static_cast<std::size_t>(found[0])].number));
+                               formats::joint_at(clip, found[0]).number));
         return found[0];
     }
 
@@ -64,8 +65,8 @@ struct NameReader {
         const LimbJoints joints{joint(from.joints[0]), joint(from.joints[1]), joint(from.joints[2])};
         if (!is_chain(clip, joints))
             refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text), "");
-        const std::string_view speaks = clip.joints[static_cast<std::size_t>(joints[0])].name;
-        return {{kind, from.side ? *from.side : side_of(speaks, otherwise)}, {joints, from.option, {}}};
+        const std::string_view speaks = formats::joint_at(clip, joints[0]).name;
+        return {{kind, from.side ? *from.side : side_of(speaks, otherwise)}, {joints, from.option, {}}, false};
     }
 };
 
@@ -81,7 +82,7 @@ bool is_chosen(const LimbChoice& choice, LimbKind kind)
     return !names_of(choice, kind).empty();
 }
 
-// The limbs of one kind: those named, or both sides by habit.
+// The limbs of one kind: those named; a side that is not, by habit, where the kind was asked for or none is named.
 std::vector<Candidate> candidates(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice,
                                   LimbKind kind)
 {
@@ -90,15 +91,19 @@ std::vector<Candidate> candidates(const Clip& clip, const std::filesystem::path&
     std::vector<Candidate> limbs;
     for (const NamedLimb& named : names)
         limbs.push_back(NameReader{clip, file, words, named}.limb(kind, limbs.empty() ? Side::left : Side::right));
-    if (names.empty())
-        for (const Side side : {Side::left, Side::right})
-            limbs.push_back({{kind, side}, limb_by_name(clip, {kind, side})});
     if (limbs.size() > 2)
         throw InputError(
             file, fmt::format("{} was given more than twice; a character has two {}", words.option, words.limbs));
     if (limbs.size() == 2 && limbs[0].name == limbs[1].name)
         throw InputError(file, fmt::format("both {} are taken as {}; write {} left:... and {} right:...", words.limbs,
                                            side_name(limbs[0].name.side), words.option, words.option));
+    if (!names.empty() && choice.kinds.empty()) return limbs;
+    for (const LimbName name : {LimbName{kind, Side::left}, LimbName{kind, Side::right}}) {
+        const auto is_this = [&](const Candidate& limb) { return limb.name == name; };
+        if (std::none_of(limbs.begin(), limbs.end(), is_this))
+            limbs.insert(name.side == Side::left ? limbs.begin() : limbs.end(),
+                         {name, limb_by_name(clip, name), !names.empty()});
+    }
     return limbs;
 }
 
@@ -149,7 +154,7 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
 {
     LimbFinding finding{candidate.name, std::nullopt, candidate.found.problem, candidate.found.joints.has_value()};
     if (!finding.has_names) {
-        finding.is_half = !finding.problem.empty();
+        finding.is_half = !finding.problem.empty() && !candidate.beside_named;
         if (finding.problem.empty()) finding.problem = why_none_fits(clip);
         return finding;
     }
@@ -160,6 +165,18 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
         finding.problem = fault.what();
     }
     return finding;
+}
+
+// No limb of the finding's kind has names in use.
+[[noreturn]] void refuse_kind(const std::filesystem::path& file, const LimbChoice& choice, const LimbFinding& finding)
+{
+    const LimbWords& words = words_of(finding.name.kind);
+    const std::string advice =
+        fmt::format("by the usual joint names ({}); name them with {} {}", finding.problem, words.option, words.joints);
+    if (choice.kinds_line == 0) throw InputError(file, fmt::format("no {} found {}", words.limbs, advice));
+    throw InputError(choice.kinds_file, choice.kinds_line,
+                     fmt::format("{}: no {} found in {} {}", choice.kinds_key, words.limbs,
+                                 formats::printable(file.string(), 400), advice));
 }
 
 }  // namespace
@@ -179,23 +196,22 @@ NamedLimb limb_of_option(std::string_view text, std::string_view option)
     return limb;
 }
 
-std::vector<LimbFinding> look_for_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
+LimbSearch look_for_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
 {
     std::vector<Candidate> limbs;
     for (const LimbKind kind : {LimbKind::arm, LimbKind::leg})
         if (is_chosen(choice, kind))
             for (Candidate& limb : candidates(clip, file, choice, kind)) limbs.push_back(std::move(limb));
     require_apart(file, limbs);
-    const Front front = front_of(clip, limbs);
-    std::vector<LimbFinding> findings;
-    for (const Candidate& limb : limbs) findings.push_back(finding_of(clip, choice, front, limb));
-    return findings;
+    LimbSearch search{front_of(clip, limbs), {}};
+    for (const Candidate& limb : limbs) search.findings.push_back(finding_of(clip, choice, search.front, limb));
+    return search;
 }
 
 FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
 {
     FoundLimbs found;
-    for (LimbFinding& finding : look_for_limbs(clip, file, choice)) {
+    for (LimbFinding& finding : look_for_limbs(clip, file, choice).findings) {
         if (finding.has_names && !finding.limb)
             throw InputError(file,
                              fmt::format("the {} cannot be bound: {}", plain_name(finding.name), finding.problem));
@@ -208,9 +224,7 @@ FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const
         const LimbWords& words = words_of(finding.name.kind);
         const auto is_same_kind = [&](const Limb& limb) { return limb.name.kind == finding.name.kind; };
         const auto other = std::find_if(found.limbs.begin(), found.limbs.end(), is_same_kind);
-        if (other == found.limbs.end())
-            throw InputError(file, fmt::format("no {} found by the usual joint names ({}); name them with {} {}",
-                                               words.limbs, finding.problem, words.option, words.joints));
+        if (other == found.limbs.end()) refuse_kind(file, choice, finding);
         if (finding.is_half)
             throw InputError(file, fmt::format("the {} cannot be bound: {}; name both {} with {} {}, or the {} alone",
                                                plain_name(finding.name), finding.problem, words.limbs, words.option,

@@ -28,9 +28,13 @@ NamedLimb limb_of_option(std::string_view text, std::string_view option);
 
 // Which limbs to solve. At most two of each kind are named.
 struct LimbChoice {
-    std::string kinds;                  // arms, legs or all; empty: those named, or the arms if none is
-    std::string kinds_from;             // where kinds was given, for messages: "--limbs legs"
-    std::vector<NamedLimb> arms, legs;  // of a kind without names those are taken that have names in use for it
+    std::string kinds;        // arms, legs or all: of these a side that is not named is looked for by the names in use;
+                              // empty: those named alone, or the arms by the names in use if none is
+    std::string kinds_from;   // where kinds was given, for messages: "--limbs legs"
+    std::string kinds_key{};  // the same if a file has it: "crowd.limbs"
+    std::filesystem::path kinds_file{};  // that has this key; empty for the command line
+    std::size_t kinds_line = 0;          // of it
+    std::vector<NamedLimb> arms, legs;
     std::vector<GivenHinge> hinges;
 };
 
@@ -40,15 +44,20 @@ struct LimbFinding {
     std::optional<Limb> limb;
     std::string problem;     // one line; also without any joint that fits
     bool has_names = false;  // joints fit, by habit or by the user, though they do not bind
-    bool is_half = false;    // some joints have a limb's names, and are no limb: one is missing, or its name repeats
+    bool is_half = false;    // some joints have a limb's names, and are no limb: one is missing, or its name repeats;
+                             // not where the user named the other side, and so knows of this one
+};
+
+struct LimbSearch {
+    Front front;  // of the figure
+    std::vector<LimbFinding> findings;
 };
 
 // All limbs of the kinds chosen, arms first, each bound or with its reason. Throws InputError, naming the file (and the
 // line, where a file named the joints), for what the user named wrongly: an unknown or ambiguous joint, joints that are
 // not above each other, two limbs of a kind on one side, a joint in two limbs. choice: names of no kind that kinds
 // leaves out.
-std::vector<LimbFinding> look_for_limbs(const formats::Clip& clip, const std::filesystem::path& file,
-                                        const LimbChoice& choice);
+LimbSearch look_for_limbs(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 // The limbs to solve, and those of the same kinds that the skeleton has no names of.
 struct FoundLimbs {

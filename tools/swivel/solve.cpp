@@ -18,6 +18,7 @@
 #include "tools/formats/poses_csv.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/crowd_checks.h"
 #include "tools/swivel/given_targets.h"
 #include "tools/swivel/interrupt.h"
@@ -133,10 +134,7 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
-    job.targets = "clip";
-    if (job.crowd && job.crowd->targets && job.crowd->targets->value != "clip")
-        job.targets = (job.crowd->path.parent_path() / job.crowd->targets->value).string();
-    if (options.targets) job.targets = *options.targets;
+    job.targets = options.targets ? *options.targets : job.crowd ? targets_of(*job.crowd) : "clip";
     return job;
 }
 
@@ -209,30 +207,16 @@ void add_solve(CLI::App& app)
         ->check(file_name());
     command
         ->add_option("--limbs", options->kinds,
-                     "Which limbs to solve: arms, legs or all; without it those named by --arm and --leg, or else the "
-                     "arms")
+                     "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
+                     "without it those named alone, or else the arms")
         ->check(CLI::IsMember({"arms", "legs", "all"}));
-    command
-        ->add_option(
-            "--arm", options->arms,
-            "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12); up to twice; left: or right: in "
-            "front "
-            "sets the side")
-        ->allow_extra_args(false);
-    command->add_option("--leg", options->legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--characters", options->characters,
-                     "Characters, differing in arm lengths, place and start; the first is the clip's own")
-        ->default_str("1")
-        ->check(whole_number(1, 10'000'000));
-    command->add_option("--seed", options->seed, "Seed of the characters' differences")
-        ->default_str("1")
-        ->check(whole_number(0, UINT64_MAX));
-    command->add_option("--threads", options->threads, "Threads at most; 0 for all")
-        ->capture_default_str()
-        ->check(whole_number(0, 1024));
-    command->add_flag("--json", options->json, "Print JSON");
+    add_named_limbs(*command, options->arms, options->legs, "the side that is not named is looked for with --limbs");
+    add_characters(*command, options->characters,
+                   "Characters, differing in arm lengths, place and start; the first is the clip's own")
+        ->default_str("1");
+    add_seed(*command, options->seed, "the characters' differences");
+    add_threads(*command, options->threads);
+    add_json(*command, options->json);
     command->callback([options] { run(*options); });
 }
 

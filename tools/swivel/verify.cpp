@@ -13,6 +13,7 @@
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/common_options.h"
 #include "tools/swivel/golden_crowd.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
@@ -143,10 +144,8 @@ void add_verify(CLI::App& app)
     command->add_option("--arms", options->arms, "Random arms in each reach band")
         ->capture_default_str()
         ->check(whole_number(1, 1'000'000'000));
-    command->add_option("--seed", options->seed, "Seed of the random arms")
-        ->capture_default_str()
-        ->check(whole_number(0, UINT64_MAX));
-    command->add_flag("--json", options->json, "Print JSON");
+    add_seed(*command, options->seed, "the random arms");
+    add_json(*command, options->json);
     command->callback([options] { run(*options); });
 }
 

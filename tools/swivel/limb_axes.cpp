@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/limb_axes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+double angle_deg(const Vector3d& a, const Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
+}
+
+void take(AngleRange& range, double angle)
+{
+    range.least = std::min(range.least, angle);
+    range.most = std::max(range.most, angle);
+}
+
+// To the next tenth; 0.002 beyond it, so that what a solve in floats adds fits in, too.
+double tenth_above(double angle) { return std::min(180.0, std::ceil(10 * (angle + 0.002)) / 10); }
+double tenth_below(double angle) { return std::max(0.0, std::floor(10 * (angle - 0.002)) / 10); }
+
+}  // namespace
+
+std::string direction_words(const Vector3d& direction_w, const Front& front)
+{
+    const Vector3d left = front.up.cross(front.forwards);
+    struct Way {
+        double share;
+        std::string_view positive, negative;
+    };
+    std::array<Way, 3> ways = {Way{direction_w.dot(left), "left", "right"},
+                               Way{direction_w.dot(front.up), "up", "down"},
+                               Way{direction_w.dot(front.forwards), "forwards", "backwards"}};
+    std::stable_sort(ways.begin(), ways.end(),
+                     [](const Way& a, const Way& b) { return std::abs(a.share) > std::abs(b.share); });
+    std::string words;
+    for (const Way& way : ways) {
+        // 0.38: the sine of 22.5 degrees, half way from an axis to the diagonal.
+        if (!words.empty() && std::abs(way.share) < 0.38) break;
+        words.append(words.empty() ? "" : " and ").append(way.share > 0 ? way.positive : way.negative);
+    }
+    return words;
+}
+
+std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
+{
+    if (clip.frame_count < 2) return std::nullopt;
+    const Quaterniond arm_from_parent = quaternion(limb.bound.binding.parent_from_arm).conjugate();
+    std::vector<Vector3d> upper;
+    Vector3d sum = Vector3d::Zero();
+    LimbRange range{};
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const ChainPose pose = chain_pose(clip, frame, limb.chain);
+        const Vector3d bone = pose.position[1] - pose.position[0], lower = pose.position[2] - pose.position[1];
+        if (!(bone.norm() > 0) || !(lower.norm() > 0)) continue;
+        upper.push_back(arm_from_parent * bone.normalized());
+        sum += upper.back();
+        take(range.from_z, angle_deg(upper.back(), Vector3d::UnitZ()));
+        take(range.flexion, angle_deg(bone, lower));
+    }
+    if (upper.empty()) return std::nullopt;
+    // 1e-3: directions that cancel have no mean; then any axis will do.
+    const bool has_mean = sum.norm() > 1e-3 * static_cast<double>(upper.size());
+    range.axis = has_mean ? Vector3d((1000 * sum.normalized()).array().round() / 1000) : Vector3d::UnitZ();
+    double opening = 0;
+    for (const Vector3d& bone : upper) opening = std::max(opening, angle_deg(bone, range.axis));
+    range.opening_deg = tenth_above(opening);
+    range.flexion = {tenth_below(range.flexion.least), tenth_above(range.flexion.most)};
+    return range;
+}
+
+}  // namespace swivel::tools
