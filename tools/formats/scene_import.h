@@ -25,7 +25,7 @@ std::string scene_importer();
 // Reads and converts a whole file. DAE nodes are known by their names; where these repeat and animations or skins need
 // them, by their ids. Throws InputError, with assimp's own reason where it has one, for a file that cannot be read or
 // is of another format, for what gltf_of() refuses, and for every file where this build does not read them. assimp is
-// trusted with the file: what makes it crash crashes the caller.
+// trusted with the file: what makes it crash, or ask for more memory than there is, does so to the caller.
 GltfContainer import_scene(const std::filesystem::path& path);
 
 }  // namespace swivel::formats
