@@ -293,9 +293,11 @@ TEST_CASE("Wrong files are refused in one line")
     spill(dae, "<COLLADA>\n<broken");
     CHECK(error_of(dae).starts_with(dae.string() + ": assimp cannot read it: "));
     CHECK(error_of(dae).find('\n') == std::string::npos);
-    // assimp reads glTF, too, and knows it by its content.
-    fs::copy_file(must_find_jump(), folder / "jump.fbx");
-    CHECK(error_of(folder / "jump.fbx").find("assimp cannot read it") != std::string::npos);
+    // assimp reads PLY, too.
+    spill(fbx,
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    CHECK(error_of(fbx).find("assimp cannot read it") != std::string::npos);
 }
 
 TEST_CASE("Files cut short or damaged are read or refused")

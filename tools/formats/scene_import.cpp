@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/scene_import.h"
 
-#include <assimp/BaseImporter.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -23,22 +22,9 @@
 namespace swivel::formats {
 namespace {
 
-// assimp reads forty formats, and takes a file for what it looks like, whatever its suffix: only two stay.
-void keep_two_formats(Assimp::Importer& importer)
-{
-    for (std::size_t n = importer.GetImporterCount(); n-- > 0;) {
-        const std::string suffixes = importer.GetImporterInfo(n)->mFileExtensions;
-        if (suffixes == "fbx" || suffixes.starts_with("dae")) continue;
-        Assimp::BaseImporter* other = importer.GetImporter(n);
-        importer.UnregisterLoader(other);
-        delete other;  // ours from then on
-    }
-}
-
 // by_name: DAE nodes have their names, not their ids. The scene lives in `importer`.
 const aiScene& read(Assimp::Importer& importer, const std::filesystem::path& path, bool by_name, bool with_pivots)
 {
-    keep_two_formats(importer);
     // Without: one node for each of an FBX file's; else assimp puts up to nine in a row for one.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, with_pivots);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // no mesh that the file has not
