@@ -105,6 +105,7 @@ must_not_say(tools "[^a-zA-Z_]toml::" "tools/formats/(toml_table|crowd_file)[.](
 must_not_say(tools/swivel "#[ \t]*include[ \t]*\"bench/[a-z_]+[.]h[^\n]*" ${nowhere} "the command does not know the suite")
 must_not_say(tools/formats "#[ \t]*include[ \t]*\"bench/[^\n]*" ${nowhere} "a format knows no benchmark")
 must_not_say(bench/rivals "#[ \t]*include[ \t]*(\"bench/[a-z_]+[.]h|<benchmark/)[^\n]*" ${nowhere} "the rivals do not know the suite")
+must_not_say(tools "#[ \t]*include[ \t]*<assimp/[^\n]*" "tools/formats/scene_[a-z]+[.]cpp$" "assimp is known to tools/formats/scene_* alone")
 must_not_say(tools "pybind11" "tools/python/" "the binding is in tools/python alone")
 must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmarks do not know the tools")
 

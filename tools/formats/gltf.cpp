@@ -317,9 +317,14 @@ void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vect
 
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice)
 {
+    return read_gltf(path, read_gltf_container(path), choice);
+}
+
+GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice)
+{
     GltfFile file;
     file.path = path;
-    file.container = read_gltf_container(path);
+    file.container = std::move(container);
     const tinygltf::Model model = load(file);
     const std::vector<int> joint_of = read_nodes(file, model);
     if (file.clip.joints.empty()) refuse(file, "it has no nodes, so no skeleton");

@@ -53,6 +53,9 @@ struct GltfChoice {
 // whose name is not unique, or poses beyond 8 GiB. Holds the file about twice, and 32 bytes a frame and joint.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
+// The same of a file that is in memory already. path: what messages call it, and what its files lie beside.
+GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice);
+
 // Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: LINEAR, or STEP
 // where the joints overridden moved by steps before. Where several frames' keys lie apart, a viewer turns each joint
 // evenly in between. All other JSON is kept value by value, all buffers byte by byte; keys no longer used stay in them.

@@ -9,6 +9,7 @@
 #include "tools/formats/gltf.h"
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/output_file.h"
+#include "tools/formats/text.h"
 
 namespace swivel::formats {
 namespace {
@@ -73,7 +74,7 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
     keys.times = file.times;
     keys.animation = file.animation;
     keys.is_stepped = moved_by_steps(file, joints);
-    const bool binary = path.extension() != ".gltf";
+    const bool binary = lower_suffix(path) != ".gltf";
     OutputFile out(path);
     const GltfContainer written = with_keys(file.container, file.buffers, keys, file.path, path, binary);
     try {

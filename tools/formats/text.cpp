@@ -95,6 +95,13 @@ bool same_ignoring_case(std::string_view a, std::string_view b)
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
+std::string lower_suffix(const std::filesystem::path& path)
+{
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(), lower);
+    return suffix;
+}
+
 std::optional<double> parse_number(std::string_view text)
 {
     const std::optional<double> number = parse_whole<double>(text);

@@ -42,6 +42,10 @@ std::string_view trimmed(std::string_view text);
 // True if the two are equal when ASCII letters are compared without case.
 bool same_ignoring_case(std::string_view a, std::string_view b);
 
+// What a path's name ends in, from its last dot on, ASCII letters in lower case: ".glb" of "Walk.GLB"; empty: no
+// suffix.
+std::string lower_suffix(const std::filesystem::path& path);
+
 // The whole of `text` as a finite decimal number, such as -1.5, .5, 5. or +1e-3. Nothing for anything else: NaN,
 // infinity, hexadecimal, trailing characters, more than a double can hold.
 std::optional<double> parse_number(std::string_view text);

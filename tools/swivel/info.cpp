@@ -10,6 +10,7 @@
 
 #include "bench/rivals/machine.h"
 #include "swivel/swivel.hpp"
+#include "tools/formats/scene_import.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/common_options.h"
@@ -39,6 +40,8 @@ nlohmann::ordered_json describe()
 #else
     out["threads"] = "none";
 #endif
+    const std::string importer = formats::scene_importer();
+    out["fbx_dae"] = importer.empty() ? "not read by this build" : "read by " + importer;
     return out;
 }
 

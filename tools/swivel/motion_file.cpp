@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/formats/scene_import.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/command_error.h"
 
@@ -16,22 +17,35 @@ using formats::GltfFile;
 std::variant<BvhFile, GltfFile> read(const std::filesystem::path& path, const MotionChoice& choice)
 {
     if (is_gltf(path)) return formats::read_gltf(path, {choice.clip, choice.rate});
-    if (!choice.clip.empty()) throw CommandError(2, "--clip chooses an animation of a glTF file; a BVH file has one");
-    if (choice.rate > 0) throw CommandError(2, "--fps samples a glTF file; a BVH file has frames of its own");
+    if (formats::is_scene(path))
+        return formats::read_gltf(path, formats::import_scene(path), {choice.clip, choice.rate});
+    if (!choice.clip.empty())
+        throw CommandError(2, "--clip chooses an animation of a glTF, FBX or DAE file; a BVH file has one");
+    if (choice.rate > 0)
+        throw CommandError(2, "--fps samples a glTF, FBX or DAE file; a BVH file has frames of its own");
     return formats::read_bvh(path);
+}
+
+const char* format_of(const std::filesystem::path& path)
+{
+    const std::string suffix = formats::lower_suffix(path);
+    return is_gltf(path) ? "glTF" : suffix == ".fbx" ? "FBX" : suffix == ".dae" ? "DAE" : "BVH";
 }
 
 }  // namespace
 
-bool is_bvh(const std::filesystem::path& path) { return path.extension() == ".bvh"; }
+bool is_bvh(const std::filesystem::path& path) { return formats::lower_suffix(path) == ".bvh"; }
 
 bool is_gltf(const std::filesystem::path& path)
 {
-    const std::filesystem::path suffix = path.extension();
+    const std::string suffix = formats::lower_suffix(path);
     return suffix == ".glb" || suffix == ".gltf" || suffix == ".vrm";
 }
 
-MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& choice) : file_(read(path, choice)) {}
+MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& choice)
+    : file_(read(path, choice)), format_(format_of(path))
+{
+}
 
 const formats::Clip& MotionFile::clip() const
 {
@@ -41,21 +55,21 @@ const formats::Clip& MotionFile::clip() const
 std::string MotionFile::describe() const
 {
     const GltfFile* gltf = std::get_if<GltfFile>(&file_);
-    if (!gltf) return "BVH";
-    if (gltf->animation < 0) return "glTF without animation: its rest pose";
+    if (!gltf) return format_;
+    if (gltf->animation < 0) return format_ + " without animation: its rest pose";
     const std::string& name = gltf->animation_names[static_cast<std::size_t>(gltf->animation)];
-    return fmt::format("glTF, animation {}{} of {}", gltf->animation,
+    return fmt::format("{}, animation {}{} of {}", format_, gltf->animation,
                        name.empty() ? "" : fmt::format(" '{}'", formats::printable(name)),
                        gltf->animation_names.size());
 }
 
 void MotionFile::require_can_write(const std::filesystem::path& path) const
 {
-    const bool is_own = std::holds_alternative<GltfFile>(file_) ? is_gltf(path) : is_bvh(path);
-    if (!is_own)
-        throw CommandError(
-            2, fmt::format("--out {}: this clip is {}; its poses go to {} or .csv", path.string(),
-                           is_bvh(path) ? "a glTF file" : "a BVH file", is_bvh(path) ? ".glb, .gltf" : ".bvh"));
+    const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
+    if (is_bvh_clip ? !is_bvh(path) : !is_gltf(path))
+        throw CommandError(2,
+                           fmt::format("--out {}: this clip is {} {} file; its poses go to {} or .csv", path.string(),
+                                       format_ == "FBX" ? "an" : "a", format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
 }
 
 void MotionFile::write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const

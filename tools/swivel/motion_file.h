@@ -20,12 +20,12 @@ struct MotionChoice {
 
 class MotionFile {
 public:
-    // Reads .glb, .gltf and .vrm as glTF, everything else as BVH. Throws InputError as the readers do, and CommandError
-    // (bad usage) for a choice that a BVH file does not have.
+    // Reads .glb, .gltf and .vrm as glTF, .fbx and .dae into glTF, everything else as BVH; the suffix in any case.
+    // Throws InputError as the readers do, and CommandError (bad usage) for a choice that a BVH file does not have.
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
 
     const formats::Clip& clip() const;
-    // What the clip is, for people: "clip 'Walk' (3 of 14)", "BVH", "no animation: its rest pose".
+    // What the clip is, for people: "FBX, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
     void require_can_write(const std::filesystem::path& path) const;
@@ -33,9 +33,10 @@ public:
 
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;
+    std::string format_;  // of the file that was read: "BVH", "glTF", "FBX" or "DAE"
 };
 
-// Whether a file of this name holds one character's motion, and of which format.
+// Whether a file of this name, its suffix in any case, holds one character's motion, and of which format.
 bool is_bvh(const std::filesystem::path& path);
 bool is_gltf(const std::filesystem::path& path);
 

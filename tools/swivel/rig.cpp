@@ -218,7 +218,10 @@ void add_rig(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, hinges, and what is missing");
     auto options = std::make_shared<Options>();
-    command->add_option("file", options->file, "Skeleton, with or without motion: .bvh, .glb, .gltf or .vrm")
+    command
+        ->add_option("file", options->file,
+                     "Skeleton, with or without motion: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built "
+                     "with assimp")
         ->required()
         ->check(file_name());
     command->add_option("--limbs", options->kinds, "Which limbs to look for: arms, legs or all")
@@ -226,7 +229,7 @@ void add_rig(CLI::App& app)
         ->check(CLI::IsMember({"arms", "legs", "all"}));
     add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
     command->add_option("--clip", options->motion.clip,
-                        "Animation of a glTF file that shows the hinges, by name or index; else the first");
+                        "Animation of a glTF, FBX or DAE file that shows the hinges, by name or index; else the first");
     command->add_flag("--joints", options->joints, "List every joint, too: number and path");
     add_json(*command, options->json);
     command->callback([options] { run(*options); });

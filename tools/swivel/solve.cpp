@@ -16,6 +16,8 @@
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
+#include "tools/formats/scene_import.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/common_options.h"
@@ -59,14 +61,17 @@ enum class OutKind { none, motion, csv };
 OutKind out_kind(const Options& options, std::uint32_t characters)
 {
     if (options.out.empty()) return OutKind::none;
-    const std::string suffix = std::filesystem::path(options.out).extension().string();
+    const std::string suffix = formats::lower_suffix(options.out);
     if (suffix == ".csv") return OutKind::csv;
+    if (formats::is_scene(options.out))
+        throw CommandError(
+            2, fmt::format("--out {}: FBX and DAE are read, not written; use .glb, .gltf or .csv", options.out));
     if (!is_bvh(options.out) && !is_gltf(options.out))
         throw CommandError(
             2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf or .csv", options.out));
     if (characters > 1)
         throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", options.out,
-                                          suffix == ".bvh" ? "BVH" : "glTF", characters));
+                                          is_bvh(options.out) ? "BVH" : "glTF", characters));
     return OutKind::motion;
 }
 
@@ -146,8 +151,7 @@ void run(const Options& options)
     const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const MotionFile file(options.clip, options.motion);
-    if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".csv")
-        file.require_can_write(options.out);
+    if (!options.out.empty() && formats::lower_suffix(options.out) != ".csv") file.require_can_write(options.out);
     const Job job = make_job(options, choice, file.clip());
     const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed, job.missing};
     if (!options.json) print_clip(facts, file.clip(), job.limbs);
@@ -172,19 +176,24 @@ void run(const Options& options)
 
 void add_solve(CLI::App& app)
 {
-    CLI::App* command =
-        app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
+    CLI::App* command = app.add_subcommand(
+        "solve", "Solve the arms and legs of a BVH, glTF, FBX or DAE clip, or of a crowd that performs it");
     auto options = std::make_shared<Options>();
-    command->add_option("clip", options->clip, "Motion file: .bvh, .glb, .gltf or .vrm")
+    command
+        ->add_option(
+            "clip", options->clip,
+            "Motion file: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel info)")
         ->required()
         ->check(file_name());
-    command->add_option("--clip", options->motion.clip,
-                        "Animation of a glTF file, by name or, counted from 0, index; else the first; a file without "
-                        "animations is solved in its rest pose");
+    command->add_option(
+        "--clip", options->motion.clip,
+        "Animation of a glTF, FBX or DAE file, by name or, counted from 0, index; else the first; a file without "
+        "animations is solved in its rest pose");
     command
-        ->add_option("--fps", options->motion.rate,
-                     "Sample a glTF animation so many times a second; else its keys are the frames, or 60 a second "
-                     "where they lie on no even grid")
+        ->add_option(
+            "--fps", options->motion.rate,
+            "Sample a glTF, FBX or DAE animation so many times a second; else its keys are the frames, or 60 a second "
+            "where they lie on no even grid")
         ->check(number(0.001, 10'000));
     command
         ->add_option("--targets", options->targets,
@@ -203,7 +212,8 @@ void add_solve(CLI::App& app)
     command
         ->add_option("--out", options->out,
                      "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
-                     "else of the asset is kept), or .csv; without it statistics only")
+                     "else of the asset is kept), of an FBX or DAE clip .glb and .gltf, or .csv; without it "
+                     "statistics only")
         ->check(file_name());
     command
         ->add_option("--limbs", options->kinds,

@@ -1,0 +1,26 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// An assimp scene as glTF 2.0, for all that goes on with glTF. assimp has an exporter of its own, which is not used:
+// 5.2 fails on some scenes without a reason (box_nested_animation.dae of its own models), leaves an FBX file's axes and
+// unit as they are, has one skin for all meshes, and writes weights and texture names that Khronos' validator calls
+// errors. Kept are:
+// - nodes with their names and rest poses, in glTF's axes and metres;
+// - every animation of nodes: LINEAR keys at assimp's own times, in seconds. assimp says no other interpolation. Keys
+//   before 0 move the whole animation to start there; of keys at one time the later comes a float's last digit later;
+//   no ticks per second: 25;
+// - triangles with normals, one set of texture coordinates, skins, and a material's colour and its PNG or JPEG.
+// Cameras, lights, morph targets, lines, points and everything else of the file are not kept.
+
+#include <filesystem>
+
+#include "tools/formats/gltf_container.h"
+
+struct aiScene;
+
+namespace swivel::formats {
+
+// scene: as assimp reads it, triangulated, with a root node. path: where from, for messages and textures beside it.
+// Throws InputError for a key that is not finite, and for a name of an animated node or a bone that several nodes have.
+GltfContainer gltf_of(const aiScene& scene, const std::filesystem::path& path);
+
+}  // namespace swivel::formats

@@ -1,0 +1,44 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// The nodes of an assimp scene, numbered as the glTF made of it numbers them, in glTF's axes and metres. Owns the
+// names by which assimp's animations and bones mean nodes; knows neither keys nor meshes.
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+struct aiNode;
+struct aiScene;
+
+namespace swivel::formats {
+
+struct SceneNodes {
+    std::filesystem::path path;          // for messages
+    std::vector<const aiNode*> nodes;    // parents before children; the root first
+    std::vector<int> parents;            // -1: the root
+    std::vector<Eigen::Matrix4d> local;  // against the parent, at rest
+    std::multimap<std::string, int> by_name;
+};
+
+// Every node of the scene. An FBX file's own axes and unit, which assimp leaves to its caller, become the root's
+// transform: +Y up and metres.
+SceneNodes nodes_of(const aiScene& scene, const std::filesystem::path& path);
+
+// The node of a name; -1: none has it. Throws InputError where several have it: nothing says which is meant.
+// use: what the name is for, "animation 'Walk' moves".
+int node_named(const SceneNodes& nodes, const std::string& name, const std::string& use);
+
+// From a node's space to the world's, at rest.
+Eigen::Matrix4d world_of(const SceneNodes& nodes, int node);
+
+// A transform in the parts that glTF animates.
+struct NodeParts {
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero(), scale = Eigen::Vector3d::Ones();
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    bool is_whole = true;  // false: a shear, or a scale of nothing along one axis, that the parts cannot say
+};
+NodeParts parts_of(const Eigen::Matrix4d& transform);
+
+}  // namespace swivel::formats
