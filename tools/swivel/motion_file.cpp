@@ -49,6 +49,12 @@ std::string MotionFile::describe() const
                        gltf->animation_names.size());
 }
 
+std::size_t MotionFile::mended_vertex_count() const
+{
+    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
+    return gltf ? formats::mended_vertex_count(*gltf) : 0;
+}
+
 void MotionFile::require_can_write(const std::filesystem::path& path) const
 {
     const bool is_own = std::holds_alternative<GltfFile>(file_) ? is_gltf(path) : is_bvh(path);
