@@ -110,12 +110,13 @@ TEST_CASE("gltf buffers: a GLB's chunk is its first buffer's alone")
     const auto read = [&](const json& buffers, const std::string& chunk) {
         whole["buffers"] = buffers;
         spill(folder / "rig.glb", GltfRig::glb(whole.dump(), chunk));
-        return read_gltf(folder / "rig.glb").buffers.size();
+        const GltfFile file = read_gltf(folder / "rig.glb");
+        return file.buffers == std::vector<std::string>{moving_rig().bytes};
     };
     const json own = {{"byteLength", 32}};
     const std::string bytes = moving_rig().bytes;
-    CHECK(read(json::array({own}), bytes) == 1);
-    CHECK(read(json::array({own}), bytes + "padding.") == 1);
+    CHECK(read(json::array({own}), bytes));
+    CHECK(read(json::array({own}), bytes + "padding."));
     CHECK_THROWS_WITH(read(json::array({own, own}), bytes), Contains("buffer 1 has no uri"));
     CHECK_THROWS_WITH(read(json::array({own}), ""),
                       Contains("buffer 0 has 32 bytes by its byteLength and 0 in the GLB's chunk"));

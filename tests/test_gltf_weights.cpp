@@ -13,6 +13,7 @@
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
+#include "tools/formats/error.h"
 #include "tools/formats/gltf.h"
 
 using namespace swivel::test;
@@ -152,6 +153,7 @@ TEST_CASE("gltf weights: those that do not add up are divided by their sum, all 
         CHECK(whole[name].size() == made.rig.json[name].size() + size);
         whole[name].get_ref<json::array_t&>().resize(made.rig.json[name].size());
     }
+    CHECK(after.json["bufferViews"].back()["target"] == 34962);
     whole.erase("buffers");
     CHECK(whole == made.rig.json);
 }
@@ -182,6 +184,31 @@ TEST_CASE("gltf weights: a vertex' sets count together; random ones keep their r
         for (std::size_t n = 0; n < 8; ++n) worst = std::max(worst, std::abs(at(found, n) - at(sets, n) / sum));
     }
     CHECK(worst < 6e-8);
+}
+
+TEST_CASE("gltf weights: those are mended that the validator complains of, and no others")
+{
+    const TempFolder folder;
+    constexpr std::size_t count = 2000;
+    WeightedRig made(count);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> any(-1, 1);
+    std::vector<float> weights(4 * count);
+    for (std::size_t n = 0; n < weights.size(); n += 4) {
+        const double first = 0.5 + 0.4 * any(random);
+        weights[n] = static_cast<float>(first);
+        weights[n + 1] = static_cast<float>(1 - first + 1e-6 * any(random));  // 4e-7 is allowed
+    }
+    made.add_primitive<float>({weights});
+    made.rig.write(folder / "bad.glb");
+    const std::size_t bad = count_of(gltf_errors(folder / "bad.glb"), "WEIGHTS_NON_NORMALIZED");
+    CHECK(bad > count / 4);
+    CHECK(bad < count);
+    const std::vector<float> found = weights_of(mended(made.rig, folder, bad), 0);
+    std::size_t changed = 0;
+    for (std::size_t n = 0; n < weights.size(); n += 4)
+        changed += found[n] != weights[n] || found[n + 1] != weights[n + 1];
+    CHECK(changed <= bad);
 }
 
 TEST_CASE("gltf weights: normalised integers and sparse weights")
@@ -262,6 +289,33 @@ TEST_CASE("gltf weights: what cannot be read or has no sum is left as it is")
         made.rig.write(folder / "rig.glb");
         CHECK(read_gltf(folder / "rig.glb").weights.empty());
     }
+}
+
+TEST_CASE("gltf weights: a broken mesh is read or refused, never worse")
+{
+    const TempFolder folder;
+    WeightedRig made(3);
+    made.add_primitive<float>({{0.5f, 0, 0, 0, 0.2f, 0, 0, 0, 1, 0, 0, 0}, {0.2f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}});
+    made.add_primitive<std::uint8_t>({{100, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0}});
+    made.rig.write(folder / "good.glb");
+    const std::string good = slurp(folder / "good.glb");
+    std::mt19937 random(5);
+    int read = 0, mended = 0;
+    for (int round = 0; round < 1000; ++round) {
+        spill(folder / "bad.glb", mutated(good, random));
+        try {
+            const GltfFile file = read_gltf(folder / "bad.glb");
+            ++read;
+            mended += mended_vertex_count(file) > 0;
+            write_gltf(folder / "new.glb", file, {});
+            CHECK(mended_vertex_count(read_gltf(folder / "new.glb")) == 0);
+        } catch (const InputError& error) {
+            CHECK(std::string_view(error.what()).find('\n') == std::string_view::npos);
+        }
+    }
+    CHECK(mended > 50);
+    CHECK(read > mended);
+    CHECK(read < 1000);
 }
 
 TEST_CASE("gltf weights: solve says what it mended, where it writes the file")
