@@ -6,11 +6,10 @@
 // - Every node is a joint, so that what lies above a skeleton (an armature with its scale) counts. Nodes that a skin
 //   names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is "#12".
 // - The rest pose is the nodes' own transforms. A matrix is taken apart into translation, rotation and scale.
-// - The clip is sampled at frames: all keys of nodes where these lie on one even grid that is fine enough for what
-// moves
-//   on it, 24 a second or more, 60 or more for CUBICSPLINE, any for STEP. A coarser grid is divided into equal parts,
-//   60 a second or more, so that its keys stay frames. Keys on no such grid are sampled evenly from first to last, 60
-//   times a second. So is everything at the rate asked for, if any is.
+// - The clip is sampled at frames. All keys of nodes are frames where they lie on one even grid that is fine enough for
+//   what moves on it: 24 a second or more, 60 or more for CUBICSPLINE, any for STEP. A coarser grid is divided into
+//   equal parts, 60 a second or more, so that its keys stay frames. Keys on no grid are sampled evenly from first to
+//   last, 60 times a second. So is everything at the rate asked for, if any is.
 // - No animation: the clip is one frame, the rest pose, and writing adds an animation of one key.
 // Images are neither decoded nor needed. Meshes are read for their skin weights alone. Animated weights of morphs,
 // visibility and other targets than nodes' own poses are kept, not read.
@@ -51,7 +50,8 @@ struct GltfFile {
     std::vector<GltfWeights> weights;  // skin weights that do not add up to 1, as they will be written
 };
 
-// The vertices whose skin weights in the file do not add up to 1, as glTF asks; in written files they do.
+// The vertices whose skin weights in the file do not add up to 1, as glTF asks, and in written files do; see
+// mended_weights() for those left as they are.
 std::size_t mended_vertex_count(const GltfFile& file);
 
 struct GltfChoice {
@@ -62,8 +62,9 @@ struct GltfChoice {
 // Reads and checks a whole file. Throws InputError for anything malformed that concerns the skeleton or the chosen
 // animation; for buffers that are missing, compressed, shorter than they say, or elsewhere than in the file or in plain
 // files at addresses relative to it; for numbers that are not finite, an animation that does not exist or whose name is
-// not unique, and poses or keys beyond 8 GiB. Meshes never make it fail. Holds the file about twice, 32 bytes a
-// frame and joint, 24 a frame for each translation and scale that has keys, and the skin weights that must be mended.
+// not unique, and poses or keys beyond 8 GiB. Meshes make it fail only if an accessor, buffer view or buffer has
+// members of a wrong type. Holds the file about twice, its JSON thrice while it reads, 32 bytes a frame and joint, 24 a
+// frame for each translation and scale that has keys, and the skin weights that must be mended.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
 // Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: STEP for a joint

@@ -9,8 +9,6 @@
 #include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <stdexcept>
 #include <system_error>
 
 #include "tools/formats/error.h"
