@@ -111,21 +111,6 @@ TEST_CASE("gltf: every kind of key is evaluated as the specification says, and a
     }
 }
 
-TEST_CASE("gltf: keys on an even grid are the frames, others are sampled 60 times a second")
-{
-    const TempFolder folder;
-    keyed_rig().write(folder / "rig.glb");
-    const GltfFile grid = read_gltf(folder / "rig.glb", {"main"});
-    CHECK(grid.times == std::vector<float>{0, 0.25f, 0.5f, 0.75f, 1});
-    CHECK(grid.clip.frame_time == Approx(0.25));
-    GltfRig rig = keyed_rig();
-    rig.add_keys(1, 0, "translation", {0, 0.337f}, {0, 0, 0, 1, 1, 1});
-    rig.write(folder / "odd.glb");
-    const GltfFile odd = read_gltf(folder / "odd.glb", {"1"});
-    CHECK(odd.times.size() == 61);
-    CHECK(difference(odd, plain_gltf_of(folder / "odd.glb")) < 1e-12);
-}
-
 TEST_CASE("gltf: matrices, mirrors and uneven scales")
 {
     const TempFolder folder;

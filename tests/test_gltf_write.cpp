@@ -103,7 +103,7 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
     for (const char* from : {"in/rig.gltf", "in/rig.glb"})
         for (const char* to : {"out put/new.gltf", "out put/new.glb", "in/new.gltf"}) {
             INFO(from << " to " << to);
-            const GltfFile file = read_gltf(folder / from, {"wave"});
+            const GltfFile file = read_gltf(folder / from, {"wave", 2});
             const auto arm = turns(3, 0.4), fore = turns(3, -0.3), hand = turns(3, 0.1);
             const RotationOverride changes[] = {
                 {joint_of(file, 1), arm}, {joint_of(file, 2), fore}, {joint_of(file, 3), hand}};
@@ -173,7 +173,7 @@ TEST_CASE("gltf write: successive keys lie on one side, and move evenly unless a
     const TempFolder folder;
     GltfRig rig = furnished_rig();
     rig.write(folder / "rig.glb");
-    const GltfFile file = read_gltf(folder / "rig.glb", {"rest"});
+    const GltfFile file = read_gltf(folder / "rig.glb", {"rest", 2});
     const auto arm = turns(3, 2.0);
     const RotationOverride change[] = {{joint_of(file, 1), arm}};
     write_gltf(folder / "rig.glb", file, change);  // onto itself
@@ -241,7 +241,7 @@ TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
 {
     const TempFolder folder;
     furnished_rig().write(folder / "rig.glb");
-    const GltfFile file = read_gltf(folder / "rig.glb");
+    const GltfFile file = read_gltf(folder / "rig.glb", {"wave", 2});
     const auto good = turns(3, 1), few = turns(2, 1);
     std::vector<Quaterniond> zero = good;
     zero[1].coeffs().setZero();
@@ -261,7 +261,7 @@ TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
     CHECK(folder.file_count() == 1);
 }
 
-TEST_CASE("gltf write: real files gain no error")
+TEST_CASE("gltf write: real files come out without errors")
 {
     for (const char* name : {"RobotExpressive.glb", "m2m_human_ymca.glb", "m2m_human_male.glb", "cesium_man.gltf",
                              "simple_skin/simple_skin.gltf"}) {
@@ -276,7 +276,7 @@ TEST_CASE("gltf write: real files gain no error")
         const auto turned = turns(file.clip.frame_count, 0.1);
         const RotationOverride change[] = {{static_cast<int>(file.clip.joints.size()) - 1, turned}};
         write_gltf(folder / "new.glb", file, change);
-        CHECK(gltf_errors(folder / "new.glb") == gltf_errors(path));
+        CHECK(gltf_errors(folder / "new.glb").empty());
         const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / "new.glb");
         CHECK(after.buffers[0].substr(0, before.buffers[0].size()) == before.buffers[0]);
     }

@@ -59,21 +59,14 @@ void solve_back(const fs::path& path, int index, const std::string& limbs, const
     CHECK(worst.lower_straight <= 1e-5);  // holds for these files; what a float knows of a straight limb is less
 }
 
-// Each file has the validator's errors that the first has, and no other: some sources have errors of their own.
-void require_same_errors(const std::vector<fs::path>& files)
+// No file has an error, whatever errors its source had.
+void require_no_errors(const std::vector<fs::path>& files)
 {
     std::vector<std::string> arguments = {"validate"};
     for (const fs::path& file : files) arguments.push_back(file.string());
-    const json reports = ask_check(arguments);
-    const auto errors_of = [](const json& report) {
-        std::multiset<std::string> errors;
-        for (const json& message : report.at("messages"))
-            if (message.at("severity") == 0) errors.insert(message.dump());
-        return errors;
-    };
-    for (const json& report : reports) {
-        INFO(report.at("file"));
-        CHECK(errors_of(report) == errors_of(reports[0]));
+    for (const json& report : ask_check(arguments)) {
+        INFO(report.dump());
+        CHECK(report.at("errors") == 0);
     }
 }
 
@@ -81,7 +74,7 @@ void solve_back_alone(const fs::path& path, int index, const std::vector<std::st
 {
     const TempFolder folder;
     solve_back(path, index, "all", folder / "out.glb", options);
-    require_same_errors({path, folder / "out.glb"});
+    require_no_errors({folder / "out.glb"});
 }
 
 // A real file, or an empty path where this machine keeps none; a folder that was named must have it.
@@ -142,12 +135,12 @@ TEST_CASE("rigs: RobotExpressive, every animation")
     const fs::path path = find_or_warn("RobotExpressive.glb");
     if (path.empty()) return;
     const TempFolder folder;
-    std::vector<fs::path> files = {path};
+    std::vector<fs::path> files;
     for (int index = 0; index < 14; ++index) {
         files.push_back(folder / (std::to_string(index) + ".glb"));
         solve_back(path, index, "arms", files.back());
     }
-    require_same_errors(files);
+    require_no_errors(files);
     const json report = rig_report(path);
     CHECK(report["limbs"][0]["named_as"] == "Quaternius");
     CHECK(report["limbs"][0]["scale"].get<double>() == Approx(100));

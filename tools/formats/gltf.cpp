@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// tinygltf reads a reduced document (skeleton_json()), so that neither images nor meshes get in the way and nothing is
-// decoded that no pose needs. It does not write: it would drop or reorder what it does not know. The writer edits the
-// text itself, so that untouched values stay as they are and buffers stay byte for byte.
+// tinygltf reads a reduced document (skeleton_json()), so that neither images nor meshes get in the way, and no
+// buffers: it looks for them in the current folder, too, and wants files of just the length that a buffer has. It does
+// not write: it would drop or reorder what it does not know. The writer edits the text itself, so that untouched values
+// stay as they are and buffers stay byte for byte.
 #include "tools/formats/gltf.h"
 
 #include <fmt/format.h>
@@ -9,16 +10,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "tools/formats/error.h"
+#include "tools/formats/gltf_accessor.h"
+#include "tools/formats/gltf_buffers.h"
 #include "tools/formats/gltf_frames.h"
 #include "tools/formats/gltf_json.h"
-#include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -43,125 +46,23 @@ bool all_finite(const std::vector<double>& values)
     return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-// ---- the text and the buffers
-
-tinygltf::Model load(GltfFile& file)
+// Nodes, skins, animations and what these refer to, but no bytes.
+tinygltf::Model load(const std::filesystem::path& path, const nlohmann::ordered_json& document)
 {
-    GltfContainer part = file.container;
-    part.json = skeleton_json(file.path, file.container.json);
-    part.other_chunks.clear();
-    const std::string glb = part.is_binary ? glb_of(part) : std::string();
-    const std::string folder = file.path.parent_path().string();
+    const std::string json = skeleton_json(document);
     tinygltf::TinyGLTF loader;
     tinygltf::Model model;
     std::string error, warning;
     bool is_read = false;
     try {
-        is_read = part.is_binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                                               reinterpret_cast<const unsigned char*>(glb.data()),
-                                                               static_cast<unsigned>(glb.size()), folder)
-                                 : loader.LoadASCIIFromString(&model, &error, &warning, part.json.data(),
-                                                              static_cast<unsigned>(part.json.size()), folder);
+        is_read = loader.LoadASCIIFromString(&model, &error, &warning, json.data(), static_cast<unsigned>(json.size()),
+                                             std::string());
     } catch (const std::exception& thrown) {
         error = thrown.what();
     }
-    if (!is_read) {
-        std::replace(error.begin(), error.end(), '\n', ' ');
-        refuse(file, fmt::format("is not sound glTF: {}", printable(trimmed(error), 200)));
-    }
-    for (const tinygltf::Buffer& buffer : model.buffers)
-        file.buffers.emplace_back(buffer.data.begin(), buffer.data.end());
-    return model;
-}
-
-// ---- accessors
-
-double component(const char* at, int type, bool is_normalized)
-{
-    const auto read = [&](auto zero, double full) {
-        std::memcpy(&zero, at, sizeof zero);
-        const auto value = static_cast<double>(zero);
-        return is_normalized ? std::max(value / full, -1.0) : value;
-    };
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return read(std::int8_t{}, 127);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return read(std::uint8_t{}, 255);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return read(std::int16_t{}, 32767);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return read(std::uint16_t{}, 65535);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return read(std::uint32_t{}, 1);
-        default:  // float: read_view() lets no other pass
-            return read(float{}, 1);
-    }
-}
-
-// `count` elements of `width` components in a buffer view, checked to lie in it.
-std::vector<double> read_view(const GltfFile& file, const tinygltf::Model& model, int view_index, std::size_t offset,
-                              std::size_t count, std::size_t width, int type, bool is_normalized)
-{
-    const tinygltf::BufferView& view = element(file, model.bufferViews, view_index, "buffer view");
-    const auto& bytes = element(file, model.buffers, view.buffer, "buffer").data;
-    const auto size =
-        static_cast<std::size_t>(std::max(tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(type)), 0));
-    const bool is_legal = (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) ||
-                          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT || type == TINYGLTF_COMPONENT_TYPE_FLOAT;
-    if (!is_legal)
-        refuse(file,
-               fmt::format("component type {} of an accessor in buffer view {} does not exist", type, view_index));
-    const std::size_t stride = view.byteStride > 0 ? view.byteStride : size * width;
-    const bool fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset &&
-                      offset <= view.byteLength && count <= bytes.size() &&
-                      (count == 0 || (count - 1) * stride + size * width <= view.byteLength - offset);
-    if (!fits)
-        refuse(file,
-               fmt::format("an accessor reads beyond the end of buffer view {}; the file is cut short", view_index));
-    std::vector<double> values;
-    values.reserve(count * width);
-    for (std::size_t n = 0; n < count * width; ++n)
-        values.push_back(component(reinterpret_cast<const char*>(bytes.data()) + view.byteOffset + offset +
-                                       n / width * stride + n % width * size,
-                                   type, is_normalized));
-    return values;
-}
-
-// expected: how many elements there must be, so that no file makes more room than its keys need; 0: any number, but
-// then they must be bytes of the file.
-std::vector<double> read_accessor(const GltfFile& file, const tinygltf::Model& model, int index, int type,
-                                  std::size_t expected)
-{
-    const tinygltf::Accessor& at = element(file, model.accessors, index, "accessor");
-    if (at.type != type) refuse(file, fmt::format("accessor {} of an animation has the wrong type", index));
-    const auto width = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<unsigned>(type)));
-    if (expected > 0 && at.count != expected)
-        refuse(file, fmt::format("accessor {} and its times have different numbers of keys: {} elements, {} are needed",
-                                 index, at.count, expected));
-    if (expected == 0 && at.bufferView < 0)
-        refuse(file, fmt::format("accessor {} of an animation's times has no buffer view", index));
-    if (at.count == 0 || at.count > std::size_t{1} << 28)
-        refuse(file, fmt::format("accessor {} of an animation has {} keys", index, at.count));
-    std::vector<double> values(at.bufferView < 0 ? at.count * width : 0);
-    if (at.bufferView >= 0)
-        values = read_view(file, model, at.bufferView, at.byteOffset, at.count, width, at.componentType, at.normalized);
-    if (at.sparse.isSparse) {
-        const auto count = static_cast<std::size_t>(std::max(at.sparse.count, 0));
-        const auto offset = [](int bytes) { return static_cast<std::size_t>(std::max(bytes, 0)); };
-        const auto places = read_view(file, model, at.sparse.indices.bufferView, offset(at.sparse.indices.byteOffset),
-                                      count, 1, at.sparse.indices.componentType, false);
-        const auto patches = read_view(file, model, at.sparse.values.bufferView, offset(at.sparse.values.byteOffset),
-                                       count, width, at.componentType, at.normalized);
-        for (std::size_t n = 0; n < count; ++n) {
-            if (!(places[n] >= 0 && places[n] < static_cast<double>(at.count)))
-                refuse(file, fmt::format("a sparse index of accessor {} is out of its range", index));
-            std::copy_n(patches.begin() + static_cast<std::ptrdiff_t>(n * width), width,
-                        values.begin() + static_cast<std::ptrdiff_t>(places[n]) * static_cast<std::ptrdiff_t>(width));
-        }
-    }
-    if (!all_finite(values)) refuse(file, fmt::format("accessor {} holds a number that is not finite", index));
-    return values;
+    if (is_read) return model;
+    std::replace(error.begin(), error.end(), '\n', ' ');
+    throw InputError(path, fmt::format("is not sound glTF: {}", printable(trimmed(error), 200)));
 }
 
 // ---- the skeleton
@@ -263,24 +164,28 @@ int choose_animation(const GltfFile& file, const std::string& wanted)
                                  : fmt::format("it has no animation '{}'; it has {}", printable(wanted), all));
 }
 
-GltfSampler read_sampler(const GltfFile& file, const tinygltf::Model& model, const tinygltf::AnimationSampler& from,
-                         GltfPath path)
+Interpolation interpolation_of(const GltfFile& file, const tinygltf::AnimationSampler& from)
 {
-    GltfSampler sampler;
-    if (from.interpolation == "STEP")
-        sampler.interpolation = Interpolation::step;
-    else if (from.interpolation == "CUBICSPLINE")
-        sampler.interpolation = Interpolation::cubic;
-    else if (!from.interpolation.empty() && from.interpolation != "LINEAR")
+    if (from.interpolation == "STEP") return Interpolation::step;
+    if (from.interpolation == "CUBICSPLINE") return Interpolation::cubic;
+    if (!from.interpolation.empty() && from.interpolation != "LINEAR")
         refuse(file, fmt::format("interpolation '{}' is unknown", printable(from.interpolation)));
-    sampler.time = read_accessor(file, model, from.input, TINYGLTF_TYPE_SCALAR, 0);
+    return Interpolation::linear;
+}
+
+GltfSampler read_sampler(const GltfFile& file, const tinygltf::Model& model, const tinygltf::AnimationSampler& from,
+                         bool is_rotation)
+{
+    const GltfData data{file.path, model, file.buffers};
+    GltfSampler sampler;
+    sampler.interpolation = interpolation_of(file, from);
+    sampler.time = read_accessor(data, from.input, TINYGLTF_TYPE_SCALAR, 0);
     for (std::size_t n = 1; n < sampler.time.size(); ++n)
         if (!(sampler.time[n] > sampler.time[n - 1]))
             refuse(file, fmt::format("times in accessor {} do not grow", from.input));
-    const bool is_rotation = path == GltfPath::rotation;
     const std::size_t width = is_rotation ? 4 : 3;
     const std::size_t each = sampler.interpolation == Interpolation::cubic ? 3 : 1;
-    const auto values = read_accessor(file, model, from.output, is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
+    const auto values = read_accessor(data, from.output, is_rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3,
                                       each * sampler.time.size());
     for (std::size_t n = 0; n < values.size(); n += width) {
         Vector4d value = Vector4d::Zero();
@@ -293,10 +198,35 @@ GltfSampler read_sampler(const GltfFile& file, const tinygltf::Model& model, con
     return sampler;
 }
 
+// Samplers of the animation that are in use, each once: by accessors, interpolation, and whether of rotations. Many
+// channels may share one, and many samplers the same accessors.
+class Samplers {
+public:
+    // Its place in file.samplers.
+    std::size_t place(GltfFile& file, const tinygltf::Model& model, const tinygltf::AnimationSampler& from,
+                      bool is_rotation)
+    {
+        const auto [at, is_new] = places_.try_emplace(
+            {from.input, from.output, interpolation_of(file, from), is_rotation}, file.samplers.size());
+        if (!is_new) return at->second;
+        file.samplers.push_back(read_sampler(file, model, from, is_rotation));
+        bytes_ +=
+            file.samplers.back().time.size() * sizeof(double) + file.samplers.back().value.size() * sizeof(Vector4d);
+        if (bytes_ > kMostPoseBytes)
+            refuse(file, fmt::format("the keys of animation {} come to more than 8 GiB; cut it", file.animation));
+        return at->second;
+    }
+
+private:
+    std::map<std::tuple<int, int, Interpolation, bool>, std::size_t> places_;
+    std::size_t bytes_ = 0;
+};
+
 void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vector<int>& joint_of)
 {
     const tinygltf::Animation& animation = model.animations[static_cast<std::size_t>(file.animation)];
     std::set<std::pair<int, GltfPath>> seen;
+    Samplers samplers;
     for (const tinygltf::AnimationChannel& from : animation.channels) {
         const auto is = [&](const char* path) { return from.target_path == path; };
         if (from.target_node < 0 || !(is("translation") || is("rotation") || is("scale"))) continue;
@@ -307,9 +237,9 @@ void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vect
         if (!seen.emplace(channel.joint, channel.path).second)
             refuse(file, fmt::format("two channels of animation {} are for the {} of node {}; glTF allows one",
                                      file.animation, from.target_path, from.target_node));
-        channel.sampler =
-            read_sampler(file, model, element(file, animation.samplers, from.sampler, "sampler"), channel.path);
-        file.channels.push_back(std::move(channel));
+        channel.sampler = samplers.place(file, model, element(file, animation.samplers, from.sampler, "sampler"),
+                                         channel.path == GltfPath::rotation);
+        file.channels.push_back(channel);
     }
 }
 
@@ -325,13 +255,16 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     GltfFile file;
     file.path = path;
     file.container = std::move(container);
-    const tinygltf::Model model = load(file);
+    const nlohmann::ordered_json document = gltf_document(path, file.container.json);
+    file.buffers = read_gltf_buffers(path, document, file.container);
+    const tinygltf::Model model = load(path, document);
     const std::vector<int> joint_of = read_nodes(file, model);
     if (file.clip.joints.empty()) refuse(file, "it has no nodes, so no skeleton");
     for (const tinygltf::Animation& animation : model.animations) file.animation_names.push_back(animation.name);
     file.animation = choose_animation(file, choice.animation);
     if (file.animation >= 0) read_channels(file, model, joint_of);
     sample_frames(file, choice.rate);
+    file.weights = mended_weights({file.path, model, file.buffers}, document);
     return file;
 }
 

@@ -1,17 +1,21 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its clip, and keeps the rest
-// of the asset as it is; writing puts new rotations into that animation and leaves everything else alone. Conventions:
+// of the asset as it is; writing puts new rotations into that animation, makes skin weights add up as they must, and
+// leaves everything else alone. Conventions:
 // - Every node is a joint, so that what lies above a skeleton (an armature with its scale) counts. Nodes that a skin
 //   names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is "#12".
 // - The rest pose is the nodes' own transforms. A matrix is taken apart into translation, rotation and scale.
-// - The animation's keys become frames. If all keys of nodes lie on one even grid, a frame is a key; otherwise it
-//   is sampled evenly from its first key to its last, 60 times a second or at the rate asked for.
+// - The clip is sampled at frames. All keys of nodes are frames where they lie on one even grid that is fine enough for
+//   what moves on it: 24 a second or more, 60 or more for CUBICSPLINE, any for STEP. A coarser grid is divided into
+//   equal parts, 60 a second or more, so that its keys stay frames. Keys on no grid are sampled evenly from first to
+//   last, 60 times a second. So is everything at the rate asked for, if any is.
 // - No animation: the clip is one frame, the rest pose, and writing adds an animation of one key.
-// Images are neither decoded nor needed. Weights, visibility and other targets than nodes' own poses are kept, not
-// read.
+// Images are neither decoded nor needed. Meshes are read for their skin weights alone. Animated weights of morphs,
+// visibility and other targets than nodes' own poses are kept, not read.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -21,6 +25,7 @@
 #include "tools/formats/clip.h"
 #include "tools/formats/gltf_container.h"
 #include "tools/formats/gltf_sampler.h"
+#include "tools/formats/gltf_weights.h"
 
 namespace swivel::formats {
 
@@ -29,7 +34,7 @@ enum class GltfPath : std::uint8_t { translation, rotation, scale };
 struct GltfChannel {
     int joint = -1;  // of the clip
     GltfPath path = GltfPath::rotation;
-    GltfSampler sampler;
+    std::size_t sampler = 0;  // in GltfFile::samplers; channels may share one
 };
 
 struct GltfFile {
@@ -38,10 +43,16 @@ struct GltfFile {
     std::vector<std::string> buffers;          // contents of the file's buffers, wherever they are kept
     std::vector<std::string> animation_names;  // of all animations; may be empty or repeat
     int animation = -1;                        // which one `clip` is; -1: there is none
-    std::vector<GltfChannel> channels;         // of that animation
+    std::vector<GltfChannel> channels;         // of that animation, those of nodes' own poses
+    std::vector<GltfSampler> samplers;         // of these channels, each once
     std::vector<float> times;                  // of the clip's frames, strictly increasing seconds
     Clip clip;
+    std::vector<GltfWeights> weights;  // skin weights that do not add up to 1, as they will be written
 };
+
+// The vertices whose skin weights in the file do not add up to 1, as glTF asks, and in written files do; see
+// mended_weights() for those left as they are.
+std::size_t mended_vertex_count(const GltfFile& file);
 
 struct GltfChoice {
     std::string animation = {};  // name or, counted from 0, index; empty: the first
@@ -49,16 +60,21 @@ struct GltfChoice {
 };
 
 // Reads and checks a whole file. Throws InputError for anything malformed that concerns the skeleton or the chosen
-// animation, buffers that are missing or compressed, numbers that are not finite, an animation that does not exist or
-// whose name is not unique, or poses beyond 8 GiB. Holds the file about twice, and 32 bytes a frame and joint.
+// animation; for buffers that are missing, compressed, shorter than they say, or elsewhere than in the file or in plain
+// files at addresses relative to it; for numbers that are not finite, an animation that does not exist or whose name is
+// not unique, and poses or keys beyond 8 GiB. Meshes make it fail only if an accessor, buffer view or buffer has
+// members of a wrong type. Holds the file about twice, its JSON thrice while it reads, 32 bytes a frame and joint, 24 a
+// frame for each translation and scale that has keys, and the skin weights that must be mended.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
 // The same of a file that is in memory already. path: what messages call it, and what its files lie beside.
 GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice);
 
-// Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: LINEAR, or STEP
-// where the joints overridden moved by steps before. Where several frames' keys lie apart, a viewer turns each joint
-// evenly in between. All other JSON is kept value by value, all buffers byte by byte; keys no longer used stay in them.
+// Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: STEP for a joint
+// whose own keys moved by steps, LINEAR for others; a joint that did not move goes by steps if all that did so did.
+// Where several frames' keys lie apart, a viewer turns each joint evenly in between. Skin weights of vertices that do
+// not add up to 1 are replaced by file.weights, in accessors of their own. All other JSON is kept value by value, all
+// buffers byte by byte; keys and weights no longer used stay in them.
 // Joints whose node has a matrix get translation, rotation and scale instead, as animated nodes must.
 // path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). A .glb takes in the
 // buffers and images that lie in files beside the .gltf; a .gltf holds the new keys itself and goes on

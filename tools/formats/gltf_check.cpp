@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,12 +16,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_index(const Json& value)
+constexpr const char *kIndex = "a whole number from 0", *kSize = "a whole number of bytes";
+
+// glTF has whole numbers without a fraction, be it .0; a reader that wants them so takes others for missing.
+bool is_whole(const Json& value, std::uint64_t most)
 {
-    if (!value.is_number()) return false;
-    const auto number = value.get<double>();
-    return number >= 0 && number <= 2147483647 && number == std::floor(number);
+    return value.is_number_integer() && (value.is_number_unsigned() || value.get<std::int64_t>() >= 0) &&
+           value.get<std::uint64_t>() <= most;
 }
+
+bool is_index(const Json& value) { return is_whole(value, INT32_MAX); }
+bool is_size(const Json& value) { return is_whole(value, std::uint64_t{1} << 53); }  // as JSON's numbers go
+bool is_text(const Json& value) { return value.is_string(); }
+bool is_object(const Json& value) { return value.is_object(); }
 
 bool is_numbers(const Json& value, std::size_t count)
 {
@@ -46,14 +53,18 @@ struct Element {
     {
         if (const auto found = object.find(member); found != object.end() && !test(*found)) refuse(member, wanted);
     }
-    void may_have_index(const char* member) const { may_have(member, "a whole number from 0", is_index); }
-    void may_have_text(const char* member) const
+    template <class Test>
+    void must_have(const char* member, const char* wanted, Test&& test) const
     {
-        may_have(member, "a text", [](const Json& value) { return value.is_string(); });
+        const auto found = object.find(member);
+        if (found == object.end() || !test(*found)) refuse(member, wanted);
     }
-    void must_have(const char* member, const char* wanted) const
+    void may_have_text(const char* member) const { may_have(member, "a text", is_text); }
+    // An object in it, and how messages call that.
+    Element part(const char* member, const std::string& call) const
     {
-        if (!object.contains(member)) refuse(member, wanted);
+        must_have(member, "an object", is_object);
+        return {path, call, object.at(member)};
     }
 };
 
@@ -86,22 +97,15 @@ void check_node(const Element& node)
 
 void check_channel(const Element& channel)
 {
-    channel.must_have("sampler", "a whole number from 0");
-    channel.may_have_index("sampler");
-    const auto target = channel.object.find("target");
-    if (target == channel.object.end() || !target->is_object()) channel.refuse("target", "an object");
-    const Element at{channel.path, "the target of " + channel.name, *target};
-    at.may_have_index("node");
-    at.must_have("path", "a text");
-    at.may_have_text("path");
+    channel.must_have("sampler", kIndex, is_index);
+    const Element at = channel.part("target", "the target of " + channel.name);
+    at.may_have("node", kIndex, is_index);
+    at.must_have("path", "a text", is_text);
 }
 
 void check_sampler(const Element& sampler)
 {
-    for (const char* member : {"input", "output"}) {
-        sampler.must_have(member, "a whole number from 0");
-        sampler.may_have_index(member);
-    }
+    for (const char* member : {"input", "output"}) sampler.must_have(member, kIndex, is_index);
     sampler.may_have_text("interpolation");
 }
 
@@ -114,9 +118,37 @@ void check_animation(const Element& animation)
 
 void check_accessor(const Element& accessor)
 {
-    accessor.may_have_index("bufferView");
+    accessor.may_have("bufferView", kIndex, is_index);
+    accessor.may_have("byteOffset", kSize, is_size);
+    accessor.must_have("componentType", kIndex, is_index);
+    accessor.must_have("count", kIndex, is_index);
+    accessor.must_have("type", "a text", is_text);
     accessor.may_have("normalized", "true or false", [](const Json& value) { return value.is_boolean(); });
-    accessor.may_have("sparse", "an object", [](const Json& value) { return value.is_object(); });
+    if (!accessor.object.contains("sparse")) return;
+    const Element sparse = accessor.part("sparse", "the sparse part of " + accessor.name);
+    sparse.must_have("count", kIndex, is_index);
+    for (const char* member : {"indices", "values"}) {
+        const Element part = sparse.part(member, fmt::format("{}, {},", sparse.name, member));
+        part.must_have("bufferView", kIndex, is_index);
+        part.may_have("byteOffset", "a whole number of bytes below 2 GiB", is_index);
+    }
+    sparse.part("indices", sparse.name + ", indices,").must_have("componentType", kIndex, is_index);
+}
+
+void check_view(const Element& view)
+{
+    view.must_have("buffer", kIndex, is_index);
+    view.must_have("byteLength", kSize, is_size);
+    view.may_have("byteOffset", kSize, is_size);
+    view.may_have("byteStride", "a multiple of 4 from 4 to 252", [](const Json& value) {
+        return is_whole(value, 252) && value.get<int>() >= 4 && value.get<int>() % 4 == 0;
+    });
+}
+
+void check_buffer(const Element& buffer)
+{
+    buffer.must_have("byteLength", kSize, is_size);
+    buffer.may_have_text("uri");
 }
 
 }  // namespace
@@ -128,7 +160,8 @@ void check_members(const std::filesystem::path& path, const Json& document)
                [](const Element& skin) { skin.may_have("joints", "a list of nodes", is_indices); });
     check_list(path, document, "animations", "animation", check_animation);
     check_list(path, document, "accessors", "accessor", check_accessor);
-    check_list(path, document, "buffers", "buffer", [](const Element& buffer) { buffer.may_have_text("uri"); });
+    check_list(path, document, "bufferViews", "buffer view", check_view);
+    check_list(path, document, "buffers", "buffer", check_buffer);
 }
 
 }  // namespace swivel::formats

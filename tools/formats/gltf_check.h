@@ -8,7 +8,7 @@
 
 namespace swivel::formats {
 
-// Checks what skeleton_json() keeps of a document: nodes, skins, animations, buffers, and accessors' optional members.
+// Checks what a reader of skeletons needs of a document: nodes, skins, animations, accessors, buffer views and buffers.
 // Throws InputError, naming the element, for a list or an element of a wrong type, and for a member that is missing or
 // is not what the specification says. Allocates little; any number of threads may call it.
 void check_members(const std::filesystem::path& path, const nlohmann::ordered_json& document);

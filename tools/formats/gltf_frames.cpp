@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/formats/error.h"
 
@@ -12,21 +13,23 @@ namespace swivel::formats {
 namespace {
 
 constexpr double kDefaultRate = 60, kRestFrameTime = 1.0 / 30;
-constexpr double kPoseBytes = 8.0 * 1024 * 1024 * 1024;
+// Keys this far apart are frames: films and exporters have 24 a second, and curves are lost between.
+constexpr double kWidestStep = 1.0 / 24, kWidestCurveStep = 1.0 / 60;
+constexpr double kSlack = 0.02;  // of a step: times are floats, which late in a long clip are that coarse
 
 // Every time at which some channel has a key, each once.
 std::vector<double> key_times(const GltfFile& file)
 {
     std::vector<double> times;
-    for (const GltfChannel& channel : file.channels)
-        times.insert(times.end(), channel.sampler.time.begin(), channel.sampler.time.end());
+    for (const GltfSampler& sampler : file.samplers)
+        times.insert(times.end(), sampler.time.begin(), sampler.time.end());
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
 }
 
-// The number of equal steps from the first time to the last that meet every time, to 2% of a step; 0: there is none.
-// Times are floats, which late in a long clip are that coarse. A step is at least a microsecond.
+// The number of equal steps from the first time to the last that meet every time; 0: there is none. A step is at least
+// a microsecond.
 double steps_of_grid(const std::vector<double>& times)
 {
     const double begin = times.front(), length = times.back() - begin;
@@ -38,52 +41,92 @@ double steps_of_grid(const std::vector<double>& times)
     const double steps = std::round(length / smallest);
     for (const double time : times) {
         const double place = (time - begin) / length * steps;
-        if (std::abs(place - std::round(place)) > 0.02) return 0;
+        if (std::abs(place - std::round(place)) > kSlack) return 0;
     }
     return steps;
 }
 
-// Frame times as floats, as they will be written; on a grid the keys' own.
+// How far apart frames may be for what is between keys to be seen. By steps nothing is; what moves evenly asks for
+// frames because a limb that follows it to a target does not turn evenly.
+double widest_step(const GltfFile& file)
+{
+    double step = std::numeric_limits<double>::infinity();
+    for (const GltfSampler& sampler : file.samplers) {
+        if (sampler.interpolation == Interpolation::step || !is_moving(sampler)) continue;
+        step = std::min(step, sampler.interpolation == Interpolation::cubic ? kWidestCurveStep : kWidestStep);
+    }
+    return (1 + kSlack) * step;
+}
+
+// Frames: places in time, with so many equal parts between each two.
+struct Division {
+    double steps, parts;
+    bool is_grid;  // the places are the keys' grid; else the first key and the last
+};
+
+Division divide(const GltfFile& file, const std::vector<double>& keys, double rate)
+{
+    const double length = keys.back() - keys.front();
+    const double grid = rate > 0 ? 0 : steps_of_grid(keys);
+    if (grid == 0) return {1, std::max(std::round(length * (rate > 0 ? rate : kDefaultRate)), 1.0), false};
+    const double step = length / grid;
+    return {grid, step <= widest_step(file) ? 1 : std::ceil(step * kDefaultRate - kSlack), true};
+}
+
+std::size_t frame_bytes(const Clip& clip)
+{
+    return clip.joints.size() * sizeof(Eigen::Quaterniond) +
+           (clip.track_count + clip.scale_track_count) * sizeof(Eigen::Vector3d);
+}
+
+// Frame times as floats, as they will be written; keys on a grid are met as they are.
 std::vector<float> frame_times(const GltfFile& file, double rate)
 {
     const std::vector<double> keys = key_times(file);
     if (keys.empty()) return {0};
     const double begin = keys.front(), length = keys.back() - begin;
     if (length == 0) return {static_cast<float>(begin)};
-    const double grid = rate > 0 ? 0 : steps_of_grid(keys);
-    const double steps = grid > 0 ? grid : std::max(std::round(length * (rate > 0 ? rate : kDefaultRate)), 1.0);
-    if (!((steps + 1) * static_cast<double>(file.clip.joints.size()) * sizeof(Eigen::Quaterniond) <= kPoseBytes))
+    const Division division = divide(file, keys, rate);
+    const double frames = division.steps * division.parts + 1;
+    if (!(frames * static_cast<double>(frame_bytes(file.clip)) <= static_cast<double>(kMostPoseBytes)))
         throw InputError(file.path, fmt::format("the animation has {:.0f} frames of {} joints, more than 8 GiB; cut it",
-                                                steps + 1, file.clip.joints.size()));
-    std::vector<float> times;
-    for (double step = 0; step <= steps; ++step) {
-        double time = begin + length * step / steps;
-        const auto key = std::lower_bound(keys.begin(), keys.end(), time - 0.02 * length / steps);
-        if (grid > 0 && key != keys.end() && *key <= time + 0.02 * length / steps) time = *key;
-        const auto rounded = static_cast<float>(time);
-        if (times.empty() || rounded > times.back()) times.push_back(rounded);
+                                                frames, file.clip.joints.size()));
+    const auto place = [&](double step) {
+        const double time = begin + length * step / division.steps, slack = kSlack * length / division.steps;
+        const auto key = std::lower_bound(keys.begin(), keys.end(), time - slack);
+        return division.is_grid && key != keys.end() && *key <= time + slack ? *key : time;
+    };
+    std::vector<float> times = {static_cast<float>(begin)};
+    for (double step = 0; step < division.steps; ++step) {
+        const double from = place(step), to = place(step + 1);
+        for (double part = 1; part <= division.parts; ++part) {
+            const auto time =
+                static_cast<float>(part < division.parts ? from + (to - from) * part / division.parts : to);
+            if (time > times.back()) times.push_back(time);
+        }
     }
     return times;
 }
 
-// Rest poses in every frame, and a column for each joint whose translation or scale has keys.
-void lay_out(GltfFile& file)
+// A column for each joint whose translation or scale has keys.
+void count_tracks(GltfFile& file)
 {
     Clip& clip = file.clip;
-    const std::size_t joint_count = clip.joints.size();
-    clip.track_count = clip.scale_track_count = 0;
     for (const GltfChannel& channel : file.channels) {
         Joint& joint = clip.joints[static_cast<std::size_t>(channel.joint)];
-        if (channel.path == GltfPath::translation && joint.track < 0)
-            joint.track = static_cast<int>(clip.track_count++);
-        if (channel.path == GltfPath::scale && joint.scale_track < 0)
-            joint.scale_track = static_cast<int>(clip.scale_track_count++);
+        if (channel.path == GltfPath::translation) joint.track = static_cast<int>(clip.track_count++);
+        if (channel.path == GltfPath::scale) joint.scale_track = static_cast<int>(clip.scale_track_count++);
     }
-    clip.rotation.resize(clip.frame_count * joint_count);
+}
+
+// Room for all, and rest poses in every frame.
+void lay_out(Clip& clip)
+{
+    clip.rotation.resize(clip.frame_count * clip.joints.size());
     clip.translation.resize(clip.frame_count * clip.track_count);
     clip.scale.resize(clip.frame_count * clip.scale_track_count);
     for (std::size_t n = 0; n < clip.rotation.size(); ++n)
-        clip.rotation[n] = clip.joints[n % joint_count].rest_rotation;
+        clip.rotation[n] = clip.joints[n % clip.joints.size()].rest_rotation;
 }
 
 void fill(GltfFile& file, const GltfChannel& channel)
@@ -91,20 +134,21 @@ void fill(GltfFile& file, const GltfChannel& channel)
     Clip& clip = file.clip;
     const auto at = static_cast<std::size_t>(channel.joint);
     const Joint& joint = clip.joints[at];
+    const GltfSampler& sampler = file.samplers[channel.sampler];
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const double time = static_cast<double>(file.times[frame]);
         if (channel.path == GltfPath::rotation) {
-            const Eigen::Quaterniond rotation = sample_rotation(channel.sampler, time);
+            const Eigen::Quaterniond rotation = sample_rotation(sampler, time);
             if (!(std::abs(rotation.norm() - 1) < 1e-6))
                 throw InputError(file.path, fmt::format("the rotation of node {} passes through zero at {:.4g} s",
                                                         joint.number, time));
             clip.rotation[frame * clip.joints.size() + at] = rotation;
         } else if (channel.path == GltfPath::translation) {
             clip.translation[frame * clip.track_count + static_cast<std::size_t>(joint.track)] =
-                sample_vector(channel.sampler, time);
+                sample_vector(sampler, time);
         } else {
             clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(joint.scale_track)] =
-                sample_vector(channel.sampler, time);
+                sample_vector(sampler, time);
         }
     }
 }
@@ -113,13 +157,14 @@ void fill(GltfFile& file, const GltfChannel& channel)
 
 void sample_frames(GltfFile& file, double rate)
 {
+    count_tracks(file);
     file.times = frame_times(file, rate);
     Clip& clip = file.clip;
     clip.frame_count = file.times.size();
     clip.frame_time = clip.frame_count > 1 ? static_cast<double>(file.times.back() - file.times.front()) /
                                                  static_cast<double>(clip.frame_count - 1)
                                            : kRestFrameTime;
-    lay_out(file);
+    lay_out(clip);
     for (const GltfChannel& channel : file.channels) fill(file, channel);
 }
 

@@ -5,18 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstring>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <stdexcept>
 #include <system_error>
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_check.h"
+#include "tools/formats/gltf_uri.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -25,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kFloat = 5126;  // glTF's componentType
+constexpr int kFloat = 5126, kVertices = 34962;  // glTF's componentType, and its target of a buffer view
 constexpr std::array kGrowing = {"buffers", "bufferViews", "accessors"};
 
 // How deep brackets lie in each other, those in strings aside.
@@ -89,41 +86,6 @@ void refuse_compression(const fs::path& path, const Json& document)
                                                name.get<std::string>()));
 }
 
-// The address of a file at `uri`, for a glTF file that is written elsewhere.
-std::string moved_uri(const std::string& uri, const fs::path& from, const fs::path& to)
-{
-    const bool has_scheme = uri.find(':') != std::string::npos, is_rooted = uri.starts_with('/');
-    std::error_code failed;
-    const auto folder = [&](const fs::path& file) {
-        return fs::weakly_canonical(fs::absolute(file).parent_path(), failed);
-    };
-    const fs::path way = folder(from).lexically_relative(folder(to));
-    if (has_scheme || is_rooted || failed || way.empty() || way == ".") return uri;
-    std::string moved;
-    for (const char c : way.generic_string() + '/') {
-        const auto byte = static_cast<unsigned char>(c);
-        if (std::isalnum(byte) || std::strchr("-._~/", c))
-            moved += c;
-        else
-            moved += fmt::format("%{:02X}", byte);
-    }
-    return moved + uri;
-}
-
-// What an address without a scheme says, percent signs resolved.
-fs::path file_at(const std::string& uri, const fs::path& beside)
-{
-    std::string name;
-    for (std::size_t at = 0; at < uri.size(); ++at) {
-        const bool is_escape = uri[at] == '%' && at + 2 < uri.size() &&
-                               std::isxdigit(static_cast<unsigned char>(uri[at + 1])) &&
-                               std::isxdigit(static_cast<unsigned char>(uri[at + 2]));
-        name += is_escape ? static_cast<char>(std::stoi(uri.substr(at + 1, 2), nullptr, 16)) : uri[at];
-        if (is_escape) at += 2;
-    }
-    return beside.parent_path() / name;
-}
-
 std::string mime_of(std::string_view bytes)
 {
     if (bytes.starts_with("\x89PNG")) return "image/png";
@@ -178,10 +140,7 @@ struct Asset {
 
 std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + base64_of(bytes); }
 
-bool is_beside(const Json& object)
-{
-    return object.contains("uri") && !object["uri"].get<std::string>().starts_with("data:");
-}
+bool is_beside(const Json& object) { return object.contains("uri") && !is_data_uri(object["uri"].get<std::string>()); }
 
 // Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
 void settle_text(Asset& asset, std::span<const std::string> buffers, const fs::path& from, const fs::path& to)
@@ -238,7 +197,7 @@ void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool 
 }
 
 // An animated node must not have a matrix.
-void take_matrix_apart(Json& node, const GltfKeys::Track& track)
+void take_matrix_apart(Json& node, const GltfChanges::Track& track)
 {
     if (!node.contains("matrix")) return;
     node.erase("matrix");
@@ -278,35 +237,51 @@ void put_sampler(Json& animation, int node, const Json& sampler)
     }
 }
 
-void add_keys(Asset& asset, const GltfKeys& keys)
+void add_keys(Asset& asset, const GltfChanges& changes)
 {
-    if (keys.tracks.empty()) return;
-    const std::size_t times = asset.add_floats(keys.times, "SCALAR", 1);
-    asset.list("accessors")[times]["min"] = {keys.times.front()};
-    asset.list("accessors")[times]["max"] = {keys.times.back()};
+    if (changes.tracks.empty()) return;
+    const std::size_t times = asset.add_floats(changes.times, "SCALAR", 1);
+    asset.list("accessors")[times]["min"] = {changes.times.front()};
+    asset.list("accessors")[times]["max"] = {changes.times.back()};
     Json& animations = asset.list("animations");
-    if (keys.animation < 0)
-        animations.push_back({{"name", "swivel"}, {"channels", Json::array()}, {"samplers", Json::array()}});
-    Json& animation = keys.animation < 0 ? animations.back() : animations[static_cast<std::size_t>(keys.animation)];
-    for (const GltfKeys::Track& track : keys.tracks) {
+    const int at = changes.animation;
+    if (at < 0) animations.push_back({{"name", "swivel"}, {"channels", Json::array()}, {"samplers", Json::array()}});
+    Json& animation = at < 0 ? animations.back() : animations[static_cast<std::size_t>(at)];
+    for (const GltfChanges::Track& track : changes.tracks) {
         take_matrix_apart(asset.list("nodes")[static_cast<std::size_t>(track.node)], track);
         put_sampler(animation, track.node,
                     {{"input", times},
-                     {"interpolation", keys.is_stepped ? "STEP" : "LINEAR"},
+                     {"interpolation", track.is_stepped ? "STEP" : "LINEAR"},
                      {"output", asset.add_floats(track.xyzw, "VEC4", 4)}});
     }
 }
 
+void add_weights(Asset& asset, std::span<const GltfWeights> all)
+{
+    for (const GltfWeights& weights : all)
+        for (std::size_t n = 0; n < weights.sets.size(); ++n) {
+            const std::size_t accessor = asset.add_floats(weights.sets[n], "VEC4", 4);
+            asset.list("bufferViews").back()["target"] = kVertices;
+            for (const auto& [mesh, primitive] : weights.primitives)
+                asset.document["meshes"][mesh]["primitives"][primitive]["attributes"][fmt::format("WEIGHTS_{}", n)] =
+                    accessor;
+        }
+}
+
 }  // namespace
 
-std::string skeleton_json(const fs::path& path, std::string_view json)
+Json gltf_document(const fs::path& path, std::string_view json)
 {
-    const Json whole = parse(path, json);
-    refuse_compression(path, whole);
-    check_members(path, whole);
+    Json document = parse(path, json);
+    refuse_compression(path, document);
+    check_members(path, document);
+    return document;
+}
+
+std::string skeleton_json(const Json& whole)
+{
     Json part = Json::object();
     copy_members(whole, part, {"asset"});
-    copy_array(whole, part, "buffers", {"uri", "byteLength"});
     copy_array(whole, part, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"});
     copy_array(whole, part, "accessors",
                {"bufferView", "byteOffset", "componentType", "normalized", "count", "type", "sparse"});
@@ -316,8 +291,8 @@ std::string skeleton_json(const fs::path& path, std::string_view json)
     return part.dump();
 }
 
-GltfContainer with_keys(const GltfContainer& file, std::span<const std::string> buffers, const GltfKeys& keys,
-                        const fs::path& from, const fs::path& to, bool binary)
+GltfContainer with_changes(const GltfContainer& file, std::span<const std::string> buffers, const GltfChanges& changes,
+                           const fs::path& from, const fs::path& to, bool binary)
 try {
     Asset asset{parse(from, file.json), {}, 0};
     asset.open_lists();
@@ -326,7 +301,8 @@ try {
     else
         settle_text(asset, buffers, from, to);
     settle_images(asset, from, to, binary);
-    add_keys(asset, keys);
+    add_keys(asset, changes);
+    add_weights(asset, changes.weights);
     Json& list = asset.list("buffers");
     list[asset.buffer]["byteLength"] = asset.bytes.size();
     if (!binary && asset.bytes.empty()) list.erase(asset.buffer);

@@ -61,8 +61,11 @@ Eigen::Quaterniond sample_rotation(const GltfSampler& sampler, double time)
 
 bool is_moving(const GltfSampler& sampler)
 {
-    for (std::size_t n = 1; n < sampler.time.size(); ++n)
+    const bool is_cubic = sampler.interpolation == Interpolation::cubic;
+    for (std::size_t n = 1; n < sampler.time.size(); ++n) {
         if (key(sampler, n) != key(sampler, 0)) return true;
+        if (is_cubic && !(sampler.value[3 * n - 1].isZero(0) && sampler.value[3 * n].isZero(0))) return true;
+    }
     return false;
 }
 

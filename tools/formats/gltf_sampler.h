@@ -23,7 +23,7 @@ Eigen::Vector3d sample_vector(const GltfSampler& sampler, double time);
 // The sampler's rotation, values being x, y, z, w: a unit quaternion; zero where a spline passes through zero.
 Eigen::Quaterniond sample_rotation(const GltfSampler& sampler, double time);
 
-// Whether any two keys have different values.
+// Whether its value is not the same at all times: keys differ, or tangents between them lead away and back.
 bool is_moving(const GltfSampler& sampler);
 
 }  // namespace swivel::formats

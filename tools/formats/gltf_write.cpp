@@ -29,10 +29,10 @@ void check_override(const GltfFile& file, const RotationOverride& change, std::s
 }
 
 // Keys of one joint, each on the side of the one before: a reader that does not look for the shorter arc gets it too.
-GltfKeys::Track track_of(const GltfFile& file, const RotationOverride& change)
+GltfChanges::Track track_of(const GltfFile& file, const RotationOverride& change)
 {
     const Joint& joint = file.clip.joints[static_cast<std::size_t>(change.joint)];
-    GltfKeys::Track track{joint.number, {}, joint.offset, joint.rest_scale, joint.rest_rotation};
+    GltfChanges::Track track{joint.number, {}, false, joint.offset, joint.rest_scale, joint.rest_rotation};
     Quaterniond before = joint.rest_rotation;
     for (const Quaterniond& rotation : change.rotation) {
         Quaterniond key = rotation.normalized();
@@ -43,24 +43,35 @@ GltfKeys::Track track_of(const GltfFile& file, const RotationOverride& change)
     return track;
 }
 
-// Whether the overridden joints moved, and only by steps.
-bool moved_by_steps(const GltfFile& file, const std::set<int>& joints)
+// Which of the joints move by keys of rotation, and which of those by steps.
+struct Movers {
+    std::set<int> all, by_steps;
+};
+
+Movers movers_of(const GltfFile& file, const std::set<int>& joints)
 {
-    bool steps = false;
+    Movers movers;
     for (const GltfChannel& channel : file.channels) {
-        if (channel.path != GltfPath::rotation || !joints.contains(channel.joint) || !is_moving(channel.sampler))
-            continue;
-        if (channel.sampler.interpolation != Interpolation::step) return false;
-        steps = true;
+        const GltfSampler& sampler = file.samplers[channel.sampler];
+        if (channel.path != GltfPath::rotation || !joints.contains(channel.joint) || !is_moving(sampler)) continue;
+        movers.all.insert(channel.joint);
+        if (sampler.interpolation == Interpolation::step) movers.by_steps.insert(channel.joint);
     }
-    return steps;
+    return movers;
 }
 
 }  // namespace
 
+std::size_t mended_vertex_count(const GltfFile& file)
+{
+    std::size_t count = 0;
+    for (const GltfWeights& weights : file.weights) count += weights.mended_count;
+    return count;
+}
+
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides)
 {
-    GltfKeys keys;
+    GltfChanges changes{file.times, {}, file.animation, file.weights};
     std::set<int> joints;
     for (const RotationOverride& change : overrides) {
         check_override(file, change, joints);
@@ -69,14 +80,16 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
             throw InputError(file.path, fmt::format("the matrix of node {} is sheared, so it cannot have keys; remove "
                                                     "the shear where the rig was made",
                                                     joint.number));
-        keys.tracks.push_back(track_of(file, change));
+        changes.tracks.push_back(track_of(file, change));
     }
-    keys.times = file.times;
-    keys.animation = file.animation;
-    keys.is_stepped = moved_by_steps(file, joints);
+    const Movers movers = movers_of(file, joints);
+    for (std::size_t n = 0; n < overrides.size(); ++n)  // one that had no keys that move goes as all others do
+        changes.tracks[n].is_stepped = movers.all.contains(overrides[n].joint)
+                                           ? movers.by_steps.contains(overrides[n].joint)
+                                           : !movers.all.empty() && movers.by_steps == movers.all;
     const bool binary = lower_suffix(path) != ".gltf";
     OutputFile out(path);
-    const GltfContainer written = with_keys(file.container, file.buffers, keys, file.path, path, binary);
+    const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, binary);
     try {
         out.write(binary ? glb_of(written) : written.json);
     } catch (const std::length_error& error) {

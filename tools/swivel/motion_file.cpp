@@ -63,6 +63,12 @@ std::string MotionFile::describe() const
                        gltf->animation_names.size());
 }
 
+std::size_t MotionFile::mended_vertex_count() const
+{
+    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
+    return gltf ? formats::mended_vertex_count(*gltf) : 0;
+}
+
 void MotionFile::require_can_write(const std::filesystem::path& path) const
 {
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);

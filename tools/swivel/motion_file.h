@@ -27,6 +27,8 @@ public:
     const formats::Clip& clip() const;
     // What the clip is, for people: "FBX, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
+    // Vertices of a glTF file whose skin weights write() mends, see formats::mended_vertex_count().
+    std::size_t mended_vertex_count() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
     void require_can_write(const std::filesystem::path& path) const;
     void write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const;

@@ -158,17 +158,24 @@ void run(const Options& options)
 
     const ThreadLimit limit(options.threads);
     const Statistics statistics = solve_clip(options, file, job);
+    const bool has_motion = out_kind(options, job.plan.characters) == OutKind::motion;
+    const std::size_t mended = has_motion ? file.mended_vertex_count() : 0;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
         nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
         out.update(json_of(statistics));
         out["seconds"] = seconds;
+        if (mended > 0) out["mended_vertices"] = mended;
         if (!options.out.empty()) out["out"] = options.out;
         print_json(out);
         return;
     }
     print_statistics(statistics);
     fmt::print("time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
+    if (mended > 0)
+        fmt::print(
+            "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
+            mended, mended == 1 ? "vertex" : "vertices");
     if (!options.out.empty()) fmt::print("written  {}\n", options.out);
 }
 
@@ -190,10 +197,10 @@ void add_solve(CLI::App& app)
         "Animation of a glTF, FBX or DAE file, by name or, counted from 0, index; else the first; a file without "
         "animations is solved in its rest pose");
     command
-        ->add_option(
-            "--fps", options->motion.rate,
-            "Sample a glTF, FBX or DAE animation so many times a second; else its keys are the frames, or 60 a second "
-            "where they lie on no even grid")
+        ->add_option("--fps", options->motion.rate,
+                     "Sample a glTF, FBX or DAE animation so many times a second; else its keys are the frames where "
+                     "they lie on an "
+                     "even grid, 24 a second or more (60 for curves, any for steps), and 60 a second or more elsewhere")
         ->check(number(0.001, 10'000));
     command
         ->add_option("--targets", options->targets,

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+//
+// Where the bytes of glTF files come from: the file itself and plain files at addresses relative to it, nowhere else.
+#include <catch2/catch.hpp>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <thread>
+
+#include "tests/gltf_rig.h"
+#include "tests/plain_gltf.h"
+#include "tools/formats/error.h"
+#include "tools/formats/gltf.h"
+
+using namespace swivel::test;
+using namespace swivel::formats;
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+// Two keys in a .gltf and a .bin beside it.
+GltfRig moving_rig()
+{
+    GltfRig rig;
+    const int node = rig.add("a", -1, {0, 0, 0});
+    rig.add_keys(rig.add_animation("move"), node, "translation", {0, 1 / 24.0f}, {0, 0, 0, 0, 1, 0});
+    return rig;
+}
+
+// The text of moving_rig() with its buffer elsewhere.
+std::string text_with(const json& buffer)
+{
+    json whole = moving_rig().json;
+    whole["buffers"] = {buffer};
+    return whole.dump();
+}
+
+struct WorkingFolder {
+    fs::path before = fs::current_path();
+    explicit WorkingFolder(const fs::path& path) { fs::current_path(path); }
+    ~WorkingFolder() { fs::current_path(before); }
+};
+
+}  // namespace
+
+TEST_CASE("gltf buffers: a file may be longer than its buffer, not shorter")
+{
+    const TempFolder folder;
+    const GltfRig rig = moving_rig();
+    rig.write(folder / "rig.gltf");
+    std::ofstream(folder / "rig.bin", std::ios::app | std::ios::binary) << "more";
+    const GltfFile file = read_gltf(folder / "rig.gltf");
+    CHECK(file.buffers == std::vector<std::string>{rig.bytes});
+    for (const char* out : {"new.glb", "new.gltf"}) {
+        write_gltf(folder / out, file, {});
+        CHECK(plain_gltf_of(folder / out).json["buffers"][0]["byteLength"] == rig.bytes.size());
+        CHECK(read_gltf(folder / out).buffers == file.buffers);
+    }
+    spill(folder / "rig.bin", rig.bytes.substr(4));
+    CHECK_THROWS_WITH(read_gltf(folder / "rig.gltf"), Contains("buffer 0 has 32 bytes by its byteLength and 28 in "
+                                                               "'rig.bin'; the file is cut short"));
+}
+
+TEST_CASE("gltf buffers: files are looked for relative to the glTF file and nowhere else")
+{
+    const TempFolder folder;
+    fs::create_directories(folder / "in/side");
+    const std::string bytes = moving_rig().bytes;
+    for (const char* name : {"here.bin", "in/a b.bin", "in/side/deep.bin", "up.bin"}) spill(folder / name, bytes);
+    const WorkingFolder here(folder.path);
+    const auto read = [&](const json& uri, std::size_t size = 32) {
+        spill("in/rig.gltf", text_with({{"uri", uri}, {"byteLength", size}}));
+        return read_gltf("in/rig.gltf").buffers.at(0).size();
+    };
+    CHECK(read("a%20b.bin") == 32);
+    CHECK(read("a b.bin") == 32);
+    CHECK(read("side/deep.bin") == 32);
+    CHECK(read("../up.bin") == 32);
+    CHECK_THROWS_WITH(read("here.bin"), Contains("buffer 0 lies in 'here.bin', and there is no such file relative"));
+    const char* relative_only = "only addresses relative to the file itself are read";
+    CHECK_THROWS_WITH(read((folder / "here.bin").string()), Contains(relative_only));
+    CHECK_THROWS_WITH(read("%2F" + (folder / "here.bin").string().substr(1)), Contains(relative_only));
+    CHECK_THROWS_WITH(read("file:" + (folder / "here.bin").string()), Contains(relative_only));
+    CHECK_THROWS_WITH(read("https://example.org/a.bin"), Contains(relative_only));
+    CHECK_THROWS_WITH(read("side/deep.bin%00.png"), Contains(relative_only));
+    CHECK_THROWS_WITH(read(""), Contains(relative_only));
+    CHECK_THROWS_WITH(read("side", 0), Contains("no such file"));
+    CHECK_THROWS_WITH(read("a b.bin\n", 0), Contains("'a b.bin\\x0a'"));
+    CHECK(read("data:application/octet-stream;base64," + base64_of(bytes)) == 32);
+    CHECK_THROWS_WITH(read("data:application/octet-stream;base64,AAAA"), Contains("32 bytes by its byteLength and 3"));
+    CHECK_THROWS_WITH(read("data:text/html,abc"), Contains("no base64 of a known kind"));
+    spill("in/rig.gltf", moving_rig().json.dump());
+    CHECK_THROWS_WITH(read_gltf("in/rig.gltf"), Contains("buffer 0 does not exist"));
+    spill("in/rig.gltf", text_with({{"byteLength", 32}}));
+    CHECK_THROWS_WITH(read_gltf("in/rig.gltf"), Contains("buffer 0 has no uri"));
+    spill("rig.gltf", text_with({{"uri", "here.bin"}, {"byteLength", 32}}));
+    CHECK(read_gltf("rig.gltf").buffers.size() == 1);
+    spill("rig.gltf", text_with({{"uri", (folder / "here.bin").string()}, {"byteLength", 32}}));
+    CHECK_THROWS_WITH(read_gltf("rig.gltf"), Contains(relative_only));
+}
+
+TEST_CASE("gltf buffers: a GLB's chunk is its first buffer's alone")
+{
+    const TempFolder folder;
+    json whole = moving_rig().json;
+    const auto read = [&](const json& buffers, const std::string& chunk) {
+        whole["buffers"] = buffers;
+        spill(folder / "rig.glb", GltfRig::glb(whole.dump(), chunk));
+        const GltfFile file = read_gltf(folder / "rig.glb");
+        return file.buffers == std::vector<std::string>{moving_rig().bytes};
+    };
+    const json own = {{"byteLength", 32}};
+    const std::string bytes = moving_rig().bytes;
+    CHECK(read(json::array({own}), bytes));
+    CHECK(read(json::array({own}), bytes + "padding."));
+    CHECK_THROWS_WITH(read(json::array({own, own}), bytes), Contains("buffer 1 has no uri"));
+    CHECK_THROWS_WITH(read(json::array({own}), ""),
+                      Contains("buffer 0 has 32 bytes by its byteLength and 0 in the GLB's chunk"));
+    CHECK_THROWS_WITH(read(json::array({{{"byteLength", 1u << 31}}}), bytes),
+                      Contains("2147483648 bytes by its byteLength"));
+}
+
+TEST_CASE("gltf buffers: members of a wrong type are refused by name, not taken for missing")
+{
+    const TempFolder folder;
+    GltfRig sound = moving_rig();
+    sound.json["accessors"][1]["sparse"] = {
+        {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5125}}}, {"values", {{"bufferView", 1}}}};
+    const auto refusal = [&](const std::string& pointer, const json& value) {
+        sound.write(folder / "rig.gltf");
+        json whole = json::parse(slurp(folder / "rig.gltf"));
+        if (value.is_discarded())
+            whole[json::json_pointer(pointer).parent_pointer()].erase(json::json_pointer(pointer).back());
+        else
+            whole[json::json_pointer(pointer)] = value;
+        spill(folder / "rig.gltf", whole.dump());
+        try {
+            read_gltf(folder / "rig.gltf");
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("read");
+    };
+    const json missing = json(json::value_t::discarded);
+    const std::vector<json> no_numbers = {"4", -4, 4.5, 4.0, 1e300, nullptr, json::array({4}), true};
+    const auto each_refused = [&](const std::string& pointer, const std::string& begin) {
+        for (const json& value : no_numbers) {
+            const std::string said = refusal(pointer, value);
+            INFO(pointer << " " << value << ": " << said);
+            CHECK(said.find(begin + " has a bad " + json::json_pointer(pointer).back() + ": ") != std::string::npos);
+        }
+    };
+    CHECK(refusal("/accessors/1/byteOffset", 0) == "read");
+    for (const char* member : {"bufferView", "byteOffset", "componentType", "count"})
+        each_refused("/accessors/1/" + std::string(member), "accessor 1");
+    each_refused("/accessors/1/sparse/count", "the sparse part of accessor 1");
+    for (const char* member : {"bufferView", "byteOffset", "componentType"})
+        each_refused("/accessors/1/sparse/indices/" + std::string(member), "accessor 1, indices,");
+    for (const char* member : {"bufferView", "byteOffset"})
+        each_refused("/accessors/1/sparse/values/" + std::string(member), "accessor 1, values,");
+    for (const char* member : {"buffer", "byteOffset", "byteLength", "byteStride"})
+        each_refused("/bufferViews/1/" + std::string(member), "buffer view 1");
+    each_refused("/buffers/0/byteLength", "buffer 0");
+    each_refused("/animations/0/channels/0/target/node", "the target of animation 0, channel 0");
+    for (const char* gone : {"/accessors/1/componentType", "/accessors/1/count", "/accessors/1/type",
+                             "/accessors/1/sparse/count", "/accessors/1/sparse/indices", "/accessors/1/sparse/values",
+                             "/bufferViews/1/buffer", "/bufferViews/1/byteLength", "/buffers/0/byteLength"}) {
+        const std::string said = refusal(gone, missing);
+        INFO(gone << ": " << said);
+        CHECK(said.find("has a bad " + json::json_pointer(gone).back()) != std::string::npos);
+    }
+    CHECK(refusal("/accessors/1/type", 5).find("accessor 1 has a bad type: a text") != std::string::npos);
+    CHECK(refusal("/bufferViews/1/byteStride", 6).find("a multiple of 4 from 4 to 252") != std::string::npos);
+    CHECK(refusal("/bufferViews", 6).find("its bufferViews are no list") != std::string::npos);
+}
+
+// A pipe would hold up who reads it, for ever if nobody writes.
+TEST_CASE("gltf buffers: only plain files are read, pictures too")
+{
+    const TempFolder folder;
+    json whole = moving_rig().json;
+    whole["buffers"] = {{{"byteLength", 32}, {"uri", "pipe"}}};
+    spill(folder / "rig.gltf", whole.dump());
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK_THROWS_WITH(read_gltf(folder / "rig.gltf"), Contains("buffer 0 lies in 'pipe', and there is no such file"));
+
+    whole["buffers"][0]["uri"] = "rig.bin";
+    whole["images"] = {{{"uri", "pipe"}}, {{"uri", "plain"}}, {{"uri", fs::absolute(folder / "plain").string()}}};
+    spill(folder / "rig.gltf", whole.dump());
+    spill(folder / "rig.bin", moving_rig().bytes);
+    spill(folder / "plain", "\x89PNG");
+    // Whoever opens the pipe gets a picture from it, so that a reader that does is found out and not stuck.
+    std::thread writer([&] { spill(folder / "pipe", "\x89PNG"); });
+    write_gltf(folder / "new.glb", read_gltf(folder / "rig.gltf"), {});
+    const int reader = open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+    writer.join();
+    close(reader);
+    const json images = plain_gltf_of(folder / "new.glb").json["images"];
+    CHECK(images[0] == whole["images"][0]);
+    CHECK(images[1].contains("bufferView"));
+    CHECK(images[2] == whole["images"][2]);
+}

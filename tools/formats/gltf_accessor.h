@@ -1,0 +1,31 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// The numbers of a glTF file's accessors: of any component type, normalised or not, strided, sparse. Owns every check
+// that they lie in the file; does not know what they mean.
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tinygltf {
+class Model;
+}
+
+namespace swivel::formats {
+
+// What accessors lie in; borrowed.
+struct GltfData {
+    const std::filesystem::path& path;  // of the file, for messages
+    const tinygltf::Model& model;       // its accessors and buffer views
+    std::span<const std::string> buffers;
+};
+
+// An accessor's components, element after element, normalised integers as what they stand for.
+// type: the TINYGLTF_TYPE_ that it must have. expected: how many elements there must be, so that no file makes more
+// room than its keys need; 0: any number, but then they must be bytes of the file. Throws InputError for an accessor
+// that does not exist, has another type or count, reads beyond its buffer view, or holds a number that is not finite.
+std::vector<double> read_accessor(const GltfData& data, int index, int type, std::size_t expected);
+
+}  // namespace swivel::formats

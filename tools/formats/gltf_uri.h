@@ -1,0 +1,22 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// Addresses in a glTF file: which hold their bytes themselves, which name a file, and what becomes of those when the
+// glTF file moves. Reads nothing.
+
+#include <filesystem>
+#include <string>
+
+namespace swivel::formats {
+
+// Whether the address holds its bytes itself.
+bool is_data_uri(const std::string& uri);
+
+// The file that a relative address names for the glTF file `beside`, percent signs resolved. Empty for an address with
+// a scheme or of an absolute path: no file of a glTF asset lies there.
+std::filesystem::path file_at(const std::string& uri, const std::filesystem::path& beside);
+
+// The address, relative to `to`, of what lies at `uri` relative to `from`; both are glTF files, there or not. What
+// is not relative stays as it is.
+std::string moved_uri(const std::string& uri, const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace swivel::formats
