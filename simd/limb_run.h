@@ -6,7 +6,6 @@
 
 #include "core/allowed_arcs.h"
 #include "simd/limb_step.h"
-#include "simd/rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 

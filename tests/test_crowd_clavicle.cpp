@@ -161,6 +161,25 @@ TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothl
     for (std::uint32_t n = 1; n < count; ++n) CHECK(distance(quat(turns[n - 1]), quat(turns[n])) <= 0.1);
 }
 
+TEST_CASE("a whole share is the whole turn, up to nearly behind")
+{
+    constexpr std::uint32_t count = 360;
+    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, count);
+    std::vector<Float3> targets;
+    for (std::uint32_t n = 0; n < count; ++n) {  // to half a degree from behind
+        const double angle = kPi * n / count;
+        targets.push_back(floats(Vector3d(std::cos(angle), std::sin(angle), 0.0)));
+    }
+    crowd.write(SWIVEL_TARGET, 0, targets);
+    crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.25f, 0, 0});
+    crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 1});
+    crowd.solve();
+    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
+    // Half a degree from behind the turn's axis is known to 1e-5.
+    for (std::uint32_t n = 0; n < count; ++n)
+        CHECK((quat(turns[n]) * Vector3d::UnitX() - vec(targets[n])).norm() <= 3e-5);
+}
+
 TEST_CASE("bones and shares out of range are bad input; without a world there is no clavicle")
 {
     Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 5);

@@ -171,7 +171,7 @@ TEST_CASE("Keys come in seconds from 0, in order, each at a time of its own")
         made.animate(made.hand, keys_at({0, 1, 1, 2}), 1);
         const GltfFile file = made.read();
         REQUIRE(file.channels.size() == 1);
-        const std::vector<double>& times = file.channels[0].sampler.time;
+        const std::vector<double>& times = file.samplers[file.channels[0].sampler].time;
         CHECK(times == std::vector<double>{0, 1, static_cast<double>(std::nextafter(1.0f, 2.0f)), 2});
     }
     made.written();

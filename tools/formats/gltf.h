@@ -70,6 +70,9 @@ GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice =
 // The same of a file that is in memory already. path: what messages call it, and what its files lie beside.
 GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice);
 
+// Throws InputError for a joint whose matrix is sheared, which no keys can say. joint: of the clip.
+void require_can_key(const GltfFile& file, int joint);
+
 // Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: STEP for a joint
 // whose own keys moved by steps, LINEAR for others; a joint that did not move goes by steps if all that did so did.
 // Where several frames' keys lie apart, a viewer turns each joint evenly in between. Skin weights of vertices that do
@@ -79,7 +82,7 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
 // path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). A .glb takes in the
 // buffers and images that lie in files beside the .gltf; a .gltf holds the new keys itself and goes on
 // using the same files, from wherever it is written.
-// Throws InputError on writing, and for a joint whose matrix is sheared, which keys cannot say. Throws
+// Throws InputError on writing, and as require_can_key() does. Throws
 // std::invalid_argument for a joint out of range or named twice, a wrong frame count, a zero or non-finite quaternion.
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides);
 

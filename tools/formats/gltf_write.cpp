@@ -69,17 +69,22 @@ std::size_t mended_vertex_count(const GltfFile& file)
     return count;
 }
 
+void require_can_key(const GltfFile& file, int joint)
+{
+    const Joint& at = file.clip.joints[static_cast<std::size_t>(joint)];
+    if (at.is_sheared)
+        throw InputError(file.path, fmt::format("the matrix of node {} is sheared, so it cannot have keys; remove the "
+                                                "shear where the rig was made",
+                                                at.number));
+}
+
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides)
 {
     GltfChanges changes{file.times, {}, file.animation, file.weights};
     std::set<int> joints;
     for (const RotationOverride& change : overrides) {
         check_override(file, change, joints);
-        const Joint& joint = file.clip.joints[static_cast<std::size_t>(change.joint)];
-        if (joint.is_sheared)
-            throw InputError(file.path, fmt::format("the matrix of node {} is sheared, so it cannot have keys; remove "
-                                                    "the shear where the rig was made",
-                                                    joint.number));
+        require_can_key(file, change.joint);
         changes.tracks.push_back(track_of(file, change));
     }
     const Movers movers = movers_of(file, joints);

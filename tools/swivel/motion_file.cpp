@@ -78,6 +78,11 @@ void MotionFile::require_can_write(const std::filesystem::path& path) const
                                        format_ == "FBX" ? "an" : "a", format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
 }
 
+void MotionFile::require_can_key(int joint) const
+{
+    if (const GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::require_can_key(*gltf, joint);
+}
+
 void MotionFile::write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const
 {
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_))

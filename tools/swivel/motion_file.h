@@ -31,6 +31,8 @@ public:
     std::size_t mended_vertex_count() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
     void require_can_write(const std::filesystem::path& path) const;
+    // Throws InputError for a joint whose rotation that cannot hold.
+    void require_can_key(int joint) const;
     void write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const;
 
 private:

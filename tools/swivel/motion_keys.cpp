@@ -15,16 +15,26 @@ void MotionKeys::add(const ClipCrowd& crowd)
     }
 }
 
-void MotionKeys::write(const std::filesystem::path& path, const MotionFile& file) const
+std::vector<formats::RotationOverride> MotionKeys::overrides(const formats::Clip& clip) const
 {
     std::vector<formats::RotationOverride> overrides;
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
         for (std::size_t n = 0; n < (plans_[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
             overrides.push_back({limbs_[limb].joints[n], keys_[3 * limb + n]});
-        const int above = file.clip().joints[static_cast<std::size_t>(limbs_[limb].upper())].parent;
+        const int above = clip.joints[static_cast<std::size_t>(limbs_[limb].upper())].parent;
         if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) overrides.push_back({above, clavicles_[limb]});
     }
-    file.write(path, overrides);
+    return overrides;
+}
+
+void MotionKeys::require_can_write(const MotionFile& file) const
+{
+    for (const formats::RotationOverride& each : overrides(file.clip())) file.require_can_key(each.joint);
+}
+
+void MotionKeys::write(const std::filesystem::path& path, const MotionFile& file) const
+{
+    file.write(path, overrides(file.clip()));
 }
 
 }  // namespace swivel::tools

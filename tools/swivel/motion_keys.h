@@ -24,10 +24,15 @@ public:
     // Takes the frame that the crowd has solved.
     void add(const ClipCrowd& crowd);
 
+    // Throws, before any work is done, for what write() could not hold.
+    void require_can_write(const MotionFile& file) const;
+
     // Writes the clip's file with them; throws as MotionFile::write() does.
     void write(const std::filesystem::path& path, const MotionFile& file) const;
 
 private:
+    std::vector<formats::RotationOverride> overrides(const formats::Clip& clip) const;
+
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;
     std::vector<std::vector<Eigen::Quaterniond>> keys_, clavicles_;  // [3 * limb + joint][frame], [limb][frame]

@@ -83,9 +83,11 @@ Statistics solve_clip(const Options& options, const MotionFile& file, const Job&
     ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
-    if (kind == OutKind::motion)
-        const formats::OutputFile can_be_written(options.out);  // says so before the work, not after
     MotionKeys keys(job.limbs, job.plan);
+    if (kind == OutKind::motion) {  // says so before the work, not after
+        keys.require_can_write(file);
+        const formats::OutputFile can_be_written(options.out);
+    }
     Statistics statistics;
     {
         Progress progress("frames", file.clip().frame_count);
