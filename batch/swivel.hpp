@@ -6,7 +6,7 @@
 
 #if __cplusplus <= 201703L
 #error "swivel.hpp is C++20 (-std=c++20); older C++ and C programs use swivel.h"
-#endif
+#else
 
 #include <array>
 #include <concepts>
@@ -261,3 +261,5 @@ private:
 };
 
 }  // namespace swivel
+
+#endif

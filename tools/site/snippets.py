@@ -7,7 +7,7 @@ or
     <!-- docs/snippets/NAME.cpp: PART -->
 
 holds that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`, so that pages read the same in the repository and on
-the site. The files are built and run by the test docs_snippets. Run as a program it writes the lines into the pages."""
+the site. The files are built and run by the tests docs_snippets and docs_start. Run as a program it writes the lines into the pages."""
 import re
 import sys
 import textwrap
@@ -41,7 +41,11 @@ def check(markdown, root):
     """Raises Missing where a page shows another program than the one that is tested."""
     if markdown.count("<!-- docs/snippets/") != len(BLOCK.findall(markdown)):
         raise Missing("a line <!-- docs/snippets/... --> has no block of code below it")
+    if len(re.findall(r"^ *```cpp$", markdown, re.M)) != len(BLOCK.findall(markdown)):
+        raise Missing("a block of C++ has no line <!-- docs/snippets/... --> above it, so nothing builds it")
     for match in BLOCK.finditer(markdown):
+        if any(match["code"].count(open) != match["code"].count(close) for open, close in ("{}", "()")):
+            raise Missing(f"what it shows of docs/snippets/{match['name']} opens a brace and does not close it")
         if match["code"] != code_of(match, root):
             raise Missing(f"does not show docs/snippets/{match['name']} as it is; run tools/docs --update")
 
@@ -61,6 +65,7 @@ def main():
         before = page.read_text(encoding="utf-8")
         try:
             after = filled(before, root)
+            check(after, root)
         except Missing as error:
             sys.exit(f"{page.relative_to(root)}: {error}")
         if after != before:
