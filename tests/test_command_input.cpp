@@ -106,6 +106,30 @@ void require_arms_refused(const Words& arms, const Words& said)
 
 }  // namespace
 
+TEST_CASE("input: what is read is never written over")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "t.csv", kColumns + kGoodRow);
+    spill(folder / "c.toml", "[crowd]\n");
+    fs::create_hard_link(folder / "t.csv", folder / "same.csv");
+    const auto before = contents(folder);
+    for (const auto& [out, what] : {std::pair("clip.bvh", "is the clip itself"),
+                                    {"./clip.bvh", "is the clip itself"},
+                                    {"t.csv", "is the table of targets itself"},
+                                    {"same.csv", "is the table of targets itself"}}) {
+        const Outcome outcome =
+            run_command(folder.path, {"solve", "clip.bvh", "--targets", "t.csv", "--crowd", "c.toml", "--out", out});
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == 2);
+        CHECK_THAT(outcome.err, Contains(what) && Contains(out));
+        CHECK(contents(folder) == before);
+    }
+    fs::rename(folder / "c.toml", folder / "c.csv");
+    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.csv", "--out", "c.csv"}).exit_code == 2);
+    CHECK(slurp(folder / "c.csv") == "[crowd]\n");
+}
+
 TEST_CASE("input: the files that the others here are broken from are good")
 {
     const TempFolder folder;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 
 #include "tools/swivel/clip_crowd.h"
 #include "tools/swivel/parallel.h"
@@ -93,7 +94,9 @@ void ClipCrowd::measure_against_clip(std::size_t limb, std::uint32_t character, 
     const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
     const Quaterniond turned = from.upper.conjugate() * shoulder_w;
     statistics.upper_swing.add(swing(turned, limbs_[limb].upper_bone));
-    statistics.upper_twist.add(twist(turned, limbs_[limb].upper_bone));
+    const double upper_twist = twist(turned, limbs_[limb].upper_bone);
+    statistics.upper_twist.add(upper_twist);
+    statistics.turned_over += upper_twist > std::numbers::pi / 2;
     statistics.lower.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)));
 }
 

@@ -110,6 +110,14 @@ void print_statistics(const Statistics& statistics)
         if (count_of(statistics, flag) > 0)
             flags += fmt::format("{}{} {}", flags.empty() ? "" : ", ", name, count_of(statistics, flag));
     fmt::print("flags    {}\n", flags);
+    for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
+        if (s->turned_over > 0) {
+            const LimbWords& w = words_of(kind);
+            fmt::print(
+                "note     the {} turns over against the clip in {} of {} poses, where the clip's {} bends against "
+                "its hinge, however little; limb.{}.pole.kind = \"incoming\" in a crowd file keeps its twist\n",
+                w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs);
+        }
 }
 
 nlohmann::ordered_json json_of(const Statistics& statistics)
@@ -124,6 +132,8 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
         out["errors"][e.key] = {
             {"worst", e.error.max}, {"rms", e.error.rms()}, {"count", e.error.count}, {"unit", e.unit}};
     for (const auto& [flag, name] : kFlagNames) out["flags"][name] = count_of(statistics, flag);
+    for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
+        if (s->upper_twist.count > 0) out["turned_over"][words_of(kind).limbs] = s->turned_over;
     return out;
 }
 

@@ -75,6 +75,20 @@ OutKind out_kind(const Options& options, std::uint32_t characters)
     return OutKind::motion;
 }
 
+// What is read would be lost.
+void require_other_file(const Options& options, const Job& job)
+{
+    const auto check = [&](const std::string& input, const char* what) {
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(options.out, ignored) &&
+            std::filesystem::equivalent(options.out, input, ignored))
+            throw CommandError(2, fmt::format("--out {}: is {} itself; name another file", options.out, what));
+    };
+    check(options.clip, "the clip");
+    if (job.targets != "clip") check(job.targets, "the table of targets");
+    if (job.crowd) check(options.crowd, "the crowd file");
+}
+
 Statistics solve_clip(const Options& options, const MotionFile& file, const Job& job)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
@@ -155,6 +169,7 @@ void run(const Options& options)
     const MotionFile file(options.clip, options.motion);
     if (!options.out.empty() && formats::lower_suffix(options.out) != ".csv") file.require_can_write(options.out);
     const Job job = make_job(options, choice, file.clip());
+    require_other_file(options, job);
     const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed, job.missing};
     if (!options.json) print_clip(facts, file.clip(), job.limbs);
 

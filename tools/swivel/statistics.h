@@ -43,6 +43,7 @@ struct LimbStatistics {
     // Against the motion the targets came from; empty when they came from elsewhere:
     ErrorStat bent, straight;  // limb lengths, of elbow or knee; bent by more than 5 degrees, and the rest
     ErrorStat upper_swing, upper_twist, lower;  // radians; of the first character
+    std::uint64_t turned_over = 0;              // poses of the first character with an upper_twist above pi / 2
     std::array<std::uint64_t, 32> flags{};      // limbs with flag bit n
     std::uint64_t limb_count = 0;
 
@@ -62,6 +63,7 @@ struct LimbStatistics {
         upper_swing.add(other.upper_swing);
         upper_twist.add(other.upper_twist);
         lower.add(other.lower);
+        turned_over += other.turned_over;
         for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit] += other.flags[bit];
         limb_count += other.limb_count;
     }
