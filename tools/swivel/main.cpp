@@ -23,6 +23,13 @@ int fail(int code, std::string line)
     return code;
 }
 
+// Of the subcommand, once there is one.
+std::string help_command(const CLI::App& app)
+{
+    const std::vector<CLI::App*> used = app.get_subcommands();
+    return used.empty() ? "swivel --help" : fmt::format("swivel {} --help", used.front()->get_name());
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -52,9 +59,9 @@ int main(int argc, char** argv)
         const std::vector<std::string> unknown = app.remaining();
         const std::string cause =
             unknown.empty() ? error.what() : fmt::format("'{}' is no command or option", unknown[0]);
-        return fail(2, fmt::format("{}; see swivel --help", cause));
+        return fail(2, fmt::format("{}; see {}", cause, help_command(app)));
     } catch (const CLI::ParseError& error) {
-        return fail(2, fmt::format("{}; see swivel --help", error.what()));
+        return fail(2, fmt::format("{}; see {}", error.what(), help_command(app)));
     } catch (const CommandError& error) {
         return fail(error.exit_code, error.what());
     } catch (const std::bad_alloc&) {
