@@ -186,9 +186,9 @@ TEST_CASE("command: solve without --out writes no file, with it that one")
     CHECK(folder.file_count() == 1);
     CHECK_THAT(run_beside_clip(folder, {"solve", "clip.bvh", "--out", "own.bvh"}).out, Contains("written  own.bvh"));
     CHECK(folder.file_count() == 2);
-    REQUIRE(run_beside_clip(folder, {"solve", "clip.bvh", "--out", "clip.bvh"}).exit_code == 0);  // onto the file read
-    CHECK(slurp(folder / "clip.bvh") == slurp(folder / "own.bvh"));
-    CHECK(slurp(folder / "clip.bvh") != kTwoArms);
+    // Not onto the file read; test_command_input has the other files.
+    CHECK(run_beside_clip(folder, {"solve", "clip.bvh", "--out", "clip.bvh"}).exit_code == 2);
+    CHECK(slurp(folder / "clip.bvh") == kTwoArms);
 }
 
 TEST_CASE("command: solve --json")
