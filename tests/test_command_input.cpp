@@ -213,7 +213,7 @@ TEST_CASE("input: skeletons without legs, and --leg that names none")
                     {"'LeftArm,LeftForeArm' does not name three joints (--leg); write HIP,KNEE,ANKLE"});
     require_refused(folder, {"clip.bvh", "--leg", "Nope,LeftForeArm,LeftHand"}, {"'Nope' (--leg)"});
     require_refused(folder, {"clip.bvh", "--limbs", "all", "--leg", "LeftArm,LeftForeArm,LeftHand"},
-                    {"the left arm and the left leg share a joint"});
+                    {"the left arm cannot be bound: its joints were named for the left leg; name it with --arm "});
     spill(folder / "t.csv", edited(kColumns, "side", "limb") + "0,0,left_leg,6,8,3,4,8,9\n");
     require_refused(folder, {"clip.bvh", "--targets", "t.csv"},
                     {"t.csv:2: the skeleton has no left leg; name it with --leg HIP,KNEE,ANKLE"});

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // What a skeleton is refused for is said in one line, and nothing of it is left out in silence.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <string>
+#include <thread>
 
 #include "tests/gltf_rig.h"
 #include "tests/run_command.h"
@@ -64,11 +69,14 @@ TEST_CASE("rigs: a limb that cannot be told is never left out in silence")
     refused({"RightForeArm"}, "no joint is called 'rightarm' or alike for its shoulder");
     const std::vector<std::string> left = {"--arm", "LeftArm,LeftForeArm,LeftHand"};
     CHECK(solve({"RightArm", "RightForeArm", "RightHand"}, left).exit_code == 0);
-    // With --limbs the other side is looked for, too; where its names are no limb, that is said, as it was not asked
-    // for.
-    const std::vector<std::string> arms = {"--limbs", "arms", "--arm", "left:LeftArm,LeftForeArm,LeftHand", "--json"};
-    const json half = json::parse(solve({"RightForeArm"}, arms).out);
-    CHECK(half.at("missing")[0].at("problem") == "no joint is called 'rightarm' or alike for its shoulder");
+    // --limbs asks for both arms, whichever of them is named.
+    const std::vector<std::string> arms = {"--limbs", "arms", "--arm", "left:LeftArm,LeftForeArm,LeftHand"};
+    const Outcome half = solve({"RightForeArm"}, arms);
+    CHECK(half.exit_code == 1);
+    CHECK(half.err ==
+          "swivel: rig.glb: the right arm cannot be bound: no joint is called 'rightarm' or alike for its "
+          "shoulder; name it with --arm SHOULDER,ELBOW,WRIST, or the left arm alone and leave out --limbs\n");
+    CHECK(run_command(folder.path, {"rig", "rig.glb", arms[2], arms[3]}).exit_code == 0);
     const Outcome outcome = solve({});
     INFO(outcome.err);
     CHECK(outcome.exit_code == 0);
@@ -77,15 +85,32 @@ TEST_CASE("rigs: a limb that cannot be told is never left out in silence")
     CHECK(report.at("missing")[0].at("limb") == "right_arm");
 }
 
+namespace {
+
+// Arms of these sides, as joints in a row: LeftArm, LeftForeArm, LeftHand.
+void write_arms(const fs::path& path, const std::vector<std::string>& sides)
+{
+    GltfRig rig;
+    const int root = rig.add("root", -1, {0, 0, 0});
+    for (const std::string& side : sides)
+        for (int parent = root; const std::string name : {"Arm", "ForeArm", "Hand"})
+            parent = rig.add(side + name, parent, {1, 0, 0});
+    rig.write(path);
+}
+
+std::string joints_of(const std::string& side) { return side + "Arm," + side + "ForeArm," + side + "Hand"; }
+
+std::string table_of(const std::string& limb, const std::string& side)
+{
+    return "[limb." + limb + "]\njoints = [\"" + side + "Arm\", \"" + side + "ForeArm\", \"" + side + "Hand\"]\n";
+}
+
+}  // namespace
+
 TEST_CASE("rigs: naming one side leaves the other to the names in use, where the kind is asked for")
 {
     const TempFolder folder;
-    GltfRig rig;
-    const int root = rig.add("root", -1, {0, 0, 0});
-    for (const std::string side : {"Left", "Right", "Third"})
-        for (int parent = root; const std::string name : {"Arm", "ForeArm", "Hand"})
-            parent = rig.add(side + name, parent, {1, 0, 0});
-    rig.write(folder / "rig.glb");
+    write_arms(folder / "rig.glb", {"Left", "Right", "Third"});
     const auto bound = [&](const char* command, std::vector<std::string> options) {
         options.insert(options.begin(), {command, "rig.glb", "--json"});
         const Outcome outcome = run_command(folder.path, options);
@@ -101,7 +126,7 @@ TEST_CASE("rigs: naming one side leaves the other to the names in use, where the
         return found;
     };
     using Found = std::vector<std::string>;
-    const std::string left = "left:ThirdArm,ThirdForeArm,ThirdHand", right = "right:ThirdArm,ThirdForeArm,ThirdHand";
+    const std::string left = "left:" + joints_of("Third"), right = "right:" + joints_of("Third");
     CHECK(bound("solve", {"--limbs", "arms", "--arm", left}) == Found{"ThirdArm", "RightArm"});
     CHECK(bound("solve", {"--limbs", "arms", "--arm", right}) == Found{"LeftArm", "ThirdArm"});
     CHECK(bound("rig", {"--arm", right}) == Found{"LeftArm", "ThirdArm"});
@@ -109,9 +134,64 @@ TEST_CASE("rigs: naming one side leaves the other to the names in use, where the
     spill(folder / "crowd.toml",
           "[crowd]\nlimbs = \"arms\"\n[limb.right_arm]\njoints = [\"ThirdArm\", \"ThirdForeArm\", \"ThirdHand\"]\n");
     CHECK(bound("solve", {"--crowd", "crowd.toml"}) == Found{"LeftArm", "ThirdArm"});
-    const Outcome shared = run_command(
-        folder.path, {"solve", "rig.glb", "--limbs", "arms", "--arm", "left:RightArm,RightForeArm,RightHand"});
-    CHECK(shared.err.find("the left arm and the right arm share a joint") != std::string::npos);
+}
+
+TEST_CASE("rigs: an option replaces a crowd file's joints of its own side alone")
+{
+    const TempFolder folder;
+    write_arms(folder / "rig.glb", {"Left", "Right", "Third", "Fourth"});
+    const auto bound = [&](const std::string& toml, std::vector<std::string> options) {
+        spill(folder / "crowd.toml", toml);
+        options.insert(options.begin(), {"solve", "rig.glb", "--crowd", "crowd.toml", "--json"});
+        const Outcome outcome = run_command(folder.path, options);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        std::vector<std::string> found;
+        const json report = json::parse(outcome.out);
+        for (const json& limb : report.at("arms_bound"))
+            found.push_back(limb.at("side").get<std::string>() + " " + limb.at("shoulder").get<std::string>());
+        return found;
+    };
+    using Found = std::vector<std::string>;
+    const std::string arms = "[crowd]\nlimbs = \"arms\"\n", third = table_of("right_arm", "Third");
+    CHECK(bound(arms + third, {}) == Found{"left LeftArm", "right ThirdArm"});
+    CHECK(bound(arms + third, {"--arm", "left:" + joints_of("Fourth")}) == Found{"left FourthArm", "right ThirdArm"});
+    CHECK(bound(arms + third, {"--arm", "right:" + joints_of("Fourth")}) == Found{"left LeftArm", "right FourthArm"});
+    // Which side an option without one is for, its names tell.
+    CHECK(bound(arms + third, {"--arm", joints_of("Left")}) == Found{"left LeftArm", "right ThirdArm"});
+    CHECK(bound(arms + third, {"--arm", joints_of("Right")}) == Found{"left LeftArm", "right RightArm"});
+    CHECK(bound(third, {"--arm", "left:" + joints_of("Fourth")}) == Found{"left FourthArm", "right ThirdArm"});
+    CHECK(bound(table_of("left_arm", "Third"), {"--arm", "right:" + joints_of("Fourth")}) ==
+          Found{"left ThirdArm", "right FourthArm"});
+}
+
+TEST_CASE("rigs: a joint that is named for one limb is no other's")
+{
+    const TempFolder folder;
+    write_arms(folder / "rig.glb", {"Left", "Right"});
+    const std::string left = "left:" + joints_of("Right"), right = "right:" + joints_of("Right");
+    const Outcome rig = run_command(folder.path, {"rig", "rig.glb", "--json", "--arm", left});
+    INFO(rig.err);
+    REQUIRE(rig.exit_code == 0);
+    const json report = json::parse(rig.out);
+    CHECK(report["limbs"][0]["joints"][0] == "RightArm");
+    CHECK(report["limbs"][1]["problem"] == "its joints were named for the left arm");
+    const auto refused = [&](std::vector<std::string> options, const std::string& message) {
+        options.insert(options.begin(), {"solve", "rig.glb"});
+        const Outcome outcome = run_command(folder.path, options);
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.err == "swivel: " + message + "\n");
+    };
+    refused({"--limbs", "arms", "--arm", left},
+            "rig.glb: the right arm cannot be bound: its joints were named for the left arm; name it with --arm "
+            "SHOULDER,ELBOW,WRIST, or the left arm alone and leave out --limbs");
+    refused({"--arm", left, "--arm", right},
+            "rig.glb: the left arm and the right arm share the joint 'RightArm' (--arm); each needs three of its own");
+    spill(folder / "crowd.toml", table_of("right_arm", "Right"));
+    refused(
+        {"--arm", left, "--crowd", "crowd.toml"},
+        "crowd.toml:2: limb.right_arm.joints: the left arm and the right arm share the joint 'RightArm' in rig.glb; "
+        "each needs three of its own");
 }
 
 TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, line and key")
@@ -127,15 +207,40 @@ TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, 
         CHECK(outcome.exit_code == 1);
         CHECK(outcome.err == message);
     };
-    refused(
-        "[crowd]\nlimbs = \"legs\"\n",
-        "swivel: crowd.toml:2: crowd.limbs: no legs found in rig.glb by the usual joint names (no joints have names in "
-        "use for it); name them with --leg HIP,KNEE,ANKLE\n");
+    refused("[crowd]\nlimbs = \"legs\"\n",
+            "swivel: crowd.toml:2: crowd.limbs: no legs found by the usual joint names (no joints have names in "
+            "use for it) in rig.glb; name them with limb.left_leg.joints\n");
     refused(
         "[crowd]\n\ntargets = \"no.csv\"\n",
         "swivel: crowd.toml:3: crowd.targets: no.csv: cannot be opened: No such file or directory; check the path\n");
     spill(folder / "crowd.toml", "[crowd]\ntargets = \"no.csv\"\n");
     CHECK(run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml", "--targets", "clip"}).exit_code == 0);
+    fs::create_directory(folder / "folder");
+    refused("[crowd]\ntargets = \"folder\"\n",
+            "swivel: crowd.toml:2: crowd.targets: folder: is a directory; name a file in it\n");
+}
+
+// A pipe that is opened twice loses what its writer has to say.
+TEST_CASE("rigs: a crowd file's targets may come from a pipe")
+{
+    const TempFolder folder;
+    write_arms(folder / "rig.glb", {"Left", "Right"});
+    spill(folder / "crowd.toml", "[crowd]\ntargets = \"pipe\"\n");
+    const fs::path pipe = folder / "pipe";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    const auto before = std::signal(SIGPIPE, SIG_IGN);
+    std::thread writer(
+        [&] { spill(pipe, "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n0,0,left_arm,2,1,0,1,2,0\n"); });
+    const Outcome outcome =
+        run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml", "--json"}, {.max_seconds = 10});
+    const int nobody_else = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // lets the writer go if the command did not
+    writer.join();
+    close(nobody_else);
+    std::signal(SIGPIPE, before);
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.out.find("\"pipe\"") != std::string::npos);
 }
 
 TEST_CASE("rigs: a mirror that comes or goes in the clip is refused, one that stays is followed")

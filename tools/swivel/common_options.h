@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/swivel/motion_file.h"
 #include "tools/swivel/validators.h"
 
 namespace swivel::tools {
@@ -32,6 +33,19 @@ inline CLI::Option* add_threads(CLI::App& command, unsigned& threads)
 }
 
 inline CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
+
+// --clip and --fps; use: what the animation is there for.
+inline void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
+{
+    command.add_option(
+        "--clip", motion.clip,
+        "Animation of a glTF, FBX or DAE file, by name or, counted from 0, index; else the first; " + use);
+    command
+        .add_option("--fps", motion.rate,
+                    "Samples a second of a glTF, FBX or DAE animation; without it its keys, or finer where they are "
+                    "coarse or uneven (docs/rigs.md)")
+        ->check(number(0.001, 10'000));
+}
 
 // --arm and --leg; other_side: what becomes of the one that is not named.
 inline void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,

@@ -27,7 +27,7 @@ template <class T>
 
 }  // namespace
 
-std::string targets_of(const CrowdFile& file)
+std::string checked_targets(const CrowdFile& file)
 {
     if (!file.targets || file.targets->value == "clip") return "clip";
     const std::filesystem::path path = file.path.parent_path() / file.targets->value;

@@ -12,8 +12,9 @@
 
 namespace swivel::tools {
 
-// The targets' file that the crowd file names, a relative path from the crowd file's folder, or "clip"; it is there.
-std::string targets_of(const formats::CrowdFile& file);
+// "clip", or the targets' file that the crowd file names, a relative path from the crowd file's folder. It can be
+// opened as a text, or is a pipe, which is not tried.
+std::string checked_targets(const formats::CrowdFile& file);
 
 // Every table speaks of a limb that is solved.
 void require_solved(const formats::CrowdFile& file, std::span<const Limb> limbs);

@@ -176,13 +176,8 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
 {
     if (choice.kinds.empty() && file.limbs) {
         choice.kinds = file.limbs->value;
-        choice.kinds_from = fmt::format("{} = \"{}\" in line {} of {}", file.limbs->key, file.limbs->value,
-                                        file.limbs->line, formats::printable(file.path.string(), 400));
-        choice.kinds_key = file.limbs->key;
-        choice.kinds_file = file.path;
-        choice.kinds_line = file.limbs->line;
+        choice.kinds_source = {file.limbs->key, file.path, file.limbs->line};
     }
-    const bool has_arms = !choice.arms.empty(), has_legs = !choice.legs.empty();  // named elsewhere
     for (const formats::LimbSection& section : file.sections) {
         const auto name = formats::limb_of_word(section.selector);
         if (!name) continue;
@@ -191,10 +186,10 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
         if (joints && choice.kinds == (is_arm ? "legs" : "arms"))
             throw formats::InputError(file.path, joints->line,
                                       fmt::format("{}: {} solves no {}; solve \"all\", or take this out", joints->key,
-                                                  choice.kinds_from, is_arm ? "arms" : "legs"));
-        if (joints && !(is_arm ? has_arms : has_legs))
+                                                  kinds_words(choice), is_arm ? "arms" : "legs"));
+        if (joints)
             (is_arm ? choice.arms : choice.legs)
-                .push_back({joints->value, name->side, joints->key, file.path, joints->line});
+                .push_back({joints->value, name->side, {joints->key, file.path, joints->line}});
         if (const auto& hinge = section.settings.hinge)
             choice.hinges.push_back({*name, hinge->value,
                                      fmt::format("{} of {}", hinge->key, formats::printable(file.path.string(), 400))});

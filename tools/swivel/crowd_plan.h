@@ -50,8 +50,9 @@ struct CrowdPlan {
     std::vector<LimbPlan> limbs;                 // one for each limb solved
 };
 
-// What the crowd file names of limbs: adds its joints and hinges to the choice, and its limbs unless the choice has
-// kinds already. Throws InputError naming line and key for joints of a kind that is left out.
+// What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and hinges to
+// the choice, and its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
+// kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 
 // The plan for limbs of a clip. file: null without a crowd file; then all is as the clip has it. Throws InputError

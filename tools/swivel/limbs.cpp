@@ -26,8 +26,20 @@ constexpr std::size_t kShownName = 80;  // bytes of a joint's name in a message
 struct Candidate {
     LimbName name;
     LimbByName found;
-    bool beside_named = false;  // looked for by names, the other side was named by the user
+    const Source* source = nullptr;  // where the user named it; null: found by the names in use
 };
+
+// A fault of what the user said of a clip, where it was said.
+[[noreturn]] void refuse(const Source& source, const std::filesystem::path& clip, std::string_view cause,
+                         std::string_view advice)
+{
+    if (source.is_file())
+        throw InputError(
+            source.file, source.line,
+            fmt::format("{}: {} in {}{}", source.key, cause, formats::printable(clip.string(), 400), advice));
+    const std::string said_by = source.key.empty() ? "" : fmt::format(" ({})", source.key);
+    throw InputError(clip, fmt::format("{}{}{}", cause, said_by, advice));
+}
 
 // Reads one limb that the user named.
 struct NameReader {
@@ -38,10 +50,7 @@ struct NameReader {
 
     [[noreturn]] void refuse(std::string_view cause, std::string_view advice) const
     {
-        if (from.line == 0) throw InputError(file, fmt::format("{} ({}){}", cause, from.option, advice));
-        throw InputError(
-            from.file, from.line,
-            fmt::format("{}: {} in {}{}", from.option, cause, formats::printable(file.string(), 400), advice));
+        tools::refuse(from.source, file, cause, advice);
     }
 
     int joint(const std::string& name) const
@@ -66,7 +75,8 @@ struct NameReader {
         if (!is_chain(clip, joints))
             refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text), "");
         const std::string_view speaks = formats::joint_at(clip, joints[0]).name;
-        return {{kind, from.side ? *from.side : side_of(speaks, otherwise)}, {joints, from.option, {}}, false};
+        return {
+            {kind, from.side ? *from.side : side_of(speaks, otherwise)}, {joints, from.source.key, {}}, &from.source};
     }
 };
 
@@ -82,45 +92,75 @@ bool is_chosen(const LimbChoice& choice, LimbKind kind)
     return !names_of(choice, kind).empty();
 }
 
-// The limbs of one kind: those named; a side that is not, by habit, where the kind was asked for or none is named.
-std::vector<Candidate> candidates(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice,
-                                  LimbKind kind)
+bool has(std::span<const Candidate> limbs, LimbName name)
+{
+    return std::any_of(limbs.begin(), limbs.end(), [&](const Candidate& limb) { return limb.name == name; });
+}
+
+// What options name of one kind.
+std::vector<Candidate> named_by_options(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice,
+                                        LimbKind kind)
 {
     const LimbWords& words = words_of(kind);
-    const std::vector<NamedLimb>& names = names_of(choice, kind);
     std::vector<Candidate> limbs;
-    for (const NamedLimb& named : names)
-        limbs.push_back(NameReader{clip, file, words, named}.limb(kind, limbs.empty() ? Side::left : Side::right));
+    for (const NamedLimb& named : names_of(choice, kind))
+        if (!named.source.is_file())
+            limbs.push_back(NameReader{clip, file, words, named}.limb(kind, limbs.empty() ? Side::left : Side::right));
     if (limbs.size() > 2)
         throw InputError(
             file, fmt::format("{} was given more than twice; a character has two {}", words.option, words.limbs));
     if (limbs.size() == 2 && limbs[0].name == limbs[1].name)
         throw InputError(file, fmt::format("both {} are taken as {}; write {} left:... and {} right:...", words.limbs,
                                            side_name(limbs[0].name.side), words.option, words.option));
-    if (!names.empty() && choice.kinds.empty()) return limbs;
-    for (const LimbName name : {LimbName{kind, Side::left}, LimbName{kind, Side::right}}) {
-        const auto is_this = [&](const Candidate& limb) { return limb.name == name; };
-        if (std::none_of(limbs.begin(), limbs.end(), is_this))
-            limbs.insert(name.side == Side::left ? limbs.begin() : limbs.end(),
-                         {name, limb_by_name(clip, name), !names.empty()});
-    }
     return limbs;
 }
 
-bool share_a_joint(const LimbJoints& a, const LimbJoints& b)
+// The limbs of one kind: those that options name; of the sides left those that a file names; and of the sides then
+// left those by habit, where the kind was asked for or none is named.
+std::vector<Candidate> candidates(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice,
+                                  LimbKind kind)
 {
-    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+    const std::vector<NamedLimb>& names = names_of(choice, kind);
+    std::vector<Candidate> limbs = named_by_options(clip, file, choice, kind);
+    const auto add = [&](Candidate limb) {
+        limbs.insert(limb.name.side == Side::left ? limbs.begin() : limbs.end(), std::move(limb));
+    };
+    for (const NamedLimb& named : names)
+        if (named.source.is_file() && !has(limbs, {kind, *named.side}))
+            add(NameReader{clip, file, words_of(kind), named}.limb(kind, *named.side));
+    if (!names.empty() && choice.kinds.empty()) return limbs;
+    for (const LimbName name : {LimbName{kind, Side::left}, LimbName{kind, Side::right}})
+        if (!has(limbs, name)) add({name, limb_by_name(clip, name)});
+    return limbs;
 }
 
-void require_apart(const std::filesystem::path& file, std::span<const Candidate> limbs)
+// A joint that both have, or -1.
+int shared_joint(const Candidate& a, const Candidate& b)
 {
-    for (std::size_t a = 0; a < limbs.size(); ++a)
-        for (std::size_t b = 0; b < a; ++b)
-            if (limbs[a].found.joints && limbs[b].found.joints &&
-                share_a_joint(*limbs[a].found.joints, *limbs[b].found.joints))
-                throw InputError(file, fmt::format("the {} and the {} share a joint; each needs three of its own ({})",
-                                                   plain_name(limbs[b].name), plain_name(limbs[a].name),
-                                                   words_of(limbs[a].name.kind).option));
+    if (!a.found.joints || !b.found.joints) return -1;
+    const LimbJoints &of_a = *a.found.joints, &of_b = *b.found.joints;
+    const auto found = std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end());
+    return found == of_a.end() ? -1 : *found;
+}
+
+// No joint is in two limbs: one that the user named takes it from one found by habit; two named are refused. (No name
+// is in use for two limbs, so that two found by habit share none.)
+void keep_apart(const Clip& clip, const std::filesystem::path& file, std::span<Candidate> limbs)
+{
+    for (const Candidate& named : limbs) {
+        if (!named.source) continue;
+        for (Candidate& other : limbs) {
+            if (&other == &named) continue;
+            const int joint = shared_joint(named, other);
+            if (joint < 0) continue;
+            if (other.source)
+                refuse(*other.source, file,
+                       fmt::format("the {} and the {} share the joint '{}'", plain_name(named.name),
+                                   plain_name(other.name), printable_name(joint_at(clip, joint))),
+                       "; each needs three of its own");
+            other.found = {std::nullopt, {}, fmt::format("its joints were named for the {}", plain_name(named.name))};
+        }
+    }
 }
 
 // Of every limb that is known, solved or not.
@@ -154,7 +194,7 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
 {
     LimbFinding finding{candidate.name, std::nullopt, candidate.found.problem, candidate.found.joints.has_value()};
     if (!finding.has_names) {
-        finding.is_half = !finding.problem.empty() && !candidate.beside_named;
+        finding.is_half = !finding.problem.empty();
         if (finding.problem.empty()) finding.problem = why_none_fits(clip);
         return finding;
     }
@@ -167,23 +207,58 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
     return finding;
 }
 
+// How to name a limb: as the kinds were given, by options or in a file.
+std::string naming(const LimbChoice& choice, LimbName name)
+{
+    if (choice.kinds_source.is_file()) return fmt::format("limb.{}.joints", limb_word(name));
+    const LimbWords& words = words_of(name.kind);
+    return fmt::format("{} {}", words.option, words.joints);
+}
+
+// Of a limb that is found by habit: the kinds' line, where a file has it.
+[[noreturn]] void refuse_found(const std::filesystem::path& file, const LimbChoice& choice, std::string_view cause,
+                               std::string_view advice)
+{
+    refuse(choice.kinds_source.is_file() ? choice.kinds_source : Source{}, file, cause, advice);
+}
+
 // No limb of the finding's kind has names in use.
 [[noreturn]] void refuse_kind(const std::filesystem::path& file, const LimbChoice& choice, const LimbFinding& finding)
 {
-    const LimbWords& words = words_of(finding.name.kind);
-    const std::string advice =
-        fmt::format("by the usual joint names ({}); name them with {} {}", finding.problem, words.option, words.joints);
-    if (choice.kinds_line == 0) throw InputError(file, fmt::format("no {} found {}", words.limbs, advice));
-    throw InputError(choice.kinds_file, choice.kinds_line,
-                     fmt::format("{}: no {} found in {} {}", choice.kinds_key, words.limbs,
-                                 formats::printable(file.string(), 400), advice));
+    refuse_found(
+        file, choice,
+        fmt::format("no {} found by the usual joint names ({})", words_of(finding.name.kind).limbs, finding.problem),
+        fmt::format("; name them with {}", naming(choice, finding.name)));
+}
+
+// The other limb of its kind binds.
+[[noreturn]] void refuse_half(const std::filesystem::path& file, const LimbChoice& choice, const LimbFinding& finding,
+                              LimbName other)
+{
+    const std::string cause = fmt::format("the {} cannot be bound: {}", plain_name(finding.name), finding.problem);
+    const std::string how = naming(choice, finding.name);
+    if (choice.kinds.empty())
+        refuse_found(
+            file, choice, cause,
+            fmt::format("; name both {} with {}, or the {} alone", words_of(other.kind).limbs, how, plain_name(other)));
+    refuse_found(file, choice, cause,
+                 fmt::format("; name it with {}, or the {} alone and leave out {}", how, plain_name(other),
+                             choice.kinds_source.key));
 }
 
 }  // namespace
 
+std::string kinds_words(const LimbChoice& choice)
+{
+    const Source& source = choice.kinds_source;
+    if (!source.is_file()) return fmt::format("{} {}", source.key, choice.kinds);
+    return fmt::format("{} = \"{}\" in line {} of {}", source.key, choice.kinds, source.line,
+                       formats::printable(source.file.string(), 400));
+}
+
 NamedLimb limb_of_option(std::string_view text, std::string_view option)
 {
-    NamedLimb limb{{}, std::nullopt, std::string(option)};
+    NamedLimb limb{{}, std::nullopt, {std::string(option)}};
     for (const Side side : {Side::left, Side::right}) {
         const std::string prefix = fmt::format("{}:", side_name(side));
         if (!text.starts_with(prefix)) continue;
@@ -202,7 +277,7 @@ LimbSearch look_for_limbs(const Clip& clip, const std::filesystem::path& file, c
     for (const LimbKind kind : {LimbKind::arm, LimbKind::leg})
         if (is_chosen(choice, kind))
             for (Candidate& limb : candidates(clip, file, choice, kind)) limbs.push_back(std::move(limb));
-    require_apart(file, limbs);
+    keep_apart(clip, file, limbs);
     LimbSearch search{front_of(clip, limbs), {}};
     for (const Candidate& limb : limbs) search.findings.push_back(finding_of(clip, choice, search.front, limb));
     return search;
@@ -221,14 +296,10 @@ FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const
             found.missing.push_back(std::move(finding));
     }
     for (const LimbFinding& finding : found.missing) {
-        const LimbWords& words = words_of(finding.name.kind);
         const auto is_same_kind = [&](const Limb& limb) { return limb.name.kind == finding.name.kind; };
         const auto other = std::find_if(found.limbs.begin(), found.limbs.end(), is_same_kind);
         if (other == found.limbs.end()) refuse_kind(file, choice, finding);
-        if (finding.is_half)
-            throw InputError(file, fmt::format("the {} cannot be bound: {}; name both {} with {} {}, or the {} alone",
-                                               plain_name(finding.name), finding.problem, words.limbs, words.option,
-                                               words.joints, plain_name(other->name)));
+        if (finding.is_half) refuse_half(file, choice, finding, other->name);
     }
     return found;
 }

@@ -124,16 +124,17 @@ void require_named_limbs_solved(const LimbChoice& choice)
 {
     if (choice.kinds == "legs" && !choice.arms.empty())
         throw CommandError(2,
-                           fmt::format("--arm names an arm, but {} solves none; use --limbs all", choice.kinds_from));
+                           fmt::format("--arm names an arm, but {} solves none; use --limbs all", kinds_words(choice)));
     if (choice.kinds == "arms" && !choice.legs.empty())
-        throw CommandError(2, fmt::format("--leg names a leg, but {} solves none; use --limbs all", choice.kinds_from));
+        throw CommandError(2,
+                           fmt::format("--leg names a leg, but {} solves none; use --limbs all", kinds_words(choice)));
 }
 
 LimbChoice choice_of(const Options& options)
 {
     LimbChoice choice;
     choice.kinds = options.kinds;
-    choice.kinds_from = fmt::format("--limbs {}", options.kinds);
+    if (!options.kinds.empty()) choice.kinds_source = {"--limbs"};
     for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
     for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
     require_named_limbs_solved(choice);
@@ -155,7 +156,7 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
-    job.targets = options.targets ? *options.targets : job.crowd ? targets_of(*job.crowd) : "clip";
+    job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
     return job;
 }
 
@@ -209,16 +210,7 @@ void add_solve(CLI::App& app)
             "Motion file: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel info)")
         ->required()
         ->check(file_name());
-    command->add_option(
-        "--clip", options->motion.clip,
-        "Animation of a glTF, FBX or DAE file, by name or, counted from 0, index; else the first; a file without "
-        "animations is solved in its rest pose");
-    command
-        ->add_option("--fps", options->motion.rate,
-                     "Sample a glTF, FBX or DAE animation so many times a second; else its keys are the frames where "
-                     "they lie on an "
-                     "even grid, 24 a second or more (60 for curves, any for steps), and 60 a second or more elsewhere")
-        ->check(number(0.001, 10'000));
+    add_motion(*command, options->motion, "a file without animations is solved in its rest pose");
     command
         ->add_option("--targets", options->targets,
                      "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
