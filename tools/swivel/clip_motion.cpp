@@ -42,7 +42,7 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
         formats::world_pose(clip, frame, pose_w);
         for (std::size_t n = 0; n < limbs.size(); ++n) {
             const Limb& limb = limbs[n];
-            const int parent = clip.joints[static_cast<std::size_t>(limb.upper())].parent;
+            const int parent = joint_at(clip, limb.upper()).parent;
             const JointPose parent_w = parent < 0 ? JointPose() : pose_w[static_cast<std::size_t>(parent)];
             limbs_.push_back(limb_in(limb, chain_pose(clip, frame, limb.chain), parent_w));
             if (parent >= 0)

@@ -26,7 +26,10 @@ void take(AngleRange& range, double angle)
     range.most = std::max(range.most, angle);
 }
 
-// To the next tenth; 0.002 beyond it, so that what a solve in floats adds fits in, too.
+Vector3d to_three_decimals(const Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }  // no -0
+
+// To the next tenth. 0.002 covers what floats add in a solve: a cosine is off by some 1e-7 there, which is less than
+// 0.002 degrees from an opening of 0.2 on. "rig axes: a clip fits into the limits that are printed" solves under them.
 double tenth_above(double angle) { return std::min(180.0, std::ceil(10 * (angle + 0.002)) / 10); }
 double tenth_below(double angle) { return std::max(0.0, std::floor(10 * (angle - 0.002)) / 10); }
 
@@ -56,10 +59,12 @@ std::string direction_words(const Vector3d& direction_w, const Front& front)
 std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
 {
     if (clip.frame_count < 2) return std::nullopt;
-    const Quaterniond arm_from_parent = quaternion(limb.bound.binding.parent_from_arm).conjugate();
+    LimbRange range{};
+    range.hinge = to_three_decimals(limb.hinge);
+    const BoundLimb bound = bind(rest_chain(clip, limb.chain, range.hinge.stableNormalized()));
+    const Quaterniond arm_from_parent = quaternion(bound.binding.parent_from_arm).conjugate();
     std::vector<Vector3d> upper;
     Vector3d sum = Vector3d::Zero();
-    LimbRange range{};
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const ChainPose pose = chain_pose(clip, frame, limb.chain);
         const Vector3d bone = pose.position[1] - pose.position[0], lower = pose.position[2] - pose.position[1];
@@ -72,7 +77,7 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
     if (upper.empty()) return std::nullopt;
     // 1e-3: directions that cancel have no mean; then any axis will do.
     const bool has_mean = sum.norm() > 1e-3 * static_cast<double>(upper.size());
-    range.axis = has_mean ? Vector3d((1000 * sum.normalized()).array().round() / 1000) : Vector3d::UnitZ();
+    range.axis = has_mean ? to_three_decimals(sum.normalized()) : Vector3d::UnitZ();
     double opening = 0;
     for (const Vector3d& bone : upper) opening = std::max(opening, angle_deg(bone, range.axis));
     range.opening_deg = tenth_above(opening);

@@ -19,15 +19,18 @@ struct AngleRange {
     double least = 180, most = 0;
 };
 
-// Where all of a clip lies, as a crowd file's limits say it. All frames fit into them.
+// Where all of a clip lies, as a crowd file's limits say it. All frames fit into them, if the limb is bound with this
+// hinge: the frame's x and y turn with it.
 struct LimbRange {
-    Eigen::Vector3d axis;  // the upper bone's mean direction in the limb's own frame, to three decimals
-    double opening_deg;    // the upper bone's largest angle to it, up to the next tenth
-    AngleRange from_z;     // the upper bone's angle to the frame's z, where it lies at rest
-    AngleRange flexion;    // the angle between both bones, outwards to the next tenth
+    Eigen::Vector3d hinge;  // the limb's to three decimals, in the upper joint's axes; near 1 long
+    Eigen::Vector3d axis;   // the upper bone's mean direction in the frame of that hinge, to three decimals
+    double opening_deg;     // the upper bone's largest angle to it, up to the next tenth
+    AngleRange from_z;      // the upper bone's angle to the frame's z, where it lies at rest
+    AngleRange flexion;     // the angle between both bones, outwards to the next tenth
 };
 
-// Nothing for a clip of one frame, which is no motion. Takes every frame's pose of the limb.
+// Nothing for a clip of one frame, which is no motion. Takes every frame's pose of the limb: what lies between frames
+// may leave the range.
 std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

@@ -73,7 +73,7 @@ void store(const Eigen::Matrix<double, size, 1>& v, float (&to)[size])
     for (int n = 0; n < size; ++n) to[n] = static_cast<float>(v[n]);
 }
 
-BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
+swivel_chain chain_at(const ChainPose& rest, const Vector3d& hinge)
 {
     swivel_chain chain{};
     store<4>(rest.turn[0].coeffs(), chain.shoulder_rotation);
@@ -82,8 +82,13 @@ BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
     store<3>(rest.upper_bone(), chain.elbow_offset);
     store<3>(rest.lower_bone(), chain.wrist_offset);
     store<3>(hinge, chain.hinge);
+    return chain;
+}
+
+BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
+{
     try {
-        return bind(chain);
+        return bind(chain_at(rest, hinge));
     } catch (const Error& error) {
         throw CannotBind(error.what());
     }
@@ -126,6 +131,11 @@ std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
 }
 
 }  // namespace
+
+swivel_chain rest_chain(const Clip& clip, const LimbChain& chain, const Vector3d& hinge)
+{
+    return chain_at(rest_pose(clip, chain), hinge);
+}
 
 Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
                std::span<const GivenHinge> hinges)

@@ -55,6 +55,10 @@ struct CannotBind : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// What bind() takes: the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are the
+// world's). hinge: in the upper joint's axes, unit.
+swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& hinge);
+
 // The limb of these joints, bound. joints: as is_chain() says; front: see figure_front(). Throws CannotBind for a bone
 // of no length, a scale that is uneven or nothing (at rest or in any frame) at, between or above the joints, a mirror
 // there that a frame has and the rest pose has not, or the other way round, or a hinge along a bone.

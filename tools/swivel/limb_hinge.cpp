@@ -101,8 +101,15 @@ Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>,
     Front front;
     Vector3d up = Vector3d::Zero();
     if (arms && legs) up = place(0, 0) + place(1, 0) - place(2, 0) - place(3, 0);
-    if (legs && !(up.norm() > 0)) up = place(2, 0) + place(3, 0) - place(2, 2) - place(3, 2);
-    if (up.norm() > 0) front.up = up.normalized();
+    front.up_source = "hips to shoulders";
+    if (legs && !(up.norm() > 0)) {
+        up = place(2, 0) + place(3, 0) - place(2, 2) - place(3, 2);
+        front.up_source = "the legs";
+    }
+    if (up.norm() > 0)
+        front.up = up.normalized();
+    else
+        front.up_source = Front().up_source;
 
     if (legs) {
         Vector3d forwards = Vector3d::Zero();
@@ -112,7 +119,7 @@ Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>,
             const Vector3d step = pose_w[static_cast<std::size_t>(toes)].position - place(leg, 2);
             if (step.norm() > 0) forwards += step.normalized();
         }
-        if (const auto level = across(forwards, front.up)) return {*level, front.up, "the toes"};
+        if (const auto level = across(forwards, front.up)) return {*level, front.up, "the toes", front.up_source};
     }
     if (!arms && !legs) return front;
     const std::size_t pair = arms ? 0 : 2;
@@ -120,7 +127,8 @@ Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>,
     const int fork = fork_of(clip, (*joints[pair])[0], (*joints[pair + 1])[0]);
     const bool mirrored = fork >= 0 && pose_w[static_cast<std::size_t>(fork)].mirrored;
     if (const auto level = across(mirrored ? Vector3d(-left) : left, front.up))
-        return {level->cross(front.up), front.up, arms ? "left and right shoulder" : "left and right hip"};
+        return {level->cross(front.up), front.up, arms ? "left and right shoulder" : "left and right hip",
+                front.up_source};
     return front;
 }
 

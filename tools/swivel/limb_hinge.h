@@ -18,7 +18,8 @@ namespace swivel::tools {
 struct Front {
     Eigen::Vector3d forwards = Eigen::Vector3d::UnitZ();
     Eigen::Vector3d up = Eigen::Vector3d::UnitY();
-    std::string source = "the file's +Z";  // for people
+    std::string source = "the file's +Z";     // of forwards, for people
+    std::string up_source = "the file's +Y";  // of up
 };
 
 // joints: of the limbs in the order of formats::kLimbNames, those that are known. By the toes; else by shoulders (or

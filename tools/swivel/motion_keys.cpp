@@ -21,7 +21,7 @@ std::vector<formats::RotationOverride> MotionKeys::overrides(const formats::Clip
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
         for (std::size_t n = 0; n < (plans_[limb].has(SWIVEL_WITH_HAND) ? 3 : 2); ++n)
             overrides.push_back({limbs_[limb].joints[n], keys_[3 * limb + n]});
-        const int above = clip.joints[static_cast<std::size_t>(limbs_[limb].upper())].parent;
+        const int above = joint_at(clip, limbs_[limb].upper()).parent;
         if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) overrides.push_back({above, clavicles_[limb]});
     }
     return overrides;

@@ -137,6 +137,12 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     return out;
 }
 
+std::string vector_text(const Eigen::Vector3d& v)
+{
+    const Eigen::Array3d shown = (1000 * v).array().round() / 1000 + 0.0;  // no -0.000
+    return fmt::format("({:.3f} {:.3f} {:.3f})", shown.x(), shown.y(), shown.z());
+}
+
 void print_json(const nlohmann::ordered_json& json)
 {
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

@@ -6,30 +6,20 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
+#include "tools/swivel/report.h"
 
 namespace swivel::tools {
-
-namespace {
-
-const std::string& joint_name(const formats::Clip& clip, int joint)
-{
-    return clip.joints[static_cast<std::size_t>(joint)].name;
-}
-
-}  // namespace
 
 void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
     fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", facts.clip, clip.joints.size(), clip.frame_count,
                1 / clip.frame_time);
-    const auto shown = [&](int joint) { return formats::printable(joint_name(clip, joint), 80); };
+    const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
-        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge ({:.3f} {:.3f} {:.3f}), {}\n",
-                   kind_name(limb.name.kind), side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()),
-                   shown(limb.end()), limb.bound.lengths[0], limb.bound.lengths[1], limb.hinge.x(), limb.hinge.y(),
-                   limb.hinge.z(), limb.hinge_source);
+        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge {}, {}\n", kind_name(limb.name.kind),
+                   side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
+                   limb.bound.lengths[0], limb.bound.lengths[1], vector_text(limb.hinge), limb.hinge_source);
     for (const LimbFinding& finding : facts.missing)
         fmt::print("{:<8} {:<5} missing: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
                    finding.problem);
@@ -60,9 +50,9 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
         const LimbWords& words = words_of(limb.name.kind);
         out[fmt::format("{}_bound", words.limbs)].push_back(
             {{"side", side_name(limb.name.side)},
-             {words.upper_joint, joint_name(clip, limb.upper())},
-             {words.lower_joint, joint_name(clip, limb.lower())},
-             {words.end_joint, joint_name(clip, limb.end())},
+             {words.upper_joint, joint_at(clip, limb.upper()).name},
+             {words.lower_joint, joint_at(clip, limb.lower()).name},
+             {words.end_joint, joint_at(clip, limb.end()).name},
              {"lengths", {limb.bound.lengths[0], limb.bound.lengths[1]}},
              {"hinge", {limb.hinge.x(), limb.hinge.y(), limb.hinge.z()}},
              {"hinge_source", limb.hinge_source}});

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/rig_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/formats/text.h"
+#include "tools/swivel/limb_axes.h"
+#include "tools/swivel/limb_words.h"
+#include "tools/swivel/report.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::Clip;
+using formats::printable;
+
+std::string name_of(const Clip& clip, int joint) { return printable_name(joint_at(clip, joint)); }
+
+// The joints between the limb's three.
+std::vector<int> between(const Limb& limb)
+{
+    std::vector<int> found;
+    for (const int joint : limb.chain.joints)
+        if (std::find(limb.joints.begin(), limb.joints.end(), joint) == limb.joints.end()) found.push_back(joint);
+    return found;
+}
+
+std::string list(const Clip& clip, const std::vector<int>& joints)
+{
+    std::string text;
+    for (const int joint : joints) text += (text.empty() ? "" : ", ") + name_of(clip, joint);
+    return text;
+}
+
+// A joint as a TOML string that names it alone: its name where no other joint has it, else its number.
+std::string toml_name(const Clip& clip, int joint)
+{
+    const std::string& name = joint_at(clip, joint).name;
+    const std::string quoted = nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const bool can_be_written = name == printable(name, name.size()) && nlohmann::json::parse(quoted) == name;
+    if (can_be_written && formats::find_joints(clip, name).size() == 1) return quoted;
+    return fmt::format("\"#{}\"", joint_at(clip, joint).number);
+}
+
+// Where the limits' axes point.
+void print_axes(const Limb& limb, const Front& front)
+{
+    for (int n = 0; n < 3; ++n) {
+        const Eigen::Vector3d axis_w = limb.axes_w.col(n);
+        fmt::print("           {:<21} {} {} {}\n", n == 0 ? "limits' axes at rest:" : "", "xyz"[n], vector_text(axis_w),
+                   direction_words(axis_w, front));
+    }
+}
+
+// What the clip fits into, as lines of a crowd file that bind the limb as they were taken.
+void print_range(const Clip& clip, const Limb& limb)
+{
+    const std::optional<LimbRange> range = range_of(clip, limb);
+    if (!range) return;
+    const auto row = [](const Eigen::Vector3d& v) {
+        return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x(), v.y(), v.z());
+    };
+    const std::string_view word = limb_word(limb.name);
+    fmt::print("           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
+               words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
+    fmt::print("           [limb.{}]\n", word);
+    fmt::print("           joints = [{}, {}, {}]\n", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
+               toml_name(clip, limb.end()));
+    fmt::print("           hinge = {}\n", row(range->hinge));
+    fmt::print("           [limb.{}.limits]\n", word);
+    fmt::print("           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", row(range->axis),
+               range->opening_deg);
+    fmt::print("           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.least, range->flexion.most);
+}
+
+void print_limb(const Clip& clip, const Limb& limb, const Front& front)
+{
+    fmt::print("{:<10} {} > {} > {}, named {} {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
+               name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.habit.starts_with('-') ? "by" : "as",
+               limb.habit);
+    fmt::print("           {:.6g} + {:.6g} long in the world, scale {:.6g}{}\n", limb.bound.lengths[0],
+               limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
+    fmt::print("           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
+               vector_text(limb.lower_bone));
+    fmt::print("           hinge {}: {}\n", vector_text(limb.hinge), limb.hinge_source);
+    print_axes(limb, front);
+    if (const auto inner = between(limb); !inner.empty())
+        fmt::print("           twist bones in between, which keep their own motion: {}\n", list(clip, inner));
+    if (!limb.side_twists.empty())
+        fmt::print("           twist bones beside, which keep their own motion: {}\n", list(clip, limb.side_twists));
+    print_range(clip, limb);
+}
+
+void print_joints(const Clip& clip)
+{
+    for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
+        fmt::print("#{:<5} {}{}\n", clip.joints[joint].number,
+                   printable(formats::joint_path(clip, static_cast<int>(joint)), 400),
+                   clip.joints[joint].is_bone ? "" : " (no bone)");
+}
+
+std::vector<double> vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json json_of(const AngleRange& range) { return {range.least, range.most}; }
+
+nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const Front& front)
+{
+    nlohmann::ordered_json out;
+    for (int n = 0; n < 3; ++n) {
+        const Eigen::Vector3d axis_w = limb.axes_w.col(n);
+        out["axes"][std::array{"x", "y", "z"}[static_cast<std::size_t>(n)]] = {
+            {"world", vector_of(axis_w)}, {"points", direction_words(axis_w, front)}};
+    }
+    if (const std::optional<LimbRange> range = range_of(clip, limb))
+        out["clip_range"] = {{"hinge", vector_of(range->hinge)},
+                             {"upper_from_z_deg", json_of(range->from_z)},
+                             {"shoulder_cone", {{"axis", vector_of(range->axis)}, {"opening_deg", range->opening_deg}}},
+                             {"flexion_deg", json_of(range->flexion)}};
+    return out;
+}
+
+// What bind() takes, field by field.
+nlohmann::ordered_json json_of_chain(const swivel_chain& chain)
+{
+    return {{"elbow_offset", chain.elbow_offset},           {"wrist_offset", chain.wrist_offset},
+            {"shoulder_rotation", chain.shoulder_rotation}, {"elbow_rotation", chain.elbow_rotation},
+            {"wrist_rotation", chain.wrist_rotation},       {"hinge", chain.hinge}};
+}
+
+nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, const Front& front)
+{
+    nlohmann::ordered_json out{{"limb", limb_word(finding.name)}, {"bound", finding.limb.has_value()}};
+    if (!finding.limb) {
+        out["problem"] = finding.problem;
+        return out;
+    }
+    const Limb& limb = *finding.limb;
+    const auto names = [&](const auto& joints) {
+        auto all = nlohmann::ordered_json::array();
+        for (const int joint : joints) all.push_back(joint_at(clip, joint).name);
+        return all;
+    };
+    out["named_as"] = limb.habit;
+    out["joints"] = names(limb.joints);
+    for (const int joint : limb.joints) out["numbers"].push_back(joint_at(clip, joint).number);
+    out["lengths"] = {limb.bound.lengths[0], limb.bound.lengths[1]};
+    out["scale"] = limb.scale;
+    out["mirrored"] = limb.mirrored;
+    out["upper_bone"] = vector_of(limb.upper_bone);
+    out["lower_bone"] = vector_of(limb.lower_bone);
+    out["hinge"] = vector_of(limb.hinge);
+    out["hinge_source"] = limb.hinge_source;
+    out["chain"] = json_of_chain(rest_chain(clip, limb.chain, limb.hinge));
+    out.update(json_of_frame(clip, limb, front));
+    out["twist_bones_between"] = names(between(limb));
+    out["twist_bones_beside"] = names(limb.side_twists);
+    return out;
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file, const LimbSearch& search,
+                               bool with_joints)
+{
+    const Clip& clip = motion.clip();
+    const Front& front = search.front;
+    nlohmann::ordered_json out{{"file", file},
+                               {"motion", motion.describe()},
+                               {"joints", clip.joints.size()},
+                               {"frames", clip.frame_count},
+                               {"frame_time", clip.frame_time},
+                               {"faces", vector_of(front.forwards)},
+                               {"faces_by", front.source},
+                               {"up", vector_of(front.up)},
+                               {"up_by", front.up_source}};
+    for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, front));
+    if (with_joints)
+        for (std::size_t n = 0; n < clip.joints.size(); ++n)
+            out["joint_list"].push_back({{"number", clip.joints[n].number},
+                                         {"path", formats::joint_path(clip, static_cast<int>(n))},
+                                         {"bone", clip.joints[n].is_bone}});
+    return out;
+}
+
+void print_rig(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints)
+{
+    const Clip& clip = motion.clip();
+    const Front& front = search.front;
+    const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
+    fmt::print("{}: {}, {} joints, {} of them bones, {} frames\n", file, motion.describe(), clip.joints.size(), bones,
+               clip.frame_count);
+    fmt::print("faces {}, told by {}; up is {}, told by {}\n", vector_text(front.forwards), front.source,
+               vector_text(front.up), front.up_source);
+    for (const LimbFinding& finding : search.findings) {
+        if (finding.limb)
+            print_limb(clip, *finding.limb, front);
+        else
+            fmt::print("{:<10} {}: {}\n", plain_name(finding.name), finding.has_names ? "refused" : "missing",
+                       finding.problem);
+    }
+    if (with_joints) print_joints(clip);
+}
+
+}  // namespace swivel::tools

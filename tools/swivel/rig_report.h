@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+//
+// What `swivel rig` says of a skeleton: for people, with lines for a crowd file, and for machines.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "tools/swivel/limbs.h"
+#include "tools/swivel/motion_file.h"
+
+namespace swivel::tools {
+
+// On stdout. file: as the user wrote it; with_joints: every joint, too.
+void print_rig(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints);
+nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file, const LimbSearch& search,
+                               bool with_joints);
+
+}  // namespace swivel::tools
