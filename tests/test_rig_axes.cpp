@@ -72,9 +72,10 @@ int limited(const TempFolder& folder, const std::string& toml, const char* flag)
 std::string cone_of(const json& limb, double less)
 {
     const json& cone = limb.at("clip_range").at("shoulder_cone");
-    return fmt::format("[limb.{}.limits]\nshoulder_cone = {{ axis = {}, opening_deg = {} }}\n",
-                       limb.at("limb").get<std::string>(), cone.at("axis").dump(),
-                       cone.at("opening_deg").get<double>() - less);
+    return fmt::format(
+        "[limb.{0}]\nhinge = {1}\n[limb.{0}.limits]\nshoulder_cone = {{ axis = {2}, opening_deg = {3} }}\n",
+        limb.at("limb").get<std::string>(), limb.at("clip_range").at("hinge").dump(), cone.at("axis").dump(),
+        cone.at("opening_deg").get<double>() - less);
 }
 
 std::string flexion_of(const json& limb, double less)
@@ -315,6 +316,19 @@ TEST_CASE("rig axes: what tells which way is up")
     CHECK(told_by(true, true) == "hips to shoulders");
     CHECK(told_by(false, true) == "the legs");
     CHECK(told_by(true, false) == "the file's +Y");
+}
+
+TEST_CASE("rig axes: solve's report has no sign of a zero either")
+{
+    const TempFolder folder;
+    GltfRig rig;
+    int parent = -1;
+    for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
+    rig.write(folder / "rig.glb");
+    spill(folder / "crowd.toml", "[limb.left_arm]\nhinge = [-0.0001, 1, -0.0]\n");
+    const Outcome outcome = run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml"});
+    INFO(outcome.err << outcome.out);
+    CHECK(outcome.out.find("hinge (0.000 1.000 0.000), limb.left_arm.hinge of crowd.toml") != std::string::npos);
 }
 
 TEST_CASE("rig axes: a limb's chain is what bind() takes")
