@@ -194,6 +194,36 @@ TEST_CASE("rigs: a joint that is named for one limb is no other's")
         "each needs three of its own");
 }
 
+TEST_CASE("rigs: rig and solve see the same figure, of which one limb alone is named")
+{
+    const TempFolder folder;
+    GltfRig rig;  // its left is at -X, so that it faces -Z
+    const int root = rig.add("root", -1, {0, 0, 0});
+    for (const double side : {-1.0, 1.0}) {
+        const std::string word = side < 0 ? "Left" : "Right";
+        for (int at = root; const std::string name : {"Arm", "ForeArm", "Hand"})
+            at = rig.add(word + name, at, {side, at == root ? 2.0 : 0, 0});
+        for (int at = root; const std::string name : {"UpLeg", "Leg", "Foot"})
+            at = rig.add(word + name, at, {at == root ? side : 0, at == root ? 0 : -1.0, 0});
+    }
+    rig.write(folder / "rig.glb");
+    const auto hinge = [&](const char* command, const char* limbs) {
+        const Outcome outcome =
+            run_command(folder.path, {command, "rig.glb", "--json", "--arm", "right:" + joints_of("Left")});
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        const json report = json::parse(outcome.out);
+        for (const json& limb : report.at(limbs))
+            if (limb.contains("hinge")) return limb;
+        return json();
+    };
+    const json in_rig = hinge("rig", "limbs"), solved = hinge("solve", "arms_bound");
+    CHECK(in_rig.at("limb") == "right_arm");
+    CHECK(in_rig.at("hinge") == solved.at("hinge"));
+    CHECK(solved.at("hinge_source") ==
+          "elbows bend forwards, facing by left and right hip, as neither rest pose nor clip shows a bend");
+}
+
 TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, line and key")
 {
     const TempFolder folder;

@@ -164,14 +164,16 @@ void keep_apart(const Clip& clip, const std::filesystem::path& file, std::span<C
 }
 
 // Of every limb that is known, solved or not.
-Front front_of(const Clip& clip, std::span<const Candidate> limbs)
+Front front_of(const Clip& clip, const std::filesystem::path& file, std::span<const Candidate> limbs)
 {
+    std::vector<Candidate> all(limbs.begin(), limbs.end());
+    for (const LimbName name : formats::kLimbNames)
+        if (!has(all, name)) all.push_back({name, limb_by_name(clip, name)});
+    keep_apart(clip, file, all);
     std::array<std::optional<LimbJoints>, 4> joints;
-    for (std::size_t n = 0; n < joints.size(); ++n) {
-        joints[n] = limb_by_name(clip, formats::kLimbNames[n]).joints;
-        for (const Candidate& limb : limbs)
+    for (std::size_t n = 0; n < joints.size(); ++n)
+        for (const Candidate& limb : all)
             if (limb.name == formats::kLimbNames[n]) joints[n] = limb.found.joints;
-    }
     return figure_front(clip, joints);
 }
 
@@ -278,7 +280,7 @@ LimbSearch look_for_limbs(const Clip& clip, const std::filesystem::path& file, c
         if (is_chosen(choice, kind))
             for (Candidate& limb : candidates(clip, file, choice, kind)) limbs.push_back(std::move(limb));
     keep_apart(clip, file, limbs);
-    LimbSearch search{front_of(clip, limbs), {}};
+    LimbSearch search{front_of(clip, file, limbs), {}};
     for (const Candidate& limb : limbs) search.findings.push_back(finding_of(clip, choice, search.front, limb));
     return search;
 }
