@@ -111,6 +111,29 @@ TEST_CASE("gltf frames: a coarser grid is divided so that its keys stay frames, 
     CHECK(frames("STEP", coarse, true, kNone, 10).size() == 11);
 }
 
+TEST_CASE("gltf frames: a jump, two keys a float's last digit apart, is no step of the grid, however late")
+{
+    const auto film = times_of(500, 1 / 24.0), coarse = times_of(21, 1);
+    for (const std::size_t at : {1, 16, 20}) {
+        auto jumping = coarse;
+        jumping.insert(jumping.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::nextafter(coarse[at], HUGE_VALF));
+        CHECK(frames("LINEAR", jumping, true).size() == 1201);
+        CHECK(frames("STEP", jumping, true) == coarse);
+    }
+    auto jumping = film;
+    jumping.insert(jumping.begin() + 481, std::nextafter(film[480], HUGE_VALF));
+    CHECK(frames("LINEAR", jumping, true) == film);
+}
+
+TEST_CASE("gltf frames: a grid has up to 1000 frames a second, else 60")
+{
+    const auto finest = times_of(11, 0.001), finer = times_of(1001, 0.0009);
+    CHECK(frames("LINEAR", finest, true) == finest);
+    CHECK(frames("LINEAR", finer, true).size() == 55);
+    CHECK(frames("LINEAR", {0, 0.0005f, 100}, true).size() == 6001);
+    CHECK(frames("STEP", {0, 0.0005f}, true).size() == 2);
+}
+
 TEST_CASE("gltf frames: a curve between two keys is written as the source has it")
 {
     const TempFolder folder;

@@ -15,7 +15,8 @@ namespace {
 constexpr double kDefaultRate = 60, kRestFrameTime = 1.0 / 30;
 // Keys this far apart are frames: films and exporters have 24 a second, and curves are lost between.
 constexpr double kWidestStep = 1.0 / 24, kWidestCurveStep = 1.0 / 60;
-constexpr double kSlack = 0.02;  // of a step: times are floats, which late in a long clip are that coarse
+constexpr double kFinestStep = 1.0 / 1000;  // what lies closer is no rate, but keys apart by chance
+constexpr double kSlack = 0.02;             // of a step: times are floats, which late in a long clip are that coarse
 
 // Every time at which some channel has a key, each once.
 std::vector<double> key_times(const GltfFile& file)
@@ -28,16 +29,25 @@ std::vector<double> key_times(const GltfFile& file)
     return times;
 }
 
-// The number of equal steps from the first time to the last that meet every time; 0: there is none. A step is at least
-// a microsecond.
+// Times up to this far apart are one to a grid: a jump is two keys a float's last digit apart, and what exporters
+// reckon is off by some.
+double jump_width(const std::vector<double>& times)
+{
+    const auto latest = static_cast<float>(std::max(std::abs(times.front()), std::abs(times.back())));
+    return std::max(1e-6, 4 * static_cast<double>(std::nextafter(latest, HUGE_VALF) - latest));
+}
+
+// The number of equal steps from the first time to the last that meet every time; 0: there is none, or steps are
+// smaller than kFinestStep.
 double steps_of_grid(const std::vector<double>& times)
 {
-    const double begin = times.front(), length = times.back() - begin;
+    const double begin = times.front(), length = times.back() - begin, jump = jump_width(times);
     double smallest = length;
     for (std::size_t n = 1; n < times.size(); ++n) {
         const double gap = times[n] - times[n - 1];
-        if (gap > 1e-6) smallest = std::min(smallest, gap);
+        if (gap > jump) smallest = std::min(smallest, gap);
     }
+    if (smallest < (1 - kSlack) * kFinestStep) return 0;
     const double steps = std::round(length / smallest);
     for (const double time : times) {
         const double place = (time - begin) / length * steps;
