@@ -291,6 +291,48 @@ TEST_CASE("gltf weights: what cannot be read or has no sum is left as it is")
     }
 }
 
+TEST_CASE("gltf weights: the first GiB of them is looked at, the rest takes no room")
+{
+    constexpr std::size_t kVertices = 1 << 18;  // 4 MiB a set
+    const TempFolder folder;
+    WeightedRig made(kVertices);
+    std::string whole(4 * kVertices, '\0');
+    for (std::size_t n = 0; n < whole.size(); n += 4) whole[n] = '\xff';
+    const int well = made.add_raw(whole, kByte, true), zero = well + 1;
+    made.rig.json["accessors"].push_back({{"componentType", kFloat}, {"count", kVertices}, {"type", "VEC4"}});
+    json& primitives = made.rig.json["meshes"][0]["primitives"];
+    const auto add = [&](const std::vector<int>& sets) {
+        json attributes;
+        for (std::size_t n = 0; n < sets.size(); ++n) attributes["WEIGHTS_" + std::to_string(n)] = sets[n];
+        primitives.push_back({{"attributes", attributes}});
+    };
+    const auto count = [&] {
+        made.rig.write(folder / "rig.glb");
+        return mended_vertex_count(read_gltf(folder / "rig.glb"));
+    };
+    add(std::vector<int>(257, zero));
+    CHECK(count() == 0);
+    const Outcome outcome = run_command(folder.path, {"rig", "rig.glb", "--arm", "LeftArm,LeftForeArm,LeftHand"});
+    INFO(outcome.err << outcome.peak_kib);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.peak_kib < 400'000);
+    add({zero});
+    CHECK(count() == kVertices);
+    // Sets that are well: 255 and then 256 in all.
+    primitives.clear();
+    add({zero, well, zero});
+    for (std::size_t size = 2; size < 23; ++size) {
+        add(std::vector<int>(size, zero));
+        primitives.back()["attributes"]["WEIGHTS_0"] = well;
+    }
+    add({zero});
+    CHECK(count() == kVertices);
+    primitives.erase(primitives.size() - 1);
+    add({well});
+    add({zero});
+    CHECK(count() == 0);
+}
+
 TEST_CASE("gltf weights: a broken mesh is read or refused, never worse")
 {
     const TempFolder folder;

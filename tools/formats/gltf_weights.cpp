@@ -10,7 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "tools/formats/error.h"
@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Sets = std::vector<std::vector<float>>;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // as floats, of all that is looked at
 
 // Accessors of a primitive's WEIGHTS_0, WEIGHTS_1 and so on; none where they are compressed or no plain indices.
 std::vector<int> weights_of(const Json& primitive)
@@ -48,23 +48,33 @@ bool is_legal(const tinygltf::Accessor& accessor)
             (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT));
 }
 
-std::optional<Sets> read_sets(const GltfData& data, const std::vector<int>& accessors)
+// How many vertices all these sets have; 0: they do not agree, or are not legal.
+std::size_t vertex_count_of(const GltfData& data, const std::vector<int>& accessors)
+{
+    const std::vector<tinygltf::Accessor>& all = data.model.accessors;
+    const auto at = [&](int index) { return static_cast<std::size_t>(index); };
+    std::size_t bytes = 0;
+    for (const std::string_view buffer : data.buffers) bytes += buffer.size();
+    const std::size_t count = at(accessors[0]) < all.size() ? all[at(accessors[0])].count : 0;
+    const bool is_sound = std::all_of(accessors.begin(), accessors.end(), [&](int index) {
+        return at(index) < all.size() && is_legal(all[at(index)]) && all[at(index)].count == count;
+    });
+    return is_sound && count <= bytes ? count : 0;  // vertices have at least positions, so not more than bytes
+}
+
+// As floats; takes what they take from `room`, and has none where that is too small.
+std::optional<Sets> read_sets(const GltfData& data, const std::vector<int>& accessors, std::size_t& room)
 try {
+    const std::size_t count = vertex_count_of(data, accessors), set_size = 4 * sizeof(float) * count;
+    if (count == 0 || accessors.size() > room / set_size) return {};
+    room -= accessors.size() * set_size;
     Sets sets;
-    std::size_t bytes = 0, count = 0;
-    for (const std::string& buffer : data.buffers) bytes += buffer.size();
     for (const int index : accessors) {
-        const tinygltf::Accessor& accessor = data.model.accessors.at(static_cast<std::size_t>(index));
-        if (sets.empty()) count = accessor.count;
-        // Vertices have at least positions: a file cannot have more than bytes.
-        if (!is_legal(accessor) || accessor.count != count || count == 0 || count > bytes) return {};
         const std::vector<double> values = read_accessor(data, index, TINYGLTF_TYPE_VEC4, count);
         sets.emplace_back(values.begin(), values.end());
     }
     return sets;
 } catch (const InputError&) {
-    return {};
-} catch (const std::out_of_range&) {
     return {};
 }
 
@@ -103,20 +113,18 @@ bool mend(Sets& sets, std::size_t vertex)
 // The mended weights found so far.
 struct Mended {
     std::vector<GltfWeights> weights;
-    std::map<std::vector<int>, std::optional<std::size_t>>
-        known;  // by accessors, in `weights`; those that are well: none
+    // By accessors, in `weights`; those that are well: none.
+    std::map<std::vector<int>, std::optional<std::size_t>> known;
     std::size_t room = kMostBytes;
 
     std::optional<std::size_t> look_at(const GltfData& data, const std::vector<int>& accessors)
     {
-        std::optional<Sets> sets = read_sets(data, accessors);
+        std::optional<Sets> sets = read_sets(data, accessors, room);
         if (!sets) return {};
         GltfWeights found;
         for (std::size_t vertex = 0; vertex < sets->front().size() / 4; ++vertex)
             found.mended_count += mend(*sets, vertex);
-        const std::size_t size = sets->size() * sets->front().size() * sizeof(float);
-        if (found.mended_count == 0 || size > room) return {};
-        room -= size;
+        if (found.mended_count == 0) return {};
         found.sets = std::move(*sets);
         weights.push_back(std::move(found));
         return weights.size() - 1;

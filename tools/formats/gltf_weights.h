@@ -24,8 +24,8 @@ struct GltfWeights {
 // What primitives of `document` need new weights, and which. Weights are divided by their sum; a vertex of zeros
 // follows its first joint, as in three.js; a vertex that adds up, or has a negative weight, keeps its own. Never throws
 // for what a file says: weights that cannot be read (compressed, broken, of no legal type) are none that need new ones,
-// nor are those beyond 1 GiB in all. Takes 48 bytes for each vertex and set while it looks, and keeps 16 of those that
-// it mends.
+// nor are those beyond the first GiB that it looks at, 16 bytes for each vertex and set. Takes these and 32 for each
+// vertex while it looks, and keeps the 16 of those that it mends.
 std::vector<GltfWeights> mended_weights(const GltfData& data, const nlohmann::ordered_json& document);
 
 }  // namespace swivel::formats
