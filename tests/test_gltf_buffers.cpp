@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
+#include "tests/run_command.h"
 #include "tools/formats/error.h"
 #include "tools/formats/gltf.h"
 
@@ -39,6 +41,13 @@ std::string text_with(const json& buffer)
     return whole.dump();
 }
 
+// A file of zeros that takes no room on the disk.
+void spill_zeros(const fs::path& path, std::uintmax_t size)
+{
+    spill(path, "");
+    fs::resize_file(path, size);
+}
+
 struct WorkingFolder {
     fs::path before = fs::current_path();
     explicit WorkingFolder(const fs::path& path) { fs::current_path(path); }
@@ -54,7 +63,7 @@ TEST_CASE("gltf buffers: a file may be longer than its buffer, not shorter")
     rig.write(folder / "rig.gltf");
     std::ofstream(folder / "rig.bin", std::ios::app | std::ios::binary) << "more";
     const GltfFile file = read_gltf(folder / "rig.gltf");
-    CHECK(file.buffers == std::vector<std::string>{rig.bytes});
+    CHECK(file.buffers == std::vector<std::string_view>{rig.bytes});
     for (const char* out : {"new.glb", "new.gltf"}) {
         write_gltf(folder / out, file, {});
         CHECK(plain_gltf_of(folder / out).json["buffers"][0]["byteLength"] == rig.bytes.size());
@@ -111,7 +120,7 @@ TEST_CASE("gltf buffers: a GLB's chunk is its first buffer's alone")
         whole["buffers"] = buffers;
         spill(folder / "rig.glb", GltfRig::glb(whole.dump(), chunk));
         const GltfFile file = read_gltf(folder / "rig.glb");
-        return file.buffers == std::vector<std::string>{moving_rig().bytes};
+        return file.buffers == std::vector<std::string_view>{moving_rig().bytes};
     };
     const json own = {{"byteLength", 32}};
     const std::string bytes = moving_rig().bytes;
@@ -177,6 +186,57 @@ TEST_CASE("gltf buffers: members of a wrong type are refused by name, not taken 
     CHECK(refusal("/bufferViews/1/byteStride", 6).find("a multiple of 4 from 4 to 252") != std::string::npos);
     CHECK(refusal("/bufferViews", 6).find("its bufferViews are no list") != std::string::npos);
 }
+
+TEST_CASE("gltf buffers: a file of several buffers is read once, and no more than 8 GiB of all")
+{
+    const TempFolder folder;
+    constexpr std::size_t kSize = 64u << 20;
+    spill_zeros(folder / "big.bin", kSize);
+    json whole = {{"asset", {{"version", "2.0"}}}, {"nodes", {{{"name", "LeftArm"}}}}};
+    for (std::size_t n = 0; n < 16; ++n)
+        whole["buffers"].push_back({{"byteLength", kSize - n % 2}, {"uri", "big.bin"}});
+    spill(folder / "rig.gltf", whole.dump());
+    const GltfFile file = read_gltf(folder / "rig.gltf");
+    REQUIRE(file.buffers.size() == 16);
+    for (std::size_t n = 0; n < 16; ++n) CHECK(file.buffers[n].size() == kSize - n % 2);
+    const Outcome outcome = run_command(folder.path, {"rig", "rig.gltf"});
+    INFO(outcome.peak_kib);
+    CHECK(outcome.peak_kib > 60'000);
+    CHECK(outcome.peak_kib < 300'000);
+
+    whole["buffers"] = json::array();
+    for (const char* name : {"a.bin", "b.bin", "c.bin"}) {
+        whole["buffers"].push_back({{"byteLength", std::uintmax_t{3} << 30}, {"uri", name}});
+        spill_zeros(folder / name, std::uintmax_t{3} << 30);
+    }
+    spill(folder / "rig.gltf", whole.dump());
+    CHECK_THROWS_WITH(read_gltf(folder / "rig.gltf"), Contains("its buffers come to more than 8 GiB"));
+}
+
+#ifndef __SANITIZE_ADDRESS__  // it needs more addresses than these
+TEST_CASE("gltf buffers: out of memory says what to do only where something can be done")
+{
+    const TempFolder folder;
+    spill_zeros(folder / "big.bin", 1u << 30);
+    const json whole = {{"asset", {{"version", "2.0"}}},
+                        {"nodes", {{{"name", "LeftArm"}}}},
+                        {"buffers", {{{"byteLength", 1u << 30}, {"uri", "big.bin"}}}}};
+    spill(folder / "rig.gltf", whole.dump());
+    rlimit before{};
+    REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
+    const rlimit less{1u << 30, before.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_AS, &less) == 0);  // for the command, too
+    const Outcome rig = run_command(folder.path, {"rig", "rig.gltf"});
+    const Outcome solve = run_command(folder.path, {"solve", "rig.gltf"});
+    const Outcome crowd = run_command(folder.path, {"solve", "rig.gltf", "--characters", "2"});
+    REQUIRE(setrlimit(RLIMIT_AS, &before) == 0);
+    CHECK(rig.exit_code == 1);
+    CHECK(rig.err == "swivel: out of memory\n");
+    CHECK(solve.err == "swivel: out of memory\n");
+    CHECK(crowd.exit_code == 1);
+    CHECK(crowd.err == "swivel: out of memory; try fewer --characters\n");
+}
+#endif
 
 // A pipe would hold up who reads it, for ever if nobody writes.
 TEST_CASE("gltf buffers: only plain files are read, pictures too")

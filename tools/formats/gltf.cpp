@@ -20,6 +20,7 @@
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_accessor.h"
 #include "tools/formats/gltf_buffers.h"
+#include "tools/formats/gltf_element.h"
 #include "tools/formats/gltf_frames.h"
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/text.h"
@@ -32,19 +33,6 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 [[noreturn]] void refuse(const GltfFile& file, const std::string& cause) { throw InputError(file.path, cause); }
-
-template <class Element>
-const Element& element(const GltfFile& file, const std::vector<Element>& list, int index, const char* name)
-{
-    if (index < 0 || static_cast<std::size_t>(index) >= list.size())
-        refuse(file, fmt::format("{} {} does not exist; there are {}", name, index, list.size()));
-    return list[static_cast<std::size_t>(index)];
-}
-
-bool all_finite(const std::vector<double>& values)
-{
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
 
 // Nodes, skins, animations and what these refer to, but no bytes.
 tinygltf::Model load(const std::filesystem::path& path, const nlohmann::ordered_json& document)
@@ -67,10 +55,9 @@ tinygltf::Model load(const std::filesystem::path& path, const nlohmann::ordered_
 
 // ---- the skeleton
 
-// A node's matrix taken apart.
+// A node's matrix, of 16 numbers as check_members() has seen, taken apart.
 void take_apart(const GltfFile& file, const std::vector<double>& matrix, Joint& joint)
 {
-    if (matrix.size() != 16 || !all_finite(matrix)) refuse(file, fmt::format("node {} has a bad matrix", joint.number));
     const Eigen::Map<const Eigen::Matrix4d> whole(matrix.data());  // column after column in both
     Eigen::Matrix3d linear = whole.topLeftCorner<3, 3>();
     joint.offset = whole.topRightCorner<3, 1>();
@@ -86,15 +73,10 @@ void take_apart(const GltfFile& file, const std::vector<double>& matrix, Joint& 
 
 void read_transform(const GltfFile& file, const tinygltf::Node& node, Joint& joint)
 {
-    const auto check = [&](const std::vector<double>& values, std::size_t size, const char* name) {
-        if (!values.empty() && (values.size() != size || !all_finite(values)))
-            refuse(file, fmt::format("node {} has a bad {}", joint.number, name));
-        return !values.empty();
-    };
     if (!node.matrix.empty()) return take_apart(file, node.matrix, joint);
-    if (check(node.translation, 3, "translation")) joint.offset = Vector3d(node.translation.data());
-    if (check(node.scale, 3, "scale")) joint.rest_scale = Vector3d(node.scale.data());
-    if (check(node.rotation, 4, "rotation")) {
+    if (!node.translation.empty()) joint.offset = Vector3d(node.translation.data());
+    if (!node.scale.empty()) joint.rest_scale = Vector3d(node.scale.data());
+    if (!node.rotation.empty()) {
         const Quaterniond rotation(Vector4d(node.rotation.data()));
         if (!(rotation.norm() > 1e-6)) refuse(file, fmt::format("node {} has a zero rotation", joint.number));
         joint.rest_rotation = rotation.normalized();
@@ -106,7 +88,7 @@ std::vector<int> parents_of(const GltfFile& file, const tinygltf::Model& model)
     std::vector<int> parent(model.nodes.size(), -1);
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
         for (const int child : model.nodes[n].children) {
-            element(file, model.nodes, child, "node");
+            element(file.path, model.nodes, child, "node");
             if (parent[static_cast<std::size_t>(child)] >= 0)
                 refuse(file, fmt::format("node {} is the child of two nodes", child));
             parent[static_cast<std::size_t>(child)] = static_cast<int>(n);
@@ -139,7 +121,7 @@ std::vector<int> read_nodes(GltfFile& file, const tinygltf::Model& model)
     if (file.clip.joints.size() != model.nodes.size()) refuse(file, "nodes are each other's children, in a circle");
     for (const tinygltf::Skin& skin : model.skins)
         for (const int node : skin.joints) {
-            element(file, model.nodes, node, "node");
+            element(file.path, model.nodes, node, "node");
             file.clip.joints[static_cast<std::size_t>(joint_of[static_cast<std::size_t>(node)])].is_bone = true;
         }
     return joint_of;
@@ -209,9 +191,9 @@ public:
         const auto [at, is_new] = places_.try_emplace(
             {from.input, from.output, interpolation_of(file, from), is_rotation}, file.samplers.size());
         if (!is_new) return at->second;
-        file.samplers.push_back(read_sampler(file, model, from, is_rotation));
-        bytes_ +=
-            file.samplers.back().time.size() * sizeof(double) + file.samplers.back().value.size() * sizeof(Vector4d);
+        const GltfSampler& sampler = file.samplers.emplace_back(read_sampler(file, model, from, is_rotation));
+        // Times twice: sample_frames() has them all in one list.
+        bytes_ += 2 * sampler.time.size() * sizeof(double) + sampler.value.size() * sizeof(Vector4d);
         if (bytes_ > kMostPoseBytes)
             refuse(file, fmt::format("the keys of animation {} come to more than 8 GiB; cut it", file.animation));
         return at->second;
@@ -230,14 +212,14 @@ void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vect
     for (const tinygltf::AnimationChannel& from : animation.channels) {
         const auto is = [&](const char* path) { return from.target_path == path; };
         if (from.target_node < 0 || !(is("translation") || is("rotation") || is("scale"))) continue;
-        element(file, model.nodes, from.target_node, "node");
+        element(file.path, model.nodes, from.target_node, "node");
         GltfChannel channel;
         channel.joint = joint_of[static_cast<std::size_t>(from.target_node)];
         channel.path = is("rotation") ? GltfPath::rotation : is("scale") ? GltfPath::scale : GltfPath::translation;
         if (!seen.emplace(channel.joint, channel.path).second)
             refuse(file, fmt::format("two channels of animation {} are for the {} of node {}; glTF allows one",
                                      file.animation, from.target_path, from.target_node));
-        channel.sampler = samplers.place(file, model, element(file, animation.samplers, from.sampler, "sampler"),
+        channel.sampler = samplers.place(file, model, element(file.path, animation.samplers, from.sampler, "sampler"),
                                          channel.path == GltfPath::rotation);
         file.channels.push_back(channel);
     }
@@ -256,7 +238,9 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     file.path = path;
     file.container = std::move(container);
     const nlohmann::ordered_json document = gltf_document(path, file.container.json);
-    file.buffers = read_gltf_buffers(path, document, file.container);
+    GltfBuffers buffers = read_gltf_buffers(path, document, file.container);
+    file.buffers = std::move(buffers.bytes);
+    file.contents = std::move(buffers.contents);
     const tinygltf::Model model = load(path, document);
     const std::vector<int> joint_of = read_nodes(file, model);
     if (file.clip.joints.empty()) refuse(file, "it has no nodes, so no skeleton");

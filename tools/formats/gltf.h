@@ -6,17 +6,16 @@
 // - Every node is a joint, so that what lies above a skeleton (an armature with its scale) counts. Nodes that a skin
 //   names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is "#12".
 // - The rest pose is the nodes' own transforms. A matrix is taken apart into translation, rotation and scale.
-// - The clip is sampled at frames. All keys of nodes are frames where they lie on one even grid that is fine enough for
-//   what moves on it: 24 a second or more, 60 or more for CUBICSPLINE, any for STEP. A coarser grid is divided into
-//   equal parts, 60 a second or more, so that its keys stay frames. Keys on no grid are sampled evenly from first to
-//   last, 60 times a second. So is everything at the rate asked for, if any is.
+// - Frames are the keys of nodes where these lie on an even grid of up to 1000 a second that is fine enough for what
+//   moves: 24 a second or more, 60 or more for CUBICSPLINE, any for STEP. A coarser grid is divided into equal parts,
+//   60 a second or more. Keys on no grid are sampled 60 times a second, and all keys at the rate asked for, if any is.
 // - No animation: the clip is one frame, the rest pose, and writing adds an animation of one key.
-// Images are neither decoded nor needed. Meshes are read for their skin weights alone. Animated weights of morphs,
-// visibility and other targets than nodes' own poses are kept, not read.
+// Of images and meshes only skin weights are read; of animations only nodes' own poses. All else is kept.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,14 +37,15 @@ struct GltfChannel {
 };
 
 struct GltfFile {
-    std::filesystem::path path;                // where it was read
-    GltfContainer container;                   // the whole file
-    std::vector<std::string> buffers;          // contents of the file's buffers, wherever they are kept
-    std::vector<std::string> animation_names;  // of all animations; may be empty or repeat
-    int animation = -1;                        // which one `clip` is; -1: there is none
-    std::vector<GltfChannel> channels;         // of that animation, those of nodes' own poses
-    std::vector<GltfSampler> samplers;         // of these channels, each once
-    std::vector<float> times;                  // of the clip's frames, strictly increasing seconds
+    std::filesystem::path path;                                // where it was read
+    GltfContainer container;                                   // the whole file
+    std::vector<std::string_view> buffers;                     // contents of the file's buffers, wherever they are kept
+    std::vector<std::shared_ptr<const std::string>> contents;  // what `buffers` lie in
+    std::vector<std::string> animation_names;                  // of all animations; may be empty or repeat
+    int animation = -1;                                        // which one `clip` is; -1: there is none
+    std::vector<GltfChannel> channels;                         // of that animation, those of nodes' own poses
+    std::vector<GltfSampler> samplers;                         // of these channels, each once
+    std::vector<float> times;                                  // of the clip's frames, strictly increasing seconds
     Clip clip;
     std::vector<GltfWeights> weights;  // skin weights that do not add up to 1, as they will be written
 };
@@ -62,9 +62,10 @@ struct GltfChoice {
 // Reads and checks a whole file. Throws InputError for anything malformed that concerns the skeleton or the chosen
 // animation; for buffers that are missing, compressed, shorter than they say, or elsewhere than in the file or in plain
 // files at addresses relative to it; for numbers that are not finite, an animation that does not exist or whose name is
-// not unique, and poses or keys beyond 8 GiB. Meshes make it fail only if an accessor, buffer view or buffer has
-// members of a wrong type. Holds the file about twice, its JSON thrice while it reads, 32 bytes a frame and joint, 24 a
-// frame for each translation and scale that has keys, and the skin weights that must be mended.
+// not unique, and buffers, poses or keys beyond 8 GiB. Meshes make it fail only if an accessor, buffer view or buffer
+// has members of a wrong type. Holds the file about twice, its JSON thrice while it reads, 40 bytes a key (104 with
+// CUBICSPLINE; keys that channels share once) and 8 more while it looks for frames, 32 a frame and joint, 24 a frame
+// for each translation and scale that has keys, and the skin weights that must be mended.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
 // The same of a file that is in memory already. path: what messages call it, and what its files lie beside.
@@ -80,10 +81,10 @@ void require_can_key(const GltfFile& file, int joint);
 // buffers byte by byte; keys and weights no longer used stay in them.
 // Joints whose node has a matrix get translation, rotation and scale instead, as animated nodes must.
 // path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). A .glb takes in the
-// buffers and images that lie in files beside the .gltf; a .gltf holds the new keys itself and goes on
-// using the same files, from wherever it is written.
-// Throws InputError on writing, and as require_can_key() does. Throws
-// std::invalid_argument for a joint out of range or named twice, a wrong frame count, a zero or non-finite quaternion.
+// buffers and images that lie in files beside the .gltf; a .gltf holds the new keys itself and goes on using the same
+// files, from wherever it is written.
+// Throws InputError on writing, and as require_can_key() does. Throws std::invalid_argument for a joint out of range or
+// named twice, a wrong frame count, a zero or non-finite quaternion.
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides);
 
 }  // namespace swivel::formats

@@ -10,19 +10,12 @@
 #include <cstring>
 
 #include "tools/formats/error.h"
+#include "tools/formats/gltf_element.h"
 
 namespace swivel::formats {
 namespace {
 
 [[noreturn]] void refuse(const GltfData& data, const std::string& cause) { throw InputError(data.path, cause); }
-
-template <class List>
-const auto& element(const GltfData& data, const List& list, int index, const char* name)
-{
-    if (index < 0 || static_cast<std::size_t>(index) >= list.size())
-        refuse(data, fmt::format("{} {} does not exist; there are {}", name, index, list.size()));
-    return list[static_cast<std::size_t>(index)];
-}
 
 double component(const char* at, int type, bool is_normalized)
 {
@@ -51,8 +44,8 @@ double component(const char* at, int type, bool is_normalized)
 std::vector<double> read_view(const GltfData& data, int view_index, std::size_t offset, std::size_t count,
                               std::size_t width, int type, bool is_normalized)
 {
-    const tinygltf::BufferView& view = element(data, data.model.bufferViews, view_index, "buffer view");
-    const auto& bytes = element(data, data.buffers, view.buffer, "buffer");
+    const tinygltf::BufferView& view = element(data.path, data.model.bufferViews, view_index, "buffer view");
+    const std::string_view bytes = element(data.path, data.buffers, view.buffer, "buffer");
     const auto size =
         static_cast<std::size_t>(std::max(tinygltf::GetComponentSizeInBytes(static_cast<unsigned>(type)), 0));
     const bool is_legal = (type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) ||
@@ -97,7 +90,7 @@ void patch(const GltfData& data, int index, std::size_t width, std::vector<doubl
 
 std::vector<double> read_accessor(const GltfData& data, int index, int type, std::size_t expected)
 {
-    const tinygltf::Accessor& at = element(data, data.model.accessors, index, "accessor");
+    const tinygltf::Accessor& at = element(data.path, data.model.accessors, index, "accessor");
     if (at.type != type) refuse(data, fmt::format("accessor {} of an animation has the wrong type", index));
     const auto width = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<unsigned>(type)));
     if (expected > 0 && at.count != expected)

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tinygltf {
@@ -19,7 +19,7 @@ namespace swivel::formats {
 struct GltfData {
     const std::filesystem::path& path;  // of the file, for messages
     const tinygltf::Model& model;       // its accessors and buffer views
-    std::span<const std::string> buffers;
+    std::span<const std::string_view> buffers;
 };
 
 // An accessor's components, element after element, normalised integers as what they stand for.

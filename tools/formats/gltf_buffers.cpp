@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_uri.h"
@@ -17,6 +19,8 @@ namespace swivel::formats {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} << 30;  // of all buffers
 
 // A buffer on its way in, and how messages call it.
 struct Buffer {
@@ -46,7 +50,8 @@ std::string bytes_in_text(const Buffer& buffer, const std::string& uri)
     return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(buffer.size)};
 }
 
-std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
+// The file at a buffer's address, which has the bytes, as far as can be known without reading it.
+fs::path file_of(const Buffer& buffer, const std::string& uri)
 {
     const std::string shown = printable(uri, 100);
     const fs::path file = file_at(uri, buffer.path);
@@ -55,34 +60,74 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
     std::error_code failed;
     if (!fs::is_regular_file(file, failed))
         buffer.refuse(fmt::format("lies in '{}', and there is no such file relative to this one", shown));
-    buffer.require(fs::file_size(file, failed), fmt::format("'{}'", shown));
-    std::string bytes(buffer.size, '\0');
-    std::ifstream in(file, std::ios::binary);
-    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    const std::uintmax_t size = fs::file_size(file, failed);
+    if (failed || !std::ifstream(file, std::ios::binary))
         buffer.refuse(fmt::format("lies in '{}', which cannot be read", shown));
+    buffer.require(size, fmt::format("'{}'", shown));
+    return file;
+}
+
+std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
+{
+    std::ifstream in(file_of(buffer, uri), std::ios::binary);
+    std::string bytes(buffer.size, '\0');
+    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+        buffer.refuse(fmt::format("lies in '{}', which cannot be read", printable(uri, 100)));
     return bytes;
+}
+
+// Buffers by the addresses of their files, which several may share; of one address the largest. Throws InputError where
+// these and all other buffers come to more than kMostBytes.
+std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::ordered_json& list)
+{
+    std::map<std::string, Buffer> files;
+    std::uintmax_t total = 0;
+    const auto count = [&](std::uintmax_t size) {
+        if (size > kMostBytes - total) throw InputError(path, "its buffers come to more than 8 GiB; split it");
+        total += size;
+    };
+    for (std::size_t n = 0; n < list.size(); ++n) {
+        const Buffer buffer{path, n, list[n].at("byteLength").get<std::uintmax_t>()};
+        const std::string uri = list[n].value("uri", "");
+        if (!list[n].contains("uri") || is_data_uri(uri)) continue;  // no more than the file itself holds
+        file_of(buffer, uri);
+        const auto [known, is_new] = files.try_emplace(uri, buffer);
+        if (!is_new && known->second.size >= buffer.size) continue;
+        count(buffer.size - (is_new ? 0 : known->second.size));
+        known->second.number = n;
+        known->second.size = buffer.size;
+    }
+    return files;
 }
 
 }  // namespace
 
-std::vector<std::string> read_gltf_buffers(const fs::path& path, const nlohmann::ordered_json& document,
-                                           const GltfContainer& container)
+GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::ordered_json& document,
+                              const GltfContainer& container)
 {
-    std::vector<std::string> buffers;
+    GltfBuffers buffers;
     const auto list = document.find("buffers");
     if (list == document.end()) return buffers;
+    const auto keep = [&](std::string bytes) {
+        return buffers.contents.emplace_back(std::make_shared<const std::string>(std::move(bytes)));
+    };
+    const std::map<std::string, Buffer> files = files_of(path, *list);
+    std::map<std::string, std::shared_ptr<const std::string>> read;
     for (const auto& each : *list) {
-        const Buffer buffer{path, buffers.size(), each.at("byteLength").get<std::uintmax_t>()};
+        const Buffer buffer{path, buffers.bytes.size(), each.at("byteLength").get<std::uintmax_t>()};
         const std::string uri = each.value("uri", "");
+        std::shared_ptr<const std::string> content;
         if (is_data_uri(uri)) {
-            buffers.push_back(bytes_in_text(buffer, uri));
+            content = keep(bytes_in_text(buffer, uri));
         } else if (each.contains("uri")) {
-            buffers.push_back(bytes_in_file(buffer, uri));
+            content = read[uri];
+            if (!content) content = read[uri] = keep(bytes_in_file(files.at(uri), uri));
         } else {
             if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri");
             buffer.require(container.bytes.size(), "the GLB's chunk");
-            buffers.push_back(container.bytes.substr(0, buffer.size));
+            content = keep(container.bytes.substr(0, buffer.size));
         }
+        buffers.bytes.push_back(std::string_view(*content).substr(0, buffer.size));
     }
     return buffers;
 }

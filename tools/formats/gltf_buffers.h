@@ -4,18 +4,26 @@
 // and nowhere else.
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/formats/gltf_container.h"
 
 namespace swivel::formats {
 
+struct GltfBuffers {
+    std::vector<std::string_view> bytes;                       // of each buffer, in `contents`, which copies share
+    std::vector<std::shared_ptr<const std::string>> contents;  // fewer where buffers lie in one file
+};
+
 // Every buffer of a document that check_members() has passed, each as long as it says: what there is beyond is left.
 // path: of the glTF file. Throws InputError, naming the buffer, where its bytes are missing, too few, or at an address
-// that is not relative. Reads plain files only; allocates what the buffers say they hold and the files do.
-std::vector<std::string> read_gltf_buffers(const std::filesystem::path& path, const nlohmann::ordered_json& document,
-                                           const GltfContainer& container);
+// that is not relative; and for more than 8 GiB in files. Reads plain files only, each address once; allocates what the
+// buffers say they hold and the files do.
+GltfBuffers read_gltf_buffers(const std::filesystem::path& path, const nlohmann::ordered_json& document,
+                              const GltfContainer& container);
 
 }  // namespace swivel::formats

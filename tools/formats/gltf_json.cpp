@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <initializer_list>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_check.h"
 #include "tools/formats/gltf_uri.h"
+#include "tools/formats/picture.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -86,15 +84,6 @@ void refuse_compression(const fs::path& path, const Json& document)
                                                name.get<std::string>()));
 }
 
-std::string mime_of(std::string_view bytes)
-{
-    if (bytes.starts_with("\x89PNG")) return "image/png";
-    if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
-    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
-    if (bytes.starts_with("\xabKTX 20\xbb")) return "image/ktx2";
-    return {};
-}
-
 // An asset on its way into a file: its JSON, and where new bytes go. An object of this Json is a vector of members: a
 // new one moves all others, so the lists that grow are there (open_lists()) before anything refers into the document.
 struct Asset {
@@ -143,7 +132,7 @@ std::string data_uri(std::string_view bytes) { return "data:application/octet-st
 bool is_beside(const Json& object) { return object.contains("uri") && !is_data_uri(object["uri"].get<std::string>()); }
 
 // Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
-void settle_text(Asset& asset, std::span<const std::string> buffers, const fs::path& from, const fs::path& to)
+void settle_text(Asset& asset, std::span<const std::string_view> buffers, const fs::path& from, const fs::path& to)
 {
     Json& list = asset.list("buffers");
     for (std::size_t n = 0; n < list.size(); ++n) {
@@ -157,7 +146,7 @@ void settle_text(Asset& asset, std::span<const std::string> buffers, const fs::p
 }
 
 // Buffers of a GLB: the first is its chunk; others move into the text.
-void settle_binary(Asset& asset, std::span<const std::string> buffers)
+void settle_binary(Asset& asset, std::span<const std::string_view> buffers)
 {
     Json& list = asset.list("buffers");
     for (std::size_t n = 1; n < list.size(); ++n)
@@ -165,16 +154,6 @@ void settle_binary(Asset& asset, std::span<const std::string> buffers)
     if (list.empty()) list.push_back({{"byteLength", 0}});
     list[0].erase("uri");
     if (!buffers.empty()) asset.bytes = buffers[0];
-}
-
-// A picture's bytes; none of what is no plain file (a device has no end) or larger than any picture is.
-std::string picture_at(const fs::path& path)
-{
-    constexpr std::uintmax_t kLargest = 512u << 20;
-    std::error_code failed;
-    if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) > kLargest || failed) return {};
-    std::ifstream in(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
 void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool binary)
@@ -185,13 +164,13 @@ void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool 
         if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string() || !is_beside(image)) continue;
         const std::string uri = image["uri"];
         const std::string bytes = binary ? picture_at(file_at(uri, from)) : std::string();
-        const std::string mime = mime_of(bytes);
-        if (mime.empty()) {  // also an image that is missing: then the address stays what it was
+        const std::string_view kind = picture_kind(bytes);
+        if (kind.empty()) {  // also where there is none
             image["uri"] = moved_uri(uri, from, to);
             continue;
         }
         image.erase("uri");
-        image["mimeType"] = mime;
+        image["mimeType"] = kind;
         image["bufferView"] = asset.add_view(bytes);
     }
 }
@@ -291,8 +270,8 @@ std::string skeleton_json(const Json& whole)
     return part.dump();
 }
 
-GltfContainer with_changes(const GltfContainer& file, std::span<const std::string> buffers, const GltfChanges& changes,
-                           const fs::path& from, const fs::path& to, bool binary)
+GltfContainer with_changes(const GltfContainer& file, std::span<const std::string_view> buffers,
+                           const GltfChanges& changes, const fs::path& from, const fs::path& to, bool binary)
 try {
     Asset asset{parse(from, file.json), {}, 0};
     asset.open_lists();

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/formats/gltf_container.h"
@@ -19,8 +20,8 @@ namespace swivel::formats {
 // members that check_members() refuses, and if the document says that its buffers are compressed.
 nlohmann::ordered_json gltf_document(const std::filesystem::path& path, std::string_view json);
 
-// The document, as text, without all that has nothing to do with nodes, skins and animations, so that no image or mesh,
-// be it broken, gets in the way; and without buffers.
+// What of the document concerns nodes, skins and animations, as text and without buffers: no broken image or mesh gets
+// in the reader's way.
 std::string skeleton_json(const nlohmann::ordered_json& document);
 
 // What a writer puts into a file.
@@ -42,7 +43,8 @@ struct GltfChanges {
 // The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for
 // what lies beside it; buffers: their contents. Both must be as read: anything gltf_document() refuses is undefined
 // here. Throws InputError when the result is larger than a GLB can be.
-GltfContainer with_changes(const GltfContainer& file, std::span<const std::string> buffers, const GltfChanges& changes,
-                           const std::filesystem::path& from, const std::filesystem::path& to, bool binary);
+GltfContainer with_changes(const GltfContainer& file, std::span<const std::string_view> buffers,
+                           const GltfChanges& changes, const std::filesystem::path& from,
+                           const std::filesystem::path& to, bool binary);
 
 }  // namespace swivel::formats

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
 
+#include "tools/formats/picture.h"
 #include "tools/formats/scene_meshes.h"
 
 namespace swivel::formats {
@@ -25,10 +24,8 @@ std::string bytes_beside(const fs::path& file, std::string name)
     const fs::path path = fs::path(name).lexically_normal();
     const bool is_below = path.is_relative() && (path.empty() || *path.begin() != "..");
     for (const fs::path& candidate : {is_below ? path : path.filename(), path.filename()}) {
-        std::error_code ignored;
-        if (candidate.empty() || !fs::is_regular_file(file.parent_path() / candidate, ignored)) continue;
-        std::ifstream in(file.parent_path() / candidate, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
+        if (candidate.empty()) continue;
+        if (std::string bytes = picture_at(file.parent_path() / candidate); !bytes.empty()) return bytes;
     }
     return {};
 }
@@ -41,26 +38,23 @@ std::string image_of(const aiScene& scene, const fs::path& file, const std::stri
     return {reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth};
 }
 
-// What glTF may hold, by its first bytes; else null.
-const char* mime_type_of(std::string_view bytes)
-{
-    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
-    if (bytes.starts_with("\xff\xd8\xff")) return "image/jpeg";
-    return nullptr;
-}
+// Textures by the names that materials have for their images; none of those that cannot be had.
+using Textures = std::map<std::string, std::optional<std::size_t>>;
 
-// The texture of an image by the name that the material has for it; each is taken in once.
+// The texture of an image; each is looked for and taken in once.
 std::optional<std::size_t> add_texture(GltfBuilder& gltf, const aiScene& scene, const fs::path& path,
-                                       const std::string& name, std::map<std::string, std::size_t>& known)
+                                       const std::string& name, Textures& known)
 {
-    if (const auto at = known.find(name); at != known.end()) return at->second;
+    const auto [at, is_new] = known.try_emplace(name);
+    if (!is_new) return at->second;
     const std::string bytes = image_of(scene, path, name);
-    const char* type = mime_type_of(bytes);
-    if (!type) return {};
+    const std::string_view kind = picture_kind(bytes);
+    if (kind != "image/png" && kind != "image/jpeg") return {};  // glTF has no others without an extension
     const std::size_t view = add_view(gltf, bytes, GltfUse::none);
-    gltf.json["images"].push_back({{"bufferView", view}, {"mimeType", type}});
+    gltf.json["images"].push_back({{"bufferView", view}, {"mimeType", kind}});
     gltf.json["textures"].push_back({{"source", gltf.json["images"].size() - 1}});
-    return known[name] = gltf.json["textures"].size() - 1;
+    at->second = gltf.json["textures"].size() - 1;
+    return at->second;
 }
 
 // Diffuse colour and opacity, each from 0 to 1.
@@ -80,7 +74,7 @@ std::vector<float> colour_of(const aiMaterial& material)
 std::vector<bool> add_materials(GltfBuilder& gltf, const aiScene& scene, const fs::path& path)
 {
     std::vector<bool> textured;
-    std::map<std::string, std::size_t> textures;
+    Textures textures;
     for (const aiMaterial* from : std::span(scene.mMaterials, scene.mNumMaterials)) {
         Json surface{{"baseColorFactor", colour_of(*from)}, {"metallicFactor", 0}};
         aiString name, image;

@@ -65,7 +65,9 @@ int main(int argc, char** argv)
     } catch (const CommandError& error) {
         return fail(error.exit_code, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(1, "out of memory; try fewer --characters");
+        const auto commands = app.get_subcommands();
+        const auto* option = commands.empty() ? nullptr : commands[0]->get_option_no_throw("--characters");
+        return fail(1, option && option->count() > 0 ? "out of memory; try fewer --characters" : "out of memory");
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }
