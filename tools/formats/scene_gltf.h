@@ -1,9 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// An assimp scene as glTF 2.0, for all that goes on with glTF. assimp has an exporter of its own, which is not used:
-// 5.2 fails on some scenes without a reason (box_nested_animation.dae of its own models), leaves an FBX file's axes and
-// unit as they are, has one skin for all meshes, and writes weights and texture names that Khronos' validator calls
-// errors. Kept are:
+// An assimp scene as glTF 2.0. assimp's own exporter is not used: 5.2 fails on some scenes (box_nested_animation.dae of
+// its models), leaves an FBX file's axes and unit as they are, has one skin for all meshes, and writes weights and
+// texture names that Khronos' validator calls errors. Kept are:
 // - nodes with their names and rest poses, in glTF's axes and metres;
 // - every animation of nodes: LINEAR keys at assimp's own times, in seconds. assimp says no other interpolation. Keys
 //   before 0 move the whole animation to start there; of keys at one time the later comes a float's last digit later;

@@ -17,6 +17,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/scene_gltf.h"
+#include "tools/formats/scene_nodes.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -77,19 +78,26 @@ std::set<std::string> moved_names(const aiScene& scene)
     return names;
 }
 
+// A node whose meshes all follow bones: its own keys and pivots move nothing.
+bool is_skinned(const aiScene& scene, const aiNode& node)
+{
+    return node.mNumMeshes > 0 && node.mNumChildren == 0 &&
+           std::all_of(node.mMeshes, node.mMeshes + node.mNumMeshes,
+                       [&](unsigned mesh) { return scene.mMeshes[mesh]->mNumBones > 0; });
+}
+
 // Of an FBX node's parts 5.2 gets translation, pre-rotation, rotation and scale right. A post-rotation turns the wrong
-// way, a geometric transform moves what hangs below, and keys of a node with pivots or offsets are lost. A mesh with
-// nothing below it may have any: no joint depends on it.
+// way, a geometric transform moves what hangs below, and all others are lost where the node has keys.
 void refuse_misread(const aiScene& scene, const std::filesystem::path& path)
 {
     Assimp::Importer importer;
     const std::set<std::string> moved = moved_names(scene);
     for (const auto& [name, part] : parts_of_nodes(read(importer, path, false, true))) {
         const bool is_sound = part == "Translation" || part == "PreRotation" || part == "Rotation" || part == "Scaling";
-        const bool is_always_wrong = part.starts_with("PostRotation") || part.starts_with("Geometric");
-        if (is_sound || (!is_always_wrong && !moved.contains(name))) continue;
         const aiNode* node = scene.mRootNode->FindNode(name.c_str());
-        if (node && node->mNumChildren == 0 && node->mNumMeshes > 0) continue;
+        const bool moves = moved.contains(name) && !(node && is_skinned(scene, *node));
+        const bool moves_others = part.starts_with("Geometric") && !(node && node->mNumChildren == 0);
+        if (is_sound || !(part.starts_with("PostRotation") || moves || moves_others)) continue;
         throw InputError(path,
                          fmt::format("node '{}' has a {}, which assimp misreads; freeze or bake it where the rig was "
                                      "made, or export the file as glTF",
@@ -115,7 +123,7 @@ GltfContainer import_scene(const std::filesystem::path& path)
     if (lower_suffix(path) == ".fbx") return import_by(path, false);
     try {
         return import_by(path, true);
-    } catch (const InputError&) {
+    } catch (const AmbiguousName&) {
         return import_by(path, false);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "tools/formats/error.h"
 #include "tools/formats/scene_import.h"
+
+#include "tools/formats/error.h"
 
 namespace swivel::formats {
 

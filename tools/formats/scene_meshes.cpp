@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "tools/formats/text.h"
 
@@ -72,22 +73,16 @@ std::vector<float> normals_of(const aiMesh& mesh)
 std::vector<float> texture_coordinates_of(const aiMesh& mesh, bool is_wanted)
 {
     std::vector<float> values;
-    if (!mesh.HasTextureCoords(0)) values.resize(is_wanted ? 2 * std::size_t{mesh.mNumVertices} : 0);
-    if (!mesh.HasTextureCoords(0)) return values;
+    if (!mesh.HasTextureCoords(0)) {
+        values.resize(is_wanted ? 2 * std::size_t{mesh.mNumVertices} : 0);
+        return values;
+    }
     for (const aiVector3D& at : std::span(mesh.mTextureCoords[0], mesh.mNumVertices))
         values.insert(values.end(), {finite_or_zero(at.x), finite_or_zero(1 - at.y)});
     return values;
 }
 
 // ---- skins
-
-Matrix4d matrix_of(const aiMatrix4x4& from)
-{
-    Matrix4d to = Matrix4d::Identity();
-    for (unsigned row = 0; row < 3; ++row)
-        for (unsigned column = 0; column < 4; ++column) to(row, column) = static_cast<double>(from[row][column]);
-    return to;
-}
 
 struct Skin {
     std::vector<int> joints;

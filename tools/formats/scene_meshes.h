@@ -11,7 +11,7 @@ namespace swivel::formats {
 // meshes without bones become one mesh; each mesh with bones its own, on a node of its own where a node has several.
 // A skin's joints are the mesh's bones and, so that no hand is missing that moves no vertex, all below them that
 // carries no mesh. A vertex follows its four strongest bones; one without any stays with the mesh's own node.
-// Throws InputError for a bone whose name several nodes have.
+// Throws AmbiguousName for a bone whose name several nodes have.
 void add_meshes(GltfBuilder& gltf, const aiScene& scene, const SceneNodes& nodes);
 
 // Adds the scene's materials, in its order, so that a mesh's material index is glTF's: the diffuse colour and its

@@ -17,14 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
-Matrix4d matrix_of(const aiMatrix4x4& from)
-{
-    Matrix4d to;
-    for (unsigned row = 0; row < 4; ++row)
-        for (unsigned column = 0; column < 4; ++column) to(row, column) = static_cast<double>(from[row][column]);
-    return to;
-}
-
 std::optional<double> number_of(const aiMetadata& metadata, const char* key)
 {
     double real = 0;
@@ -46,22 +38,32 @@ bool set_axis(const aiMetadata& metadata, const std::string& use, Matrix3d& turn
     return true;
 }
 
-// From an FBX file's axes and unit (a number of centimetres) to glTF's. Identity where the file does not say, or where
-// its axes are no turn.
-Matrix4d to_gltf(const aiScene& scene)
+// From an FBX file's axes and unit (a number of centimetres) to glTF's: a mirror, too, where the file's axes are a left
+// hand's. Identity where the file does not say.
+Matrix4d to_gltf(const aiScene& scene, const std::filesystem::path& path)
 {
     Matrix4d change = Matrix4d::Identity();
     if (!scene.mMetaData) return change;
     Matrix3d turn = Matrix3d::Zero();
     const bool says_axes = set_axis(*scene.mMetaData, "Coord", turn, 0) && set_axis(*scene.mMetaData, "Up", turn, 1) &&
                            set_axis(*scene.mMetaData, "Front", turn, 2);
-    if (says_axes && turn.determinant() > 0.5) change.topLeftCorner<3, 3>() = turn;
+    if (says_axes && turn.determinant() == 0)
+        throw InputError(path, "its UpAxis, FrontAxis and CoordAxis are not three; export the file again, or as glTF");
+    if (says_axes) change.topLeftCorner<3, 3>() = turn;
     const auto unit = number_of(*scene.mMetaData, "UnitScaleFactor");
     if (unit && *unit > 0 && std::isfinite(*unit)) change.topLeftCorner<3, 3>() *= *unit / 100;
     return change;
 }
 
 }  // namespace
+
+Matrix4d matrix_of(const aiMatrix4x4& from)
+{
+    Matrix4d to = Matrix4d::Identity();
+    for (unsigned row = 0; row < 3; ++row)
+        for (unsigned column = 0; column < 4; ++column) to(row, column) = static_cast<double>(from[row][column]);
+    return to;
+}
 
 SceneNodes nodes_of(const aiScene& scene, const std::filesystem::path& path)
 {
@@ -79,7 +81,7 @@ SceneNodes nodes_of(const aiScene& scene, const std::filesystem::path& path)
         for (unsigned n = node->mNumChildren; n-- > 0;) open.emplace_back(node->mChildren[n], number);
     }
     // A root that turns or scales is assimp's own answer to the file's axes.
-    if (found.local[0].isIdentity(0)) found.local[0] = to_gltf(scene);
+    if (found.local[0].isIdentity(0)) found.local[0] = to_gltf(scene, path);
     return found;
 }
 
@@ -87,8 +89,8 @@ int node_named(const SceneNodes& nodes, const std::string& name, const std::stri
 {
     const auto count = nodes.by_name.count(name);
     if (count > 1)
-        throw InputError(nodes.path, fmt::format("{} '{}', and {} nodes are called so; give each its own name", use,
-                                                 printable(name), count));
+        throw AmbiguousName(nodes.path, fmt::format("{} '{}', and {} nodes are called so; give each its own name", use,
+                                                    printable(name), count));
     return count == 0 ? -1 : nodes.by_name.find(name)->second;
 }
 

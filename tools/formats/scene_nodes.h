@@ -3,11 +3,15 @@
 // The nodes of an assimp scene, numbered as the glTF made of it numbers them, in glTF's axes and metres. Owns the
 // names by which assimp's animations and bones mean nodes; knows neither keys nor meshes.
 
+#include <assimp/matrix4x4.h>
+
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "tools/formats/error.h"
 
 struct aiNode;
 struct aiScene;
@@ -22,11 +26,19 @@ struct SceneNodes {
     std::multimap<std::string, int> by_name;
 };
 
+// Several nodes have a name that something means one of them by.
+struct AmbiguousName : InputError {
+    using InputError::InputError;
+};
+
+// A transform of assimp's: its upper three rows, as its last says nothing in an affine scene.
+Eigen::Matrix4d matrix_of(const aiMatrix4x4& from);
+
 // Every node of the scene. An FBX file's own axes and unit, which assimp leaves to its caller, become the root's
-// transform: +Y up and metres.
+// transform: +Y up and metres, mirrored where the axes are a left hand's. Throws InputError where they are not three.
 SceneNodes nodes_of(const aiScene& scene, const std::filesystem::path& path);
 
-// The node of a name; -1: none has it. Throws InputError where several have it: nothing says which is meant.
+// The node of a name; -1: none has it. Throws AmbiguousName where several have it: nothing says which is meant.
 // use: what the name is for, "animation 'Walk' moves".
 int node_named(const SceneNodes& nodes, const std::string& name, const std::string& use);
 
