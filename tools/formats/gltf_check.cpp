@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char *kIndex = "a whole number from 0", *kSize = "a whole number of bytes";
+constexpr const char *kIndex = "a whole number from 0 to 2147483647", *kSize = "a whole number of bytes";
 
 // glTF has whole numbers without a fraction, be it .0; a reader that wants them so takes others for missing.
 bool is_whole(const Json& value, std::uint64_t most)

@@ -34,6 +34,9 @@ std::string unescaped(const std::string& uri)
     return name;
 }
 
+// Whether it is an address relative to the file that it stands in: of no scheme, and no path from the root.
+bool is_relative(const std::string& uri) { return !has_scheme(uri) && !fs::path(unescaped(uri)).is_absolute(); }
+
 }  // namespace
 
 bool is_data_uri(const std::string& uri) { return uri.starts_with("data:"); }
@@ -42,7 +45,7 @@ fs::path file_at(const std::string& uri, const fs::path& beside)
 {
     const std::string name = unescaped(uri);
     const bool has_end = name.find('\0') != std::string::npos;  // the system would take it for the name's end
-    if (has_scheme(uri) || name.empty() || has_end || fs::path(name).is_absolute()) return {};
+    if (!is_relative(uri) || name.empty() || has_end) return {};
     return beside.parent_path() / name;
 }
 
@@ -53,7 +56,7 @@ std::string moved_uri(const std::string& uri, const fs::path& from, const fs::pa
         return fs::weakly_canonical(fs::absolute(file).parent_path(), failed);
     };
     const fs::path way = folder(from).lexically_relative(folder(to));
-    if (has_scheme(uri) || uri.starts_with('/') || failed || way.empty() || way == ".") return uri;
+    if (!is_relative(uri) || failed || way.empty() || way == ".") return uri;
     std::string moved;
     for (const char c : way.generic_string() + '/')
         moved += is_alphanumeric(c) || std::strchr("-._~/", c) ? std::string(1, c)

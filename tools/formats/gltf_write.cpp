@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::Quaterniond;
 
+const Joint& joint_at(const GltfFile& file, int joint) { return file.clip.joints[static_cast<std::size_t>(joint)]; }
+
 void check_override(const GltfFile& file, const RotationOverride& change, std::set<int>& seen)
 {
     if (change.joint < 0 || static_cast<std::size_t>(change.joint) >= file.clip.joints.size())
@@ -31,7 +33,7 @@ void check_override(const GltfFile& file, const RotationOverride& change, std::s
 // Keys of one joint, each on the side of the one before: a reader that does not look for the shorter arc gets it too.
 GltfChanges::Track track_of(const GltfFile& file, const RotationOverride& change)
 {
-    const Joint& joint = file.clip.joints[static_cast<std::size_t>(change.joint)];
+    const Joint& joint = joint_at(file, change.joint);
     GltfChanges::Track track{joint.number, {}, false, joint.offset, joint.rest_scale, joint.rest_rotation};
     Quaterniond before = joint.rest_rotation;
     for (const Quaterniond& rotation : change.rotation) {
@@ -71,7 +73,7 @@ std::size_t mended_vertex_count(const GltfFile& file)
 
 void require_can_key(const GltfFile& file, int joint)
 {
-    const Joint& at = file.clip.joints[static_cast<std::size_t>(joint)];
+    const Joint& at = joint_at(file, joint);
     if (at.is_sheared)
         throw InputError(file.path, fmt::format("the matrix of node {} is sheared, so it cannot have keys; remove the "
                                                 "shear where the rig was made",

@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "tools/formats/error.h"
+#include "tools/formats/limits.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

@@ -50,9 +50,6 @@ std::string lower_suffix(const std::filesystem::path& path);
 // infinity, hexadecimal, trailing characters, more than a double can hold.
 std::optional<double> parse_number(std::string_view text);
 
-// The longest position or axis that the engine solves; files may hold none longer.
-constexpr double kMaxNorm = 1e15;
-
 // The whole of `text` as a whole decimal number. Nothing for anything else, 1.0 included.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 

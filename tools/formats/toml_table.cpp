@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "tools/formats/error.h"
+#include "tools/formats/limits.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

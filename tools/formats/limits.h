@@ -1,0 +1,10 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// What the engine asks of numbers in files, so that a file that it would not solve is refused by file and line.
+
+namespace swivel::formats {
+
+// The longest target or axis that the engine solves; none in CSV and TOML may be longer.
+constexpr double kMaxNorm = 1e15;
+
+}  // namespace swivel::formats
