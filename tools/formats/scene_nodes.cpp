@@ -57,14 +57,6 @@ Matrix4d to_gltf(const aiScene& scene, const std::filesystem::path& path)
 
 }  // namespace
 
-Matrix4d matrix_of(const aiMatrix4x4& from)
-{
-    Matrix4d to = Matrix4d::Identity();
-    for (unsigned row = 0; row < 3; ++row)
-        for (unsigned column = 0; column < 4; ++column) to(row, column) = static_cast<double>(from[row][column]);
-    return to;
-}
-
 SceneNodes nodes_of(const aiScene& scene, const std::filesystem::path& path)
 {
     SceneNodes found;

@@ -3,8 +3,6 @@
 // The nodes of an assimp scene, numbered as the glTF made of it numbers them, in glTF's axes and metres. Owns the
 // names by which assimp's animations and bones mean nodes; knows neither keys nor meshes.
 
-#include <assimp/matrix4x4.h>
-
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <map>
@@ -31,8 +29,15 @@ struct AmbiguousName : InputError {
     using InputError::InputError;
 };
 
-// A transform of assimp's: its upper three rows, as its last says nothing in an affine scene.
-Eigen::Matrix4d matrix_of(const aiMatrix4x4& from);
+// A transform of assimp's, an aiMatrix4x4: its upper three rows, as its last says nothing in an affine scene.
+template <class Matrix>
+Eigen::Matrix4d matrix_of(const Matrix& from)
+{
+    Eigen::Matrix4d to = Eigen::Matrix4d::Identity();
+    for (unsigned row = 0; row < 3; ++row)
+        for (unsigned column = 0; column < 4; ++column) to(row, column) = static_cast<double>(from[row][column]);
+    return to;
+}
 
 // Every node of the scene. An FBX file's own axes and unit, which assimp leaves to its caller, become the root's
 // transform: +Y up and metres, mirrored where the axes are a left hand's. Throws InputError where they are not three.
