@@ -101,8 +101,9 @@ void print_limb(const Clip& clip, const Limb& limb, const Front& front)
 
 void print_joints(const Clip& clip)
 {
+    const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
     for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
-        fmt::print("#{:<5} {}{}\n", clip.joints[joint].number,
+        fmt::print("#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(places_w[joint]),
                    printable(formats::joint_path(clip, static_cast<int>(joint)), 400),
                    clip.joints[joint].is_bone ? "" : " (no bone)");
 }
@@ -182,9 +183,11 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"up", vector_of(front.up)},
                                {"up_by", front.up_source}};
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, front));
+    const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
     if (with_joints)
         for (std::size_t n = 0; n < clip.joints.size(); ++n)
             out["joint_list"].push_back({{"number", clip.joints[n].number},
+                                         {"place", vector_of(places_w[n])},
                                          {"path", formats::joint_path(clip, static_cast<int>(n))},
                                          {"bone", clip.joints[n].is_bone}});
     return out;
