@@ -266,7 +266,7 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     keyed_rig().write(folder / "good.glb");
     const std::string good = slurp(folder / "good.glb");
     says(text(""), "empty");
-    says(text("HIERARCHY"), "is not glTF");
+    says(text("HIERARCHY"), "is not glTF: parse error at line 1, column 1");
     says(text("[]"), "no object");
     says(text(good.substr(0, 15)), "cut short");
     says(text(good.substr(0, good.size() - 4)), "bytes and has");

@@ -42,6 +42,14 @@ std::size_t depth_of(std::string_view json)
     return deepest;
 }
 
+// What the JSON library says, without its number for it: "[json.exception.parse_error.101] ".
+std::string cause_of(const Json::exception& error)
+{
+    const std::string_view said = error.what();
+    const std::size_t end = said.starts_with('[') ? said.find("] ") : std::string_view::npos;
+    return printable(end == std::string_view::npos ? said : said.substr(end + 2), 160);
+}
+
 Json parse(const fs::path& path, std::string_view text)
 {
     if (depth_of(text) > 500)
@@ -50,7 +58,7 @@ Json parse(const fs::path& path, std::string_view text)
         Json document = Json::parse(text);
         if (document.is_object()) return document;
     } catch (const Json::exception& error) {
-        throw InputError(path, fmt::format("is not glTF: {}", printable(error.what(), 160)));
+        throw InputError(path, fmt::format("is not glTF: {}", cause_of(error)));
     }
     throw InputError(path, "is not glTF: its JSON is no object");
 }
@@ -297,7 +305,7 @@ try {
     }
     return out;
 } catch (const Json::exception& error) {
-    throw InputError(from, fmt::format("is not sound glTF: {}", printable(error.what(), 160)));
+    throw InputError(from, fmt::format("is not sound glTF: {}", cause_of(error)));
 }
 
 }  // namespace swivel::formats

@@ -114,9 +114,11 @@ void print_statistics(const Statistics& statistics)
         if (s->turned_over > 0) {
             const LimbWords& w = words_of(kind);
             fmt::print(
-                "note     the {} turns over against the clip in {} of {} poses, where the clip's {} bends against "
-                "its hinge, however little; limb.{}.pole.kind = \"incoming\" in a crowd file keeps its twist\n",
-                w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs);
+                "note     the {} turns over against the clip in {} of {} poses, where the clip's {} bends to the other "
+                "side "
+                "of its hinge; limb.{}.pole.kind = \"incoming\" in a crowd file keeps the twist, the {} goes where it "
+                "may\n",
+                w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs, w.lower_joint);
         }
 }
 
