@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 
@@ -203,7 +204,26 @@ TEST_CASE("targets: out of reach gives a straight arm towards the target, and th
     const PlainArmPose to = arm_pose(plain_motion_of(stage.folder / "far.bvh"), right, 5);
     CHECK((to.wrist - (at.shoulder + right.length() * away)).norm() < 1e-5 * right.length());
     CHECK((to.elbow - (at.shoulder + right.upper * away)).norm() < 1e-5 * right.length());
-    CHECK_THAT(stage.solve({"--targets", "t.csv"}), Catch::Matchers::Contains("clamped far 1"));
+    CHECK_THAT(stage.solve({"--targets", "t.csv"}),
+               Catch::Matchers::Contains("clamped far 1, first in frame 5, character 0, right_arm"));
+}
+
+TEST_CASE("targets: the report says where it is worst, and where a flag comes first")
+{
+    const Stage stage;
+    const auto far = [&](std::size_t frame, const PlainArm& arm, double times) {
+        const PlainArmPose at = arm_pose(stage.clip, arm, frame);
+        return row_text(frame, 0, arm.side + "_arm", at.shoulder + Vector3d(0, -times * arm.length(), 0), at.elbow);
+    };
+    stage.write_targets(far(3, stage.arms[1], 2.5) + far(7, stage.arms[0], 4) + far(9, stage.arms[1], 3));
+    const nlohmann::json report = nlohmann::json::parse(stage.solve({"--targets", "t.csv", "--json"}));
+    const nlohmann::json& missed = report.at("errors").at("missed");
+    CHECK(missed.at("count") == 3);
+    CHECK(missed.at("worst").get<double>() == Approx(3).epsilon(1e-5));
+    CHECK(missed.at("worst_pose") == nlohmann::json{{"frame", 7}, {"character", 0}, {"limb", "left_arm"}});
+    CHECK(report.at("first_flagged").at("clamped far") ==
+          nlohmann::json{{"frame", 3}, {"character", 0}, {"limb", "right_arm"}});
+    CHECK_FALSE(report.at("first_flagged").contains("bad input"));
 }
 
 TEST_CASE("targets: characters stand on the documented grid")

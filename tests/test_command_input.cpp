@@ -154,6 +154,10 @@ TEST_CASE("input: clips that are not there or not text")
     require_clip_refused(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), {"clip.bvh: ", "binary"});
     require_clip_refused("\x89PNG\r\n\x1a\n", {"clip.bvh:1: ", "HIERARCHY"});
     require_clip_refused(kTwoArms + std::string(5, '\0'), {"clip.bvh: ", "binary"});
+    spill(folder / "box.obj", "# box\nv 0 0 0\n");
+    require_refused(folder, {"box.obj"}, {"box.obj:1: '#' where HIERARCHY should be (read as BVH: names of other"});
+    spill(folder / "walk.txt", kTwoArms);  // any name will do for a BVH
+    CHECK(run_command(folder.path, {"solve", "walk.txt", "--out", "walk.csv"}).exit_code == 0);
 }
 
 TEST_CASE("input: malformed skeletons")
@@ -245,7 +249,8 @@ TEST_CASE("input: what a crowd file names wrongly is said with file, line and ke
     refused(left + "[\"LeftArm\", \"LeftForeArm\", \"Nope\"]\n",
             "c.toml:2: limb.left_arm.joints: no joint is called 'Nope' in clip.bvh; swivel rig --joints lists them");
     refused(left + "[\"LeftHand\", \"LeftForeArm\", \"LeftArm\"]\n",
-            "c.toml:2: limb.left_arm.joints: 'LeftHand,LeftForeArm,LeftArm' does not name a joint, one below it");
+            "c.toml:2: limb.left_arm.joints: 'LeftHand,LeftForeArm,LeftArm' does not name a joint, one below it and "
+            "one below that in clip.bvh; write SHOULDER,ELBOW,WRIST, from the body outwards");
     refused(left + "[\"Left\\nArm\", \"LeftForeArm\", \"LeftHand\"]\n", "no joint is called 'Left\\x0aArm' in");
     refused("[crowd]\nlimbs = \"legs\"\n" + good,
             "c.toml:4: limb.left_arm.joints: crowd.limbs = \"legs\" in line 2 of c.toml solves no arms");

@@ -89,6 +89,16 @@ TEST_CASE("limb joints: legs by rarer names, with twist bones in between")
     legs({"L_Hip", "L_Knee", "L_Ankle"}, {"R_Hip", "R_Knee", "R_Ankle"});
     legs({"mHipLeft", "mKneeLeft", "mAnkleLeft"}, {"mHipRight", "mKneeRight", "mAnkleRight"});
     legs({"左足", "左ひざ", "左足首"}, {"右足", "右ひざ", "右足首"});
+    legs({"Left leg", "Left knee", "Left ankle"}, {"Right leg", "Right knee", "Right ankle"});
+    legs({"leg_L", "knee_L", "ankle_L"}, {"leg_R", "knee_R", "ankle_R"});
+    legs({"thigh_stretch.l", "leg_stretch.l", "foot.l"}, {"thigh_stretch.r", "leg_stretch.r", "foot.r"});
+    legs({"leg_upper_L", "leg_lower_L", "ankle_L"}, {"leg_upper_R", "leg_lower_R", "ankle_R"});
+    legs({"UpperLeg_L", "LowerLeg_L", "Ankle_L"}, {"UpperLeg_R", "LowerLeg_R", "Ankle_R"});
+    legs({"leg left thigh", "leg left knee", "leg left ankle"},
+         {"leg right thigh", "leg right knee", "leg right ankle"});
+    legs({"lhipjoint", "lfemur", "ltibia", "lfoot"}, {"rhipjoint", "rfemur", "rtibia", "rfoot"});
+    legs({"Character1_LeftUpLeg", "Character1_LeftLeg", "Character1_LeftFoot"},
+         {"Character1_RightUpLeg", "Character1_RightLeg", "Character1_RightFoot"});
     const auto found_leg = [](const Names& names) { return found(skeleton({names}), LimbKind::leg, Side::left); };
     CHECK(found_leg({"lThighBend", "lThighTwist", "lShin", "lFoot"}) == Names{"lThighBend", "lShin", "lFoot"});
     CHECK(found_leg({"DEF-thigh.L", "DEF-thigh.L.001", "DEF-shin.L", "DEF-shin.L.001", "DEF-foot.L"}) ==
@@ -114,6 +124,53 @@ TEST_CASE("limb joints: arms by the names in use")
     arms({"lCollar", "lShldr", "lForeArm", "lHand"}, {"rCollar", "rShldr", "rForeArm", "rHand"});
     arms({"Bip01 L UpperArm", "Bip01 L Forearm", "Bip01 L Hand"},
          {"Bip01 R UpperArm", "Bip01 R Forearm", "Bip01 R Hand"});
+}
+
+TEST_CASE("limb joints: arms by rarer names")
+{
+    const auto arms = [](const Names& left, const Names& right) { require_found(LimbKind::arm, left, right); };
+    arms({"Left shoulder", "Left arm", "Left elbow", "Left wrist"},
+         {"Right shoulder", "Right arm", "Right elbow", "Right wrist"});
+    arms({"shoulder_L", "arm_L", "elbow_L", "wrist_L"}, {"shoulder_R", "arm_R", "elbow_R", "wrist_R"});
+    arms({"shoulder.l", "arm_stretch.l", "forearm_stretch.l", "hand.l"},
+         {"shoulder.r", "arm_stretch.r", "forearm_stretch.r", "hand.r"});
+    arms({"clavicle_L", "arm_upper_L", "arm_lower_L", "hand_L"},
+         {"clavicle_R", "arm_upper_R", "arm_lower_R", "hand_R"});
+    arms({"Clavicle_L", "Shoulder_L", "Elbow_L", "Hand_L"}, {"Clavicle_R", "Shoulder_R", "Elbow_R", "Hand_R"});
+    arms({"arm left shoulder 1", "arm left shoulder 2", "arm left elbow", "arm left wrist"},
+         {"arm right shoulder 1", "arm right shoulder 2", "arm right elbow", "arm right wrist"});
+    arms({"lclavicle", "lhumerus", "lradius", "lwrist"}, {"rclavicle", "rhumerus", "rradius", "rwrist"});
+    arms({"Character1_LeftShoulder", "Character1_LeftArm", "Character1_LeftForeArm", "Character1_LeftHand"},
+         {"Character1_RightShoulder", "Character1_RightArm", "Character1_RightForeArm", "Character1_RightHand"});
+}
+
+TEST_CASE("limb joints: endings that converters put behind every name")
+{
+    const auto arms = [](const Names& left, const Names& right) { require_found(LimbKind::arm, left, right); };
+    arms({"mixamorig:LeftShoulder_08", "mixamorig:LeftArm_09", "mixamorig:LeftForeArm_010", "mixamorig:LeftHand_011"},
+         {"mixamorig:RightShoulder_032", "mixamorig:RightArm_00", "mixamorig:RightForeArm_034",
+          "mixamorig:RightHand_035"});
+    arms({"shoulder_l_012", "arm_stretch_l_013", "forearm_stretch_l_016", "hand_l_019"},
+         {"shoulder_r_035", "arm_stretch_r_036", "forearm_stretch_r_038", "hand_r_041"});
+    arms({"CC_Base_L_Upperarm_050", "CC_Base_L_Forearm_051", "CC_Base_L_Hand_055"},
+         {"CC_Base_R_Upperarm_078", "CC_Base_R_Forearm_079", "CC_Base_R_Hand_083"});
+    arms({"LeftArm_09_21", "LeftForeArm_010_22", "LeftHand_011_23"},
+         {"RightArm_032_50", "RightForeArm_033_51", "RightHand_034_52"});
+    arms({"L_Shoulder_JNT", "L_Elbow_JNT", "L_Wrist_JNT"}, {"R_Shoulder_JNT", "R_Elbow_JNT", "R_Wrist_JNT"});
+    const auto left_arm = [](const std::vector<Names>& chains) {
+        return found(skeleton(chains), LimbKind::arm, Side::left);
+    };
+    CHECK(left_arm({{"upperarm01.L_09", "upperarm02.L_010", "lowerarm01.L_011", "wrist.L_012"}}) ==
+          Names{"upperarm01.L_09", "lowerarm01.L_011", "wrist.L_012"});
+    // Two of a name but for the number: no guess. One with the whole name goes before one with a number behind it.
+    CHECK(
+        left_arm({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftArm_4", "LeftForeArm_5", "LeftHand_6"}}).empty());
+    CHECK(left_arm({{"LeftArm", "LeftForeArm", "LeftHand", "LeftHand_1"}}) ==
+          Names{"LeftArm", "LeftForeArm", "LeftHand"});
+    CHECK(left_arm({{"LeftArm", "LeftForeArm"}, {"LeftHand"}, {"LeftHand_1"}}).empty());
+    CHECK(tools::side_of("thigh_l_055", Side::right) == Side::left);
+    CHECK(tools::side_of("thigh_r_055", Side::left) == Side::right);
+    CHECK(tools::side_of("_7", Side::right) == Side::right);
 }
 
 TEST_CASE("limb joints: no guess where names repeat, joints are no chain, or a joint is missing")

@@ -87,7 +87,7 @@ private:
     void write_inputs(std::size_t limb);
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
     void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
-    void measure_against_clip(std::size_t limb, std::uint32_t character, const Eigen::Vector3d& elbow,
+    void measure_against_clip(std::size_t limb, const PoseName& pose, const Eigen::Vector3d& elbow,
                               LimbStatistics& statistics) const;
 
     const formats::Clip& clip_;

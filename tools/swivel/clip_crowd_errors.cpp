@@ -65,39 +65,42 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const Goal& goal = goals_[limb][n];
         const float(&lengths)[2] = inputs_[limb][n].lengths;
         const double length = double{lengths[0]} + lengths[1];
-        statistics.add_flags(flags[n - begin]);
+        const PoseName pose{frame_, n, limbs_[limb].name};
+        statistics.add_flags(flags[n - begin], pose);
         if (flags[n - begin] & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
         const Vector3d effector = characters_[n].size * (Quaterniond(at.hand) * plan.effector);
         const double missed = (Vector3d(at.wrist) + effector - goal.target).norm() / length;
         if (plan.has(SWIVEL_WITH_AIM))
-            statistics.aimed.add(residuals[n - begin]);
+            statistics.aimed.add(residuals[n - begin], pose);
         else if (!plan.blends_position)
-            (flags[n - begin] & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(missed);
+            (flags[n - begin] & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(missed, pose);
         if (hand && !plan.blends_hand && !plan.has(SWIVEL_WITH_AIM))
-            statistics.orientation.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)));
-        if (goal.from_clip) measure_against_clip(limb, n, Vector3d(at.elbow), statistics);
+            statistics.orientation.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)), pose);
+        if (goal.from_clip) measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
     }
 }
 
-void ClipCrowd::measure_against_clip(std::size_t limb, std::uint32_t character, const Vector3d& elbow,
+void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, const Vector3d& elbow,
                                      LimbStatistics& statistics) const
 {
+    const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
     const Vector3d wanted = from.shoulder + characters_[character].size * (from.elbow - from.shoulder);
     const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
     const float(&lengths)[2] = inputs_[limb][character].lengths;
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
-    (bent ? statistics.bent : statistics.straight).add((elbow - wanted).norm() / (double{lengths[0]} + lengths[1]));
+    (bent ? statistics.bent : statistics.straight)
+        .add((elbow - wanted).norm() / (double{lengths[0]} + lengths[1]), pose);
     if (character != 0) return;
 
     const formats::PoseRow row = solved_pose(limb, character);
     const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
     const Quaterniond turned = from.upper.conjugate() * shoulder_w;
-    statistics.upper_swing.add(swing(turned, limbs_[limb].upper_bone));
+    statistics.upper_swing.add(swing(turned, limbs_[limb].upper_bone), pose);
     const double upper_twist = twist(turned, limbs_[limb].upper_bone);
-    statistics.upper_twist.add(upper_twist);
+    statistics.upper_twist.add(upper_twist, pose);
     statistics.turned_over += upper_twist > std::numbers::pi / 2;
-    statistics.lower.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)));
+    statistics.lower.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)), pose);
 }
 
 }  // namespace swivel::tools

@@ -111,14 +111,16 @@ public:
         statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     }
 
-    void measure(Statistics& statistics)
+    void measure(std::uint32_t frame, Statistics& statistics)
     {
         for (std::uint32_t group = 0; group < 2; ++group) {
             crowd_.residuals(group, residuals_);
             crowd_.read(SWIVEL_FLAGS, group, flags_);
-            for (std::size_t n = 0; n < flags_.size(); ++n) {
-                statistics.arms.add_flags(flags_[n]);
-                (flags_[n] & SWIVEL_REACHED ? statistics.arms.reached : statistics.arms.missed).add(residuals_[n]);
+            for (std::uint32_t n = 0; n < flags_.size(); ++n) {
+                const PoseName pose{frame, n, formats::kLimbNames[group]};
+                statistics.arms.add_flags(flags_[n], pose);
+                (flags_[n] & SWIVEL_REACHED ? statistics.arms.reached : statistics.arms.missed)
+                    .add(residuals_[n], pose);
             }
         }
     }
@@ -156,7 +158,7 @@ void run(const Options& options)
             check_interrupt();
             progress.show(frame);
             crowd.solve_frame(frame, statistics);
-            crowd.measure(statistics);
+            crowd.measure(frame, statistics);
         }
     }
     if (options.json) {

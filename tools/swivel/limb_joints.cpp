@@ -22,8 +22,8 @@ using formats::LimbName;
 using formats::Side;
 
 // What exporters put before every joint's name, in the form of plain(), with a number after some.
-constexpr std::array<std::string_view, 8> kPrefixes = {"def",  "mixamorig", "valvebiped", "bip0",
-                                                       "jbip", "ccbase",    "mavg",       "favg"};
+constexpr std::array<std::string_view, 9> kPrefixes = {"def",    "mixamorig", "valvebiped", "bip0",     "jbip",
+                                                       "ccbase", "mavg",      "favg",       "character"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -50,6 +50,22 @@ std::string plain(std::string_view name)
     return out;
 }
 
+// A joint's name without what converters put behind all of them: a number after an underscore ("LeftArm_09", glTF from
+// Sketchfab), or "jnt" or "joint" after a separator ("LeftArm_jnt").
+std::string_view without_ending(std::string_view name)
+{
+    for (bool again = true; again;) {
+        again = false;
+        const std::size_t at = name.find_last_of("_.- ");
+        if (at == std::string_view::npos || at == 0 || at + 1 == name.size()) break;
+        const std::string_view end = name.substr(at + 1);
+        const bool is_number = name[at] == '_' && std::all_of(end.begin(), end.end(), is_digit);
+        again = is_number || plain(end) == "jnt" || plain(end) == "joint";
+        if (again) name = name.substr(0, at);
+    }
+    return name;
+}
+
 // How exporters name a limb's three joints; * is the side, as a word or a letter.
 struct Naming {
     std::array<std::string_view, 3> joints;
@@ -74,6 +90,13 @@ constexpr Naming kArmNamings[] = {
     {{"*uparm", "*lowarm", "*hand"}, "Biovision, older"},
     {{"*collar", "*elbow", "*wrist"}, "Biovision, older"},
     {{"*腕", "*ひじ", "*手首"}, "MikuMikuDance"},
+    {{"*arm", "*elbow", "*wrist"}, "MikuMikuDance in English"},
+    {{"arm*", "elbow*", "wrist*"}, "MikuMikuDance in English"},
+    {{"armstretch*", "forearmstretch*", "hand*"}, "Auto-Rig Pro"},
+    {{"armupper*", "armlower*", "hand*"}, "Valve, Source 2"},
+    {{"shoulder*", "elbow*", "hand*"}, "Synty"},
+    {{"arm*shoulder2", "arm*elbow", "arm*wrist"}, "XNALara"},
+    {{"*humerus", "*radius", "*wrist"}, "Acclaim"},
 };
 constexpr Naming kLegNamings[] = {
     {{"*upleg", "*leg", "*foot"}, "Mixamo, CMU, MotionBuilder"},
@@ -90,6 +113,13 @@ constexpr Naming kLegNamings[] = {
     {{"mhip*", "mknee*", "mankle*"}, "Second Life"},
     {{"*upleg", "*lowleg", "*foot"}, "Biovision, older"},
     {{"*足", "*ひざ", "*足首"}, "MikuMikuDance"},
+    {{"*leg", "*knee", "*ankle"}, "MikuMikuDance in English"},
+    {{"leg*", "knee*", "ankle*"}, "MikuMikuDance in English"},
+    {{"thighstretch*", "legstretch*", "foot*"}, "Auto-Rig Pro"},
+    {{"legupper*", "leglower*", "ankle*"}, "Valve, Source 2"},
+    {{"upperleg*", "lowerleg*", "ankle*"}, "Synty"},
+    {{"leg*thigh", "leg*knee", "leg*ankle"}, "XNALara"},
+    {{"*femur", "*tibia", "*foot"}, "Acclaim"},
 };
 
 std::string with_side(std::string_view naming, std::string_view side)
@@ -197,24 +227,27 @@ bool is_twist_name(std::string_view joint_name)
 
 LimbByName limb_by_name(const Clip& clip, LimbName limb)
 {
-    std::vector<std::string> plain_names;
-    for (const Joint& joint : clip.joints) plain_names.push_back(plain(joint.name));
     const auto namings = limb.kind == LimbKind::arm ? std::span<const Naming>(kArmNamings) : kLegNamings;
     const auto sides = limb.side == Side::left ? std::array{"left", "l", "左"} : std::array{"right", "r", "右"};
     Attempt best;
-    best.fits = 1;  // one name alone says nothing: half the world has a "LeftHand"
-    for (const Naming& naming : namings)
-        for (const std::string_view side : sides) {
-            Attempt made = attempt(clip, plain_names, limb, naming, side);
-            if (made.result.joints) return made.result;
-            if (made.fits > best.fits) best = std::move(made);
-        }
+    best.fits = 1;                            // one name alone says nothing: half the world has a "LeftHand"
+    for (const bool whole : {true, false}) {  // the names as they are before those without endings
+        std::vector<std::string> plain_names;
+        for (const Joint& joint : clip.joints)
+            plain_names.push_back(plain(whole ? std::string_view(joint.name) : without_ending(joint.name)));
+        for (const Naming& naming : namings)
+            for (const std::string_view side : sides) {
+                Attempt made = attempt(clip, plain_names, limb, naming, side);
+                if (made.result.joints) return made.result;
+                if (made.fits > best.fits) best = std::move(made);
+            }
+    }
     return best.result;
 }
 
 Side side_of(std::string_view joint_name, Side otherwise)
 {
-    const std::string name = plain(joint_name);
+    const std::string name = plain(without_ending(joint_name));
     const bool left = name.starts_with("l") || name.ends_with("l") || name.find("left") != std::string::npos ||
                       name.starts_with("左");
     const bool right = name.find("right") != std::string::npos ||

@@ -22,8 +22,8 @@ struct LimbByName {
     std::string problem;  // without joints: why names that fit are no limb; empty if none fit
 };
 
-// The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces and common
-// prefixes do not count. Each must be its name's only bearer among the bones (among all joints if no bone bears it)
+// The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces, common
+// prefixes and, where nothing fits with them, numbers at the end do not count. Each must be its name's only bearer among the bones (among all joints if no bone bears it)
 // and lie above the next, and one at least must be a bone; what lies between must be a twist bone by name, or at the
 // same place as one of them.
 LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);

@@ -73,7 +73,8 @@ struct NameReader {
             refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
         const LimbJoints joints{joint(from.joints[0]), joint(from.joints[1]), joint(from.joints[2])};
         if (!is_chain(clip, joints))
-            refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text), "");
+            refuse(fmt::format("'{}' does not name a joint, one below it and one below that", text),
+                   fmt::format("; write {}, from the body outwards", words.joints));
         const std::string_view speaks = formats::joint_at(clip, joints[0]).name;
         return {
             {kind, from.side ? *from.side : side_of(speaks, otherwise)}, {joints, from.source.key, {}}, &from.source};

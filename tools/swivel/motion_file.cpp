@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/formats/error.h"
 #include "tools/formats/scene_import.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/command_error.h"
@@ -23,7 +24,14 @@ std::variant<BvhFile, GltfFile> read(const std::filesystem::path& path, const Mo
         throw CommandError(2, "--clip chooses an animation of a glTF, FBX or DAE file; a BVH file has one");
     if (choice.rate > 0)
         throw CommandError(2, "--fps samples a glTF, FBX or DAE file; a BVH file has frames of its own");
-    return formats::read_bvh(path);
+    try {
+        return formats::read_bvh(path);
+    } catch (const formats::InputError& fault) {
+        if (is_bvh(path)) throw;
+        throw CommandError(1, fmt::format("{} (read as BVH: names of other formats end in .glb, .gltf, .vrm, .fbx or "
+                                          ".dae)",
+                                          fault.what()));
+    }
 }
 
 const char* format_of(const std::filesystem::path& path)

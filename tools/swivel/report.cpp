@@ -39,10 +39,21 @@ constexpr std::pair<swivel_flag, const char*> kFlagNames[] = {
     {SWIVEL_JUMPED, "jumped"},
     {SWIVEL_BAD_INPUT, "bad input"}};
 
-std::uint64_t count_of(const Statistics& statistics, swivel_flag flag)
+FlagStat flag_of(const Statistics& statistics, swivel_flag flag)
 {
     const auto bit = static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(flag)));
-    return statistics.arms.flags[bit] + statistics.legs.flags[bit];
+    FlagStat of_all = statistics.arms.flags[bit];
+    of_all.add(statistics.legs.flags[bit]);
+    return of_all;
+}
+
+std::string text_of(const PoseName& pose)
+{
+    return fmt::format("frame {}, character {}, {}", pose.frame, pose.character, limb_word(pose.limb));
+}
+nlohmann::ordered_json json_of(const PoseName& pose)
+{
+    return {{"frame", pose.frame}, {"character", pose.character}, {"limb", limb_word(pose.limb)}};
 }
 
 std::uint64_t limb_count(const Statistics& statistics)
@@ -104,12 +115,11 @@ void print_statistics(const Statistics& statistics)
                limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), thread_count(),
                thread_count() == 1 ? "" : "s");
     for (const NamedError& e : errors_of(statistics))
-        fmt::print("error    {:<32} worst {:.2e}  rms {:.2e}  {}\n", e.text, e.error.max, e.error.rms(), e.unit);
-    std::string flags;
+        fmt::print("error    {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", e.text, e.error.max, e.error.rms(),
+                   e.unit, text_of(e.error.worst_pose));
     for (const auto& [flag, name] : kFlagNames)
-        if (count_of(statistics, flag) > 0)
-            flags += fmt::format("{}{} {}", flags.empty() ? "" : ", ", name, count_of(statistics, flag));
-    fmt::print("flags    {}\n", flags);
+        if (const FlagStat stat = flag_of(statistics, flag); stat.count > 0)
+            fmt::print("flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
     for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
         if (s->turned_over > 0) {
             const LimbWords& w = words_of(kind);
@@ -131,9 +141,16 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     out["isa"] = swivel_isa_name();
     out["threads"] = thread_count();
     for (const NamedError& e : errors_of(statistics))
-        out["errors"][e.key] = {
-            {"worst", e.error.max}, {"rms", e.error.rms()}, {"count", e.error.count}, {"unit", e.unit}};
-    for (const auto& [flag, name] : kFlagNames) out["flags"][name] = count_of(statistics, flag);
+        out["errors"][e.key] = {{"worst", e.error.max},
+                                {"worst_pose", json_of(e.error.worst_pose)},
+                                {"rms", e.error.rms()},
+                                {"count", e.error.count},
+                                {"unit", e.unit}};
+    for (const auto& [flag, name] : kFlagNames) {
+        const FlagStat stat = flag_of(statistics, flag);
+        out["flags"][name] = stat.count;
+        if (stat.count > 0) out["first_flagged"][name] = json_of(stat.first_pose);
+    }
     for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
         if (s->upper_twist.count > 0) out["turned_over"][words_of(kind).limbs] = s->turned_over;
     return out;

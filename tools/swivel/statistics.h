@@ -1,37 +1,66 @@
 // SPDX-License-Identifier: MIT
 //
-// What a run of the command measured: errors as worst and root mean square, flags as counts.
+// What a run of the command measured: errors as worst and root mean square, flags as counts, and where the worst and
+// the first of each are. Ties go to the earlier pose, so that threads in any order say the same.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstdint>
+#include <limits>
 
 #include "tools/formats/limb_name.h"
 
 namespace swivel::tools {
 
+// One limb in one frame, as a row of poses.csv names it.
+struct PoseName {
+    std::uint64_t frame = 0;
+    std::uint32_t character = 0;
+    formats::LimbName limb;
+
+    friend auto operator<=>(const PoseName&, const PoseName&) = default;
+};
+constexpr PoseName kNoPose{std::numeric_limits<std::uint64_t>::max(), 0, {}};  // after all others
+
 struct ErrorStat {
     double max = 0, sum2 = 0;
     std::uint64_t count = 0;
+    PoseName worst_pose = kNoPose;
 
-    void add(double error)
+    void add(double error, const PoseName& pose)
     {
-        keep_worst(error);
+        keep_worst(error, pose);
         sum2 += error * error;
         ++count;
     }
     void add(const ErrorStat& other)
     {
-        keep_worst(other.max);
+        keep_worst(other.max, other.worst_pose);
         sum2 += other.sum2;
         count += other.count;
     }
-    void keep_worst(double error)
+    void keep_worst(double error, const PoseName& pose)
     {
-        if (!std::isnan(max) && !(error <= max)) max = error;  // a NaN is the worst of all
+        const auto rank = [](double e) { return std::isnan(e) ? std::numeric_limits<double>::infinity() : e; };
+        if (rank(error) < rank(max) || (rank(error) == rank(max) && worst_pose <= pose)) return;
+        max = error;
+        worst_pose = pose;
     }
     double rms() const { return count ? std::sqrt(sum2 / static_cast<double>(count)) : 0; }
+};
+
+struct FlagStat {
+    std::uint64_t count = 0;
+    PoseName first_pose = kNoPose;
+
+    void add(const FlagStat& other)
+    {
+        count += other.count;
+        first_pose = std::min(first_pose, other.first_pose);
+    }
 };
 
 // Of the limbs of one kind.
@@ -44,13 +73,14 @@ struct LimbStatistics {
     ErrorStat bent, straight;  // limb lengths, of elbow or knee; bent by more than 5 degrees, and the rest
     ErrorStat upper_swing, upper_twist, lower;  // radians; of the first character
     std::uint64_t turned_over = 0;              // poses of the first character with an upper_twist above pi / 2
-    std::array<std::uint64_t, 32> flags{};      // limbs with flag bit n
+    std::array<FlagStat, 32> flags{};           // [bit]
     std::uint64_t limb_count = 0;
 
-    void add_flags(std::uint32_t word)
+    void add_flags(std::uint32_t word, const PoseName& pose)
     {
         ++limb_count;
-        for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit] += word >> bit & 1u;
+        for (std::size_t bit = 0; bit < flags.size(); ++bit)
+            if (word >> bit & 1u) flags[bit].add({1, pose});
     }
     void add(const LimbStatistics& other)
     {
@@ -64,7 +94,7 @@ struct LimbStatistics {
         upper_twist.add(other.upper_twist);
         lower.add(other.lower);
         turned_over += other.turned_over;
-        for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit] += other.flags[bit];
+        for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit].add(other.flags[bit]);
         limb_count += other.limb_count;
     }
 };

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: what a run says of its worst and first poses does not depend on the threads that found them.
+#include <rapidcheck/catch.h>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "tools/swivel/statistics.h"
+
+namespace {
+
+using namespace swivel::tools;
+using swivel::formats::kLimbNames;
+
+struct Pose {
+    PoseName name;
+    double error;
+    std::uint32_t flags;
+};
+
+// Errors out of four, so that they repeat; each pose once.
+std::vector<Pose> random_poses(std::mt19937& random)
+{
+    const double errors[] = {0, 0.25, 1.5, std::numeric_limits<double>::quiet_NaN()};
+    const unsigned kinds = 1 + random() % 4;  // often without the NaN
+    std::vector<Pose> poses;
+    for (std::uint64_t frame = 0; frame < 1 + random() % 3; ++frame)
+        for (std::uint32_t character = 0; character < 1 + random() % 4; ++character)
+            for (const auto limb : kLimbNames)
+                if (random() % 3 != 0)
+                    poses.push_back(
+                        {{frame, character, limb}, errors[random() % kinds], static_cast<std::uint32_t>(random())});
+    return poses;
+}
+
+void add(LimbStatistics& to, const Pose& pose)
+{
+    to.reached.add(pose.error, pose.name);
+    to.add_flags(pose.flags, pose.name);
+}
+
+}  // namespace
+
+TEST_CASE("statistics: in any order, in any parts, the worst and the first are the earliest poses of their kind")
+{
+    rc::prop("", [](std::uint32_t seed) {
+        std::mt19937 random(seed);
+        std::vector<Pose> poses = random_poses(random);
+        const std::vector<Pose> ordered = poses;
+        std::shuffle(poses.begin(), poses.end(), random);
+        LimbStatistics parts[3], all;
+        for (const Pose& pose : poses) add(parts[random() % 3], pose);
+        for (const LimbStatistics& part : parts) all.add(part);
+
+        RC_ASSERT(all.reached.count == ordered.size());
+        RC_ASSERT(all.limb_count == ordered.size());
+        const auto is_worse = [](const Pose& a, const Pose& b) {  // a NaN is worse than all numbers
+            return std::isnan(b.error) ? false : std::isnan(a.error) || a.error > b.error;
+        };
+        const auto worst = std::min_element(ordered.begin(), ordered.end(), is_worse);  // the first of the worst
+        if (worst != ordered.end()) {
+            RC_ASSERT(all.reached.worst_pose == worst->name);
+            RC_ASSERT((all.reached.max == worst->error || std::isnan(worst->error)));
+            RC_ASSERT(std::isnan(all.reached.max) == std::isnan(worst->error));
+        }
+        for (std::size_t bit = 0; bit < all.flags.size(); ++bit) {
+            const auto has_bit = [bit](const Pose& pose) { return (pose.flags >> bit & 1u) != 0; };
+            const auto first = std::find_if(ordered.begin(), ordered.end(), has_bit);
+            const auto count = static_cast<std::uint64_t>(std::count_if(ordered.begin(), ordered.end(), has_bit));
+            RC_ASSERT(all.flags[bit].count == count);
+            if (first != ordered.end()) RC_ASSERT(all.flags[bit].first_pose == first->name);
+        }
+    });
+}
