@@ -162,12 +162,16 @@ TEST_CASE("limb joints: endings that converters put behind every name")
     };
     CHECK(left_arm({{"upperarm01.L_09", "upperarm02.L_010", "lowerarm01.L_011", "wrist.L_012"}}) ==
           Names{"upperarm01.L_09", "lowerarm01.L_011", "wrist.L_012"});
+    CHECK(left_arm({{"DEF-upper_arm.L_03", "DEF-upper_arm.L.001_04", "DEF-forearm.L_05", "DEF-forearm.L.001_06",
+                     "DEF-hand.L_07"}}) == Names{"DEF-upper_arm.L_03", "DEF-forearm.L_05", "DEF-hand.L_07"});
     // Two of a name but for the number: no guess. One with the whole name goes before one with a number behind it.
     CHECK(
         left_arm({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftArm_4", "LeftForeArm_5", "LeftHand_6"}}).empty());
     CHECK(left_arm({{"LeftArm", "LeftForeArm", "LeftHand", "LeftHand_1"}}) ==
           Names{"LeftArm", "LeftForeArm", "LeftHand"});
     CHECK(left_arm({{"LeftArm", "LeftForeArm"}, {"LeftHand"}, {"LeftHand_1"}}).empty());
+    CHECK(left_arm({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftShoulder", "LeftElbow", "LeftWrist"}}) ==
+          Names{"LeftShoulder", "LeftElbow", "LeftWrist"});
     CHECK(tools::side_of("thigh_l_055", Side::right) == Side::left);
     CHECK(tools::side_of("thigh_r_055", Side::left) == Side::right);
     CHECK(tools::side_of("_7", Side::right) == Side::right);
