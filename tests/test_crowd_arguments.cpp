@@ -47,7 +47,7 @@ TEST_CASE("a def that breaks its contract makes no crowd")
         def.features = features | SWIVEL_POLE_DIRECTION;
         refuse(&def);
     }
-    for (const std::uint32_t features : {
+    for (const std::uint32_t features : std::initializer_list<std::uint32_t>{
              SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL,
              SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
              SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,

@@ -204,6 +204,21 @@ private:
     std::size_t bytes_ = 0;
 };
 
+// Channels of KHR_animation_pointer may move nodes, too.
+void refuse_pointers_to_nodes(const GltfFile& file, const nlohmann::ordered_json& document)
+{
+    const nlohmann::ordered_json::json_pointer where("/target/extensions/KHR_animation_pointer/pointer");
+    for (const auto& channel : document.at("animations").at(static_cast<std::size_t>(file.animation)).at("channels")) {
+        if (!channel.contains(where) || !channel.at(where).is_string()) continue;
+        const std::string to = channel.at(where).get<std::string>();
+        for (const char* path : {"/translation", "/rotation", "/scale"})
+            if (to.starts_with("/nodes/") && to.ends_with(path))
+                refuse(file, fmt::format("animation {} moves {} by KHR_animation_pointer, which is not read; export "
+                                         "the motion of nodes as plain channels",
+                                         file.animation, printable(to, 80)));
+    }
+}
+
 void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vector<int>& joint_of)
 {
     const tinygltf::Animation& animation = model.animations[static_cast<std::size_t>(file.animation)];
@@ -246,7 +261,10 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     if (file.clip.joints.empty()) refuse(file, "it has no nodes, so no skeleton");
     for (const tinygltf::Animation& animation : model.animations) file.animation_names.push_back(animation.name);
     file.animation = choose_animation(file, choice.animation);
-    if (file.animation >= 0) read_channels(file, model, joint_of);
+    if (file.animation >= 0) {
+        refuse_pointers_to_nodes(file, document);
+        read_channels(file, model, joint_of);
+    }
     sample_frames(file, choice.rate);
     file.weights = mended_weights({file.path, model, file.buffers}, document);
     return file;

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
 
 #include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
@@ -162,6 +165,46 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     limb.axes_w = axes_of(limb.bound.binding, parent_w);
     limb.side_twists = side_twists(clip, limb.chain);
     return limb;
+}
+
+void require_twists_between(const Clip& clip, const Limb& limb)
+{
+    const std::vector<int>& joints = limb.chain.joints;
+    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
+    const auto place = [&](std::size_t n) -> const Vector3d& {
+        return rest_w[static_cast<std::size_t>(joints[n])].position;
+    };
+    const auto refuse = [&](std::size_t n, const std::string& fault) {
+        const LimbWords& words = words_of(limb.name.kind);
+        throw CannotBind(
+            fmt::format("'{}', on the way to '{}', {}, so is no twist bone; name the limb's own joints with "
+                        "{} {}",
+                        printable_name(joint_at(clip, joints[n])),
+                        printable_name(joint_at(clip, n < limb.chain.lower ? limb.lower() : limb.end())), fault,
+                        words.option, words.joints));
+    };
+    for (const auto& [first, last, bone] : {std::tuple{std::size_t{0}, limb.chain.lower, &ChainPose::upper_bone},
+                                            std::tuple{limb.chain.lower, joints.size() - 1, &ChainPose::lower_bone}}) {
+        const Vector3d along = place(last) - place(first);
+        const auto must_prove = [&](std::size_t n) {  // a joint at an end's place turns as that end does
+            return !is_twist_name(joint_at(clip, joints[n]).name) &&
+                   (place(n) - place(first)).norm() > 1e-3 * along.norm() &&
+                   (place(last) - place(n)).norm() > 1e-3 * along.norm();
+        };
+        std::size_t between = first + 1;
+        while (between < last && !must_prove(between)) ++between;
+        if (between >= last) continue;
+        for (std::size_t n = between; n < last; ++n)
+            if (const double off = (place(n) - place(first)).cross(along).norm() / along.squaredNorm(); off > 0.1)
+                refuse(n, fmt::format("is off the bone's line by {:.0f} % of its length", 100 * off));
+        const Vector3d rest = (rest_pose(clip, limb.chain).*bone)();
+        for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+            const Vector3d now = (chain_pose(clip, frame, limb.chain).*bone)();
+            const double degrees = std::atan2(rest.cross(now).norm(), rest.dot(now)) * 180 / std::numbers::pi;
+            if (degrees > 15)
+                refuse(between, fmt::format("turns the bone by {:.0f} degrees in frame {}", degrees, frame));
+        }
+    }
 }
 
 }  // namespace swivel::tools

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace swivel::tools {
 
@@ -26,13 +27,25 @@ bool speaks_of_toes(std::string name)
     return name.find("toe") != std::string::npos || name.find("ball") != std::string::npos;
 }
 
-// The joint that a foot points to: the only one below it, or the one called so; -1 if there is none.
-int toes_of(const Clip& clip, int foot)
+// Where a foot points: to the joints below it that are called toe or ball, else to the only one.
+struct Toes {
+    Vector3d direction = Vector3d::Zero();  // in the world, 0 if nothing tells
+    bool named = false;
+};
+Toes toes_of(const Clip& clip, std::span<const JointPose> pose_w, int foot)
 {
+    const auto step = [&](int joint) -> Vector3d {
+        return pose_w[static_cast<std::size_t>(joint)].position - pose_w[static_cast<std::size_t>(foot)].position;
+    };
     const std::vector<int> below = formats::child_joints(clip, foot);
-    for (const int joint : below)
-        if (speaks_of_toes(formats::joint_at(clip, joint).name)) return joint;
-    return below.size() == 1 ? below[0] : -1;
+    Toes toes;
+    for (const int joint : below) {
+        if (!speaks_of_toes(formats::joint_at(clip, joint).name)) continue;
+        toes.direction += step(joint).normalized();
+        toes.named = true;
+    }
+    if (!toes.named && below.size() == 1) toes.direction = step(below[0]).normalized();
+    return toes;
 }
 
 // The joint that both hang on, or -1.
@@ -63,8 +76,8 @@ Vector3d bend_of(const ChainPose& pose, const Vector3d& rest_bone)
     return aim(rest_bone, upper).conjugate() * bend_of(upper, lower);
 }
 
-// The mean bend of all frames, each counting by its sine; nothing for a clip that hardly bends the limb, or to both
-// sides.
+// The mean bend of all frames, each counting by its sine, as long as their mean sine; nothing for a clip that hardly
+// bends the limb, or to both sides.
 std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, const Vector3d& rest_bone)
 {
     if (clip.frame_count < 2) return std::nullopt;  // one pose is no motion
@@ -78,7 +91,7 @@ std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, cons
     }
     // 0.02: a mean bend of one degree; half: the bends must agree on an axis, not cancel.
     const bool is_clear = weight > 0.02 * static_cast<double>(clip.frame_count) && sum.norm() > 0.5 * weight;
-    return is_clear ? std::optional(Vector3d(sum.normalized())) : std::nullopt;
+    return is_clear ? std::optional(Vector3d(sum / static_cast<double>(clip.frame_count))) : std::nullopt;
 }
 
 // Where flexion takes the lower bone by the table, in the world.
@@ -111,24 +124,28 @@ Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>,
     else
         front.up_source = Front().up_source;
 
-    if (legs) {
-        Vector3d forwards = Vector3d::Zero();
-        for (const std::size_t leg : {2u, 3u}) {
-            const int foot = (*joints[leg])[2], toes = toes_of(clip, foot);
-            if (toes < 0) continue;
-            const Vector3d step = pose_w[static_cast<std::size_t>(toes)].position - place(leg, 2);
-            if (step.norm() > 0) forwards += step.normalized();
-        }
-        if (const auto level = across(forwards, front.up)) return {*level, front.up, "the toes", front.up_source};
-    }
     if (!arms && !legs) return front;
     const std::size_t pair = arms ? 0 : 2;
     const Vector3d left = place(pair, 0) - place(pair + 1, 0);
     const int fork = fork_of(clip, (*joints[pair])[0], (*joints[pair + 1])[0]);
     const bool mirrored = fork >= 0 && pose_w[static_cast<std::size_t>(fork)].mirrored;
-    if (const auto level = across(mirrored ? Vector3d(-left) : left, front.up))
-        return {level->cross(front.up), front.up, arms ? "left and right shoulder" : "left and right hip",
-                front.up_source};
+    const auto level = across(mirrored ? Vector3d(-left) : left, front.up);
+    const std::optional<Vector3d> by_pair = level ? std::optional(Vector3d(level->cross(front.up))) : std::nullopt;
+    if (legs) {
+        Toes both;
+        for (const std::size_t leg : {2u, 3u}) {
+            const Toes toes = toes_of(clip, pose_w, (*joints[leg])[2]);
+            both.direction += toes.direction;
+            both.named = both.named || toes.named;
+        }
+        // A foot's only joint without a name may be its heel, or hold a shoe; a bird's toes point both ways. They tell
+        // within 60 degrees of the pair, or, by name, of its back: a figure whose mirror is baked into its joints.
+        const auto ahead = across(both.direction, front.up);
+        const double agree = ahead && by_pair ? ahead->dot(*by_pair) : 1;
+        if (ahead && (agree > 0.5 || (both.named && agree < -0.5)))
+            return {*ahead, front.up, "the toes", front.up_source};
+    }
+    if (by_pair) return {*by_pair, front.up, arms ? "left and right shoulder" : "left and right hip", front.up_source};
     return front;
 }
 
@@ -138,8 +155,13 @@ Hinge choose_hinge(const Clip& clip, LimbKind kind, const LimbChain& chain, cons
     const Vector3d upper = rest.upper_bone().normalized();
     const Vector3d bend = bend_of(rest, upper);
     const double bend_deg = std::asin(std::min(bend.norm(), 1.0)) / kDegree;
-    if (bend_deg > 5) return {bend.normalized(), fmt::format("bend of the rest pose, {:.1f} degrees", bend_deg)};
-    if (const auto mean = mean_bend(clip, chain, upper)) return {*mean, "mean bend of the clip"};
+    const auto mean = mean_bend(clip, chain, upper);
+    // 30 degrees: knock-knees, or a forearm that hangs, bend at rest across what the clip does.
+    const bool clip_differs =
+        mean && mean->norm() > bend.norm() && mean->dot(bend) < std::cos(30 * kDegree) * mean->norm() * bend.norm();
+    if (bend_deg > 5 && !clip_differs)
+        return {bend.normalized(), fmt::format("bend of the rest pose, {:.1f} degrees", bend_deg)};
+    if (mean) return {mean->normalized(), "mean bend of the clip"};
 
     const auto to_world = [&](const Vector3d& v) {
         const Vector3d v_p = rest.turn[0] * v;
@@ -149,7 +171,7 @@ Hinge choose_hinge(const Clip& clip, LimbKind kind, const LimbChain& chain, cons
     const Vector3d turned = parent_w.rotation.conjugate() * flexion_w;
     const Vector3d flexion = rest.turn[0].conjugate() * (parent_w.mirrored ? formats::mirrored(turned) : turned);
     const Vector3d by_table = flexion.cross(upper).normalized();
-    if (bend_deg > 0.5 && bend.dot(by_table) > 0)
+    if (bend_deg > 0.5 && bend.dot(by_table) > std::cos(45 * kDegree) * bend.norm())
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
     return {by_table, fmt::format("{} {}, facing by {}, as neither rest pose nor clip shows a bend",
                                   kind == LimbKind::arm ? "elbows bend" : "knees bend",

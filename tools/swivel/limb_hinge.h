@@ -22,8 +22,9 @@ struct Front {
     std::string up_source = "the file's +Y";  // of up
 };
 
-// joints: of the limbs in the order of formats::kLimbNames, those that are known. By the toes; else by shoulders (or
-// hips) from right to left and up, mirrors considered; else +Z, as glTF has it. Up is from the hips to the shoulders,
+// joints: of the limbs in the order of formats::kLimbNames, those that are known. By the toes, where they are called so
+// or point within 60 degrees of the next; else by shoulders (or hips) from right to left and up, mirrors considered;
+// else +Z, as glTF has it. Up is from the hips to the shoulders,
 // or along the legs, or +Y.
 Front figure_front(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
 
@@ -32,9 +33,10 @@ struct Hinge {
     std::string source;    // for people
 };
 
-// The first of: the rest pose's bend, from 5 degrees; the clip's mean bend, from one degree and if it keeps its side;
-// the rest pose's bend from half a degree, unless it goes against the table's; elbows bend forwards and knees
-// backwards (upwards and downwards where the bone itself points that way). rest: of the chain; parent_w: the upper
+// The first of: the rest pose's bend, from 5 degrees, unless the clip's mean bend is larger and more than 30 degrees
+// off; the clip's mean bend, from one degree and if it keeps its side; the rest pose's bend from half a degree, if it
+// is within 45 degrees of the table's; elbows bend forwards and knees backwards (upwards and downwards where the bone
+// itself points that way). rest: of the chain; parent_w: the upper
 // joint's parent at rest.
 Hinge choose_hinge(const formats::Clip& clip, formats::LimbKind kind, const LimbChain& chain, const ChainPose& rest,
                    const formats::JointPose& parent_w, const Front& front);

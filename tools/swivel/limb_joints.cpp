@@ -128,6 +128,13 @@ std::string with_side(std::string_view naming, std::string_view side)
     return std::string(naming.substr(0, star)).append(side).append(naming.substr(star + 1));
 }
 
+// The same for people: "hand_l" where the side is a letter at the end.
+std::string shown(std::string_view naming, std::string_view side)
+{
+    if (side.size() > 1 || !naming.ends_with("*")) return with_side(naming, side);
+    return fmt::format("{}_{}", naming.substr(0, naming.size() - 1), side);
+}
+
 // The joints of a plain name: bones where any bears it.
 std::vector<int> joints_named(const Clip& clip, std::span<const std::string> plain_names, const std::string& name)
 {
@@ -147,16 +154,30 @@ std::string without_digits(std::string name)
     return name;
 }
 
-// The first joint between the two that is neither a twist bone by name, nor named as `top` but for a number, nor at
-// the place of its parent; -1 if there is none.
+// True for two parts of one bone by name: "DEF-thigh.L" and "DEF-thigh.L.001", "upperarm01.L" and "upperarm02.L". Not
+// for shoulders: the first of two may be the clavicle.
+bool are_parts(std::string_view top, std::string_view below)
+{
+    top = without_ending(top), below = without_ending(below);
+    const std::string whole = plain(top), part = plain(below);
+    if (without_digits(whole) != without_digits(part) || whole.find("shoulder") != std::string::npos) return false;
+    const bool both_count =
+        std::any_of(whole.begin(), whole.end(), is_digit) && std::any_of(part.begin(), part.end(), is_digit);
+    const std::size_t dot = below.find_last_of('.');
+    const bool is_copy = dot != std::string_view::npos && below.size() - dot == 4 &&
+                         std::all_of(below.begin() + static_cast<std::ptrdiff_t>(dot) + 1, below.end(), is_digit);
+    return both_count || is_copy;
+}
+
+// The first joint between the two that is neither a twist bone by name, nor a part of `top` by name, nor at the place
+// of its parent; -1 if there is none.
 int stranger_between(const Clip& clip, int top, int bottom)
 {
     int stranger = -1, below = bottom;
     for (int up = joint_at(clip, bottom).parent; up != top; below = up, up = joint_at(clip, up).parent) {
         const Joint& joint = joint_at(clip, up);
         const bool no_step = joint.offset.isZero(0) || joint_at(clip, below).offset.isZero(0);
-        const bool is_part = without_digits(plain(joint.name)) == without_digits(plain(joint_at(clip, top).name));
-        if (!no_step && !is_part && !is_twist_name(joint.name)) stranger = up;
+        if (!no_step && !are_parts(joint_at(clip, top).name, joint.name) && !is_twist_name(joint.name)) stranger = up;
     }
     return stranger;
 }
@@ -165,6 +186,22 @@ bool is_above(const Clip& clip, int top, int joint)
 {
     while (joint >= 0 && joint != top) joint = joint_at(clip, joint).parent;
     return joint >= 0;
+}
+
+// Why joints of one plain name, two or more, do not tell which is meant.
+std::string of_one_name(const Clip& clip, const std::vector<int>& joints)
+{
+    const Joint& first = joint_at(clip, joints[0]);
+    const auto differs = [&](int joint) { return joint_at(clip, joint).name != first.name; };
+    const auto other = std::find_if(joints.begin(), joints.end(), differs);
+    if (other == joints.end()) return fmt::format("{} joints are called '{}'", joints.size(), printable_name(first));
+    return fmt::format("'{}' and '{}' both have a name for it", printable_name(first),
+                       printable_name(joint_at(clip, *other)));
+}
+
+bool share_joint(const LimbJoints& a, const LimbJoints& b)
+{
+    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
 // What came of one naming; `fits` counts joints that bear its names.
@@ -187,9 +224,10 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
         if (!found.empty()) joints[n] = found[0];
         made.fits += !found.empty();
         if (found.size() > 1 && problem.empty())
-            problem = fmt::format("{} joints are called '{}'", found.size(), printable_name(joint_at(clip, found[0])));
+            problem = of_one_name(clip, found);
         else if (found.empty() && problem.empty())
-            problem = fmt::format("no joint is called '{}' or alike for its {}", name, parts[n]);
+            problem =
+                fmt::format("no joint is called '{}' or alike for its {}", shown(naming.joints[n], side), parts[n]);
     }
     for (std::size_t n = 0; n < 2 && problem.empty(); ++n) {
         const Joint &top = joint_at(clip, joints[n]), &bottom = joint_at(clip, joints[n + 1]);
@@ -221,7 +259,11 @@ bool is_twist_name(std::string_view joint_name)
 {
     const std::string name = plain(joint_name);
     for (const std::string_view word : {"twist", "roll", "捩"})
-        if (name.find(word) != std::string::npos) return true;
+        for (std::size_t at = 0; (at = name.find(word, at)) != std::string::npos; ++at) {
+            const std::string_view before = std::string_view(name).substr(0, at),
+                                   after = std::string_view(name).substr(at);
+            if (!before.ends_with("sc") && !after.starts_with("roller")) return true;  // "scroll", "controller"
+        }
     return false;
 }
 
@@ -235,12 +277,23 @@ LimbByName limb_by_name(const Clip& clip, LimbName limb)
         std::vector<std::string> plain_names;
         for (const Joint& joint : clip.joints)
             plain_names.push_back(plain(whole ? std::string_view(joint.name) : without_ending(joint.name)));
+        std::optional<LimbByName> fit;
         for (const Naming& naming : namings)
             for (const std::string_view side : sides) {
                 Attempt made = attempt(clip, plain_names, limb, naming, side);
-                if (made.result.joints) return made.result;
-                if (made.fits > best.fits) best = std::move(made);
+                if (!made.result.joints) {
+                    if (made.fits > best.fits) best = std::move(made);
+                } else if (!fit) {
+                    fit = std::move(made.result);
+                } else if (!share_joint(*fit->joints, *made.result.joints)) {  // another figure's
+                    const auto name = [&](const LimbByName& of) {
+                        return printable_name(joint_at(clip, (*of.joints)[0]));
+                    };
+                    return {
+                        std::nullopt, {}, fmt::format("'{}' and '{}' both begin one", name(*fit), name(made.result))};
+                }
             }
+        if (fit) return *fit;
     }
     return best.result;
 }

@@ -202,8 +202,10 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
         return finding;
     }
     try {
-        finding.limb = bind_limb(clip, candidate.name, *candidate.found.joints, front, choice.hinges);
-        finding.limb->habit = candidate.found.habit;
+        Limb limb = bind_limb(clip, candidate.name, *candidate.found.joints, front, choice.hinges);
+        limb.habit = candidate.found.habit;
+        if (!candidate.source) require_twists_between(clip, limb);
+        finding.limb = std::move(limb);
     } catch (const CannotBind& fault) {
         finding.problem = fault.what();
     }
