@@ -320,8 +320,9 @@ TEST_CASE("the caller's floating-point environment changes no bit and is put bac
     };
     const IsaScope scope;
     for (const std::string& isa : runnable_isas())
-        for (const auto& [name, environment] : environments)
+        for (const auto& [name, flags] : environments)
             for (const bool whole : {true, false}) {
+                const unsigned environment = flags;  // clang 14 captures no structured binding
                 INFO(isa << ", " << name << (whole ? ", swivel_solve" : ", swivel_solve_blocks"));
                 REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
                 unsigned found = environment;

@@ -190,6 +190,45 @@ TEST_CASE("limb joints: no guess where names repeat, joints are no chain, or a j
     CHECK(left_leg({{"RightUpLeg", "RightLeg", "RightFoot"}}).empty());
 }
 
+TEST_CASE("limb joints: what lies between is a part of the bone by name, or the limb is none")
+{
+    const auto left_arm = [](const std::vector<Names>& chains) {
+        return tools::limb_by_name(skeleton(chains), {LimbKind::arm, Side::left});
+    };
+    const auto stranger = [&](const Names& names) {
+        CHECK(left_arm({names}).problem == "'" + names[1] + "' lies between '" + names[0] + "' and '" + names[2] +
+                                               "' and is no twist bone by its name");
+    };
+    stranger({"LeftShoulder", "LeftShoulder1", "LeftElbow", "LeftWrist"});  // the first is the clavicle
+    stranger({"Shoulder.L", "Shoulder.L.001", "Elbow.L", "Wrist.L"});
+    stranger({"LeftArm", "LeftArm1", "LeftForeArm", "LeftHand"});
+    stranger({"LeftCollar", "LeftShoulderController", "LeftElbow", "LeftWrist"});
+    stranger({"LeftArm", "LeftScroll", "LeftForeArm", "LeftHand"});
+    for (const std::string twist : {"lForearmRoll", "upperarm_twist_01_l", "WristRoll", "腕捩", "ArmRoll1_L"})
+        CHECK(tools::is_twist_name(twist));
+    for (const std::string other : {"Controller", "scroll_l", "LeftStroller", "Hand"})
+        CHECK_FALSE(tools::is_twist_name(other));
+}
+
+TEST_CASE("limb joints: of two figures in one file none is taken")
+{
+    const Names mixamo = {"LeftArm", "LeftForeArm", "LeftHand"}, unreal = {"upperarm_l", "lowerarm_l", "hand_l"};
+    const auto problem = [](const std::vector<Names>& chains) {
+        const auto limb = tools::limb_by_name(skeleton(chains), {LimbKind::arm, Side::left});
+        CHECK_FALSE(limb.joints);
+        return limb.problem;
+    };
+    CHECK(problem({unreal, mixamo}) == "'LeftArm' and 'upperarm_l' both begin one");
+    CHECK(problem({mixamo, {"LArm", "LForeArm", "LHand"}}) == "'LeftArm' and 'LArm' both begin one");
+    CHECK(problem({{"A:LeftArm", "A:LeftForeArm", "A:LeftHand"}, {"B:LeftArm", "B:LeftForeArm", "B:LeftHand"}}) ==
+          "'A:LeftArm' and 'B:LeftArm' both have a name for it");
+    CHECK(problem({mixamo, mixamo}) == "2 joints are called 'LeftArm'");
+    CHECK(problem({{"upperarm_l", "lowerarm_l"}}) == "no joint is called 'hand_l' or alike for its wrist");
+    // One limb by two habits is one: the palm and the fist of one arm.
+    CHECK(found(skeleton({{"UpperArm.L", "LowerArm.L", "Palm.L", "Fist.L"}}), LimbKind::arm, Side::left) ==
+          Names{"UpperArm.L", "LowerArm.L", "Palm.L"});
+}
+
 TEST_CASE("limb joints: the side a name speaks of")
 {
     for (const std::string name : {"LeftUpLeg", "thigh_l", "thigh.L", "lThigh", "mixamorig:LeftArm", "DEF-thigh.L"})

@@ -80,7 +80,7 @@ TEST_CASE("rigs: a limb that cannot be told is never left out in silence")
     const Outcome outcome = solve({});
     INFO(outcome.err);
     CHECK(outcome.exit_code == 0);
-    CHECK(outcome.out.find("arm      right missing: no joints have names in use for it") != std::string::npos);
+    CHECK(outcome.out.find("arm      right missing: no joints have names in use for such a limb") != std::string::npos);
     const json report = json::parse(solve({}, {"--json"}).out);
     CHECK(report.at("missing")[0].at("limb") == "right_arm");
 }
@@ -239,7 +239,7 @@ TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, 
     };
     refused("[crowd]\nlimbs = \"legs\"\n",
             "swivel: crowd.toml:2: crowd.limbs: no legs found by the usual joint names (no joints have names in "
-            "use for it) in rig.glb; name them with limb.left_leg.joints\n");
+            "use for such a limb) in rig.glb; name them with limb.left_leg.joints\n");
     refused(
         "[crowd]\n\ntargets = \"no.csv\"\n",
         "swivel: crowd.toml:3: crowd.targets: no.csv: cannot be opened: No such file or directory; check the path\n");

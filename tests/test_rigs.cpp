@@ -162,7 +162,7 @@ TEST_CASE("rigs: cesium_man, whose joints have no names, by number")
                      {"--arm", "left:#16,#17,#18", "--arm", "right:#13,#14,#15", "--leg", "left:#7,#8,#9", "--leg",
                       "right:#3,#4,#5"});
     const json report = rig_report(path, {}, 1);
-    CHECK(report["limbs"][0]["problem"] == "no joints have names in use for it");
+    CHECK(report["limbs"][0]["problem"] == "no joints have names in use for such a limb");
 }
 
 TEST_CASE("rigs: what is no figure is refused")
@@ -286,10 +286,10 @@ TEST_CASE("rigs: names that repeat, lie elsewhere or have strangers in between a
           }) == "no joint is called 'lefthand' or alike for its wrist");
     CHECK(problem([&](GltfRig& rig) {
               chain(rig, {"LeftArm", "LeftForeArm", "LeftHand"}, 0);
-          }) == "the bone from 'LeftArm' to 'LeftForeArm' has no length");
+          }) == "the bone from 'LeftArm' to 'LeftForeArm' has no length; name other joints");
     CHECK(problem([&](GltfRig& rig) {
               chain(rig, {"tail1", "tail2", "tail3", "tail4"});
-          }) == "no joints have names in use for it");
+          }) == "no joints have names in use for such a limb");
 }
 
 TEST_CASE("rigs: the animation and its rate are chosen, and what a file cannot hold is said")

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 #include "tools/formats/text.h"
 #include "tools/swivel/limb_words.h"
@@ -21,12 +20,16 @@ using formats::Clip;
 using formats::Joint;
 using formats::JointPose;
 
-// What is wrong with a joint's scale; empty if nothing is.
+// What is wrong with a joint's scale, and what to do; empty if nothing is.
 std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
 {
-    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared", printable_name(joint));
-    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}", printable_name(joint), when);
-    if (!(pose.scale > 0)) return fmt::format("'{}' is scaled to nothing{}", printable_name(joint), when);
+    const std::string name = printable_name(joint);
+    const char* bent = "so its bones change shape as they turn; apply the scale where the rig was made";
+    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared, {}", name, bent);
+    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}, {}", name, when, bent);
+    if (!(pose.scale > 0))
+        return fmt::format("'{}' is scaled to nothing{}; choose an animation that does not hide the figure", name,
+                           when.empty() ? " at rest" : when);
     return {};
 }
 
@@ -50,9 +53,7 @@ void check_scales(const Clip& clip, const LimbChain& chain)
             fault = scale_fault(at, pose, fmt::format(" in frame {}", frame));
             if (turned_over.empty()) turned_over = mirror_fault(at, rest, pose, frame);
         }
-        if (!fault.empty())
-            throw CannotBind(fmt::format(
-                "{}, so its bones change shape as they turn; apply the scale where the rig was made", fault));
+        if (!fault.empty()) throw CannotBind(fault);
         if (!turned_over.empty())
             throw CannotBind(fmt::format(
                 "{}, and a limb is solved on one side of a mirror; choose an animation that keeps the rest pose's",
@@ -65,7 +66,7 @@ void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& 
     const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
     for (std::size_t n = 0; n < 2; ++n)
         if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
-            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length",
+            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length; name other joints",
                                          printable_name(joint_at(clip, joints[n])),
                                          printable_name(joint_at(clip, joints[n + 1]))));
 }
@@ -133,6 +134,40 @@ std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
     return found;
 }
 
+// The same of one bone, from chain.joints[first] to chain.joints[last].
+void require_twists_on(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last,
+                       Vector3d (ChainPose::*bone)() const)
+{
+    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
+    const auto place = [&](std::size_t n) { return rest_w[static_cast<std::size_t>(chain.joints[n])].position; };
+    const auto name = [&](std::size_t n) { return printable_name(joint_at(clip, chain.joints[n])); };
+    const Vector3d along = place(last) - place(first);
+    std::size_t part = 0;  // the first joint that has to prove itself
+    for (std::size_t n = last - 1; n > first; --n) {
+        const Vector3d step = place(n) - place(first);
+        const double near = 1e-3 * along.norm();  // a joint at an end's place turns as that end does
+        if (is_twist_name(joint_at(clip, chain.joints[n]).name) || step.norm() < near || (along - step).norm() < near)
+            continue;
+        part = n;
+        if (const double off = step.cross(along).norm() / along.squaredNorm(); off > 0.1)
+            throw CannotBind(
+                fmt::format("'{}' is off the line from '{}' to '{}' by {:.0f} % of its length, so is no part "
+                            "of that bone; name other joints",
+                            name(n), name(first), name(last), 100 * off));
+    }
+    if (part == 0) return;
+    const Vector3d rest = (rest_pose(clip, chain).*bone)();
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const Vector3d now = (chain_pose(clip, frame, chain).*bone)();
+        const double degrees = std::atan2(rest.cross(now).norm(), rest.dot(now)) * 180 / std::numbers::pi;
+        if (degrees > 15)
+            throw CannotBind(
+                fmt::format("'{}' turns the bone from '{}' to '{}' by {:.0f} degrees in frame {}, so is no "
+                            "part of that bone; name other joints",
+                            name(part), name(first), name(last), degrees, frame));
+    }
+}
+
 }  // namespace
 
 swivel_chain rest_chain(const Clip& clip, const LimbChain& chain, const Vector3d& hinge)
@@ -169,42 +204,8 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
 
 void require_twists_between(const Clip& clip, const Limb& limb)
 {
-    const std::vector<int>& joints = limb.chain.joints;
-    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
-    const auto place = [&](std::size_t n) -> const Vector3d& {
-        return rest_w[static_cast<std::size_t>(joints[n])].position;
-    };
-    const auto refuse = [&](std::size_t n, const std::string& fault) {
-        const LimbWords& words = words_of(limb.name.kind);
-        throw CannotBind(
-            fmt::format("'{}', on the way to '{}', {}, so is no twist bone; name the limb's own joints with "
-                        "{} {}",
-                        printable_name(joint_at(clip, joints[n])),
-                        printable_name(joint_at(clip, n < limb.chain.lower ? limb.lower() : limb.end())), fault,
-                        words.option, words.joints));
-    };
-    for (const auto& [first, last, bone] : {std::tuple{std::size_t{0}, limb.chain.lower, &ChainPose::upper_bone},
-                                            std::tuple{limb.chain.lower, joints.size() - 1, &ChainPose::lower_bone}}) {
-        const Vector3d along = place(last) - place(first);
-        const auto must_prove = [&](std::size_t n) {  // a joint at an end's place turns as that end does
-            return !is_twist_name(joint_at(clip, joints[n]).name) &&
-                   (place(n) - place(first)).norm() > 1e-3 * along.norm() &&
-                   (place(last) - place(n)).norm() > 1e-3 * along.norm();
-        };
-        std::size_t between = first + 1;
-        while (between < last && !must_prove(between)) ++between;
-        if (between >= last) continue;
-        for (std::size_t n = between; n < last; ++n)
-            if (const double off = (place(n) - place(first)).cross(along).norm() / along.squaredNorm(); off > 0.1)
-                refuse(n, fmt::format("is off the bone's line by {:.0f} % of its length", 100 * off));
-        const Vector3d rest = (rest_pose(clip, limb.chain).*bone)();
-        for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-            const Vector3d now = (chain_pose(clip, frame, limb.chain).*bone)();
-            const double degrees = std::atan2(rest.cross(now).norm(), rest.dot(now)) * 180 / std::numbers::pi;
-            if (degrees > 15)
-                refuse(between, fmt::format("turns the bone by {:.0f} degrees in frame {}", degrees, frame));
-        }
-    }
+    require_twists_on(clip, limb.chain, 0, limb.chain.lower, &ChainPose::upper_bone);
+    require_twists_on(clip, limb.chain, limb.chain.lower, limb.chain.joints.size() - 1, &ChainPose::lower_bone);
 }
 
 }  // namespace swivel::tools

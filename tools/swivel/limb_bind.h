@@ -65,8 +65,8 @@ swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const
 Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
                std::span<const GivenHinge> hinges);
 
-// Throws CannotBind where a joint between two of the limb's, of no twist bone's name, is none by its place: at rest off
-// the line between them by more than a tenth of its length, or turning the bone by more than 15 degrees in a frame.
+// Throws CannotBind where a joint between two of the limb's, of no twist bone's name, is no part of that bone: at rest
+// off the line between them by more than a tenth of its length, or turning the bone by more than 15 degrees in a frame.
 void require_twists_between(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

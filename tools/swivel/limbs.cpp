@@ -190,7 +190,7 @@ std::string why_none_fits(const Clip& clip)
     }
     if (deepest < 3)
         return fmt::format("a limb takes three bones below each other, and this skeleton has at most {}", deepest);
-    return "no joints have names in use for it";
+    return "no joints have names in use for such a limb";
 }
 
 LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& front, const Candidate& candidate)

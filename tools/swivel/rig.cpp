@@ -43,10 +43,13 @@ void run(const Options& options)
         print_json(json_of(motion, options.file, search, options.joints));
     else
         print_rig(motion, options.file, search, options.joints);
-    if (std::none_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))
-        throw CommandError(
-            1, fmt::format("{}: nothing binds: {}; name joints with --arm and --leg, --joints lists them", options.file,
-                           findings[0].problem));
+    if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))
+        return;
+    const std::string& problem = findings[0].problem;
+    const bool says_what_to_do = problem.find("; ") != std::string::npos;
+    throw CommandError(1,
+                       fmt::format("{}: nothing binds: {}{}", options.file, problem,
+                                   says_what_to_do ? "" : "; name joints with --arm and --leg, --joints lists them"));
 }
 
 }  // namespace
