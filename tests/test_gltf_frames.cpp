@@ -114,7 +114,7 @@ TEST_CASE("gltf frames: a coarser grid is divided so that its keys stay frames, 
 TEST_CASE("gltf frames: a jump, two keys a float's last digit apart, is no step of the grid, however late")
 {
     const auto film = times_of(500, 1 / 24.0), coarse = times_of(21, 1);
-    for (const std::size_t at : {1, 16, 20}) {
+    for (const std::size_t at : {1u, 16u, 20u}) {
         auto jumping = coarse;
         jumping.insert(jumping.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::nextafter(coarse[at], HUGE_VALF));
         CHECK(frames("LINEAR", jumping, true).size() == 1201);

@@ -87,20 +87,23 @@ TEST_CASE("rigs: a clip that bends a limb more and otherwise than its rest pose 
 {
     const Vector3d across = Vector3d::UnitZ(), along = Vector3d::UnitX();
     const std::vector<double> walk = {10, 40, 60, 40};
-    for (const double valgus : {5.5, 8.0, 15.0}) {  // knock-knees
+    for (const double valgus : {5.5, 8.0, 10.0}) {  // knock-knees
         const json knee = left_knee(legs(across, valgus, walk));
         CHECK(knee.at("hinge_source") == "mean bend of the clip");
         CHECK(off_knee(knee) < 1e-3);
     }
-    const json back = left_knee(legs(along, -7, walk));  // bent backwards at rest
-    CHECK(back.at("hinge_source") == "mean bend of the clip");
-    CHECK(off_knee(back) < 1e-3);
+    for (const double back : {-7.0, -25.0}) {  // pressed through
+        const json knee = left_knee(legs(along, back, walk));
+        CHECK(knee.at("hinge_source") == "mean bend of the clip");
+        CHECK(off_knee(knee) < 1e-3);
+    }
 
     const auto rests = [](const json& limb) {
         return limb.at("hinge_source").get<std::string>().starts_with("bend of the rest pose");
     };
     CHECK(rests(left_knee(legs(along, 10, walk))));                 // both agree
     CHECK(rests(left_knee(legs(across, 25, {5, 10, 15, 10}))));     // the clip bends less
+    CHECK(rests(left_knee(legs(across, 25, walk))));                // or hardly more
     CHECK(rests(left_knee(legs(across, 25, {}))));                  // there is no clip
     CHECK(rests(left_knee(legs(across, 25, {-60, 60, -60, 60}))));  // the clip says nothing
 }

@@ -156,9 +156,11 @@ Hinge choose_hinge(const Clip& clip, LimbKind kind, const LimbChain& chain, cons
     const Vector3d bend = bend_of(rest, upper);
     const double bend_deg = std::asin(std::min(bend.norm(), 1.0)) / kDegree;
     const auto mean = mean_bend(clip, chain, upper);
-    // 30 degrees: knock-knees, or a forearm that hangs, bend at rest across what the clip does.
+    // Knock-knees, or a forearm that hangs, bend at rest across what the clip does; knees pressed through, against it.
+    const double more = mean ? mean->norm() / bend.norm() : 0;
+    const double agreement = mean ? mean->normalized().dot(bend.normalized()) : 1;
     const bool clip_differs =
-        mean && mean->norm() > bend.norm() && mean->dot(bend) < std::cos(30 * kDegree) * mean->norm() * bend.norm();
+        (agreement < std::cos(30 * kDegree) && more > 2) || (agreement < std::cos(120 * kDegree) && more > 1);
     if (bend_deg > 5 && !clip_differs)
         return {bend.normalized(), fmt::format("bend of the rest pose, {:.1f} degrees", bend_deg)};
     if (mean) return {mean->normalized(), "mean bend of the clip"};

@@ -33,10 +33,10 @@ struct Hinge {
     std::string source;    // for people
 };
 
-// The first of: the rest pose's bend, from 5 degrees, unless the clip's mean bend is larger and more than 30 degrees
-// off; the clip's mean bend, from one degree and if it keeps its side; the rest pose's bend from half a degree, if it
-// is within 45 degrees of the table's; elbows bend forwards and knees backwards (upwards and downwards where the bone
-// itself points that way). rest: of the chain; parent_w: the upper
+// The first of: the rest pose's bend, from 5 degrees, unless the clip's mean bend is twice as large and more than 30
+// degrees off, or larger and more than 120 degrees off; the clip's mean bend, from one degree and if it keeps its side;
+// the rest pose's bend from half a degree, if it is within 45 degrees of the table's; elbows bend forwards and knees
+// backwards (upwards and downwards where the bone itself points that way). rest: of the chain; parent_w: the upper
 // joint's parent at rest.
 Hinge choose_hinge(const formats::Clip& clip, formats::LimbKind kind, const LimbChain& chain, const ChainPose& rest,
                    const formats::JointPose& parent_w, const Front& front);
