@@ -70,7 +70,8 @@ std::string row_text(std::size_t frame, std::size_t character, const std::string
     for (const double value : wrist) add(value);
     for (const double value : pole) add(value);
     if (!hand) return row + ",,,,\n";
-    for (const double value : Quaterniond(*hand).coeffs()) add(value);
+    const Quaterniond q(*hand);
+    for (const double value : q.coeffs()) add(value);
     return row + "\n";
 }
 

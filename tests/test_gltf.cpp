@@ -151,8 +151,8 @@ TEST_CASE("gltf: joints are the nodes, parents first, with the skin's marked and
     const TempFolder folder;
     GltfRig rig;
     const int tip = rig.add("", -1, {0, 0, 1}), root = rig.add("root", -1, {0, 0, 0});
-    rig.json["scenes"][0]["nodes"] = {root};
-    rig.json["nodes"][static_cast<std::size_t>(root)]["children"] = {tip};
+    rig.json["scenes"][0]["nodes"] = nlohmann::json::array({root});
+    rig.json["nodes"][static_cast<std::size_t>(root)]["children"] = nlohmann::json::array({tip});
     rig.json["skins"] = {{{"joints", {tip}}}};
     rig.write(folder / "rig.glb");
     const Clip clip = read_gltf(folder / "rig.glb").clip;

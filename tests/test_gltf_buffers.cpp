@@ -37,7 +37,7 @@ GltfRig moving_rig()
 std::string text_with(const json& buffer)
 {
     json whole = moving_rig().json;
-    whole["buffers"] = {buffer};
+    whole["buffers"] = json::array({buffer});
     return whole.dump();
 }
 

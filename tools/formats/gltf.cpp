@@ -208,7 +208,9 @@ private:
 void refuse_pointers_to_nodes(const GltfFile& file, const nlohmann::ordered_json& document)
 {
     const nlohmann::ordered_json::json_pointer where("/target/extensions/KHR_animation_pointer/pointer");
-    for (const auto& channel : document.at("animations").at(static_cast<std::size_t>(file.animation)).at("channels")) {
+    const auto& animation = document.at("animations").at(static_cast<std::size_t>(file.animation));
+    if (!animation.contains("channels")) return;
+    for (const auto& channel : animation.at("channels")) {
         if (!channel.contains(where) || !channel.at(where).is_string()) continue;
         const std::string to = channel.at(where).get<std::string>();
         for (const char* path : {"/translation", "/rotation", "/scale"})
