@@ -13,7 +13,7 @@
 #include <mm_malloc.h>  // clang's declares posix_memalign without noexcept, which it allows before a definition only
 #endif
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 // As in <sanitizer/allocator_interface.h>, which g++'s package leaves out.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*));
@@ -23,7 +23,7 @@ namespace swivel::test {
 inline std::atomic<std::size_t> allocations{0};
 }
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
 namespace swivel::test {
 inline std::size_t allocation_count()

@@ -204,7 +204,8 @@ TEST_CASE("limb joints: what lies between is a part of the bone by name, or the 
     stranger({"LeftArm", "LeftArm1", "LeftForeArm", "LeftHand"});
     stranger({"LeftCollar", "LeftShoulderController", "LeftElbow", "LeftWrist"});
     stranger({"LeftArm", "LeftScroll", "LeftForeArm", "LeftHand"});
-    for (const std::string twist : {"lForearmRoll", "upperarm_twist_01_l", "WristRoll", "腕捩", "ArmRoll1_L"})
+    for (const std::string twist :
+         {"lForearmRoll", "upperarm_twist_01_l", "WristRoll", "腕捩", "ArmRoll1_L", "Disc_Twist_L"})
         CHECK(tools::is_twist_name(twist));
     for (const std::string other : {"Controller", "scroll_l", "LeftStroller", "Hand"})
         CHECK_FALSE(tools::is_twist_name(other));
@@ -218,10 +219,10 @@ TEST_CASE("limb joints: of two figures in one file none is taken")
         CHECK_FALSE(limb.joints);
         return limb.problem;
     };
-    CHECK(problem({unreal, mixamo}) == "'LeftArm' and 'upperarm_l' both begin one");
-    CHECK(problem({mixamo, {"LArm", "LForeArm", "LHand"}}) == "'LeftArm' and 'LArm' both begin one");
+    CHECK(problem({unreal, mixamo}) == "'LeftArm' and 'upperarm_l' both begin a left arm");
+    CHECK(problem({mixamo, {"LArm", "LForeArm", "LHand"}}) == "'LeftArm' and 'LArm' both begin a left arm");
     CHECK(problem({{"A:LeftArm", "A:LeftForeArm", "A:LeftHand"}, {"B:LeftArm", "B:LeftForeArm", "B:LeftHand"}}) ==
-          "'A:LeftArm' and 'B:LeftArm' both have a name for it");
+          "'A:LeftArm' and 'B:LeftArm' both have the name of its shoulder");
     CHECK(problem({mixamo, mixamo}) == "2 joints are called 'LeftArm'");
     CHECK(problem({{"upperarm_l", "lowerarm_l"}}) == "no joint is called 'hand_l' or alike for its wrist");
     // One limb by two habits is one: the palm and the fist of one arm.

@@ -148,6 +148,7 @@ TEST_CASE("rigs: what hangs on a foot and points elsewhere is no toe")
     is(faces({{"Socket", {0.05, 0, -0.01}}}), front, by_hips);
     is(faces({{"Bone", {0.02, -0.02, 0.1}}}), front, by_toes);  // turned out, both alike
     is(faces({{"ToeBack", {0, 0, -0.16}}, {"ToeInner", {0, 0, 0.1}}}), front, by_hips);
+    is(faces({{"ToeBack", {0, 0, -0.1}}, {"ToeInner", {0.01, 0, 0.1}}}), front, by_hips);
     is(faces({{"ToeBack", {0, 0, -0.16}}, {"ToeInner", {0, 0, 0.1}}, {"ToeOuter", {0.02, 0, 0.1}}}), front, by_toes);
     // A mirror that was baked into the joints: the toes know.
     is(faces({{"Toe", {0, 0, 0.1}}}, true), front, by_toes);
@@ -171,13 +172,15 @@ TEST_CASE("rigs: what is called a part of a bone must be one by its place")
     CHECK(problem(half, {0, 80}, along).empty());  // it twists
     CHECK(problem(half, {0, 20}, up).empty());     // half the bone by 20 degrees: the whole by 10
     CHECK(problem(half, {0, 60}, up) ==
-          "'upperarm02_l' turns the bone from 'upperarm01_l' to 'lowerarm01_l' by 30 degrees in frame 1, so is no part "
-          "of "
-          "that bone; name other joints");
+          "what lies between 'upperarm01_l' and 'lowerarm01_l' ('upperarm02_l') turns that bone by 30 degrees in frame "
+          "1, so "
+          "is no part of it; name the joints");
     CHECK(
         problem({0.2, 0.06, 0}, {0, 0}, up) ==
         "'upperarm02_l' is off the line from 'upperarm01_l' to 'lowerarm01_l' by 15 % of its length, so is no part of "
-        "that bone; name other joints");
+        "that bone; name the joints");
+    for (const double beyond : {-0.1, 0.5})  // on the line, not on the bone
+        CHECK(problem({beyond, 0, 0}, {0, 0}, up).find("by 25 % of its length, so is no part of") != std::string::npos);
     CHECK(problem({0, 0, 0}, {0, 80}, up).empty());  // at the shoulder's place: it is the shoulder's turn
     CHECK(problem(half, {0, 60}, up, {"--arm", "left:upperarm01_l,lowerarm01_l,wrist_l"}).empty());
 }

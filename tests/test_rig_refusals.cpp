@@ -221,7 +221,7 @@ TEST_CASE("rigs: rig and solve see the same figure, of which one limb alone is n
     CHECK(in_rig.at("limb") == "right_arm");
     CHECK(in_rig.at("hinge") == solved.at("hinge"));
     CHECK(solved.at("hinge_source") ==
-          "elbows bend forwards, facing by left and right hip, as neither rest pose nor clip shows a bend");
+          "elbows bend forwards, facing by left and right hip, as neither rest pose nor clip tells");
 }
 
 TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, line and key")

@@ -2,8 +2,10 @@
 //
 // The promise: what a run says of its worst and first poses does not depend on the threads that found them.
 #include <rapidcheck/catch.h>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>

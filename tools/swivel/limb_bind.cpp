@@ -24,12 +24,13 @@ using formats::JointPose;
 std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
 {
     const std::string name = printable_name(joint);
-    const char* bent = "so its bones change shape as they turn; apply the scale where the rig was made";
-    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared, {}", name, bent);
-    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}, {}", name, when, bent);
+    const char* why = "so its bones change shape as they turn; apply the scale where the rig was made";
+    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared, {}", name, why);
+    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}, {}", name, when, why);
     if (!(pose.scale > 0))
-        return fmt::format("'{}' is scaled to nothing{}; choose an animation that does not hide the figure", name,
-                           when.empty() ? " at rest" : when);
+        return fmt::format("'{}' is scaled to nothing{}; {}", name, when.empty() ? " at rest" : when,
+                           when.empty() ? "give it a scale where the rig was made"
+                                        : "choose an animation that does not hide the figure");
     return {};
 }
 
@@ -134,7 +135,7 @@ std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
     return found;
 }
 
-// The same of one bone, from chain.joints[first] to chain.joints[last].
+// What require_twists_between() asks of one bone, from chain.joints[first] to chain.joints[last].
 void require_twists_on(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last,
                        Vector3d (ChainPose::*bone)() const)
 {
@@ -149,10 +150,11 @@ void require_twists_on(const Clip& clip, const LimbChain& chain, std::size_t fir
         if (is_twist_name(joint_at(clip, chain.joints[n]).name) || step.norm() < near || (along - step).norm() < near)
             continue;
         part = n;
-        if (const double off = step.cross(along).norm() / along.squaredNorm(); off > 0.1)
+        const double on_line = std::clamp(step.dot(along) / along.squaredNorm(), 0.0, 1.0);
+        if (const double off = (step - on_line * along).norm() / along.norm(); off > 0.1)
             throw CannotBind(
                 fmt::format("'{}' is off the line from '{}' to '{}' by {:.0f} % of its length, so is no part "
-                            "of that bone; name other joints",
+                            "of that bone; name the joints",
                             name(n), name(first), name(last), 100 * off));
     }
     if (part == 0) return;
@@ -162,9 +164,9 @@ void require_twists_on(const Clip& clip, const LimbChain& chain, std::size_t fir
         const double degrees = std::atan2(rest.cross(now).norm(), rest.dot(now)) * 180 / std::numbers::pi;
         if (degrees > 15)
             throw CannotBind(
-                fmt::format("'{}' turns the bone from '{}' to '{}' by {:.0f} degrees in frame {}, so is no "
-                            "part of that bone; name other joints",
-                            name(part), name(first), name(last), degrees, frame));
+                fmt::format("what lies between '{}' and '{}' ('{}') turns that bone by {:.0f} degrees in "
+                            "frame {}, so is no part of it; name the joints",
+                            name(first), name(last), name(part), degrees, frame));
     }
 }
 

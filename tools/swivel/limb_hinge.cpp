@@ -29,7 +29,8 @@ bool speaks_of_toes(std::string name)
 
 // Where a foot points: to the joints below it that are called toe or ball, else to the only one.
 struct Toes {
-    Vector3d direction = Vector3d::Zero();  // in the world, 0 if nothing tells
+    Vector3d direction = Vector3d::Zero();  // in the world: the sum of unit steps to them
+    int count = 0;
     bool named = false;
 };
 Toes toes_of(const Clip& clip, std::span<const JointPose> pose_w, int foot)
@@ -42,9 +43,10 @@ Toes toes_of(const Clip& clip, std::span<const JointPose> pose_w, int foot)
     for (const int joint : below) {
         if (!speaks_of_toes(formats::joint_at(clip, joint).name)) continue;
         toes.direction += step(joint).normalized();
+        ++toes.count;
         toes.named = true;
     }
-    if (!toes.named && below.size() == 1) toes.direction = step(below[0]).normalized();
+    if (!toes.named && below.size() == 1) toes = {step(below[0]).normalized(), 1, false};
     return toes;
 }
 
@@ -76,8 +78,8 @@ Vector3d bend_of(const ChainPose& pose, const Vector3d& rest_bone)
     return aim(rest_bone, upper).conjugate() * bend_of(upper, lower);
 }
 
-// The mean bend of all frames, each counting by its sine, as long as their mean sine; nothing for a clip that hardly
-// bends the limb, or to both sides.
+// The mean of the frames' bends, axes as long as their sines; nothing for a clip that hardly bends the limb, or to both
+// sides.
 std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, const Vector3d& rest_bone)
 {
     if (clip.frame_count < 2) return std::nullopt;  // one pose is no motion
@@ -136,11 +138,13 @@ Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>,
         for (const std::size_t leg : {2u, 3u}) {
             const Toes toes = toes_of(clip, pose_w, (*joints[leg])[2]);
             both.direction += toes.direction;
+            both.count += toes.count;
             both.named = both.named || toes.named;
         }
         // A foot's only joint without a name may be its heel, or hold a shoe; a bird's toes point both ways. They tell
         // within 60 degrees of the pair, or, by name, of its back: a figure whose mirror is baked into its joints.
-        const auto ahead = across(both.direction, front.up);
+        const bool agree_on_one = both.direction.norm() > 0.25 * both.count;
+        const auto ahead = agree_on_one ? across(both.direction, front.up) : std::nullopt;
         const double agree = ahead && by_pair ? ahead->dot(*by_pair) : 1;
         if (ahead && (agree > 0.5 || (both.named && agree < -0.5)))
             return {*ahead, front.up, "the toes", front.up_source};
@@ -175,7 +179,7 @@ Hinge choose_hinge(const Clip& clip, LimbKind kind, const LimbChain& chain, cons
     const Vector3d by_table = flexion.cross(upper).normalized();
     if (bend_deg > 0.5 && bend.dot(by_table) > std::cos(45 * kDegree) * bend.norm())
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
-    return {by_table, fmt::format("{} {}, facing by {}, as neither rest pose nor clip shows a bend",
+    return {by_table, fmt::format("{} {}, facing by {}, as neither rest pose nor clip tells",
                                   kind == LimbKind::arm ? "elbows bend" : "knees bend",
                                   std::abs(to_world(upper).dot(front.forwards)) > 0.9
                                       ? (kind == LimbKind::arm ? "upwards" : "downwards")

@@ -22,9 +22,10 @@ struct Front {
     std::string up_source = "the file's +Y";  // of up
 };
 
-// joints: of the limbs in the order of formats::kLimbNames, those that are known. By the toes, where they are called so
-// or point within 60 degrees of the next; else by shoulders (or hips) from right to left and up, mirrors considered;
-// else +Z, as glTF has it. Up is from the hips to the shoulders,
+// joints: of the limbs in the order of formats::kLimbNames, those that are known. By the toes, all joints
+// below the feet called toe or ball or else the only one, where they point within 60 degrees of what comes next or, if
+// called so, of its opposite; else by shoulders (or hips) from right to left and up, mirrors considered; else +Z, as
+// glTF has it. Up is from the hips to the shoulders,
 // or along the legs, or +Y.
 Front figure_front(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
 

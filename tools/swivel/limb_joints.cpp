@@ -189,14 +189,14 @@ bool is_above(const Clip& clip, int top, int joint)
 }
 
 // Why joints of one plain name, two or more, do not tell which is meant.
-std::string of_one_name(const Clip& clip, const std::vector<int>& joints)
+std::string of_one_name(const Clip& clip, const std::vector<int>& joints, std::string_view part)
 {
     const Joint& first = joint_at(clip, joints[0]);
     const auto differs = [&](int joint) { return joint_at(clip, joint).name != first.name; };
     const auto other = std::find_if(joints.begin(), joints.end(), differs);
     if (other == joints.end()) return fmt::format("{} joints are called '{}'", joints.size(), printable_name(first));
-    return fmt::format("'{}' and '{}' both have a name for it", printable_name(first),
-                       printable_name(joint_at(clip, *other)));
+    return fmt::format("'{}' and '{}' both have the name of its {}", printable_name(first),
+                       printable_name(joint_at(clip, *other)), part);
 }
 
 bool share_joint(const LimbJoints& a, const LimbJoints& b)
@@ -224,7 +224,7 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
         if (!found.empty()) joints[n] = found[0];
         made.fits += !found.empty();
         if (found.size() > 1 && problem.empty())
-            problem = of_one_name(clip, found);
+            problem = of_one_name(clip, found, parts[n]);
         else if (found.empty() && problem.empty())
             problem =
                 fmt::format("no joint is called '{}' or alike for its {}", shown(naming.joints[n], side), parts[n]);
@@ -262,7 +262,8 @@ bool is_twist_name(std::string_view joint_name)
         for (std::size_t at = 0; (at = name.find(word, at)) != std::string::npos; ++at) {
             const std::string_view before = std::string_view(name).substr(0, at),
                                    after = std::string_view(name).substr(at);
-            if (!before.ends_with("sc") && !after.starts_with("roller")) return true;  // "scroll", "controller"
+            if (word != "roll" || (!before.ends_with("sc") && !after.starts_with("roller")))
+                return true;  // "scroll", "controller"
         }
     return false;
 }
@@ -290,7 +291,9 @@ LimbByName limb_by_name(const Clip& clip, LimbName limb)
                         return printable_name(joint_at(clip, (*of.joints)[0]));
                     };
                     return {
-                        std::nullopt, {}, fmt::format("'{}' and '{}' both begin one", name(*fit), name(made.result))};
+                        std::nullopt,
+                        {},
+                        fmt::format("'{}' and '{}' both begin a {}", name(*fit), name(made.result), plain_name(limb))};
                 }
             }
         if (fit) return *fit;

@@ -23,10 +23,11 @@ struct LimbByName {
 };
 
 // The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces, common
-// prefixes and, where nothing fits with them, numbers at the end do not count. Each must be its name's only bearer
-// among the bones (among all joints if no bone bears it) and lie above the next, and one at least must be a bone; what
-// lies between must be a twist bone by name, or at the same place as one of them. Where two habits find limbs without a
-// joint in common there is none: two figures.
+// prefixes and, where nothing fits with them, numbers, jnt and joint at the end do not count. Each must be its name's
+// only bearer among the bones (among all joints if no bone bears it) and lie above the next, and one at least must be a
+// bone; what lies between must be a twist bone by name, a part of the upper bone by name (require_twists_between() then
+// asks for its place), or at the same place as one of them. Where two habits find limbs without a joint in common there
+// is none: two figures.
 LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);
 
 // True if each is above the next.

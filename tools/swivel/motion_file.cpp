@@ -27,7 +27,7 @@ std::variant<BvhFile, GltfFile> read(const std::filesystem::path& path, const Mo
     try {
         return formats::read_bvh(path);
     } catch (const formats::InputError& fault) {
-        if (is_bvh(path)) throw;
+        if (is_bvh(path) || !std::filesystem::is_regular_file(path)) throw;
         throw CommandError(1, fmt::format("{} (read as BVH: names of other formats end in .glb, .gltf, .vrm, .fbx or "
                                           ".dae)",
                                           fault.what()));

@@ -70,7 +70,8 @@ void add_rig(CLI::App& app)
         ->check(CLI::IsMember({"arms", "legs", "all"}));
     add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
     add_motion(*command, options->motion,
-               "it decides the limits that are printed and, where the rest pose is straight, hinges and axes");
+               "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, hinges "
+               "and axes");
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
     add_json(*command, options->json);
     command->callback([options] { run(*options); });

@@ -44,6 +44,7 @@ struct ErrorStat {
     }
     void keep_worst(double error, const PoseName& pose)
     {
+        // A NaN is as bad as infinity: the earlier of them stays.
         const auto rank = [](double e) { return std::isnan(e) ? std::numeric_limits<double>::infinity() : e; };
         if (rank(error) < rank(max) || (rank(error) == rank(max) && worst_pose <= pose)) return;
         max = error;
