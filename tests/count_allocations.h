@@ -41,7 +41,8 @@ namespace swivel::test {
 inline std::size_t allocation_count() { return allocations; }
 }  // namespace swivel::test
 
-// glibc's own, under the names it keeps for those who replace malloc.
+// glibc's own, under the names it keeps for those who replace malloc. Visible, so that libraries take these, too.
+#pragma GCC visibility push(default)
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -80,5 +81,6 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noex
     return *memory ? 0 : ENOMEM;
 }
 }
+#pragma GCC visibility pop
 
 #endif
