@@ -71,6 +71,8 @@ struct Figure {
     std::array<double, 4> upper{}, lower{};  // lengths in the world
     Eigen::Vector3d front;                   // which way it faces in the world
     bool is_uneven = false;
+    bool is_mirrored = false;      // its trunk is
+    std::array<double, 4> bend{};  // of elbows and knees at rest, radians
 };
 
 class FigureMaker {
@@ -82,6 +84,7 @@ public:
         const double size = wish_.scales > 0 ? std::pow(10.0, 2 * any()) : 1;
         Eigen::Vector3d scale = Eigen::Vector3d::Constant(size);
         if (likely(wish_.mirrors)) scale.x() = -size;
+        figure_.is_mirrored = scale.x() < 0;
         if (likely(wish_.uneven)) spoil(scale);
         const Eigen::Quaterniond turn = wish_.random_axes ? any_turn() : Eigen::Quaterniond::Identity();
         const int armature =
@@ -135,7 +138,10 @@ private:
     {
         if (likely(wish_.twist_bones))
             joint(base + "_twist_01", parent, from + 0.3 * (to - from), Part::tip);  // beside
-        if (likely(wish_.twist_bones)) parent = joint(base + "Roll", parent, from + 0.5 * (to - from), Part::bone);
+        if (likely(wish_.twist_bones)) {
+            parent = joint(base + "Roll", parent, from + 0.5 * (to - from), Part::bone);
+            rolls_.push_back(parent);
+        }
         if (likely(wish_.twist_bones)) parent = joint(base + "_twist_02", parent, from + 0.5 * (to - from), Part::bone);
         return parent;
     }
@@ -147,7 +153,7 @@ private:
             std::string text = is_arm ? names.arm[part] : names.leg[part];
             return text.replace(text.find('*'), 1, side > 0 ? names.left : names.right);
         };
-        const double bend = wish_.bent ? 0.2 + std::abs(any()) : 0;
+        const double bend = figure_.bend[limb] = wish_.bent ? 0.2 + std::abs(any()) : 0;
         const Eigen::Vector3d top = is_arm ? Eigen::Vector3d(0.2 * side, 1.5, 0) : Eigen::Vector3d(0.1 * side, 1, 0);
         const Eigen::Vector3d along =
             is_arm ? Eigen::Vector3d(side, 0.3 * any(), 0).normalized() : Eigen::Vector3d(0, -1, 0);
@@ -164,6 +170,15 @@ private:
         figure_.upper[limb] = (poses_[0].linear() * (elbow - top)).norm();
         figure_.lower[limb] = (poses_[0].linear() * (wrist - elbow)).norm();
     }
+    // A turn of a joint; one called roll turns about the bone it lies on alone.
+    Eigen::Quaterniond turn_of(int node)
+    {
+        if (std::find(rolls_.begin(), rolls_.end(), node) == rolls_.end()) return any_turn();
+        const auto& at = figure_.rig.json["nodes"][static_cast<std::size_t>(node)];
+        const std::vector<double> along = at["translation"], rest = at["rotation"];
+        return Eigen::AngleAxisd(2 * any(), Eigen::Vector3d(along[0], along[1], along[2]).normalized()) *
+               Eigen::Quaterniond(rest[3], rest[0], rest[1], rest[2]);
+    }
     // Five keys for every joint; now and then a bone stretches.
     void move()
     {
@@ -172,7 +187,8 @@ private:
         for (int node = 1; node < static_cast<int>(poses_.size()); ++node) {
             std::vector<float> keys;
             for (std::size_t n = 0; n < times.size(); ++n)
-                for (const double part : any_turn().coeffs()) keys.push_back(static_cast<float>(part));
+                for (const double part : Eigen::Vector4d(turn_of(node).coeffs()))
+                    keys.push_back(static_cast<float>(part));
             figure_.rig.add_keys(animation, node, "rotation", times, keys, random_() % 4 == 0 ? "STEP" : "LINEAR");
             if (!likely(wish_.scales / 4)) continue;
             const std::vector<double> rest = figure_.rig.json["nodes"][static_cast<std::size_t>(node)]["translation"];
@@ -188,6 +204,7 @@ private:
     FigureWish wish_;
     Figure figure_;
     std::vector<Eigen::Affine3d> poses_;  // of each node, in the world
+    std::vector<int> rolls_;              // nodes
 };
 
 }  // namespace swivel::test

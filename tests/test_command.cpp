@@ -225,8 +225,14 @@ TEST_CASE("command: a clip that bends nothing has elbows that bend forwards and 
     const std::string straight =
         edited(edited(kTwoArms, " 20 0 0 -30 0 5 0 0 0 20 0 0 30 0 5 0 0", " 20 0 0 0 0 0 0 0 0 20 0 0 0 0 0 0 0"),
                " 21 0 0 -31 0 6 0 0 0 21 0 0 31 0 6 0 0", " 21 0 0 0 0 0 0 0 0 21 0 0 0 0 0 0 0");
-    spill(folder / "t.bvh", straight);
-    const auto bound = [&](const std::string& option) {
+    std::string standing = straight;  // its arms hang down, so that they can pass for legs
+    for (const auto& [out, down] : {std::pair("OFFSET 5 0 0", "OFFSET 0 -5 0"),
+                                    {"OFFSET -5 0 0", "OFFSET 0 -5 0"},
+                                    {"OFFSET 3 0 0", "OFFSET 0 -3 0"},
+                                    {"OFFSET -3 0 0", "OFFSET 0 -3 0"}})
+        standing = edited(standing, out, down);
+    const auto bound = [&](const std::string& bvh, const std::string& option) {
+        spill(folder / "t.bvh", bvh);
         const Outcome outcome =
             run_command(folder.path, {"solve", "t.bvh", "--json", option, "LeftArm,LeftForeArm,LeftHand"});
         INFO(outcome.err);
@@ -234,11 +240,13 @@ TEST_CASE("command: a clip that bends nothing has elbows that bend forwards and 
         const Json out = Json::parse(outcome.out);
         return out.at(option == "--arm" ? "arms_bound" : "legs_bound").at(0);
     };
-    // The bone runs along +x; flexion turns the lower one about -hinge: about -y towards +z, about +y towards -z.
-    CHECK(bound("--arm").at("hinge") == Json({0.0, 1.0, 0.0}));
-    CHECK(bound("--leg").at("hinge") == Json({0.0, -1.0, 0.0}));
-    CHECK(bound("--leg").at("hinge_source").get<std::string>().starts_with("knees bend backwards, facing by "));
-    require_keys(bound("--leg"), {"side", "hip", "knee", "ankle", "lengths"});
+    // The bone runs along +x; flexion turns the lower one about -hinge: about -y towards +z. Or along -y: about +x
+    // towards -z.
+    CHECK(bound(straight, "--arm").at("hinge") == Json({0.0, 1.0, 0.0}));
+    const Json leg = bound(standing, "--leg");
+    CHECK(leg.at("hinge") == Json({-1.0, 0.0, 0.0}));
+    CHECK(leg.at("hinge_source").get<std::string>().starts_with("knees bend backwards, facing by "));
+    require_keys(leg, {"side", "hip", "knee", "ankle", "lengths"});
 }
 
 TEST_CASE("command: names that are not UTF-8 do not break --json")

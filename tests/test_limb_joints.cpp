@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/swivel/joint_names.h"
 #include "tools/swivel/limb_joints.h"
 
 using namespace swivel;
@@ -170,8 +171,7 @@ TEST_CASE("limb joints: endings that converters put behind every name")
     CHECK(left_arm({{"LeftArm", "LeftForeArm", "LeftHand", "LeftHand_1"}}) ==
           Names{"LeftArm", "LeftForeArm", "LeftHand"});
     CHECK(left_arm({{"LeftArm", "LeftForeArm"}, {"LeftHand"}, {"LeftHand_1"}}).empty());
-    CHECK(left_arm({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftShoulder", "LeftElbow", "LeftWrist"}}) ==
-          Names{"LeftShoulder", "LeftElbow", "LeftWrist"});
+    CHECK(left_arm({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftShoulder", "LeftElbow", "LeftWrist"}}).empty());
     CHECK(tools::side_of("thigh_l_055", Side::right) == Side::left);
     CHECK(tools::side_of("thigh_r_055", Side::left) == Side::right);
     CHECK(tools::side_of("_7", Side::right) == Side::right);
@@ -204,11 +204,15 @@ TEST_CASE("limb joints: what lies between is a part of the bone by name, or the 
     stranger({"LeftArm", "LeftArm1", "LeftForeArm", "LeftHand"});
     stranger({"LeftCollar", "LeftShoulderController", "LeftElbow", "LeftWrist"});
     stranger({"LeftArm", "LeftScroll", "LeftForeArm", "LeftHand"});
-    for (const std::string twist :
-         {"lForearmRoll", "upperarm_twist_01_l", "WristRoll", "腕捩", "ArmRoll1_L", "Disc_Twist_L"})
-        CHECK(tools::is_twist_name(twist));
-    for (const std::string other : {"Controller", "scroll_l", "LeftStroller", "Hand"})
+    for (const std::string twist : {"upperarm_twist_01_l", "腕捩", "Disc_Twist_L"}) CHECK(tools::is_twist_name(twist));
+    for (const std::string roll : {"lForearmRoll", "WristRoll", "ArmRoll1_L"}) {
+        CHECK(tools::is_roll_name(roll));
+        CHECK_FALSE(tools::is_twist_name(roll));
+    }
+    for (const std::string other : {"Controller", "scroll_l", "LeftStroller", "Hand"}) {
         CHECK_FALSE(tools::is_twist_name(other));
+        CHECK_FALSE(tools::is_roll_name(other));
+    }
 }
 
 TEST_CASE("limb joints: of two figures in one file none is taken")
@@ -224,10 +228,29 @@ TEST_CASE("limb joints: of two figures in one file none is taken")
     CHECK(problem({{"A:LeftArm", "A:LeftForeArm", "A:LeftHand"}, {"B:LeftArm", "B:LeftForeArm", "B:LeftHand"}}) ==
           "'A:LeftArm' and 'B:LeftArm' both have the name of its shoulder");
     CHECK(problem({mixamo, mixamo}) == "2 joints are called 'LeftArm'");
+    // Two figures of one habit beside a third of another.
+    CHECK(problem({mixamo, mixamo, unreal}) == "'LeftArm' and 'upperarm_l' both begin a left arm");
+    CHECK(problem({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftShoulder", "LeftElbow", "LeftWrist"}}) ==
+          "'LeftShoulder' and 'LeftArm_1' both begin a left arm");
     CHECK(problem({{"upperarm_l", "lowerarm_l"}}) == "no joint is called 'hand_l' or alike for its wrist");
     // One limb by two habits is one: the palm and the fist of one arm.
     CHECK(found(skeleton({{"UpperArm.L", "LowerArm.L", "Palm.L", "Fist.L"}}), LimbKind::arm, Side::left) ==
           Names{"UpperArm.L", "LowerArm.L", "Palm.L"});
+}
+
+TEST_CASE("limb joints: limbs below trunks of one name are two figures'")
+{
+    const auto apart = [](const std::vector<Names>& chains) {
+        const Clip clip = skeleton(chains);
+        return tools::trunks_apart(clip, static_cast<int>(chains[0].size()), static_cast<int>(clip.joints.size()) - 1);
+    };
+    CHECK(apart({{"Hips", "LeftArm"}, {"Hips", "RightArm"}}) == std::array{1, 3});
+    CHECK(apart({{"Hips", "Spine", "LeftArm"}, {"Hips", "Chest", "RightUpLeg"}}) == std::array{1, 4});
+    for (const std::string again : {"Hips_1", "Hips_017", "Hips.001", "B:Hips", "mixamorig:Hips", "hips"})
+        CHECK(apart({{"Hips", "LeftArm"}, {again, "RightArm"}}) == std::array{1, 3});
+    CHECK_FALSE(apart({{"LeftShoulder", "LeftArm"}, {"RightShoulder", "RightArm"}}));  // one root is above both
+    CHECK_FALSE(apart({{"Spine", "LeftArm"}, {"Spine1", "LeftUpLeg"}}));
+    CHECK_FALSE(apart({{"", "LeftArm"}, {"", "RightArm"}}));  // no names tell nothing
 }
 
 TEST_CASE("limb joints: the side a name speaks of")

@@ -108,6 +108,151 @@ TEST_CASE("rigs: a clip that bends a limb more and otherwise than its rest pose 
     CHECK(rests(left_knee(legs(across, 25, {-60, 60, -60, 60}))));  // the clip says nothing
 }
 
+TEST_CASE("rigs: a rest pose that bends little and otherwise than knees do is refused where no clip tells")
+{
+    const auto problem = [](const Vector3d& axis, double at_rest, const std::vector<double>& clip) {
+        return left_knee(legs(axis, at_rest, clip)).value("problem", "");
+    };
+    const Vector3d across = Vector3d::UnitZ(), along = Vector3d::UnitX();
+    CHECK(problem(along, -7, {}) ==
+          "at rest it bends by 7.0 degrees, 180 degrees off the way that knees bend backwards, facing by the toes, and "
+          "no clip tells which holds; choose an animation that bends it, or give limb.left_leg.hinge in a crowd file: "
+          "[1.000, 0.000, 0.000] as at rest, [-1.000, 0.000, 0.000] as knees bend backwards");
+    for (const double valgus : {-19.0, -6.0, 6.0, 19.0}) {
+        CHECK(problem(across, valgus, {}).find("90 degrees off the way that knees bend") != std::string::npos);
+        CHECK(problem(across, valgus, {-60, 60, -60, 60}).find("no clip tells") != std::string::npos);
+        CHECK(problem(across, valgus, {10, 60}).empty());
+    }
+    for (const auto& [turn, is_refused] : {std::pair(55.0, false), {65.0, true}, {-55.0, false}, {-65.0, true}})
+        CHECK(problem(AngleAxisd(turn * kDegree, Vector3d::UnitY()) * along, 12, {}).empty() != is_refused);
+}
+
+TEST_CASE("rigs: straight limbs of a figure of which nothing says where its front is are refused")
+{
+    // Straight arms at +-x of a chest that stands on hips, the whole turned; a root above may be scaled.
+    const auto arms = [](const Quaterniond& turn, const std::vector<std::string>& sides, const Vector3d& scale,
+                         double bend) {
+        GltfRig rig;
+        const int root = rig.add("Root", -1, {0, 0, 0}, Quaterniond::Identity(), scale);
+        const int chest = rig.add("Chest", rig.add("Hips", root, {0, 0, 0}, turn), {0, 0.5, 0});
+        for (const std::string& side : sides) {
+            const double x = side == "Left" ? 1 : -1;
+            const int upper = rig.add(side + "Arm", chest, {0.2 * x, 0.1, 0});
+            const int lower = rig.add(side + "ForeArm", upper, {0.3 * x, 0, 0},
+                                      Quaterniond(AngleAxisd(-bend * x * kDegree, Vector3d::UnitY())));
+            rig.add(side + "Hand", lower, {0.3 * x, 0, 0});
+        }
+        const json said = rig_report(rig);
+        const json limb = limb_of(said, sides[0] == "Left" ? "left_arm" : "right_arm");
+        CHECK(said.contains("faces_in_doubt") == (bend > 0 || limb.contains("problem")));
+        return limb.value("problem", "");
+    };
+    const auto turned = [](double degrees, const Vector3d& axis) {
+        return Quaterniond(AngleAxisd(degrees * kDegree, axis));
+    };
+    const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(), even = {1, 1, 1};
+    const std::vector<std::string> both = {"Left", "Right"}, left = {"Left"}, right = {"Right"};
+    const auto says = [](const std::string& problem, const char* part) {
+        INFO(problem);
+        return problem.find(part) != std::string::npos;
+    };
+    CHECK(arms(Quaterniond::Identity(), both, even, 0).empty());
+    CHECK(arms(turned(180, y), both, even, 0).empty());
+    CHECK(arms(turned(50, x), both, even, 0).empty());
+    for (const double back : {-90.0, 70.0, 90.0, 180.0}) {  // +z is up, or the figure lies
+        CHECK(says(arms(turned(back, x), both, even, 0), "does not stand along the file's +Y; choose an animation"));
+        CHECK(arms(turned(back, x), both, even, 25).empty());  // the rest pose tells
+    }
+    CHECK(says(arms(turned(90, z) * turned(90, y), both, even, 0), "does not stand along"));
+    CHECK(says(arms(Quaterniond::Identity(), both, {-1, 1, 1}, 0), "leaves open whether left and right are exchanged"));
+    for (const auto& side : {left, right}) {
+        CHECK(arms(Quaterniond::Identity(), side, even, 0).empty());
+        CHECK(arms(turned(40, y), side, even, 0).empty());
+        for (const double away : {90.0, 180.0, 270.0})
+            CHECK(says(arms(turned(away, y), side, even, 0), "it is not on its side of a figure that faces"));
+    }
+}
+
+TEST_CASE("rigs: a roll bone between two joints must show in a clip that it only rolls")
+{
+    // A shoulder turned by `shoulder` degrees, a roll bone on its upper arm turned about `axis` by `roll`; 0, 0: no
+    // clip.
+    const auto problem = [](double shoulder, const Vector3d& axis, double roll, const std::string& name = "LeftArmRoll",
+                            const std::vector<std::string>& options = {}) {
+        GltfRig rig;
+        const int upper = rig.add("LeftArm", rig.add("Hips", -1, {0, 0, 0}), {0.2, 1, 0});
+        const int between = rig.add(name, upper, {0.1, 0, 0});
+        const int lower =
+            rig.add("LeftForeArm", between, {0.2, 0, 0}, Quaterniond(AngleAxisd(-0.5, Vector3d::UnitY())));
+        rig.add("LeftHand", lower, {0.3, 0, 0});
+        if (shoulder != 0 || roll != 0) {
+            const int animation = rig.add_animation("wave");
+            rig.add_keys(animation, upper, "rotation", {0, 1.0f / 30}, turns(Vector3d::UnitZ(), {0, shoulder}));
+            rig.add_keys(animation, between, "rotation", {0, 1.0f / 30}, turns(axis, {0, roll}));
+        }
+        return limb_of(rig_report(rig, options), "left_arm").value("problem", "");
+    };
+    const Vector3d along = Vector3d::UnitX(), up = Vector3d::UnitZ();
+    CHECK(problem(40, along, 80).empty());
+    CHECK(problem(40, up, 10).empty());
+    CHECK(problem(-40, up, 20) ==
+          "'LeftArmRoll' turns the bone from 'LeftArm' to 'LeftForeArm' by 20 degrees in frame 1, so is no part of it; "
+          "name the joints");
+    const std::string unshown =
+        "'LeftArmRoll' on the bone from 'LeftArm' to 'LeftForeArm' may be the joint that it turns in, and no clip "
+        "shows "
+        "that it only rolls; name the joints";
+    CHECK(problem(0, along, 0) == unshown);
+    CHECK(problem(10, along, 80) == unshown);  // nothing here swings
+    CHECK(problem(0, along, 0, "LeftArmTwist").empty());
+    CHECK(problem(10, up, 80, "LeftArmTwist").empty());
+    CHECK(problem(-40, up, 20, "LeftArmRoll", {"--arm", "left:LeftArm,LeftForeArm,LeftHand"}).empty());
+}
+
+TEST_CASE("rigs: the limbs of two figures are not taken for one's")
+{
+    // Each figure has these limbs under usual names.
+    using Limbs = std::vector<std::string>;
+    const auto report_of = [](const std::vector<Limbs>& figures, const std::string& trunk = "Hips",
+                              const std::vector<std::string>& options = {}) {
+        GltfRig rig;
+        const int root = rig.add("Scene", -1, {0, 0, 0});
+        for (std::size_t n = 0; n < figures.size(); ++n) {
+            const int hips = rig.add(n == 0 ? "Hips" : trunk, root, {2.0 * static_cast<double>(n), 1, 0});
+            for (const std::string& limb : figures[n]) {
+                const double x = limb.starts_with("Left") ? 1 : -1;
+                const bool arm = limb.ends_with("Arm");
+                const std::string side = x > 0 ? "Left" : "Right";
+                const Vector3d bone = arm ? Vector3d(0.3 * x, 0, 0) : Vector3d(0, -0.4, 0);
+                const int upper = rig.add(side + (arm ? "Arm" : "UpLeg"), hips, {0.2 * x, arm ? 0.5 : 0, 0});
+                const int lower = rig.add(side + (arm ? "ForeArm" : "Leg"), upper, bone);
+                rig.add(side + (arm ? "Hand" : "Foot"), lower, bone);
+            }
+        }
+        return rig_report(rig, options);
+    };
+    const auto problem = [](const json& report, const char* limb) {
+        return limb_of(report, limb).value("problem", "");
+    };
+    const json sides = report_of({{"LeftArm", "LeftLeg"}, {"RightArm", "RightLeg"}});
+    for (const char* limb : {"left_arm", "right_arm", "left_leg", "right_leg"})
+        CHECK(problem(sides, limb).ends_with(": two figures"));
+    CHECK(problem(sides, "right_arm") == "it hangs on 'Hips' (#8), the left arm on 'Hips' (#1): two figures");
+    const json levels = report_of({{"LeftArm", "RightArm"}, {"LeftLeg", "RightLeg"}}, "Hips_1");
+    CHECK(problem(levels, "left_leg") == "it hangs on 'Hips_1' (#8), the left arm on 'Hips' (#1): two figures");
+    // Arms alone are one figure's, and do not face by the legs of the other.
+    const json arms = report_of({{"LeftArm", "RightArm"}, {"LeftLeg", "RightLeg"}}, "Hips", {"--limbs", "arms"});
+    CHECK(problem(arms, "left_arm").empty());
+    CHECK(arms.at("up_by") == "the file's +Y");
+    // What the user names is taken; the other side by its names is another figure's.
+    const json named = report_of({{"LeftArm"}, {"RightArm"}}, "Hips", {"--arm", "left:LeftArm,LeftForeArm,LeftHand"});
+    CHECK(problem(named, "left_arm").empty());
+    CHECK(problem(named, "right_arm").ends_with(": two figures"));
+    // One figure whose arms hang on the chest.
+    const json one = report_of({{"LeftArm", "RightArm", "LeftLeg", "RightLeg"}});
+    for (const char* limb : {"left_arm", "right_arm", "left_leg", "right_leg"}) CHECK(problem(one, limb).empty());
+}
+
 TEST_CASE("rigs: a slight bend at rest tells near the way that the limb bends, not across")
 {
     const auto is_slight = [](const json& limb) {
@@ -171,14 +316,15 @@ TEST_CASE("rigs: what is called a part of a bone must be one by its place")
     const Vector3d half = {0.2, 0, 0}, along = Vector3d::UnitX(), up = Vector3d::UnitZ();
     CHECK(problem(half, {0, 80}, along).empty());  // it twists
     CHECK(problem(half, {0, 20}, up).empty());     // half the bone by 20 degrees: the whole by 10
+    CHECK(problem(half, {0, 29}, up).empty());
+    CHECK(problem(half, {0, 31}, up).find("by 16 degrees in frame 1, so is no part of it") != std::string::npos);
     CHECK(problem(half, {0, 60}, up) ==
-          "what lies between 'upperarm01_l' and 'lowerarm01_l' ('upperarm02_l') turns that bone by 30 degrees in frame "
-          "1, so "
-          "is no part of it; name the joints");
+          "'upperarm02_l' turns the bone from 'upperarm01_l' to 'lowerarm01_l' by 30 degrees in frame 1, so is no part "
+          "of it; name the joints");
     CHECK(
         problem({0.2, 0.06, 0}, {0, 0}, up) ==
         "'upperarm02_l' is off the line from 'upperarm01_l' to 'lowerarm01_l' by 15 % of its length, so is no part of "
-        "that bone; name the joints");
+        "it; name the joints");
     for (const double beyond : {-0.1, 0.5})  // on the line, not on the bone
         CHECK(problem({beyond, 0, 0}, {0, 0}, up).find("by 25 % of its length, so is no part of") != std::string::npos);
     CHECK(problem({0, 0, 0}, {0, 80}, up).empty());  // at the shoulder's place: it is the shoulder's turn

@@ -19,13 +19,24 @@ using namespace swivel::test;
 using Eigen::Vector3d;
 using nlohmann::json;
 
+namespace {
+
+// Arms are bent at rest, so that this tells their hinge.
+int add_bone(GltfRig& rig, const std::string& name, int parent, const Vector3d& step = {1, 0, 0})
+{
+    const double bend = name.ends_with("ForeArm") ? 0.5 : 0;
+    return rig.add(name, parent, step, Eigen::Quaterniond(Eigen::AngleAxisd(bend, Vector3d::UnitY())));
+}
+
+}  // namespace
+
 TEST_CASE("rigs: joint names with line ends stay in their line")
 {
     const TempFolder folder;
     const auto solve = [&](const std::vector<std::string>& names, const Vector3d& step, const Vector3d& scale) {
         GltfRig rig;
         int parent = rig.add("ro\not", -1, {0, 0, 0}, Eigen::Quaterniond::Identity(), scale);
-        for (const std::string& name : names) parent = rig.add(name, parent, step);
+        for (const std::string& name : names) parent = add_bone(rig, name, parent, step);
         rig.write(folder / "rig.glb");
         return run_command(folder.path, {"solve", "rig.glb"});
     };
@@ -52,7 +63,7 @@ TEST_CASE("rigs: a limb that cannot be told is never left out in silence")
         GltfRig rig;
         const int root = rig.add("root", -1, {0, 0, 0});
         for (const auto& names : {std::vector<std::string>{"LeftArm", "LeftForeArm", "LeftHand"}, right})
-            for (int parent = root; const std::string& name : names) parent = rig.add(name, parent, {1, 0, 0});
+            for (int parent = root; const std::string& name : names) parent = add_bone(rig, name, parent);
         if (!right.empty()) rig.add("RightHand", root, {0, 1, 0});
         rig.write(folder / "rig.glb");
         options.insert(options.begin(), {"solve", "rig.glb", "--out", "out.glb"});
@@ -94,7 +105,7 @@ void write_arms(const fs::path& path, const std::vector<std::string>& sides)
     const int root = rig.add("root", -1, {0, 0, 0});
     for (const std::string& side : sides)
         for (int parent = root; const std::string name : {"Arm", "ForeArm", "Hand"})
-            parent = rig.add(side + name, parent, {1, 0, 0});
+            parent = add_bone(rig, side + name, parent);
     rig.write(path);
 }
 
@@ -229,7 +240,7 @@ TEST_CASE("rigs: what a crowd file asks for and is not there is said with file, 
     const TempFolder folder;
     GltfRig rig;
     int parent = rig.add("root", -1, {0, 0, 0});
-    for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
+    for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = add_bone(rig, name, parent);
     rig.write(folder / "rig.glb");
     const auto refused = [&](const char* toml, const std::string& message) {
         spill(folder / "crowd.toml", toml);
@@ -280,7 +291,7 @@ TEST_CASE("rigs: a mirror that comes or goes in the clip is refused, one that st
         GltfRig rig;
         const int root = rig.add("root", -1, {0, 0, 0}, Eigen::Quaterniond::Identity(), {rest, 1, 1});
         int parent = root;
-        for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
+        for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = add_bone(rig, name, parent);
         std::vector<float> scales;
         for (const float each : x) scales.insert(scales.end(), {each, 1, 1});
         rig.add_keys(rig.add_animation("motion"), root, "scale", {0, 1, 2}, scales, "STEP");

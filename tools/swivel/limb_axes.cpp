@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -15,18 +14,11 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-double angle_deg(const Vector3d& a, const Vector3d& b)
-{
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
-}
-
 void take(AngleRange& range, double angle)
 {
     range.least = std::min(range.least, angle);
     range.most = std::max(range.most, angle);
 }
-
-Vector3d to_three_decimals(const Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }  // no -0
 
 // To the next tenth. 0.002 covers what floats add in a solve: a cosine is off by some 1e-7 there, which is less than
 // 0.002 degrees from an opening of 0.2 on. "rig axes: a clip fits into the limits that are printed" solves under them.
@@ -71,15 +63,15 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
         if (!(bone.norm() > 0) || !(lower.norm() > 0)) continue;
         upper.push_back(arm_from_parent * bone.normalized());
         sum += upper.back();
-        take(range.from_z, angle_deg(upper.back(), Vector3d::UnitZ()));
-        take(range.flexion, angle_deg(bone, lower));
+        take(range.from_z, degrees_between(upper.back(), Vector3d::UnitZ()));
+        take(range.flexion, degrees_between(bone, lower));
     }
     if (upper.empty()) return std::nullopt;
     // 1e-3: directions that cancel have no mean; then any axis will do.
     const bool has_mean = sum.norm() > 1e-3 * static_cast<double>(upper.size());
     range.axis = has_mean ? to_three_decimals(sum.normalized()) : Vector3d::UnitZ();
     double opening = 0;
-    for (const Vector3d& bone : upper) opening = std::max(opening, angle_deg(bone, range.axis));
+    for (const Vector3d& bone : upper) opening = std::max(opening, degrees_between(bone, range.axis));
     range.opening_deg = tenth_above(opening);
     range.flexion = {tenth_below(range.flexion.least), tenth_above(range.flexion.most)};
     return range;

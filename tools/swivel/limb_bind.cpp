@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "tools/formats/text.h"
+#include "tools/swivel/joint_names.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -20,26 +20,33 @@ using formats::Clip;
 using formats::Joint;
 using formats::JointPose;
 
-// What is wrong with a joint's scale, and what to do; empty if nothing is.
-std::string scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
+// What is wrong with a joint's scale.
+std::optional<CannotBind> scale_fault(const Joint& joint, const JointPose& pose, const std::string& when)
 {
     const std::string name = printable_name(joint);
-    const char* why = "so its bones change shape as they turn; apply the scale where the rig was made";
-    if (joint.is_sheared) return fmt::format("the matrix of '{}' is sheared, {}", name, why);
-    if (!pose.is_uniform) return fmt::format("'{}' is scaled unevenly{}, {}", name, when, why);
-    if (!(pose.scale > 0))
-        return fmt::format("'{}' is scaled to nothing{}; {}", name, when.empty() ? " at rest" : when,
-                           when.empty() ? "give it a scale where the rig was made"
-                                        : "choose an animation that does not hide the figure");
-    return {};
+    const auto changes_shape = [](const std::string& what) {
+        return CannotBind(what + ", so its bones change shape as they turn", "apply the scale where the rig was made");
+    };
+    if (joint.is_sheared) return changes_shape(fmt::format("the matrix of '{}' is sheared", name));
+    if (!pose.is_uniform) return changes_shape(fmt::format("'{}' is scaled unevenly{}", name, when));
+    if (pose.scale > 0) return std::nullopt;
+    if (when.empty())
+        return CannotBind(fmt::format("'{}' is scaled to nothing at rest", name),
+                          "give it a scale where the rig was made");
+    return CannotBind(fmt::format("'{}' is scaled to nothing{}", name, when),
+                      "choose an animation that does not hide the figure");
 }
 
-// How a frame's mirror differs from the rest pose's; empty if it does not.
-std::string mirror_fault(const Joint& joint, const JointPose& rest, const JointPose& pose, std::size_t frame)
+// How a frame's mirror differs from the rest pose's.
+std::optional<CannotBind> mirror_fault(const Joint& joint, const JointPose& rest, const JointPose& pose,
+                                       std::size_t frame)
 {
-    if (pose.mirrored == rest.mirrored) return {};
-    return pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", printable_name(joint), frame)
-                         : fmt::format("'{}' is mirrored at rest and not in frame {}", printable_name(joint), frame);
+    if (pose.mirrored == rest.mirrored) return std::nullopt;
+    const std::string name = printable_name(joint);
+    return CannotBind((pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", name, frame)
+                                     : fmt::format("'{}' is mirrored at rest and not in frame {}", name, frame)) +
+                          ", and a limb is solved on one side of a mirror",
+                      "choose an animation that keeps the rest pose's");
 }
 
 // Every joint that the limb's size hangs on: all above the end joint.
@@ -48,17 +55,14 @@ void check_scales(const Clip& clip, const LimbChain& chain)
     for (int joint = joint_at(clip, chain.end()).parent; joint >= 0; joint = joint_at(clip, joint).parent) {
         const Joint& at = joint_at(clip, joint);
         const JointPose rest = formats::local_rest_pose(at);
-        std::string fault = scale_fault(at, rest, ""), turned_over;
-        for (std::size_t frame = 0; frame < clip.frame_count && fault.empty() && at.scale_track >= 0; ++frame) {
+        std::optional<CannotBind> fault = scale_fault(at, rest, ""), turned_over;
+        for (std::size_t frame = 0; frame < clip.frame_count && !fault && at.scale_track >= 0; ++frame) {
             const JointPose pose = formats::local_pose(clip, frame, static_cast<std::size_t>(joint));
             fault = scale_fault(at, pose, fmt::format(" in frame {}", frame));
-            if (turned_over.empty()) turned_over = mirror_fault(at, rest, pose, frame);
+            if (!turned_over) turned_over = mirror_fault(at, rest, pose, frame);
         }
-        if (!fault.empty()) throw CannotBind(fault);
-        if (!turned_over.empty())
-            throw CannotBind(fmt::format(
-                "{}, and a limb is solved on one side of a mirror; choose an animation that keeps the rest pose's",
-                turned_over));
+        if (fault) throw *fault;
+        if (turned_over) throw *turned_over;
     }
 }
 
@@ -67,9 +71,10 @@ void check_lengths(const Clip& clip, const LimbJoints& joints, const ChainPose& 
     const double upper = rest.upper_bone().norm(), lower = rest.lower_bone().norm();
     for (std::size_t n = 0; n < 2; ++n)
         if (!((n == 0 ? upper : lower) > 1e-6 * (upper + lower)))
-            throw CannotBind(fmt::format("the bone from '{}' to '{}' has no length; name other joints",
-                                         printable_name(joint_at(clip, joints[n])),
-                                         printable_name(joint_at(clip, joints[n + 1]))));
+            throw CannotBind(
+                fmt::format("the bone from '{}' to '{}' has no length", printable_name(joint_at(clip, joints[n])),
+                            printable_name(joint_at(clip, joints[n + 1]))),
+                "name other joints");
 }
 
 template <int size>
@@ -95,7 +100,7 @@ BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
     try {
         return bind(chain_at(rest, hinge));
     } catch (const Error& error) {
-        throw CannotBind(error.what());
+        throw CannotBind(error.what(), "");
     }
 }
 
@@ -110,18 +115,19 @@ Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w
     return axes_w;
 }
 
-void take_given_hinge(std::span<const GivenHinge> hinges, Limb& limb)
+// The hinge that the user gave the limb.
+std::optional<Hinge> given_hinge(std::span<const GivenHinge> hinges, const Limb& limb)
 {
-    for (const GivenHinge& given : hinges) {
-        if (given.limb != limb.name) continue;
-        const Vector3d& upper = limb.upper_bone;
-        if (given.axis.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
-            throw CannotBind(fmt::format(
-                "its hinge, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend that way",
-                given.where, upper.x(), upper.y(), upper.z()));
-        limb.hinge = given.axis;
-        limb.hinge_source = given.where;
-    }
+    const auto is_its = [&](const GivenHinge& each) { return each.limb == limb.name; };
+    const auto given = std::find_if(hinges.begin(), hinges.end(), is_its);
+    if (given == hinges.end()) return std::nullopt;
+    const Vector3d& upper = limb.upper_bone;
+    if (given->axis.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
+        throw CannotBind(fmt::format("its hinge, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not "
+                                     "bend that way",
+                                     given->where, upper.x(), upper.y(), upper.z()),
+                         "give an axis across it");
+    return Hinge{given->axis, given->where};
 }
 
 std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
@@ -129,44 +135,78 @@ std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
     std::vector<int> found;
     for (const int joint : chain.joints)
         for (const int child : formats::child_joints(clip, joint))
-            if (joint != chain.end() && is_twist_name(joint_at(clip, child).name) &&
+            if (joint != chain.end() &&
+                (is_twist_name(joint_at(clip, child).name) || is_roll_name(joint_at(clip, child).name)) &&
                 std::find(chain.joints.begin(), chain.joints.end(), child) == chain.joints.end())
                 found.push_back(child);
     return found;
 }
 
-// What require_twists_between() asks of one bone, from chain.joints[first] to chain.joints[last].
-void require_twists_on(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last,
-                       Vector3d (ChainPose::*bone)() const)
-{
-    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
-    const auto place = [&](std::size_t n) { return rest_w[static_cast<std::size_t>(chain.joints[n])].position; };
-    const auto name = [&](std::size_t n) { return printable_name(joint_at(clip, chain.joints[n])); };
-    const Vector3d along = place(last) - place(first);
-    std::size_t part = 0;  // the first joint that has to prove itself
-    for (std::size_t n = last - 1; n > first; --n) {
-        const Vector3d step = place(n) - place(first);
-        const double near = 1e-3 * along.norm();  // a joint at an end's place turns as that end does
-        if (is_twist_name(joint_at(clip, chain.joints[n]).name) || step.norm() < near || (along - step).norm() < near)
-            continue;
-        part = n;
-        const double on_line = std::clamp(step.dot(along) / along.squaredNorm(), 0.0, 1.0);
-        if (const double off = (step - on_line * along).norm() / along.norm(); off > 0.1)
-            throw CannotBind(
-                fmt::format("'{}' is off the line from '{}' to '{}' by {:.0f} % of its length, so is no part "
-                            "of that bone; name the joints",
-                            name(n), name(first), name(last), 100 * off));
+// The bone from chain.joints[first] to chain.joints[last], and what lies between.
+struct Span {
+    const Clip& clip;
+    const LimbChain& chain;
+    std::size_t first, last;
+
+    const std::string& name(std::size_t n) const { return joint_at(clip, chain.joints[n]).name; }
+    std::string shown(std::size_t n) const { return printable_name(joint_at(clip, chain.joints[n])); }
+
+    // By how many degrees one joint's own motion turns the bone, in the frame where it turns it most.
+    struct Swing {
+        double degrees = 0;
+        std::size_t frame = 0;
+    };
+    Swing swing_of(std::size_t part) const
+    {
+        const Vector3d rest = at_rest();
+        Swing most;
+        for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+            const Vector3d now = bone_moved_by(clip, frame, part, chain, first, last);
+            const double degrees = degrees_between(rest, now);
+            if (degrees > most.degrees) most = {degrees, frame};
+        }
+        return most;
     }
-    if (part == 0) return;
-    const Vector3d rest = (rest_pose(clip, chain).*bone)();
-    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const Vector3d now = (chain_pose(clip, frame, chain).*bone)();
-        const double degrees = std::atan2(rest.cross(now).norm(), rest.dot(now)) * 180 / std::numbers::pi;
-        if (degrees > 15)
-            throw CannotBind(
-                fmt::format("what lies between '{}' and '{}' ('{}') turns that bone by {:.0f} degrees in "
-                            "frame {}, so is no part of it; name the joints",
-                            name(first), name(last), name(part), degrees, frame));
+    Vector3d at_rest() const { return rest_bone(clip, chain, first, last); }
+};
+
+constexpr double kSwing = 15;  // degrees: what a joint that only twists its bone stays below, one that aims it exceeds
+
+// What require_parts_between() asks of the joint chain.joints[part] in between.
+void require_part(const Span& bone, std::size_t part, const Vector3d& step)
+{
+    const Vector3d along = bone.at_rest();
+    const double on_line = std::clamp(step.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double off = (step - on_line * along).norm() / along.norm();
+    const std::string ends = fmt::format("'{}' to '{}'", bone.shown(bone.first), bone.shown(bone.last));
+    if (off > 0.1)
+        throw CannotBind(fmt::format("'{}' is off the line from {} by {:.0f} % of its length, so is no part of it",
+                                     bone.shown(part), ends, 100 * off),
+                         "name the joints");
+    // A part swings the whole bone by less than it turns itself; what only rolls turns nothing.
+    const bool is_roll = is_roll_name(bone.name(part));
+    const Span::Swing swing =
+        is_roll ? Span{bone.clip, bone.chain, part, bone.last}.swing_of(part) : bone.swing_of(part);
+    if (swing.degrees > kSwing)
+        throw CannotBind(fmt::format("'{}' turns the bone from {} by {:.0f} degrees in frame {}, so is no part of it",
+                                     bone.shown(part), ends, swing.degrees, swing.frame),
+                         "name the joints");
+    if (is_roll && bone.swing_of(bone.first).degrees < kSwing)
+        throw CannotBind(
+            fmt::format("'{}' on the bone from {} may be the joint that it turns in, and no clip shows that "
+                        "it only rolls",
+                        bone.shown(part), ends),
+            "name the joints");
+}
+
+void require_parts_on(const Span& bone)
+{
+    const Vector3d along = bone.at_rest();
+    for (std::size_t part = bone.first + 1; part < bone.last; ++part) {
+        const Vector3d step = rest_bone(bone.clip, bone.chain, bone.first, part);
+        const double near = 1e-3 * along.norm();  // a joint at an end's place turns as that end does
+        const bool is_at_end = step.norm() < near || (along - step).norm() < near;
+        if (!is_at_end && !is_twist_name(bone.name(part))) require_part(bone, part, step);
     }
 }
 
@@ -193,10 +233,10 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     limb.mirrored = parent_w.mirrored;
     limb.upper_bone = rest.upper_bone().normalized();
     limb.lower_bone = rest.lower_bone().normalized();
-    const Hinge hinge = choose_hinge(clip, name.kind, limb.chain, rest, parent_w, front);
+    const std::optional<Hinge> given = given_hinge(hinges, limb);
+    const Hinge hinge = given ? *given : choose_hinge(clip, name, limb.chain, rest, parent_w, front);
     limb.hinge = hinge.axis;
     limb.hinge_source = hinge.source;
-    take_given_hinge(hinges, limb);
     limb.bound = bind_rest(rest, limb.hinge);
     for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));
     limb.axes_w = axes_of(limb.bound.binding, parent_w);
@@ -204,10 +244,11 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     return limb;
 }
 
-void require_twists_between(const Clip& clip, const Limb& limb)
+void require_parts_between(const Clip& clip, const Limb& limb)
 {
-    require_twists_on(clip, limb.chain, 0, limb.chain.lower, &ChainPose::upper_bone);
-    require_twists_on(clip, limb.chain, limb.chain.lower, limb.chain.joints.size() - 1, &ChainPose::lower_bone);
+    const LimbChain& chain = limb.chain;
+    require_parts_on({clip, chain, 0, chain.lower});
+    require_parts_on({clip, chain, chain.lower, chain.joints.size() - 1});
 }
 
 }  // namespace swivel::tools

@@ -5,12 +5,12 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/formats/clip.h"
+#include "tools/swivel/cannot_bind.h"
 #include "tools/swivel/limb_chain.h"
 #include "tools/swivel/limb_hinge.h"
 #include "tools/swivel/limb_joints.h"
@@ -50,23 +50,20 @@ struct GivenHinge {
     std::string where;     // for people
 };
 
-// Why a skeleton's limb cannot be solved: one line, the file left out.
-struct CannotBind : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 // What bind() takes: the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are the
 // world's). hinge: in the upper joint's axes, unit.
 swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const Eigen::Vector3d& hinge);
 
 // The limb of these joints, bound. joints: as is_chain() says; front: see figure_front(). Throws CannotBind for a bone
 // of no length, a scale that is uneven or nothing (at rest or in any frame) at, between or above the joints, a mirror
-// there that a frame has and the rest pose has not, or the other way round, or a hinge along a bone.
+// there that a frame has and the rest pose has not, or the other way round, a hinge that is given along a bone, or one
+// that is not given and that choose_hinge() cannot tell.
 Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
                std::span<const GivenHinge> hinges);
 
 // Throws CannotBind where a joint between two of the limb's, of no twist bone's name, is no part of that bone: at rest
 // off the line between them by more than a tenth of its length, or turning the bone by more than 15 degrees in a frame.
-void require_twists_between(const formats::Clip& clip, const Limb& limb);
+// A roll bone must show that it does not: the joint that the bone starts at has to turn it so far in the clip.
+void require_parts_between(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

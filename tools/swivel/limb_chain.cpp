@@ -2,6 +2,8 @@
 #include "tools/swivel/limb_chain.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace swivel::tools {
 
@@ -52,6 +54,15 @@ ChainPose walk(const LimbChain& chain, const StepOf& step_of)
     return pose;
 }
 
+template <class StepAt>
+Vector3d bone(std::size_t first, std::size_t last, const StepAt& step_at)
+{
+    JointPose at = step_at(first).whole;
+    const Vector3d start = at.position;
+    for (std::size_t n = first + 1; n <= last; ++n) at = at * step_at(n).whole;
+    return at.position - start;
+}
+
 }  // namespace
 
 LimbChain chain_of(const Clip& clip, const LimbJoints& joints)
@@ -81,6 +92,19 @@ ChainPose chain_pose(const Clip& clip, std::size_t frame, const LimbChain& chain
     return walk(chain, [&](int joint) { return step_in(clip, frame, joint); });
 }
 
+Vector3d rest_bone(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last)
+{
+    return bone(first, last, [&](std::size_t n) { return step_at_rest(clip, chain.joints[n]); });
+}
+
+Vector3d bone_moved_by(const Clip& clip, std::size_t frame, std::size_t part, const LimbChain& chain, std::size_t first,
+                       std::size_t last)
+{
+    return bone(first, last, [&](std::size_t n) {
+        return n == part ? step_in(clip, frame, chain.joints[n]) : step_at_rest(clip, chain.joints[n]);
+    });
+}
+
 std::array<Quaterniond, 3> local_rotations(const Clip& clip, std::size_t frame, const LimbChain& chain,
                                            const std::array<Quaterniond, 3>& turn)
 {
@@ -101,6 +125,13 @@ std::array<Quaterniond, 3> local_rotations(const Clip& clip, std::size_t frame, 
     }
     return local;
 }
+
+double degrees_between(const Vector3d& a, const Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
+}
+
+Vector3d to_three_decimals(const Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
 
 Quaterniond aim(const Vector3d& from, const Vector3d& to)
 {

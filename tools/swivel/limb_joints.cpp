@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <span>
 #include <vector>
 
 #include "tools/formats/text.h"
+#include "tools/swivel/joint_names.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -20,51 +20,6 @@ using formats::Joint;
 using formats::LimbKind;
 using formats::LimbName;
 using formats::Side;
-
-// What exporters put before every joint's name, in the form of plain(), with a number after some.
-constexpr std::array<std::string_view, 9> kPrefixes = {"def",    "mixamorig", "valvebiped", "bip0",     "jbip",
-                                                       "ccbase", "mavg",      "favg",       "character"};
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-// A joint's name in the form the tables below are written in: lower case, no name space before a colon or bar, no
-// separators, no prefix. Letters beyond ASCII stay as they are.
-std::string plain(std::string_view name)
-{
-    if (const std::size_t space = name.find_last_of(":|"); space != std::string_view::npos)
-        name.remove_prefix(space + 1);
-    std::string out;
-    for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x80 || std::isalnum(byte)) out += static_cast<char>(byte < 0x80 ? std::tolower(byte) : byte);
-    }
-    for (bool again = true; again;) {
-        again = false;
-        for (const std::string_view prefix : kPrefixes) {
-            if (!out.starts_with(prefix) || out.size() == prefix.size()) continue;
-            out.erase(0, prefix.size());
-            while (!out.empty() && is_digit(out[0])) out.erase(0, 1);
-            again = true;
-        }
-    }
-    return out;
-}
-
-// A joint's name without what converters put behind all of them: a number after an underscore ("LeftArm_09", glTF from
-// Sketchfab), or "jnt" or "joint" after a separator ("LeftArm_jnt").
-std::string_view without_ending(std::string_view name)
-{
-    for (bool again = true; again;) {
-        again = false;
-        const std::size_t at = name.find_last_of("_.- ");
-        if (at == std::string_view::npos || at == 0 || at + 1 == name.size()) break;
-        const std::string_view end = name.substr(at + 1);
-        const bool is_number = name[at] == '_' && std::all_of(end.begin(), end.end(), is_digit);
-        again = is_number || plain(end) == "jnt" || plain(end) == "joint";
-        if (again) name = name.substr(0, at);
-    }
-    return name;
-}
 
 // How exporters name a limb's three joints; * is the side, as a word or a letter.
 struct Naming {
@@ -147,37 +102,17 @@ std::vector<int> joints_named(const Clip& clip, std::span<const std::string> pla
     return found;
 }
 
-// `name` without digits: what "DEF-upper_arm.L.001" and "DEF-upper_arm.L" share.
-std::string without_digits(std::string name)
-{
-    std::erase_if(name, is_digit);
-    return name;
-}
-
-// True for two parts of one bone by name: "DEF-thigh.L" and "DEF-thigh.L.001", "upperarm01.L" and "upperarm02.L". Not
-// for shoulders: the first of two may be the clavicle.
-bool are_parts(std::string_view top, std::string_view below)
-{
-    top = without_ending(top), below = without_ending(below);
-    const std::string whole = plain(top), part = plain(below);
-    if (without_digits(whole) != without_digits(part) || whole.find("shoulder") != std::string::npos) return false;
-    const bool both_count =
-        std::any_of(whole.begin(), whole.end(), is_digit) && std::any_of(part.begin(), part.end(), is_digit);
-    const std::size_t dot = below.find_last_of('.');
-    const bool is_copy = dot != std::string_view::npos && below.size() - dot == 4 &&
-                         std::all_of(below.begin() + static_cast<std::ptrdiff_t>(dot) + 1, below.end(), is_digit);
-    return both_count || is_copy;
-}
-
-// The first joint between the two that is neither a twist bone by name, nor a part of `top` by name, nor at the place
-// of its parent; -1 if there is none.
+// The first joint between the two that is neither a twist or roll bone by name, nor a part of `top` by name, nor at the
+// place of its parent; -1 if there is none.
 int stranger_between(const Clip& clip, int top, int bottom)
 {
     int stranger = -1, below = bottom;
     for (int up = joint_at(clip, bottom).parent; up != top; below = up, up = joint_at(clip, up).parent) {
         const Joint& joint = joint_at(clip, up);
         const bool no_step = joint.offset.isZero(0) || joint_at(clip, below).offset.isZero(0);
-        if (!no_step && !are_parts(joint_at(clip, top).name, joint.name) && !is_twist_name(joint.name)) stranger = up;
+        const bool is_known =
+            is_twist_name(joint.name) || is_roll_name(joint.name) || are_parts(joint_at(clip, top).name, joint.name);
+        if (!no_step && !is_known) stranger = up;
     }
     return stranger;
 }
@@ -199,15 +134,12 @@ std::string of_one_name(const Clip& clip, const std::vector<int>& joints, std::s
                        printable_name(joint_at(clip, *other)), part);
 }
 
-bool share_joint(const LimbJoints& a, const LimbJoints& b)
-{
-    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
-}
-
-// What came of one naming; `fits` counts joints that bear its names.
+// What came of one naming.
 struct Attempt {
     LimbByName result;
-    int fits = 0;
+    int fits = 0;              // of the three joints, those whose name is borne
+    std::vector<int> bearers;  // of the names, all
+    bool is_ambiguous = false;
 };
 
 Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, LimbName limb, const Naming& naming,
@@ -215,7 +147,8 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
 {
     const LimbWords& words = words_of(limb.kind);
     const std::string_view parts[] = {words.upper_joint, words.lower_joint, words.end_joint};
-    Attempt made{{std::nullopt, std::string(naming.habit), {}}, 0};
+    Attempt made;
+    made.result.habit = naming.habit;
     LimbJoints joints{-1, -1, -1};
     std::string& problem = made.result.problem;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -223,6 +156,8 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
         const std::vector<int> found = joints_named(clip, plain_names, name);
         if (!found.empty()) joints[n] = found[0];
         made.fits += !found.empty();
+        made.bearers.insert(made.bearers.end(), found.begin(), found.end());
+        made.is_ambiguous = made.is_ambiguous || found.size() > 1;
         if (found.size() > 1 && problem.empty())
             problem = of_one_name(clip, found, parts[n]);
         else if (found.empty() && problem.empty())
@@ -255,61 +190,52 @@ bool is_chain(const Clip& clip, const LimbJoints& joints)
            is_above(clip, joints[1], joints[2]);
 }
 
-bool is_twist_name(std::string_view joint_name)
+int shared_joint(std::span<const int> a, std::span<const int> b)
 {
-    const std::string name = plain(joint_name);
-    for (const std::string_view word : {"twist", "roll", "捩"})
-        for (std::size_t at = 0; (at = name.find(word, at)) != std::string::npos; ++at) {
-            const std::string_view before = std::string_view(name).substr(0, at),
-                                   after = std::string_view(name).substr(at);
-            if (word != "roll" || (!before.ends_with("sc") && !after.starts_with("roller")))
-                return true;  // "scroll", "controller"
-        }
-    return false;
+    const auto found = std::find_first_of(a.begin(), a.end(), b.begin(), b.end());
+    return found == a.end() ? -1 : *found;
 }
 
 LimbByName limb_by_name(const Clip& clip, LimbName limb)
 {
     const auto namings = limb.kind == LimbKind::arm ? std::span<const Naming>(kArmNamings) : kLegNamings;
     const auto sides = limb.side == Side::left ? std::array{"left", "l", "左"} : std::array{"right", "r", "右"};
-    Attempt best;
-    best.fits = 1;                            // one name alone says nothing: half the world has a "LeftHand"
-    for (const bool whole : {true, false}) {  // the names as they are before those without endings
+    const auto is_bone = [&](int joint) { return joint_at(clip, joint).is_bone; };
+    std::vector<Attempt> whole_limbs;  // by names; of the names as they are before those without endings
+    Attempt nearest;
+    nearest.fits = 1;  // one name alone says nothing: half the world has a "LeftHand"
+    for (const bool as_they_are : {true, false}) {
         std::vector<std::string> plain_names;
         for (const Joint& joint : clip.joints)
-            plain_names.push_back(plain(whole ? std::string_view(joint.name) : without_ending(joint.name)));
-        std::optional<LimbByName> fit;
+            plain_names.push_back(plain(as_they_are ? std::string_view(joint.name) : without_ending(joint.name)));
         for (const Naming& naming : namings)
             for (const std::string_view side : sides) {
                 Attempt made = attempt(clip, plain_names, limb, naming, side);
-                if (!made.result.joints) {
-                    if (made.fits > best.fits) best = std::move(made);
-                } else if (!fit) {
-                    fit = std::move(made.result);
-                } else if (!share_joint(*fit->joints, *made.result.joints)) {  // another figure's
-                    const auto name = [&](const LimbByName& of) {
-                        return printable_name(joint_at(clip, (*of.joints)[0]));
-                    };
-                    return {
-                        std::nullopt,
-                        {},
-                        fmt::format("'{}' and '{}' both begin a {}", name(*fit), name(made.result), plain_name(limb))};
-                }
+                if (made.fits > nearest.fits) nearest = made;
+                const bool is_some = made.fits == 3 && made.is_ambiguous &&
+                                     std::any_of(made.bearers.begin(), made.bearers.end(), is_bone);
+                if (made.result.joints || is_some) whole_limbs.push_back(std::move(made));
             }
-        if (fit) return *fit;
     }
-    return best.result;
+    const auto has_joints = [](const Attempt& made) { return made.result.joints.has_value(); };
+    const auto fit = std::find_if(whole_limbs.begin(), whole_limbs.end(), has_joints);
+    if (fit == whole_limbs.end()) return nearest.result;
+    const auto is_elsewhere = [&](const Attempt& made) { return shared_joint(made.bearers, fit->bearers) < 0; };
+    const auto other = std::find_if(whole_limbs.begin(), whole_limbs.end(), is_elsewhere);
+    if (other == whole_limbs.end()) return fit->result;
+    const auto name = [&](const Attempt& of) { return printable_name(joint_at(clip, of.bearers[0])); };
+    const auto [first, second] = std::minmax(fit, other);
+    return {
+        std::nullopt, {}, fmt::format("'{}' and '{}' both begin a {}", name(*first), name(*second), plain_name(limb))};
 }
 
-Side side_of(std::string_view joint_name, Side otherwise)
+std::optional<std::array<int, 2>> trunks_apart(const Clip& clip, int joint_a, int joint_b)
 {
-    const std::string name = plain(without_ending(joint_name));
-    const bool left = name.starts_with("l") || name.ends_with("l") || name.find("left") != std::string::npos ||
-                      name.starts_with("左");
-    const bool right = name.find("right") != std::string::npos ||
-                       (!name.ends_with("shoulder") && name.ends_with("r")) || name.starts_with("r") ||
-                       name.starts_with("右");
-    return left == right ? otherwise : left ? Side::left : Side::right;
+    const auto parent = [&](int joint) { return joint_at(clip, joint).parent; };
+    for (int a = parent(joint_a); a >= 0 && !is_above(clip, a, joint_b); a = parent(a))
+        for (int b = parent(joint_b); b >= 0 && !is_above(clip, b, joint_a); b = parent(b))
+            if (are_namesakes(joint_at(clip, a).name, joint_at(clip, b).name)) return std::array{a, b};
+    return std::nullopt;
 }
 
 }  // namespace swivel::tools

@@ -5,8 +5,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 
 #include "tools/formats/clip.h"
 #include "tools/formats/limb_name.h"
@@ -25,18 +25,18 @@ struct LimbByName {
 // The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces, common
 // prefixes and, where nothing fits with them, numbers, jnt and joint at the end do not count. Each must be its name's
 // only bearer among the bones (among all joints if no bone bears it) and lie above the next, and one at least must be a
-// bone; what lies between must be a twist bone by name, a part of the upper bone by name (require_twists_between() then
-// asks for its place), or at the same place as one of them. Where two habits find limbs without a joint in common there
-// is none: two figures.
+// bone; what lies between must be a twist or roll bone by name, a part of the upper bone by name
+// (require_parts_between() then asks for proof), or at the same place as one of them. Where a second habit's names make
+// a limb without a joint in common, or more than one, there is none: two figures.
 LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);
 
 // True if each is above the next.
 bool is_chain(const formats::Clip& clip, const LimbJoints& joints);
 
-// True if a joint's name says that it shares out another's twist: "upperarm_twist_01_l", "lForearmRoll".
-bool is_twist_name(std::string_view joint_name);
+// The first joint of `a` that is in `b`, too; -1 if there is none.
+int shared_joint(std::span<const int> a, std::span<const int> b);
 
-// The side that a joint's name speaks of, or `otherwise` where it speaks of none or of both.
-formats::Side side_of(std::string_view joint_name, formats::Side otherwise);
+// Two joints of one name, each above one of these two alone: the trunks of two figures.
+std::optional<std::array<int, 2>> trunks_apart(const formats::Clip& clip, int joint_a, int joint_b);
 
 }  // namespace swivel::tools

@@ -8,6 +8,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
+#include "tools/swivel/joint_names.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -135,15 +136,6 @@ std::vector<Candidate> candidates(const Clip& clip, const std::filesystem::path&
     return limbs;
 }
 
-// A joint that both have, or -1.
-int shared_joint(const Candidate& a, const Candidate& b)
-{
-    if (!a.found.joints || !b.found.joints) return -1;
-    const LimbJoints &of_a = *a.found.joints, &of_b = *b.found.joints;
-    const auto found = std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end());
-    return found == of_a.end() ? -1 : *found;
-}
-
 // No joint is in two limbs: one that the user named takes it from one found by habit; two named are refused. (No name
 // is in use for two limbs, so that two found by habit share none.)
 void keep_apart(const Clip& clip, const std::filesystem::path& file, std::span<Candidate> limbs)
@@ -152,7 +144,8 @@ void keep_apart(const Clip& clip, const std::filesystem::path& file, std::span<C
         if (!named.source) continue;
         for (Candidate& other : limbs) {
             if (&other == &named) continue;
-            const int joint = shared_joint(named, other);
+            if (!named.found.joints || !other.found.joints) continue;
+            const int joint = shared_joint(*named.found.joints, *other.found.joints);
             if (joint < 0) continue;
             if (other.source)
                 refuse(*other.source, file,
@@ -164,12 +157,39 @@ void keep_apart(const Clip& clip, const std::filesystem::path& file, std::span<C
     }
 }
 
+// All limbs are one figure's: of two whose trunks are not, those found by habit are none.
+void keep_together(const Clip& clip, std::span<Candidate> limbs)
+{
+    std::vector<std::string> problems(limbs.size());
+    for (std::size_t a = 0; a < limbs.size(); ++a)
+        for (std::size_t b = 0; b < limbs.size(); ++b) {
+            if (a == b || limbs[a].source || !limbs[a].found.joints || !limbs[b].found.joints || !problems[a].empty())
+                continue;
+            const auto trunks = trunks_apart(clip, (*limbs[a].found.joints)[0], (*limbs[b].found.joints)[0]);
+            if (!trunks) continue;
+            const auto shown = [&](int joint) {
+                return fmt::format("'{}' (#{})", printable_name(joint_at(clip, joint)), joint_at(clip, joint).number);
+            };
+            problems[a] = fmt::format("it hangs on {}, the {} on {}: two figures", shown((*trunks)[0]),
+                                      plain_name(limbs[b].name), shown((*trunks)[1]));
+        }
+    for (std::size_t n = 0; n < limbs.size(); ++n)
+        if (!problems[n].empty()) limbs[n].found = {std::nullopt, {}, problems[n]};
+}
+
 // Of every limb that is known, solved or not.
 Front front_of(const Clip& clip, const std::filesystem::path& file, std::span<const Candidate> limbs)
 {
     std::vector<Candidate> all(limbs.begin(), limbs.end());
+    const auto is_one_of_them = [&](const Candidate& other) {
+        return std::none_of(limbs.begin(), limbs.end(), [&](const Candidate& limb) {
+            return limb.found.joints && other.found.joints &&
+                   trunks_apart(clip, (*limb.found.joints)[0], (*other.found.joints)[0]);
+        });
+    };
     for (const LimbName name : formats::kLimbNames)
-        if (!has(all, name)) all.push_back({name, limb_by_name(clip, name)});
+        if (!has(all, name))
+            if (Candidate other{name, limb_by_name(clip, name)}; is_one_of_them(other)) all.push_back(std::move(other));
     keep_apart(clip, file, all);
     std::array<std::optional<LimbJoints>, 4> joints;
     for (std::size_t n = 0; n < joints.size(); ++n)
@@ -179,7 +199,7 @@ Front front_of(const Clip& clip, const std::filesystem::path& file, std::span<co
 }
 
 // Why no joint's name is known.
-std::string why_none_fits(const Clip& clip)
+void explain_missing(const Clip& clip, LimbFinding& finding)
 {
     std::vector<int> depth(clip.joints.size(), 0);
     int deepest = 0;
@@ -188,26 +208,29 @@ std::string why_none_fits(const Clip& clip)
         depth[n] = (parent < 0 ? 0 : depth[static_cast<std::size_t>(parent)]) + clip.joints[n].is_bone;
         deepest = std::max(deepest, depth[n]);
     }
-    if (deepest < 3)
-        return fmt::format("a limb takes three bones below each other, and this skeleton has at most {}", deepest);
-    return "no joints have names in use for such a limb";
+    finding.problem = "no joints have names in use for such a limb";
+    if (deepest >= 3) return;
+    finding.problem =
+        fmt::format("a limb takes three bones below each other, and this skeleton has at most {}", deepest);
+    finding.advice = "choose a figure's file";
 }
 
 LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& front, const Candidate& candidate)
 {
-    LimbFinding finding{candidate.name, std::nullopt, candidate.found.problem, candidate.found.joints.has_value()};
+    LimbFinding finding{candidate.name, std::nullopt, candidate.found.problem, {}, candidate.found.joints.has_value()};
     if (!finding.has_names) {
         finding.is_half = !finding.problem.empty();
-        if (finding.problem.empty()) finding.problem = why_none_fits(clip);
+        if (finding.problem.empty()) explain_missing(clip, finding);
         return finding;
     }
     try {
         Limb limb = bind_limb(clip, candidate.name, *candidate.found.joints, front, choice.hinges);
         limb.habit = candidate.found.habit;
-        if (!candidate.source) require_twists_between(clip, limb);
+        if (!candidate.source) require_parts_between(clip, limb);
         finding.limb = std::move(limb);
     } catch (const CannotBind& fault) {
         finding.problem = fault.what();
+        finding.advice = fault.advice;
     }
     return finding;
 }
@@ -233,7 +256,8 @@ std::string naming(const LimbChoice& choice, LimbName name)
     refuse_found(
         file, choice,
         fmt::format("no {} found by the usual joint names ({})", words_of(finding.name.kind).limbs, finding.problem),
-        fmt::format("; name them with {}", naming(choice, finding.name)));
+        finding.advice.empty() ? fmt::format("; name them with {}", naming(choice, finding.name))
+                               : fmt::format("; {}", finding.advice));
 }
 
 // The other limb of its kind binds.
@@ -252,6 +276,11 @@ std::string naming(const LimbChoice& choice, LimbName name)
 }
 
 }  // namespace
+
+std::string problem_text(const LimbFinding& finding)
+{
+    return finding.advice.empty() ? finding.problem : fmt::format("{}; {}", finding.problem, finding.advice);
+}
 
 std::string kinds_words(const LimbChoice& choice)
 {
@@ -283,6 +312,7 @@ LimbSearch look_for_limbs(const Clip& clip, const std::filesystem::path& file, c
         if (is_chosen(choice, kind))
             for (Candidate& limb : candidates(clip, file, choice, kind)) limbs.push_back(std::move(limb));
     keep_apart(clip, file, limbs);
+    keep_together(clip, limbs);
     LimbSearch search{front_of(clip, file, limbs), {}};
     for (const Candidate& limb : limbs) search.findings.push_back(finding_of(clip, choice, search.front, limb));
     return search;
@@ -293,8 +323,8 @@ FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const
     FoundLimbs found;
     for (LimbFinding& finding : look_for_limbs(clip, file, choice).findings) {
         if (finding.has_names && !finding.limb)
-            throw InputError(file,
-                             fmt::format("the {} cannot be bound: {}", plain_name(finding.name), finding.problem));
+            throw InputError(
+                file, fmt::format("the {} cannot be bound: {}", plain_name(finding.name), problem_text(finding)));
         if (finding.limb)
             found.limbs.push_back(*finding.limb);
         else

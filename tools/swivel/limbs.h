@@ -50,10 +50,14 @@ struct LimbFinding {
     formats::LimbName name;
     std::optional<Limb> limb;
     std::string problem;     // one line; also without any joint that fits
+    std::string advice;      // what to do about it, to follow after a semicolon; empty: name joints
     bool has_names = false;  // joints fit, by habit or by the user, though they do not bind
     bool is_half = false;    // some joints have a limb's names, and are no limb: one is missing, its name repeats, or
                              // the user named it for another limb
 };
+
+// The whole line.
+std::string problem_text(const LimbFinding& finding);
 
 struct LimbSearch {
     Front front;  // of the figure

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swivel/swivel.h"
+#include "tools/swivel/limb_chain.h"
 #include "tools/swivel/limb_words.h"
 #include "tools/swivel/parallel.h"
 
@@ -124,10 +125,10 @@ void print_statistics(const Statistics& statistics)
         if (s->turned_over > 0) {
             const LimbWords& w = words_of(kind);
             fmt::print(
-                "note     the {} turns over against the clip in {} of {} poses, where the clip's {} bends to the other "
-                "side "
-                "of its hinge; limb.{}.pole.kind = \"incoming\" in a crowd file keeps the twist, the {} goes where it "
-                "may\n",
+                "note     the {} turns over against the clip in {} of {} poses: there the clip bends the {} to the "
+                "other "
+                "side of its hinge; limb.{}.pole.kind = \"incoming\" in a crowd file keeps the twist, and the {} goes "
+                "where it may\n",
                 w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs, w.lower_joint);
         }
 }
@@ -158,7 +159,7 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
 
 std::string vector_text(const Eigen::Vector3d& v)
 {
-    const Eigen::Array3d shown = (1000 * v).array().round() / 1000 + 0.0;  // no -0.000
+    const Eigen::Vector3d shown = to_three_decimals(v);
     return fmt::format("({:.3f} {:.3f} {:.3f})", shown.x(), shown.y(), shown.z());
 }
 

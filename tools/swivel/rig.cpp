@@ -45,11 +45,9 @@ void run(const Options& options)
         print_rig(motion, options.file, search, options.joints);
     if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))
         return;
-    const std::string& problem = findings[0].problem;
-    const bool says_what_to_do = problem.find("; ") != std::string::npos;
-    throw CommandError(1,
-                       fmt::format("{}: nothing binds: {}{}", options.file, problem,
-                                   says_what_to_do ? "" : "; name joints with --arm and --leg, --joints lists them"));
+    throw CommandError(
+        1, fmt::format("{}: nothing binds: {}{}", options.file, problem_text(findings[0]),
+                       findings[0].advice.empty() ? "; name joints with --arm and --leg, --joints lists them" : ""));
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, con
 {
     nlohmann::ordered_json out{{"limb", limb_word(finding.name)}, {"bound", finding.limb.has_value()}};
     if (!finding.limb) {
-        out["problem"] = finding.problem;
+        out["problem"] = problem_text(finding);
         return out;
     }
     const Limb& limb = *finding.limb;
@@ -182,6 +182,7 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"faces_by", front.source},
                                {"up", vector_of(front.up)},
                                {"up_by", front.up_source}};
+    if (!front.doubt.empty()) out["faces_in_doubt"] = front.doubt;
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, front));
     const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
     if (with_joints)
@@ -200,14 +201,14 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
     const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
     fmt::print("{}: {}, {} joints, {} of them bones, {} frames\n", file, motion.describe(), clip.joints.size(), bones,
                clip.frame_count);
-    fmt::print("faces {}, told by {}; up is {}, told by {}\n", vector_text(front.forwards), front.source,
-               vector_text(front.up), front.up_source);
+    fmt::print("faces {}, told by {}; up is {}, told by {}{}{}\n", vector_text(front.forwards), front.source,
+               vector_text(front.up), front.up_source, front.doubt.empty() ? "" : "; in doubt: ", front.doubt);
     for (const LimbFinding& finding : search.findings) {
         if (finding.limb)
             print_limb(clip, *finding.limb, front);
         else
             fmt::print("{:<10} {}: {}\n", plain_name(finding.name), finding.has_names ? "refused" : "missing",
-                       finding.problem);
+                       problem_text(finding));
     }
     if (with_joints) print_joints(clip);
 }
