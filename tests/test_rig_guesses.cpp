@@ -164,6 +164,7 @@ TEST_CASE("rigs: straight limbs of a figure of which nothing says where its fron
         CHECK(arms(turned(back, x), both, even, 25).empty());  // the rest pose tells
     }
     CHECK(says(arms(turned(90, z) * turned(90, y), both, even, 0), "does not stand along"));
+    CHECK(says(arms(turned(90, z), both, even, 0), "its shoulders lie above each other"));
     CHECK(says(arms(Quaterniond::Identity(), both, {-1, 1, 1}, 0), "leaves open whether left and right are exchanged"));
     for (const auto& side : {left, right}) {
         CHECK(arms(Quaterniond::Identity(), side, even, 0).empty());
