@@ -140,9 +140,12 @@ private:
             joint(base + "_twist_01", parent, from + 0.3 * (to - from), Part::tip);  // beside
         if (likely(wish_.twist_bones)) {
             parent = joint(base + "Roll", parent, from + 0.5 * (to - from), Part::bone);
-            rolls_.push_back(parent);
+            twists_.push_back(parent);
         }
-        if (likely(wish_.twist_bones)) parent = joint(base + "_twist_02", parent, from + 0.5 * (to - from), Part::bone);
+        if (likely(wish_.twist_bones)) {
+            parent = joint(base + "_twist_02", parent, from + 0.8 * (to - from), Part::bone);
+            twists_.push_back(parent);
+        }
         return parent;
     }
     void add_limb(const FigureNames& names, std::size_t limb, int parent)
@@ -170,13 +173,14 @@ private:
         figure_.upper[limb] = (poses_[0].linear() * (elbow - top)).norm();
         figure_.lower[limb] = (poses_[0].linear() * (wrist - elbow)).norm();
     }
-    // A turn of a joint; one called roll turns about the bone it lies on alone.
+    // A turn of a joint; a twist bone in between turns about the bone it lies on, and up to 10 degrees across.
     Eigen::Quaterniond turn_of(int node)
     {
-        if (std::find(rolls_.begin(), rolls_.end(), node) == rolls_.end()) return any_turn();
+        if (std::find(twists_.begin(), twists_.end(), node) == twists_.end()) return any_turn();
         const auto& at = figure_.rig.json["nodes"][static_cast<std::size_t>(node)];
         const std::vector<double> along = at["translation"], rest = at["rotation"];
-        return Eigen::AngleAxisd(2 * any(), Eigen::Vector3d(along[0], along[1], along[2]).normalized()) *
+        const Eigen::Vector3d bone = Eigen::Vector3d(along[0], along[1], along[2]).normalized();
+        return Eigen::AngleAxisd(0.17 * any(), bone.unitOrthogonal()) * Eigen::AngleAxisd(2 * any(), bone) *
                Eigen::Quaterniond(rest[3], rest[0], rest[1], rest[2]);
     }
     // Five keys for every joint; now and then a bone stretches.
@@ -204,7 +208,7 @@ private:
     FigureWish wish_;
     Figure figure_;
     std::vector<Eigen::Affine3d> poses_;  // of each node, in the world
-    std::vector<int> rolls_;              // nodes
+    std::vector<int> twists_;             // nodes
 };
 
 }  // namespace swivel::test

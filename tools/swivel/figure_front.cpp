@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/figure_front.h"
+#include "tools/swivel/limb_words.h"
+#include "tools/swivel/vectors.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <span>
 #include <vector>
 
 namespace swivel::tools {
@@ -29,22 +30,6 @@ struct Toes {
     int count = 0;
     bool named = false;
 };
-Toes toes_of(const Clip& clip, std::span<const JointPose> pose_w, int foot)
-{
-    const auto step = [&](int joint) -> Vector3d {
-        return pose_w[static_cast<std::size_t>(joint)].position - pose_w[static_cast<std::size_t>(foot)].position;
-    };
-    const std::vector<int> below = formats::child_joints(clip, foot);
-    Toes toes;
-    for (const int joint : below) {
-        if (!speaks_of_toes(formats::joint_at(clip, joint).name)) continue;
-        toes.direction += step(joint).normalized();
-        ++toes.count;
-        toes.named = true;
-    }
-    if (!toes.named && below.size() == 1) toes = {step(below[0]).normalized(), 1, false};
-    return toes;
-}
 
 // The joint that both hang on, or -1.
 int fork_of(const Clip& clip, int a, int b)
@@ -56,15 +41,7 @@ int fork_of(const Clip& clip, int a, int b)
     return a;
 }
 
-// `v` without its part along `axis`, unit; nothing where little is left.
-std::optional<Vector3d> across(const Vector3d& v, const Vector3d& axis)
-{
-    const Vector3d rest = v - v.dot(axis) * axis;
-    if (!(rest.norm() > 0.1 * v.norm())) return std::nullopt;
-    return rest.normalized();
-}
-
-// A figure's limbs at rest, in the world.
+// A figure's limbs at rest, in the world. Limbs are counted as in formats::kLimbNames: a pair starts at 0 or 2.
 struct RestingFigure {
     const Clip& clip;
     const std::array<std::optional<LimbJoints>, 4>& joints;
@@ -76,6 +53,19 @@ struct RestingFigure {
     const Vector3d& place(std::size_t limb, std::size_t part) const { return place(joint(limb, part)); }
     double upper_length(std::size_t limb) const { return (place(limb, 1) - place(limb, 0)).norm(); }
 
+    // Of a pair.
+    int fork(std::size_t left) const { return fork_of(clip, joint(left, 0), joint(left + 1, 0)); }
+    Vector3d middle(std::size_t left, std::size_t part) const
+    {
+        return (place(left, part) + place(left + 1, part)) / 2;
+    }
+    double leg_length() const
+    {
+        return (upper_length(2) + upper_length(3) + (place(2, 2) - place(2, 1)).norm() +
+                (place(3, 2) - place(3, 1)).norm()) /
+               2;
+    }
+
     // From the nearest joint above `below` that is farther than `far` from a place, to that place.
     Vector3d step_from_above(int below, const Vector3d& to, double far) const
     {
@@ -84,100 +74,174 @@ struct RestingFigure {
         return Vector3d::Zero();
     }
 
-    // Whether a step that should point up points more than 60 degrees elsewhere; one of no length says nothing.
-    static bool is_off_up(const Vector3d& step) { return step.y() < 0.5 * step.norm(); }
-
-    // What speaks against the file's +Y as up, where no pair of legs tells it.
-    std::string doubt_up() const
+    Toes toes(std::size_t leg) const
     {
-        const char* doubt = "what it hangs on does not stand along the file's +Y";
-        if (has_pair(0)) {
-            const Vector3d middle = (place(0, 0) + place(1, 0)) / 2;
-            const double half = (place(0, 0) - middle).norm();
-            const int fork = fork_of(clip, joint(0, 0), joint(1, 0));
-            return is_off_up(step_from_above(fork, middle, half)) ? doubt : "";
+        const int foot = joint(leg, 2);
+        const auto step = [&](int toe) -> Vector3d { return (place(toe) - place(foot)).normalized(); };
+        const std::vector<int> below = formats::child_joints(clip, foot);
+        Toes found;
+        for (const int toe : below) {
+            if (!speaks_of_toes(formats::joint_at(clip, toe).name)) continue;
+            found.direction += step(toe);
+            ++found.count;
+            found.named = true;
         }
-        for (const std::size_t arm : {0u, 1u})
-            if (joints[arm] && is_off_up(step_from_above(joint(arm, 0), place(arm, 0), upper_length(arm))))
-                return doubt;
-        for (const std::size_t leg : {2u, 3u})
-            if (joints[leg] && is_off_up(place(leg, 0) - place(leg, 2))) return "it does not stand along the file's +Y";
-        return "";
-    }
-
-    // What speaks against the file's +Z as the front, where no pair tells it: a left limb is to the left.
-    std::string doubt_front() const
-    {
-        for (std::size_t limb = 0; limb < 4; ++limb) {
-            if (!joints[limb]) continue;
-            const Vector3d step = step_from_above(joint(limb, 0), place(limb, 0), 0.1 * upper_length(limb));
-            const double out = std::hypot(step.x(), step.z()), to_its_side = limb % 2 == 0 ? step.x() : -step.x();
-            if (out > 0.1 * step.norm() && to_its_side < 0.5 * out)
-                return "it is not on its side of a figure that faces the file's +Z";
-        }
-        return "";
+        if (!found.named && below.size() == 1) found = {step(below[0]), 1, false};
+        return found;
     }
 };
+
+bool are_apart(const Vector3d& a, const Vector3d& b) { return degrees_between(a, b) > 60; }
+
+// ---- up: from hips to shoulders, else along the legs
+
+// What speaks against the file's +Y, where nothing else is known.
+std::string doubt_of_y(const RestingFigure& figure)
+{
+    const auto of = [](std::size_t limb) { return plain_name(formats::kLimbNames[limb]); };
+    if (figure.has_pair(0)) {
+        const Vector3d middle = figure.middle(0, 0);
+        const double half = (figure.place(0, 0) - middle).norm();
+        const Vector3d trunk = figure.step_from_above(figure.fork(0), middle, half);
+        return are_apart(trunk, Vector3d::UnitY()) ? "the trunk does not stand along the file's +Y" : "";
+    }
+    for (const std::size_t arm : {0u, 1u}) {
+        if (!figure.joints[arm]) continue;
+        const Vector3d& shoulder = figure.place(arm, 0);
+        const Vector3d step = figure.step_from_above(figure.joint(arm, 0), shoulder, figure.upper_length(arm));
+        if (are_apart(step, Vector3d::UnitY()))
+            return fmt::format("what the {} hangs on does not stand along the file's +Y", of(arm));
+    }
+    for (const std::size_t leg : {2u, 3u})
+        if (figure.joints[leg] && are_apart(figure.place(leg, 0) - figure.place(leg, 2), Vector3d::UnitY()))
+            return fmt::format("the {} does not stand along the file's +Y", of(leg));
+    return "";
+}
+
+void tell_up(const RestingFigure& figure, Front& front)
+{
+    Vector3d trunk = Vector3d::Zero(), legs = Vector3d::Zero();  // zero: too short to tell
+    if (figure.has_pair(2)) {
+        const double length = figure.leg_length();
+        legs = figure.middle(2, 0) - figure.middle(2, 2);
+        if (legs.norm() < 0.3 * length) legs.setZero();  // it kneels
+        if (figure.has_pair(0)) trunk = figure.middle(0, 0) - figure.middle(2, 0);
+        if (trunk.norm() < 0.1 * length) trunk.setZero();
+        const int fork = figure.has_pair(0) ? fork_of(figure.clip, figure.fork(0), figure.fork(2)) : figure.fork(2);
+        if (fork < 0 || (figure.place(fork) - figure.middle(2, 0)).norm() > 0.75 * length)
+            front.doubt = "the limbs do not hang on one trunk";
+    }
+    if (!trunk.isZero(0) && !legs.isZero(0) && are_apart(trunk, legs))
+        front.doubt = "the trunk does not stand on the legs";
+    if (trunk.isZero(0) && legs.isZero(0)) {
+        if (front.doubt.empty()) front.doubt = doubt_of_y(figure);
+        return;
+    }
+    front.up = (trunk.isZero(0) ? legs : trunk).normalized();
+    front.up_source = trunk.isZero(0) ? "the legs" : "hips to shoulders";
+}
+
+// ---- forwards: across shoulders and hips, and where the toes point; all that tell must agree
+
+// `v` without its part along up, unit; nothing where it is steeper than 60 degrees.
+std::optional<Vector3d> level(const Vector3d& v, const Vector3d& up)
+{
+    const Vector3d rest = v - v.dot(up) * up;
+    if (!(rest.norm() > 0.5 * v.norm())) return std::nullopt;
+    return rest.normalized();
+}
+
+// From right to left and up, mirrors considered; nothing from joints too close to each other, or one above the other.
+std::optional<Vector3d> across_pair(const RestingFigure& figure, std::size_t pair, const Vector3d& up)
+{
+    if (!figure.has_pair(pair)) return std::nullopt;
+    const int fork = figure.fork(pair);
+    const Vector3d left = figure.place(pair, 0) - figure.place(pair + 1, 0);
+    const double least = 0.25 * (figure.upper_length(pair) + figure.upper_length(pair + 1)) / 2;
+    const auto side = level(left, up);
+    if (fork < 0 || !side || left.norm() < least) return std::nullopt;
+    const bool mirrored = figure.pose_w[static_cast<std::size_t>(fork)].mirrored;
+    return Vector3d((mirrored ? Vector3d(-*side) : *side).cross(up));
+}
+
+// Where both feet point. A foot's only joint without a name may be its heel, or hold a shoe, so it must agree with
+// `ahead`; a bird's toes point both ways and tell nothing.
+std::optional<Vector3d> across_toes(const RestingFigure& figure, const Vector3d& up,
+                                    const std::optional<Vector3d>& ahead)
+{
+    if (!figure.has_pair(2)) return std::nullopt;
+    const Toes left = figure.toes(2), right = figure.toes(3);
+    const Vector3d both = left.direction + right.direction;
+    if (!(both.norm() > 0.25 * (left.count + right.count))) return std::nullopt;
+    const auto way = level(both, up);
+    const bool named = left.named || right.named;
+    if (!way || (!named && (!ahead || are_apart(*way, *ahead)))) return std::nullopt;
+    return way;
+}
+
+// The file's +Z, where there is no pair: a left limb is to the left.
+std::string doubt_of_z(const RestingFigure& figure)
+{
+    bool is_told = false;
+    for (std::size_t limb = 0; limb < 4; ++limb) {
+        if (!figure.joints[limb]) continue;
+        const std::string name = plain_name(formats::kLimbNames[limb]);
+        const int parent = formats::joint_at(figure.clip, figure.joint(limb, 0)).parent;
+        if (parent >= 0 && figure.pose_w[static_cast<std::size_t>(parent)].mirrored)
+            return fmt::format("the mirror above the {} leaves open whether left and right are exchanged", name);
+        const double far = 0.1 * figure.upper_length(limb);
+        const Vector3d own_side = limb % 2 == 0 ? Vector3d::UnitX() : Vector3d(-Vector3d::UnitX());
+        const Vector3d to = figure.step_from_above(figure.joint(limb, 0), figure.place(limb, 0), far);
+        const Vector3d along = figure.place(limb, 2) - figure.place(limb, 0);
+        for (const Vector3d& step : {to, along}) {
+            if (std::hypot(step.x(), step.z()) <= far) continue;
+            if (are_apart({step.x(), 0, step.z()}, own_side))
+                return fmt::format("the {} is not on its side of a figure that faces the file's +Z", name);
+            is_told = true;
+            break;
+        }
+    }
+    return is_told ? "" : "nothing tells that the figure faces the file's +Z";
+}
+
+void tell_forwards(const RestingFigure& figure, Front& front)
+{
+    const auto doubt = [&](const char* why) {
+        if (front.doubt.empty()) front.doubt = why;
+    };
+    const auto shoulders = across_pair(figure, 0, front.up), hips = across_pair(figure, 2, front.up);
+    const auto ahead = shoulders ? shoulders : hips;
+    const auto toes = across_toes(figure, front.up, ahead);
+    if (ahead) {
+        front.forwards = *ahead;
+        front.source = shoulders ? "left and right shoulder" : "left and right hip";
+    }
+    if (shoulders && hips && are_apart(*shoulders, *hips)) doubt("shoulders and hips face apart");
+    const bool mirrored = figure.pose_w[static_cast<std::size_t>(figure.fork(figure.has_pair(0) ? 0 : 2))].mirrored;
+    if (toes) {
+        // Below a mirror left and right may be exchanged or not: the toes know.
+        if (ahead && are_apart(*toes, *ahead) && !(mirrored && !are_apart(*toes, -*ahead)))
+            doubt("the toes point otherwise than shoulders and hips face");
+        front.forwards = *toes;
+        front.source = "the toes";
+    } else if (!ahead) {
+        doubt("neither shoulders nor hips tell left from right");
+    } else if (mirrored) {
+        doubt("without toes the mirror above the figure leaves open whether left and right are exchanged");
+    }
+}
 
 }  // namespace
 
 Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints)
 {
     const RestingFigure figure{clip, joints};
-    const bool arms = figure.has_pair(0), legs = figure.has_pair(2);
-    const auto place = [&](std::size_t limb, std::size_t part) { return figure.place(limb, part); };
     Front front;
-    Vector3d up = Vector3d::Zero();
-    if (arms && legs) up = place(0, 0) + place(1, 0) - place(2, 0) - place(3, 0);
-    front.up_source = "hips to shoulders";
-    if (legs && !(up.norm() > 0)) {
-        up = place(2, 0) + place(3, 0) - place(2, 2) - place(3, 2);
-        front.up_source = "the legs";
-    }
-    if (up.norm() > 0) {
-        front.up = up.normalized();
-    } else {
-        front.up_source = Front().up_source;
-        front.doubt = figure.doubt_up();
-    }
-    if (!arms && !legs) {
-        if (front.doubt.empty()) front.doubt = figure.doubt_front();
-        return front;
-    }
-
-    const std::size_t pair = arms ? 0 : 2;
-    const Vector3d left = place(pair, 0) - place(pair + 1, 0);
-    const int fork = fork_of(clip, figure.joint(pair, 0), figure.joint(pair + 1, 0));
-    const bool mirrored = fork >= 0 && figure.pose_w[static_cast<std::size_t>(fork)].mirrored;
-    const auto level = across(mirrored ? Vector3d(-left) : left, front.up);
-    const Vector3d by_pair = level ? Vector3d(level->cross(front.up)) : Vector3d(Vector3d::Zero());
-    if (legs) {
-        Toes both;
-        for (const std::size_t leg : {2u, 3u}) {
-            const Toes toes = toes_of(clip, figure.pose_w, figure.joint(leg, 2));
-            both.direction += toes.direction;
-            both.count += toes.count;
-            both.named = both.named || toes.named;
-        }
-        // A foot's only joint without a name may be its heel, or hold a shoe; a bird's toes point both ways. They tell
-        // within 60 degrees of the pair, or, by name, of its back: a figure whose mirror is baked into its joints.
-        const bool agree_on_one = both.direction.norm() > 0.25 * both.count;
-        const auto ahead = agree_on_one ? across(both.direction, front.up) : std::nullopt;
-        const double agree = ahead && level ? ahead->dot(by_pair) : 1;
-        if (ahead && (agree > 0.5 || (both.named && agree < -0.5))) {
-            front.forwards = *ahead;
-            front.source = "the toes";
-            return front;
-        }
-    }
-    if (!level) {
-        front.doubt = fmt::format("its {} lie above each other", arms ? "shoulders" : "hips");
-        return front;
-    }
-    front.forwards = by_pair;
-    front.source = arms ? "left and right shoulder" : "left and right hip";
-    if (mirrored && front.doubt.empty())
-        front.doubt = "without toes the mirror above it leaves open whether left and right are exchanged";
+    tell_up(figure, front);
+    if (figure.has_pair(0) || figure.has_pair(2))
+        tell_forwards(figure, front);
+    else if (front.doubt.empty())
+        front.doubt = doubt_of_z(figure);
     return front;
 }
 

@@ -21,12 +21,14 @@ struct Front {
     std::string doubt;                        // why either may be wrong, for people; empty: nothing speaks against them
 };
 
-// joints: of the limbs in the order of formats::kLimbNames, those that are known. By the toes, all joints
-// below the feet called toe or ball or else the only one, where they point within 60 degrees of what comes next or, if
-// called so, of its opposite; else by shoulders (or hips) from right to left and up, mirrors considered; else +Z, as
-// glTF has it. Up is from the hips to the shoulders, or along the legs, or +Y.
-// In doubt is what faces by a pair below a mirror, which may or may not have exchanged left and right; a pair one above
-// the other; and where the file's axes are taken, a trunk more than 60 degrees off +Y and a limb not on its side of it.
+// joints: of the limbs in the order of formats::kLimbNames, those that are known. Up is from the hips to the shoulders,
+// else along the legs, else +Y. Forwards is where the toes point (all joints below the feet called toe or ball, or else
+// the only one), unless they point steeply; else from right to left and up, by shoulders or else hips, mirrors
+// considered; else +Z, as glTF has it. In doubt is what some of these tell otherwise than others by more than 60
+// degrees; joints that do not hang on one trunk; shoulders and hips too close together to tell left from right, without
+// toes; a figure below a mirror and without toes, whose left and right may or may not be exchanged; and where the
+// file's axes are taken, a trunk or leg more than 60 degrees off +Y, a limb not on its own side, and one that does not
+// say where its side is.
 Front figure_front(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
 
 }  // namespace swivel::tools

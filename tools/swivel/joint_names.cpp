@@ -72,8 +72,14 @@ std::string_view without_ending(std::string_view name)
 
 bool are_namesakes(std::string_view a, std::string_view b)
 {
-    const auto bare = [](std::string_view name) { return plain(without_ending(without_copy(name))); };
+    const auto bare = [](std::string_view name) { return plain(without_copy(without_ending(name))); };
     return !bare(a).empty() && bare(a) == bare(b);
+}
+
+bool is_copy_name(std::string_view joint_name)
+{
+    const std::string_view name = without_ending(joint_name);
+    return without_copy(name) != name;
 }
 
 bool are_parts(std::string_view top, std::string_view below)
@@ -83,7 +89,7 @@ bool are_parts(std::string_view top, std::string_view below)
     if (without_digits(whole) != without_digits(part) || whole.find("shoulder") != std::string::npos) return false;
     const bool both_count =
         std::any_of(whole.begin(), whole.end(), is_digit) && std::any_of(part.begin(), part.end(), is_digit);
-    return both_count || without_copy(below) != below;
+    return both_count || is_copy_name(below);
 }
 
 bool is_twist_name(std::string_view joint_name)

@@ -22,6 +22,9 @@ std::string_view without_ending(std::string_view joint_name);
 // prefixes, "_1", ".001".
 bool are_namesakes(std::string_view a, std::string_view b);
 
+// True if it ends in the number that Blender gives a copy: "thigh.L.001".
+bool is_copy_name(std::string_view joint_name);
+
 // True for two parts of one bone by name: "DEF-thigh.L" and "DEF-thigh.L.001", "upperarm01.L" and "upperarm02.L". Not
 // for shoulders: the first of two may be the clavicle.
 bool are_parts(std::string_view top, std::string_view below);

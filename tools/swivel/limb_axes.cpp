@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/limb_axes.h"
+#include "tools/swivel/vectors.h"
 
 #include <algorithm>
 #include <array>

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
-#include "tools/formats/text.h"
 #include "tools/swivel/joint_names.h"
-#include "tools/swivel/limb_words.h"
+#include "tools/swivel/limb_hinge.h"
+#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 
@@ -34,7 +35,7 @@ std::optional<CannotBind> scale_fault(const Joint& joint, const JointPose& pose,
         return CannotBind(fmt::format("'{}' is scaled to nothing at rest", name),
                           "give it a scale where the rig was made");
     return CannotBind(fmt::format("'{}' is scaled to nothing{}", name, when),
-                      "choose an animation that does not hide the figure");
+                      "use a clip that does not hide the figure");
 }
 
 // How a frame's mirror differs from the rest pose's.
@@ -46,7 +47,7 @@ std::optional<CannotBind> mirror_fault(const Joint& joint, const JointPose& rest
     return CannotBind((pose.mirrored ? fmt::format("'{}' is mirrored in frame {} and not at rest", name, frame)
                                      : fmt::format("'{}' is mirrored at rest and not in frame {}", name, frame)) +
                           ", and a limb is solved on one side of a mirror",
-                      "choose an animation that keeps the rest pose's");
+                      "use a clip that keeps the rest pose's");
 }
 
 // Every joint that the limb's size hangs on: all above the end joint.
@@ -142,72 +143,84 @@ std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
     return found;
 }
 
-// The bone from chain.joints[first] to chain.joints[last], and what lies between.
-struct Span {
+// The bone from chain.joints[first] to chain.joints[last], and what lies between, by places in the chain.
+struct ChainBone {
     const Clip& clip;
     const LimbChain& chain;
     std::size_t first, last;
 
     const std::string& name(std::size_t n) const { return joint_at(clip, chain.joints[n]).name; }
     std::string shown(std::size_t n) const { return printable_name(joint_at(clip, chain.joints[n])); }
+    Vector3d at_rest() const { return rest_bone(clip, chain, first, last); }
 
-    // By how many degrees one joint's own motion turns the bone, in the frame where it turns it most.
+    // By how many degrees these joints' own motion turns the bone, in the frame where it turns it most.
     struct Swing {
         double degrees = 0;
         std::size_t frame = 0;
     };
-    Swing swing_of(std::size_t part) const
+    Swing swing_of(const std::vector<std::size_t>& moving) const
     {
         const Vector3d rest = at_rest();
         Swing most;
         for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-            const Vector3d now = bone_moved_by(clip, frame, part, chain, first, last);
-            const double degrees = degrees_between(rest, now);
+            const double degrees = degrees_between(rest, bone_moved_by(clip, frame, moving, chain, first, last));
             if (degrees > most.degrees) most = {degrees, frame};
         }
         return most;
     }
-    Vector3d at_rest() const { return rest_bone(clip, chain, first, last); }
 };
 
 constexpr double kSwing = 15;  // degrees: what a joint that only twists its bone stays below, one that aims it exceeds
 
-// What require_parts_between() asks of the joint chain.joints[part] in between.
-void require_part(const Span& bone, std::size_t part, const Vector3d& step)
+// What require_parts_between() asks of one bone.
+void require_parts_on(const ChainBone& bone)
 {
     const Vector3d along = bone.at_rest();
-    const double on_line = std::clamp(step.dot(along) / along.squaredNorm(), 0.0, 1.0);
-    const double off = (step - on_line * along).norm() / along.norm();
-    const std::string ends = fmt::format("'{}' to '{}'", bone.shown(bone.first), bone.shown(bone.last));
-    if (off > 0.1)
-        throw CannotBind(fmt::format("'{}' is off the line from {} by {:.0f} % of its length, so is no part of it",
-                                     bone.shown(part), ends, 100 * off),
-                         "name the joints");
-    // A part swings the whole bone by less than it turns itself; what only rolls turns nothing.
-    const bool is_roll = is_roll_name(bone.name(part));
-    const Span::Swing swing =
-        is_roll ? Span{bone.clip, bone.chain, part, bone.last}.swing_of(part) : bone.swing_of(part);
-    if (swing.degrees > kSwing)
-        throw CannotBind(fmt::format("'{}' turns the bone from {} by {:.0f} degrees in frame {}, so is no part of it",
-                                     bone.shown(part), ends, swing.degrees, swing.frame),
-                         "name the joints");
-    if (is_roll && bone.swing_of(bone.first).degrees < kSwing)
-        throw CannotBind(
-            fmt::format("'{}' on the bone from {} may be the joint that it turns in, and no clip shows that "
-                        "it only rolls",
-                        bone.shown(part), ends),
-            "name the joints");
-}
-
-void require_parts_on(const Span& bone)
-{
-    const Vector3d along = bone.at_rest();
-    for (std::size_t part = bone.first + 1; part < bone.last; ++part) {
-        const Vector3d step = rest_bone(bone.clip, bone.chain, bone.first, part);
-        const double near = 1e-3 * along.norm();  // a joint at an end's place turns as that end does
-        const bool is_at_end = step.norm() < near || (along - step).norm() < near;
-        if (!is_at_end && !is_twist_name(bone.name(part))) require_part(bone, part, step);
+    struct Part {
+        std::size_t place;  // in the chain
+        double at, off;     // where on the bone it is, and how far from it, for a length of 1
+    };
+    std::vector<Part> parts;
+    for (std::size_t place = bone.first + 1; place < bone.last; ++place) {
+        const Vector3d step = rest_bone(bone.clip, bone.chain, bone.first, place) / along.norm();
+        const double near = 1e-3;  // a joint at an end's place turns as that end does
+        if (step.norm() < near || (along.normalized() - step).norm() < near) continue;
+        const double at = step.dot(along.normalized());
+        parts.push_back({place, at, (step - std::clamp(at, 0.0, 1.0) * along.normalized()).norm()});
     }
+
+    const auto refuse = [&](const std::vector<std::size_t>& blamed, const std::string& why, const char* advice) {
+        std::vector<std::string> names;
+        for (const std::size_t place : blamed) names.push_back(bone.shown(place));
+        throw CannotBind(fmt::format("'{}' on the bone from '{}' to '{}' {}", fmt::join(names, "', '"),
+                                     bone.shown(bone.first), bone.shown(bone.last), why),
+                         advice);
+    };
+    const auto require_still = [&](const std::vector<std::size_t>& moving, const ChainBone& of) {
+        const ChainBone::Swing swing = of.swing_of(moving);
+        if (swing.degrees > kSwing)
+            refuse(moving, fmt::format("turns it by {:.0f} degrees in frame {}", swing.degrees, swing.frame),
+                   "name the joints");
+    };
+    std::vector<std::size_t> sharing;  // those that are no twist bones by name
+    for (const Part& part : parts) {
+        const std::string& name = bone.name(part.place);
+        const bool is_twist = is_twist_name(name), is_roll = is_roll_name(name);
+        const double even = static_cast<double>(&part - parts.data() + 1) / static_cast<double>(parts.size() + 1);
+        const bool is_uneven_copy = is_copy_name(name) && std::abs(part.at - even) > 0.05;
+        if (!is_twist && part.off > 0.1)
+            refuse({part.place}, fmt::format("is off its line by {:.0f} % of its length", 100 * part.off),
+                   "name the joints");
+        if (!is_twist) sharing.push_back(part.place);
+        if (!is_twist && !is_roll && !is_uneven_copy) continue;
+        // It may be the joint that it is taken for a part of: that turns what hangs on it.
+        require_still({part.place}, {bone.clip, bone.chain, part.place, bone.last});
+        const bool is_shown = bone.clip.frame_count > 1 && bone.swing_of({bone.first}).degrees > kSwing;
+        if (!is_twist && !is_shown)
+            refuse({part.place}, "may be the joint that it turns in, and the clip does not show that it is none",
+                   "use a clip that swings it, or name the joints");
+    }
+    require_still(sharing, bone);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "swivel/swivel.hpp"
 #include "tools/formats/clip.h"
 #include "tools/swivel/cannot_bind.h"
+#include "tools/swivel/figure_front.h"
 #include "tools/swivel/limb_chain.h"
-#include "tools/swivel/limb_hinge.h"
 #include "tools/swivel/limb_joints.h"
 
 namespace swivel::tools {
@@ -61,9 +61,12 @@ swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const
 Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
                std::span<const GivenHinge> hinges);
 
-// Throws CannotBind where a joint between two of the limb's, of no twist bone's name, is no part of that bone: at rest
-// off the line between them by more than a tenth of its length, or turning the bone by more than 15 degrees in a frame.
-// A roll bone must show that it does not: the joint that the bone starts at has to turn it so far in the clip.
+// Throws CannotBind where joints between two of the limb's, and not at the place of either, are no parts of that bone:
+// a twist bone by name that turns what hangs on it by more than 15 degrees in a frame; others off the line between the
+// two by more than a tenth of its length at rest, or all together turning the bone by more than 15 degrees. A roll
+// bone, and one called a copy ("thigh.L.001") that does not divide the bone evenly, may be the joint that the bone
+// turns in: it must show that it is none as a twist bone does, in a clip of two frames or more in which the joint that
+// the bone starts at turns the bone by more than 15 degrees.
 void require_parts_between(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

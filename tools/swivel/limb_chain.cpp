@@ -2,8 +2,6 @@
 #include "tools/swivel/limb_chain.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace swivel::tools {
 
@@ -97,11 +95,12 @@ Vector3d rest_bone(const Clip& clip, const LimbChain& chain, std::size_t first, 
     return bone(first, last, [&](std::size_t n) { return step_at_rest(clip, chain.joints[n]); });
 }
 
-Vector3d bone_moved_by(const Clip& clip, std::size_t frame, std::size_t part, const LimbChain& chain, std::size_t first,
-                       std::size_t last)
+Vector3d bone_moved_by(const Clip& clip, std::size_t frame, std::span<const std::size_t> moving, const LimbChain& chain,
+                       std::size_t first, std::size_t last)
 {
     return bone(first, last, [&](std::size_t n) {
-        return n == part ? step_in(clip, frame, chain.joints[n]) : step_at_rest(clip, chain.joints[n]);
+        const bool moves = std::find(moving.begin(), moving.end(), n) != moving.end();
+        return moves ? step_in(clip, frame, chain.joints[n]) : step_at_rest(clip, chain.joints[n]);
     });
 }
 
@@ -125,13 +124,6 @@ std::array<Quaterniond, 3> local_rotations(const Clip& clip, std::size_t frame, 
     }
     return local;
 }
-
-double degrees_between(const Vector3d& a, const Vector3d& b)
-{
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
-}
-
-Vector3d to_three_decimals(const Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
 
 Quaterniond aim(const Vector3d& from, const Vector3d& to)
 {

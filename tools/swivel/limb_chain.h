@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "tools/formats/clip.h"
@@ -40,21 +41,16 @@ ChainPose rest_pose(const formats::Clip& clip, const LimbChain& chain);
 ChainPose chain_pose(const formats::Clip& clip, std::size_t frame, const LimbChain& chain);
 
 // The bone from one joint of a chain to a later one, by their places in it, at rest, in the axes of the first joint's
-// parent; and with one joint's own step as in a frame, all else at rest. part: from first to below last.
+// parent; and with the own steps of some joints as in a frame, all else at rest. moving: places from first to below
+// last.
 Eigen::Vector3d rest_bone(const formats::Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last);
-Eigen::Vector3d bone_moved_by(const formats::Clip& clip, std::size_t frame, std::size_t part, const LimbChain& chain,
-                              std::size_t first, std::size_t last);
+Eigen::Vector3d bone_moved_by(const formats::Clip& clip, std::size_t frame, std::span<const std::size_t> moving,
+                              const LimbChain& chain, std::size_t first, std::size_t last);
 
 // The local rotations, as the clip stores them, that give the three joints these turns in a frame while all between
 // them stays as it is there.
 std::array<Eigen::Quaterniond, 3> local_rotations(const formats::Clip& clip, std::size_t frame, const LimbChain& chain,
                                                   const std::array<Eigen::Quaterniond, 3>& turn);
-
-// The angle between two directions, 0 to 180; 0 where either is zero.
-double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-
-// For people to read, without a -0.
-Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v);
 
 // The least rotation that takes the direction of `from` to that of `to`; none where either is zero or both agree.
 Eigen::Quaterniond aim(const Eigen::Vector3d& from, const Eigen::Vector3d& to);

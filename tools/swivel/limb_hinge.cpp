@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tools/swivel/cannot_bind.h"
+#include "tools/swivel/limb_words.h"
+#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 
@@ -28,11 +30,24 @@ constexpr double kBent = 5, kSurelyBent = 20;
 // The bend of two bones given in one space: the axis, as long as its sine.
 Vector3d bend_of(const Vector3d& upper, const Vector3d& lower) { return lower.normalized().cross(upper.normalized()); }
 
+// At rest; 0 for a limb that is folded by more than 175 degrees, which tells its axis no better than a straight one.
+double bend_degrees(const ChainPose& rest)
+{
+    const double bend = degrees_between(rest.turn[0] * rest.upper_bone(), rest.turn[1] * rest.lower_bone());
+    return bend > 175 ? 0 : bend;
+}
+
 // Its bend in the upper joint's axes, the upper bone laid where it is at rest.
 Vector3d bend_of(const ChainPose& pose, const Vector3d& rest_bone)
 {
     const Vector3d upper = pose.upper_bone(), lower = pose.turn[0].conjugate() * (pose.turn[1] * pose.lower_bone());
     return aim(rest_bone, upper).conjugate() * bend_of(upper, lower);
+}
+
+Hinge rest_hinge(const ChainPose& rest)
+{
+    return {bend_of(rest, rest.upper_bone().normalized()).normalized(),
+            fmt::format("bend of the rest pose, {:.1f} degrees", bend_degrees(rest))};
 }
 
 // The mean of the frames' bends, axes as long as their sines; nothing for a clip that hardly bends the limb, or to both
@@ -72,7 +87,7 @@ TableBend bend_by_table(LimbKind kind, const ChainPose& rest, const JointPose& p
 // What to do where nothing tells a limb's hinge.
 std::string advice_for(LimbName limb)
 {
-    return fmt::format("choose an animation that bends it, or give limb.{}.hinge in a crowd file", limb_word(limb));
+    return fmt::format("use a clip that bends it, or give limb.{}.hinge in a crowd file", limb_word(limb));
 }
 
 // As a crowd file has it.
@@ -82,30 +97,48 @@ std::string row(const Vector3d& v)
     return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", shown.x(), shown.y(), shown.z());
 }
 
+// What a limb tells itself, whatever the figure faces.
+std::optional<Hinge> own_hinge(const Clip& clip, const LimbChain& chain, const ChainPose& rest)
+{
+    const Vector3d upper = rest.upper_bone().normalized();
+    const Vector3d bend = bend_of(rest, upper);
+    const std::optional<Vector3d> mean = mean_bend(clip, chain, upper);
+    // Knock-knees, or a forearm that hangs, bend at rest across what the clip does; knees pressed through, against it.
+    const double more = mean ? mean->norm() / bend.norm() : 0, off = mean ? degrees_between(*mean, bend) : 0;
+    const bool clip_differs = (off > 30 && more > 2) || (off > 120 && more > 1);
+    if (bend_degrees(rest) > (mean ? kBent : kSurelyBent) && !clip_differs) return rest_hinge(rest);
+    if (mean) return Hinge{mean->normalized(), "mean bend of the clip"};
+    return std::nullopt;
+}
+
 }  // namespace
+
+std::string doubt_by_bends(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints, const Front& front)
+{
+    const std::vector<JointPose> rest_w = formats::rest_pose(clip);
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+        if (!joints[n]) continue;
+        const LimbName name = formats::kLimbNames[n];
+        const LimbChain chain = chain_of(clip, *joints[n]);
+        const ChainPose rest = rest_pose(clip, chain);
+        const std::optional<Hinge> own = own_hinge(clip, chain, rest);
+        const int parent = formats::joint_at(clip, chain.upper()).parent;
+        const JointPose parent_w = parent < 0 ? JointPose() : rest_w[static_cast<std::size_t>(parent)];
+        const double most =
+            name.kind == LimbKind::arm ? 120 : 90;  // shoulders turn elbows about more than hips do knees
+        if (own && degrees_between(own->axis, bend_by_table(name.kind, rest, parent_w, front).axis) > most)
+            return fmt::format("the {} does not bend as in a figure that faces by {}", plain_name(name), front.source);
+    }
+    return "";
+}
 
 Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, const ChainPose& rest,
                    const JointPose& parent_w, const Front& front)
 {
-    const Vector3d upper = rest.upper_bone().normalized();
-    const Vector3d bend = bend_of(rest, upper);
-    const double bend_deg = std::asin(std::min(bend.norm(), 1.0)) / kDegree;  // near 0, too, where the limb is folded
-    const auto rests_bent = [&] {
-        return Hinge{bend.normalized(), fmt::format("bend of the rest pose, {:.1f} degrees", bend_deg)};
-    };
-    if (const std::optional<Vector3d> mean = mean_bend(clip, chain, upper)) {
-        // Knock-knees, or a forearm that hangs, bend at rest across what the clip does; knees pressed through, against.
-        const double more = mean->norm() / bend.norm(), off = degrees_between(*mean, bend);
-        const bool clip_differs = (off > 30 && more > 2) || (off > 120 && more > 1);
-        if (bend_deg > kBent && !clip_differs) return rests_bent();
-        return {mean->normalized(), "mean bend of the clip"};
-    }
-
-    if (bend_deg > kSurelyBent) return rests_bent();
+    if (const std::optional<Hinge> own = own_hinge(clip, chain, rest)) return *own;
+    const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
     const TableBend table = bend_by_table(limb.kind, rest, parent_w, front);
-    const double off = degrees_between(bend, table.axis);
-    if (!front.doubt.empty())
-        throw CannotBind("neither rest pose nor clip tells which way it bends, and " + front.doubt, advice_for(limb));
+    const double bend_deg = bend_degrees(rest), off = degrees_between(bend, table.axis);
     if (bend_deg > kBent && off > 60)
         throw CannotBind(
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
@@ -113,7 +146,9 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
                         bend_deg, off, table.words, front.source),
             advice_for(limb) +
                 fmt::format(": {} as at rest, {} as {}", row(bend.normalized()), row(table.axis), table.words));
-    if (bend_deg > kBent) return rests_bent();
+    if (bend_deg > kBent) return rest_hinge(rest);
+    if (!front.doubt.empty())
+        throw CannotBind("neither rest pose nor clip tells which way it bends, and " + front.doubt, advice_for(limb));
     if (bend_deg > 0.5 && off < 45)
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
     return {table.axis,

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The axis that elbow or knee turn about, where a skeleton does not say it: from the rest pose, the clip, or the way
-// the figure faces. docs/rigs.md has the table. Knows clips alone.
+// the figure faces. docs/rigs.md has the table. Knows clips, and by name what of a crowd file takes the place of a
+// guess.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "tools/formats/clip.h"
@@ -18,12 +21,19 @@ struct Hinge {
     std::string source;    // for people
 };
 
-// The first of: the rest pose's bend, above 5 degrees, unless the clip's mean bend is twice as large and more than 30
-// degrees off, or larger and more than 120 degrees off; the clip's mean bend, from one degree and if it keeps its side;
-// the rest pose's bend above half a degree, if it is within 45 degrees of the table's; elbows bend forwards and knees
-// backwards (upwards and downwards where the bone itself points that way). rest: of the chain; parent_w: the upper
-// joint's parent at rest. Throws CannotBind where no clip tells, the rest pose is bent by up to 20 degrees, and front
-// is in doubt or the bend, above 5 degrees, more than 60 degrees off the table's.
+// Why a front may be wrong: a limb that tells its hinge itself, as choose_hinge() has it, and has an elbow more than
+// 120, a knee more than 90 degrees off the way that elbows and knees bend in a figure that faces so. Empty if none
+// does. joints: of the limbs in the order of formats::kLimbNames, those that are known.
+std::string doubt_by_bends(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints,
+                           const Front& front);
+
+// What the limb tells itself: the rest pose's bend, above 20 degrees, or above 5 where there is a clip's mean bend that
+// is not twice as large and more than 30 degrees off, nor larger and more than 120 degrees off; else the clip's mean
+// bend, from one degree and if it keeps its side. If it tells nothing: elbows bend forwards and knees backwards
+// (upwards and downwards where the bone itself points that way), or the rest pose's bend above half a degree if it is
+// within 45 degrees of that, above 5 if within 60. rest: of the chain; parent_w: the upper joint's parent at rest.
+// Throws CannotBind where the limb tells nothing itself and the rest pose bends by more than 5 degrees and otherwise,
+// or by less and front is in doubt.
 Hinge choose_hinge(const formats::Clip& clip, formats::LimbName limb, const LimbChain& chain, const ChainPose& rest,
                    const formats::JointPose& parent_w, const Front& front);
 

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "tools/formats/text.h"
 #include "tools/swivel/joint_names.h"
 #include "tools/swivel/limb_words.h"
 
@@ -106,13 +105,16 @@ std::vector<int> joints_named(const Clip& clip, std::span<const std::string> pla
 // place of its parent; -1 if there is none.
 int stranger_between(const Clip& clip, int top, int bottom)
 {
+    double length = 0;
+    for (int joint = bottom; joint != top; joint = joint_at(clip, joint).parent)
+        length += joint_at(clip, joint).offset.norm();
+    const auto no_step = [&](int joint) { return joint_at(clip, joint).offset.norm() <= 1e-4 * length; };
     int stranger = -1, below = bottom;
     for (int up = joint_at(clip, bottom).parent; up != top; below = up, up = joint_at(clip, up).parent) {
         const Joint& joint = joint_at(clip, up);
-        const bool no_step = joint.offset.isZero(0) || joint_at(clip, below).offset.isZero(0);
         const bool is_known =
             is_twist_name(joint.name) || is_roll_name(joint.name) || are_parts(joint_at(clip, top).name, joint.name);
-        if (!no_step && !is_known) stranger = up;
+        if (!no_step(up) && !no_step(below) && !is_known) stranger = up;
     }
     return stranger;
 }
@@ -137,9 +139,23 @@ std::string of_one_name(const Clip& clip, const std::vector<int>& joints, std::s
 // What came of one naming.
 struct Attempt {
     LimbByName result;
-    int fits = 0;              // of the three joints, those whose name is borne
-    std::vector<int> bearers;  // of the names, all
-    bool is_ambiguous = false;
+    int fits = 0;  // of the three joints, those whose name is borne
+    std::array<std::vector<int>, 3> bearers;
+
+    // A limb, or more than one.
+    bool is_whole() const
+    {
+        return result.joints || (fits == 3 && std::any_of(bearers.begin(), bearers.end(),
+                                                          [](const auto& each) { return each.size() > 1; }));
+    }
+    // Whether each of its names is borne by a joint that is none of `limb`.
+    bool is_beside(const LimbJoints& limb) const
+    {
+        return std::all_of(bearers.begin(), bearers.end(), [&](const std::vector<int>& each) {
+            return std::any_of(each.begin(), each.end(),
+                               [&](int joint) { return std::find(limb.begin(), limb.end(), joint) == limb.end(); });
+        });
+    }
 };
 
 Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, LimbName limb, const Naming& naming,
@@ -156,8 +172,7 @@ Attempt attempt(const Clip& clip, std::span<const std::string> plain_names, Limb
         const std::vector<int> found = joints_named(clip, plain_names, name);
         if (!found.empty()) joints[n] = found[0];
         made.fits += !found.empty();
-        made.bearers.insert(made.bearers.end(), found.begin(), found.end());
-        made.is_ambiguous = made.is_ambiguous || found.size() > 1;
+        made.bearers[n] = found;
         if (found.size() > 1 && problem.empty())
             problem = of_one_name(clip, found, parts[n]);
         else if (found.empty() && problem.empty())
@@ -200,11 +215,10 @@ LimbByName limb_by_name(const Clip& clip, LimbName limb)
 {
     const auto namings = limb.kind == LimbKind::arm ? std::span<const Naming>(kArmNamings) : kLegNamings;
     const auto sides = limb.side == Side::left ? std::array{"left", "l", "左"} : std::array{"right", "r", "右"};
-    const auto is_bone = [&](int joint) { return joint_at(clip, joint).is_bone; };
-    std::vector<Attempt> whole_limbs;  // by names; of the names as they are before those without endings
+    std::vector<Attempt> whole_limbs;
     Attempt nearest;
-    nearest.fits = 1;  // one name alone says nothing: half the world has a "LeftHand"
-    for (const bool as_they_are : {true, false}) {
+    nearest.fits = 1;                               // one name alone says nothing: half the world has a "LeftHand"
+    for (const bool as_they_are : {true, false}) {  // the names, before those without endings
         std::vector<std::string> plain_names;
         for (const Joint& joint : clip.joints)
             plain_names.push_back(plain(as_they_are ? std::string_view(joint.name) : without_ending(joint.name)));
@@ -212,29 +226,44 @@ LimbByName limb_by_name(const Clip& clip, LimbName limb)
             for (const std::string_view side : sides) {
                 Attempt made = attempt(clip, plain_names, limb, naming, side);
                 if (made.fits > nearest.fits) nearest = made;
-                const bool is_some = made.fits == 3 && made.is_ambiguous &&
-                                     std::any_of(made.bearers.begin(), made.bearers.end(), is_bone);
-                if (made.result.joints || is_some) whole_limbs.push_back(std::move(made));
+                if (made.is_whole()) whole_limbs.push_back(std::move(made));
             }
     }
     const auto has_joints = [](const Attempt& made) { return made.result.joints.has_value(); };
     const auto fit = std::find_if(whole_limbs.begin(), whole_limbs.end(), has_joints);
     if (fit == whole_limbs.end()) return nearest.result;
-    const auto is_elsewhere = [&](const Attempt& made) { return shared_joint(made.bearers, fit->bearers) < 0; };
-    const auto other = std::find_if(whole_limbs.begin(), whole_limbs.end(), is_elsewhere);
+    const LimbJoints& joints = *fit->result.joints;
+    const auto is_beside = [&](const Attempt& made) { return made.is_beside(joints); };
+    const auto other = std::find_if(whole_limbs.begin(), whole_limbs.end(), is_beside);
     if (other == whole_limbs.end()) return fit->result;
-    const auto name = [&](const Attempt& of) { return printable_name(joint_at(clip, of.bearers[0])); };
-    const auto [first, second] = std::minmax(fit, other);
-    return {
-        std::nullopt, {}, fmt::format("'{}' and '{}' both begin a {}", name(*first), name(*second), plain_name(limb))};
+    const auto first_of = [&](const std::vector<int>& bearers) {
+        return *std::find_if(bearers.begin(), bearers.end(), [&](int joint) { return joint != joints[0]; });
+    };
+    const auto name = [&](int joint) { return printable_name(joint_at(clip, joint)); };
+    return {std::nullopt,
+            {},
+            fmt::format("'{}' and '{}' both begin a {}", name(joints[0]), name(first_of(other->bearers[0])),
+                        plain_name(limb))};
 }
 
 std::optional<std::array<int, 2>> trunks_apart(const Clip& clip, int joint_a, int joint_b)
 {
-    const auto parent = [&](int joint) { return joint_at(clip, joint).parent; };
-    for (int a = parent(joint_a); a >= 0 && !is_above(clip, a, joint_b); a = parent(a))
-        for (int b = parent(joint_b); b >= 0 && !is_above(clip, b, joint_a); b = parent(b))
-            if (are_namesakes(joint_at(clip, a).name, joint_at(clip, b).name)) return std::array{a, b};
+    const auto above_alone = [&](int joint, int other) {
+        std::vector<int> found;
+        for (int up = joint_at(clip, joint).parent; up >= 0 && !is_above(clip, up, other);
+             up = joint_at(clip, up).parent)
+            found.push_back(up);
+        return found;
+    };
+    const std::vector<int> above_b = above_alone(joint_b, joint_a);
+    std::optional<std::array<int, 2>> nearly;
+    for (const int a : above_alone(joint_a, joint_b))
+        for (const int b : above_b) {
+            const std::string &name_a = joint_at(clip, a).name, &name_b = joint_at(clip, b).name;
+            if (!are_namesakes(name_a, name_b)) continue;
+            if (nearly || plain(name_a) == plain(name_b)) return std::array{a, b};
+            nearly = {a, b};
+        }
     return std::nullopt;
 }
 

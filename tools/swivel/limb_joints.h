@@ -26,8 +26,8 @@ struct LimbByName {
 // prefixes and, where nothing fits with them, numbers, jnt and joint at the end do not count. Each must be its name's
 // only bearer among the bones (among all joints if no bone bears it) and lie above the next, and one at least must be a
 // bone; what lies between must be a twist or roll bone by name, a part of the upper bone by name
-// (require_parts_between() then asks for proof), or at the same place as one of them. Where a second habit's names make
-// a limb without a joint in common, or more than one, there is none: two figures.
+// (require_parts_between() then asks for proof), or at the same place as one of them. Where a habit's names are borne
+// by three joints beside these, too, there is none: two figures.
 LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);
 
 // True if each is above the next.
@@ -36,7 +36,8 @@ bool is_chain(const formats::Clip& clip, const LimbJoints& joints);
 // The first joint of `a` that is in `b`, too; -1 if there is none.
 int shared_joint(std::span<const int> a, std::span<const int> b);
 
-// Two joints of one name, each above one of these two alone: the trunks of two figures.
+// Two joints of one name, each above one of these two alone: the trunks of two figures. Where their names differ by
+// what are_namesakes() leaves out there must be two such pairs: a copied figure has more than a spine.
 std::optional<std::array<int, 2>> trunks_apart(const formats::Clip& clip, int joint_a, int joint_b);
 
 }  // namespace swivel::tools

@@ -9,6 +9,7 @@
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/joint_names.h"
+#include "tools/swivel/limb_hinge.h"
 #include "tools/swivel/limb_words.h"
 
 namespace swivel::tools {
@@ -157,21 +158,26 @@ void keep_apart(const Clip& clip, const std::filesystem::path& file, std::span<C
     }
 }
 
-// All limbs are one figure's: of two whose trunks are not, those found by habit are none.
+std::optional<std::array<int, 2>> trunks_apart(const Clip& clip, const Candidate& a, const Candidate& b)
+{
+    if (!a.found.joints || !b.found.joints) return std::nullopt;
+    return tools::trunks_apart(clip, (*a.found.joints)[0], (*b.found.joints)[0]);
+}
+
+// All limbs are one figure's: of two whose trunks are not, those found by habit are refused.
 void keep_together(const Clip& clip, std::span<Candidate> limbs)
 {
+    const auto shown = [&](int joint) {
+        return fmt::format("'{}' (#{})", printable_name(joint_at(clip, joint)), joint_at(clip, joint).number);
+    };
     std::vector<std::string> problems(limbs.size());
-    for (std::size_t a = 0; a < limbs.size(); ++a)
-        for (std::size_t b = 0; b < limbs.size(); ++b) {
-            if (a == b || limbs[a].source || !limbs[a].found.joints || !limbs[b].found.joints || !problems[a].empty())
-                continue;
-            const auto trunks = trunks_apart(clip, (*limbs[a].found.joints)[0], (*limbs[b].found.joints)[0]);
-            if (!trunks) continue;
-            const auto shown = [&](int joint) {
-                return fmt::format("'{}' (#{})", printable_name(joint_at(clip, joint)), joint_at(clip, joint).number);
-            };
-            problems[a] = fmt::format("it hangs on {}, the {} on {}: two figures", shown((*trunks)[0]),
-                                      plain_name(limbs[b].name), shown((*trunks)[1]));
+    for (std::size_t n = 0; n < limbs.size(); ++n)
+        for (const Candidate& other : limbs) {
+            const auto trunks = trunks_apart(clip, limbs[n], other);
+            if (limbs[n].source || !trunks) continue;
+            problems[n] = fmt::format("it hangs on {}, the {} on {}: two figures", shown((*trunks)[0]),
+                                      plain_name(other.name), shown((*trunks)[1]));
+            break;
         }
     for (std::size_t n = 0; n < limbs.size(); ++n)
         if (!problems[n].empty()) limbs[n].found = {std::nullopt, {}, problems[n]};
@@ -181,21 +187,20 @@ void keep_together(const Clip& clip, std::span<Candidate> limbs)
 Front front_of(const Clip& clip, const std::filesystem::path& file, std::span<const Candidate> limbs)
 {
     std::vector<Candidate> all(limbs.begin(), limbs.end());
-    const auto is_one_of_them = [&](const Candidate& other) {
-        return std::none_of(limbs.begin(), limbs.end(), [&](const Candidate& limb) {
-            return limb.found.joints && other.found.joints &&
-                   trunks_apart(clip, (*limb.found.joints)[0], (*other.found.joints)[0]);
-        });
-    };
-    for (const LimbName name : formats::kLimbNames)
-        if (!has(all, name))
-            if (Candidate other{name, limb_by_name(clip, name)}; is_one_of_them(other)) all.push_back(std::move(other));
+    for (const LimbName name : formats::kLimbNames) {
+        if (has(all, name)) continue;
+        const Candidate other{name, limb_by_name(clip, name)};
+        const auto is_anothers = [&](const Candidate& limb) { return trunks_apart(clip, limb, other).has_value(); };
+        if (std::none_of(limbs.begin(), limbs.end(), is_anothers)) all.push_back(other);
+    }
     keep_apart(clip, file, all);
     std::array<std::optional<LimbJoints>, 4> joints;
     for (std::size_t n = 0; n < joints.size(); ++n)
         for (const Candidate& limb : all)
             if (limb.name == formats::kLimbNames[n]) joints[n] = limb.found.joints;
-    return figure_front(clip, joints);
+    Front front = figure_front(clip, joints);
+    if (front.doubt.empty()) front.doubt = doubt_by_bends(clip, joints, front);
+    return front;
 }
 
 // Why no joint's name is known.

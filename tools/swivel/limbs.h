@@ -52,8 +52,8 @@ struct LimbFinding {
     std::string problem;     // one line; also without any joint that fits
     std::string advice;      // what to do about it, to follow after a semicolon; empty: name joints
     bool has_names = false;  // joints fit, by habit or by the user, though they do not bind
-    bool is_half = false;    // some joints have a limb's names, and are no limb: one is missing, its name repeats, or
-                             // the user named it for another limb
+    bool is_half = false;  // some joints have a limb's names, and are no limb of this figure: one is missing, its name
+                           // repeats, the user named it for another limb, or it is another figure's
 };
 
 // The whole line.

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "swivel/swivel.h"
-#include "tools/swivel/limb_chain.h"
 #include "tools/swivel/limb_words.h"
 #include "tools/swivel/parallel.h"
+#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 

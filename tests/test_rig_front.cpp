@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+//
+// Which way a figure faces: all that tells it agrees, or straight limbs, which bend by it alone, are refused.
+#include "tests/rig_report.h"
+
+using namespace swivel::test;
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using nlohmann::json;
+
+namespace {
+
+// A figure that faces +z and stands along +y, its limbs straight.
+struct Body {
+    double shoulders = 0.2, hips = 0.1;  // half the distance of each pair
+    Vector3d chest = {0, 1.5, 0}, pelvis = {0, 1, 0};
+    Vector3d left_bone = {0.3, 0, 0}, leg_bone = {0, -0.45, 0};  // of an arm, of a leg
+    Quaterniond chest_turn = Quaterniond::Identity();            // of the shoulders about the chest
+    std::vector<std::pair<std::string, Vector3d>> on_foot = {};  // joints by name, without side; x is to the side
+    std::vector<std::string> limbs = {"LeftArm", "RightArm", "LeftUpLeg", "RightUpLeg"};
+    bool one_trunk = true;
+    Quaterniond turn = Quaterniond::Identity();  // of the whole
+    Vector3d scale = {1, 1, 1};                  // of what is above it
+    double elbow = 0, knee = 0;                  // degrees at rest, as elbows and knees bend
+    double clip_elbow = 0, clip_knee = 0;        // in the clip's mean, which there is where one of them is not 0
+};
+
+GltfRig rig_of(const Body& body)
+{
+    GltfRig rig;
+    const int scene = rig.add("Scene", -1, {0, 0, 0}, Quaterniond::Identity(), body.scale);
+    const int root = rig.add("Root", scene, {0, 0, 0}, body.turn);
+    const int pelvis = rig.add("Pelvis", body.one_trunk ? root : scene, body.pelvis);
+    const int chest = body.one_trunk ? rig.add("Chest", pelvis, body.chest - body.pelvis, body.chest_turn)
+                                     : rig.add("Chest", root, body.chest, body.chest_turn);
+    const bool moves = body.clip_elbow != 0 || body.clip_knee != 0;
+    const int animation = moves ? rig.add_animation("clip") : -1;
+    for (const std::string& limb : body.limbs) {
+        const bool is_arm = limb.ends_with("Arm");
+        const double x = limb.starts_with("Left") ? 1 : -1;
+        const std::string side = x > 0 ? "Left" : "Right";
+        const Vector3d bone =
+            is_arm ? Vector3d(x * body.left_bone.x(), body.left_bone.y(), body.left_bone.z()) : body.leg_bone;
+        const Vector3d axis = is_arm ? Vector3d(bone.cross(Vector3d::UnitZ()).normalized()) : Vector3d::UnitX();
+        const double at_rest = is_arm ? body.elbow : body.knee, in_clip = is_arm ? body.clip_elbow : body.clip_knee;
+        const int upper = rig.add(limb, is_arm ? chest : pelvis, {x * (is_arm ? body.shoulders : body.hips), 0, 0});
+        const int lower =
+            rig.add(side + (is_arm ? "ForeArm" : "Leg"), upper, bone, Quaterniond(AngleAxisd(at_rest * kDegree, axis)));
+        const int end = rig.add(side + (is_arm ? "Hand" : "Foot"), lower, bone);
+        if (in_clip != 0)
+            rig.add_keys(animation, lower, "rotation", {0, 1.0f / 30}, turns(axis, {0.5 * in_clip, 1.5 * in_clip}));
+        if (!is_arm)
+            for (const auto& [name, step] : body.on_foot) rig.add(side + name, end, {x * step.x(), step.y(), step.z()});
+    }
+    return rig;
+}
+
+// What is in doubt of the front, which then no straight limb is bound by; empty where all are bound and it is `front`.
+std::string doubt_of(const Body& body, const Vector3d& front = Vector3d::UnitZ())
+{
+    const json report = rig_report(rig_of(body));
+    INFO(report.dump());
+    const std::string doubt = report.value("faces_in_doubt", "");
+    for (const json& limb : report.at("limbs")) {
+        if (limb.value("problem", "").starts_with("no joints have names")) continue;
+        const bool arm = limb.at("limb").get<std::string>().ends_with("arm");
+        const bool tells = (arm ? body.elbow : body.knee) > 5 || (arm ? body.clip_elbow : body.clip_knee) != 0;
+        CHECK(limb.at("bound") == (doubt.empty() || tells));
+        if (limb.at("bound") == false)
+            CHECK(limb.at("problem").get<std::string>().find("tells which way it bends, and " + doubt + "; use") !=
+                  std::string::npos);
+    }
+    if (doubt.empty()) CHECK(degrees_between(vector_of(report.at("faces")), body.turn * front) < 1e-3);
+    return doubt;
+}
+
+Quaterniond turned(double degrees, const Vector3d& axis) { return Quaterniond(AngleAxisd(degrees * kDegree, axis)); }
+
+const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
+const std::vector<std::string> kArms = {"LeftArm", "RightArm"}, kLegs = {"LeftUpLeg", "RightUpLeg"};
+
+}  // namespace
+
+TEST_CASE("rigs: what hangs on a foot and points elsewhere is no toe")
+{
+    // Straight legs that face +z, these joints below each foot.
+    const auto faces = [](const std::vector<std::pair<std::string, Vector3d>>& below, bool mirrored = false) {
+        GltfRig rig;
+        const int hips = rig.add("Hips", -1, {0, 1, 0});
+        for (const std::string side : {"Left", "Right"}) {
+            const double x = (side == "Left") == mirrored ? -0.1 : 0.1;
+            int at = rig.add(side + "UpLeg", hips, {x, 0, 0});
+            at = rig.add(side + "Foot", rig.add(side + "Leg", at, {0, -0.5, 0}), {0, -0.5, 0});
+            for (const auto& [name, step] : below) rig.add(side + name, at, {10 * x * step.x(), step.y(), step.z()});
+        }
+        const json report = rig_report(rig);
+        return std::pair(vector_of(report.at("faces")), report.at("faces_by").get<std::string>());
+    };
+    const std::string by_hips = "left and right hip", by_toes = "the toes";
+    const auto is = [](const std::pair<Vector3d, std::string>& said, const Vector3d& way, const std::string& by) {
+        CHECK(degrees_between(said.first, way) < 1e-3);
+        CHECK(said.second == by);
+    };
+    const Vector3d front = Vector3d::UnitZ();
+    is(faces({{"Heel", {0, -0.02, -0.05}}}), front, by_hips);
+    is(faces({{"Socket", {0.05, 0, -0.01}}}), front, by_hips);
+    is(faces({{"Bone", {0.02, -0.02, 0.1}}}), front, by_toes);  // turned out, both alike
+    is(faces({{"ToeBack", {0, 0, -0.16}}, {"ToeInner", {0, 0, 0.1}}}), front, by_hips);
+    is(faces({{"ToeBack", {0, 0, -0.1}}, {"ToeInner", {0.01, 0, 0.1}}}), front, by_hips);
+    is(faces({{"ToeBack", {0, 0, -0.16}}, {"ToeInner", {0, 0, 0.1}}, {"ToeOuter", {0.02, 0, 0.1}}}), front, by_toes);
+    // A mirror that was baked into the joints: the toes know.
+    is(faces({{"Toe", {0, 0, 0.1}}}, true), front, by_toes);
+    is(faces({{"Bone", {0, 0, 0.1}}}, true), -front, by_hips);
+}
+
+TEST_CASE("rig front: a figure may face and stand anyhow")
+{
+    for (const double degrees : {0.0, 37.0, 90.0, 180.0})
+        for (const Vector3d& axis : {kX, kY, kZ, Vector3d(1, 2, 3).normalized()}) {
+            CHECK(doubt_of({.turn = turned(degrees, axis)}).empty());
+            CHECK(doubt_of({.on_foot = {{"Toe", {0, -0.05, 0.1}}}, .turn = turned(degrees, axis)}).empty());
+            CHECK(doubt_of({.limbs = kLegs, .turn = turned(degrees, axis)}).empty());
+        }
+    CHECK(doubt_of({.left_bone = {0.1, -0.3, 0}}).empty());
+}
+
+TEST_CASE("rig front: shoulders, hips and toes that face apart are in doubt")
+{
+    const std::string apart = "shoulders and hips face apart";
+    CHECK(doubt_of({.chest_turn = turned(55, kY)}, turned(55, kY) * kZ).empty());
+    for (const double twist : {65.0, 100.0, -65.0}) CHECK(doubt_of({.chest_turn = turned(twist, kY)}) == apart);
+    CHECK(doubt_of({.shoulders = -0.2}) == apart);  // crossed
+    CHECK(doubt_of({.hips = -0.1}) == apart);
+
+    const std::string toes = "the toes point otherwise than shoulders and hips face";
+    const auto toe = [](const Vector3d& step) { return Body{.on_foot = {{"ToeBase", step}}}; };
+    CHECK(doubt_of(toe({0.08, 0, 0.1})).empty());  // turned out
+    CHECK(doubt_of(toe({0, 0, -0.1})) == toes);    // kneeling
+    CHECK(doubt_of(toe({0, -0.1, -0.07})) == toes);
+    CHECK(doubt_of(toe({0, -0.1, -0.05})).empty());  // pointed feet tell nothing
+    CHECK(doubt_of(toe({0, -0.1, 0})).empty());
+    Body heel;
+    heel.on_foot = {{"Heel", {0, 0, -0.1}}};
+    CHECK(doubt_of(heel).empty());
+
+    // What is near enough to one place tells nothing; what is left does.
+    for (const double noise : {0.0, 1e-9, -1e-7, 0.03, -0.03}) {
+        CHECK(doubt_of({.shoulders = noise}).empty());
+        CHECK(doubt_of({.shoulders = noise, .limbs = kArms}) == "neither shoulders nor hips tell left from right");
+        CHECK(doubt_of({.shoulders = noise, .hips = noise}) == "neither shoulders nor hips tell left from right");
+        CHECK(doubt_of({.shoulders = noise, .hips = noise, .on_foot = {{"Toe", {0, 0, 0.1}}}}).empty());
+    }
+}
+
+TEST_CASE("rig front: a trunk that does not stand on its legs is in doubt")
+{
+    const std::string doubt = "the trunk does not stand on the legs";
+    CHECK(doubt_of({.chest = {0, 0.5, 0}}) == doubt);
+    CHECK(doubt_of({.chest = {0, 1, 0.5}}) == doubt);
+    CHECK(doubt_of({.chest = {0, 1.05, 0}}).empty());  // too short to tell
+    CHECK(doubt_of({.chest = {0, 1, 0}, .pelvis = {0, 1, 0}}).empty());
+    // Arms of one figure and legs of another.
+    const std::string trunks = "the limbs do not hang on one trunk";
+    CHECK(doubt_of({.one_trunk = false}) == trunks);
+    CHECK(doubt_of({.limbs = kArms, .one_trunk = false}).empty());
+}
+
+TEST_CASE("rig front: limbs that bend otherwise than the figure faces put it in doubt, and are bound themselves")
+{
+    CHECK(doubt_of({.clip_elbow = 40}).empty());
+    CHECK(doubt_of({.clip_knee = 40}).empty());
+    CHECK(doubt_of({.elbow = 40, .clip_knee = 40}).empty());
+    const std::string by = "does not bend as in a figure that faces by left and right shoulder";
+    CHECK(doubt_of({.clip_elbow = -40}) == "the left arm " + by);
+    CHECK(doubt_of({.clip_knee = -40}) == "the left leg " + by);
+    CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .clip_knee = 40}) ==
+          "the left leg " + by);
+}
+
+TEST_CASE("rig front: a mirror without toes leaves open what is left and right")
+{
+    const std::string doubt =
+        "without toes the mirror above the figure leaves open whether left and right are exchanged";
+    for (const Vector3d& mirror : {Vector3d(-1, 1, 1), Vector3d(1, 1, -1), Vector3d(-1, -1, -1)}) {
+        CHECK(doubt_of({.scale = mirror}) == doubt);
+        CHECK(rig_report(rig_of({.on_foot = {{"Toe", {0, 0, 0.1}}}, .scale = mirror})).at("faces_by") == "the toes");
+        CHECK_FALSE(
+            rig_report(rig_of({.on_foot = {{"Toe", {0, 0, 0.1}}}, .scale = mirror})).contains("faces_in_doubt"));
+        if (mirror.y() > 0)
+            CHECK(doubt_of({.limbs = {"LeftArm"}, .scale = mirror}) ==
+                  "the mirror above the left arm leaves open whether left and right are exchanged");
+        CHECK(doubt_of({.scale = mirror, .elbow = 12, .knee = 12}) == doubt);  // bound all the same
+    }
+}
+
+TEST_CASE("rig front: the file's own axes are taken where nothing speaks against them")
+{
+    const std::string trunk = "the trunk does not stand along the file's +Y", side = "is not on its side of a figure";
+    const auto says = [](const std::string& doubt, const std::string& part) {
+        INFO(doubt);
+        return doubt.find(part) != std::string::npos;
+    };
+    CHECK(doubt_of({.limbs = kArms}).empty());
+    CHECK(doubt_of({.limbs = kArms, .turn = turned(180, kY)}).empty());
+    CHECK(rig_report(rig_of({.limbs = kArms, .turn = turned(50, kX)})).contains("faces_in_doubt") == false);
+    for (const double back : {-90.0, 70.0, 90.0, 180.0}) {  // +z is up, or the figure lies
+        CHECK(doubt_of({.limbs = kArms, .turn = turned(back, kX)}) == trunk);
+        CHECK(doubt_of({.limbs = kArms, .turn = turned(back, kX), .elbow = 25}) == trunk);
+    }
+    CHECK(doubt_of({.limbs = kArms, .turn = turned(90, kZ)}) == trunk);
+
+    for (const std::string limb : {"LeftArm", "RightArm", "LeftUpLeg", "RightUpLeg"}) {
+        INFO(limb);
+        CHECK(doubt_of({.limbs = {limb}}).empty());
+        CHECK_FALSE(rig_report(rig_of({.limbs = {limb}, .turn = turned(40, kY)})).contains("faces_in_doubt"));
+        for (const double away : {90.0, 180.0, 270.0})
+            CHECK(says(doubt_of({.limbs = {limb}, .turn = turned(away, kY)}), side));
+        for (const double back : {-90.0, 90.0})
+            CHECK(says(doubt_of({.limbs = {limb}, .turn = turned(back, kX)}), "stand along the file's +Y"));
+    }
+    CHECK(doubt_of({.shoulders = 0, .left_bone = {0, -0.3, 0}, .limbs = {"LeftArm"}}) ==
+          "nothing tells that the figure faces the file's +Z");
+}

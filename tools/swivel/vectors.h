@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+//
+// Directions, as reports have them.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace swivel::tools {
+
+// The angle between two directions, 0 to 180; 0 where either is zero.
+inline double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
+}
+
+// For people to read, without a -0.
+inline Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
+
+}  // namespace swivel::tools
