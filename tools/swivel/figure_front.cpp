@@ -235,8 +235,9 @@ void tell_forwards(const RestingFigure& figure, Front& front)
 
 Front figure_front(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints)
 {
-    const RestingFigure figure{clip, joints};
     Front front;
+    if (std::none_of(joints.begin(), joints.end(), [](const auto& limb) { return limb.has_value(); })) return front;
+    const RestingFigure figure{clip, joints};
     tell_up(figure, front);
     if (figure.has_pair(0) || figure.has_pair(2))
         tell_forwards(figure, front);
