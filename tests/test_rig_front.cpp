@@ -158,7 +158,9 @@ TEST_CASE("rig front: a trunk that does not stand on its legs is in doubt")
     const std::string doubt = "the trunk does not stand on the legs";
     CHECK(doubt_of({.chest = {0, 0.5, 0}}) == doubt);
     CHECK(doubt_of({.chest = {0, 1, 0.5}}) == doubt);
-    CHECK(doubt_of({.chest = {0, 1.05, 0}}).empty());  // too short to tell
+    for (const Vector3d& near :
+         {Vector3d(0, 1.05, 0), Vector3d(0, 1, -0.05), Vector3d(0, 0.95, 0)})  // too short to tell
+        CHECK(doubt_of({.chest = near}).empty());
     CHECK(doubt_of({.chest = {0, 1, 0}, .pelvis = {0, 1, 0}}).empty());
     // Arms of one figure and legs of another.
     const std::string trunks = "the limbs do not hang on one trunk";
@@ -192,6 +194,16 @@ TEST_CASE("rig front: a mirror without toes leaves open what is left and right")
                   "the mirror above the left arm leaves open whether left and right are exchanged");
         CHECK(doubt_of({.scale = mirror, .elbow = 12, .knee = 12}) == doubt);  // bound all the same
     }
+}
+
+TEST_CASE("rig front: below a mirror the toes tell whether left and right are exchanged")
+{
+    const std::vector<std::pair<std::string, Vector3d>> toe = {{"Toe", {0, 0, 0.1}}};
+    const Body exchanged = {.on_foot = toe, .scale = {-1, 1, 1}};
+    const Body in_place = {
+        .shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .on_foot = toe, .scale = {-1, 1, 1}};
+    CHECK(doubt_of(exchanged).empty());
+    CHECK(doubt_of(in_place).empty());
 }
 
 TEST_CASE("rig front: the file's own axes are taken where nothing speaks against them")
