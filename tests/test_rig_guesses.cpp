@@ -137,6 +137,21 @@ TEST_CASE("rigs: what is called a part of a bone must be one by its place")
     CHECK(problem(half, {0, 60}, up, {"--arm", "left:upperarm01_l,lowerarm01_l,wrist_l"}).empty());
 }
 
+TEST_CASE("rigs: a joint at the place of the next is no stranger, but for rounding, one aside is")
+{
+    const auto problem = [](double aside) {
+        GltfRig rig;
+        const int upper = rig.add("LeftArm", rig.add("Hips", -1, {0, 0, 0}), {0.2, 1, 0});
+        const int pivot = rig.add("LeftForeArm_$AssimpFbx$_PreRotation", upper, {0.3, 0, 0});
+        const int elbow =
+            rig.add("LeftForeArm", pivot, {0, aside, 0}, Quaterniond(AngleAxisd(-0.5, Vector3d::UnitY())));
+        rig.add("LeftHand", elbow, {0.3, 0, 0});
+        return problem_of(rig_report(rig), "left_arm");
+    };
+    for (const double rounding : {0.0, 5e-16, 1e-6}) CHECK(problem(rounding).empty());
+    CHECK(problem(1e-3).ends_with("and is no twist bone by its name"));
+}
+
 TEST_CASE("rigs: the parts of a bone are judged together")
 {
     const auto problem = [](double each) {
