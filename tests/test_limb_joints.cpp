@@ -145,6 +145,29 @@ TEST_CASE("limb joints: arms by rarer names")
          {"Character1_RightShoulder", "Character1_RightArm", "Character1_RightForeArm", "Character1_RightHand"});
 }
 
+TEST_CASE("limb joints: names of Blender's MikuMikuDance, KayKit, Source 1 and Maya's prefixes")
+{
+    const auto arms = [](const Names& left, const Names& right) { require_found(LimbKind::arm, left, right); };
+    const auto legs = [](const Names& left, const Names& right) { require_found(LimbKind::leg, left, right); };
+    arms({"腕.L", "ひじ.L", "手首.L"}, {"腕.R", "ひじ.R", "手首.R"});
+    legs({"足.L", "ひざ.L", "足首.L"}, {"足.R", "ひざ.R", "足首.R"});
+    arms({"upperarm.l", "lowerarm.l", "wrist.l"}, {"upperarm.r", "lowerarm.r", "wrist.r"});
+    CHECK(found(skeleton({{"upperarm.l", "lowerarm.l", "wrist.l", "hand.l"}}), LimbKind::arm, Side::left) ==
+          Names{"upperarm.l", "lowerarm.l", "wrist.l"});
+    arms({"bip_upperArm_L", "bip_lowerArm_L", "bip_hand_L"}, {"bip_upperArm_R", "bip_lowerArm_R", "bip_hand_R"});
+    legs({"bip_hip_L", "bip_knee_L", "bip_foot_L"}, {"bip_hip_R", "bip_knee_R", "bip_foot_R"});
+    legs({"UpLeg.L", "Leg.L", "Foot.L"}, {"UpLeg.R", "Leg.R", "Foot.R"});
+    for (const std::string prefix : {"jnt_", "joint_", "QuickRigCharacter_", "Bip01 ", "Bip001 "})
+        arms({prefix + "LeftArm", prefix + "LeftForeArm", prefix + "LeftHand"},
+             {prefix + "RightArm", prefix + "RightForeArm", prefix + "RightHand"});
+    // Advanced Skeleton's parts of a bone say that they are; a shoulder's number does not.
+    CHECK(found(skeleton({{"Shoulder_L", "ShoulderPart1_L", "ShoulderPart2_L", "Elbow_L", "ElbowPart1_L", "Wrist_L"}}),
+                LimbKind::arm, Side::left) == Names{"Shoulder_L", "Elbow_L", "Wrist_L"});
+    CHECK(found(skeleton({{"Hip_L", "HipPart1_L", "Knee_L", "Ankle_L"}}), LimbKind::leg, Side::left) ==
+          Names{"Hip_L", "Knee_L", "Ankle_L"});
+    CHECK(found(skeleton({{"Shoulder_L", "ScapulaPart1_L", "Elbow_L", "Wrist_L"}}), LimbKind::arm, Side::left).empty());
+}
+
 TEST_CASE("limb joints: endings that converters put behind every name")
 {
     const auto arms = [](const Names& left, const Names& right) { require_found(LimbKind::arm, left, right); };

@@ -44,6 +44,15 @@ TEST_CASE("rigs: a clip that bends a limb more and otherwise than its rest pose 
         CHECK(knee.at("hinge_source") == "mean bend of the clip");
         CHECK(off_knee(knee) < 1e-3);
     }
+    // A rest pose that bends little is believed where the clip bends as it does, however little that is.
+    for (const double little : {6.0, 12.0, 19.0})
+        for (const std::vector<double>& idle : {std::vector<double>{3, 4, 6, 4}, {2, 2, 3}}) {
+            CHECK(left_knee(legs(along, -little, idle)).at("hinge_source") == "mean bend of the clip");
+            CHECK(off_knee(left_knee(legs(along, -little, idle))) < 1e-3);
+            CHECK(
+                left_knee(legs(along, little, idle)).at("hinge_source").get<std::string>().starts_with("bend of the"));
+            CHECK(left_knee(legs(across, little, idle)).at("hinge_source") == "mean bend of the clip");
+        }
     for (const double back : {-7.0, -25.0}) {  // pressed through
         const json knee = left_knee(legs(along, back, walk));
         CHECK(knee.at("hinge_source") == "mean bend of the clip");
@@ -224,6 +233,8 @@ TEST_CASE("rigs: what may be the joint that a bone turns in must show in a clip 
     CHECK(problem({.own = 14, .turn = 80}) == unshown);
     CHECK(problem({.own = 16, .turn = 80}).empty());
     CHECK(problem({.times = {}}) == unshown);
+    CHECK(problem({.at = 0.5, .times = {}}).empty());  // it divides the bone evenly
+    CHECK_FALSE(problem({.at = 0.5, .turn = 16, .axis = up}).empty());
     CHECK(problem({.times = {0}}) == unshown);  // one pose is no motion
     CHECK(problem({.own = -40, .turn = 16, .axis = up, .options = {"--arm", "left:LeftArm,LeftForeArm,LeftHand"}})
               .empty());

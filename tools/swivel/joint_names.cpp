@@ -12,8 +12,9 @@ namespace {
 using formats::Side;
 
 // What exporters put before every joint's name, in the form of plain(), with a number after some.
-constexpr std::array<std::string_view, 9> kPrefixes = {"def",    "mixamorig", "valvebiped", "bip0",     "jbip",
-                                                       "ccbase", "mavg",      "favg",       "character"};
+constexpr std::array<std::string_view, 12> kPrefixes = {
+    "def",  "mixamorig", "valvebiped",        "bip", "jbip", "ccbase", "mavg",
+    "favg", "character", "quickrigcharacter", "jnt", "joint"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -86,6 +87,11 @@ bool are_parts(std::string_view top, std::string_view below)
 {
     top = without_ending(top), below = without_ending(below);
     const std::string whole = plain(top), part = plain(below);
+    if (const std::size_t at = part.find("part"); at != std::string::npos && whole.find("part") == std::string::npos) {
+        std::string without = part;  // "ShoulderPart1_L", of Advanced Skeleton
+        without.erase(at, 4);
+        return without_digits(whole) == without_digits(without);
+    }
     if (without_digits(whole) != without_digits(part) || whole.find("shoulder") != std::string::npos) return false;
     const bool both_count =
         std::any_of(whole.begin(), whole.end(), is_digit) && std::any_of(part.begin(), part.end(), is_digit);

@@ -25,8 +25,8 @@ bool are_namesakes(std::string_view a, std::string_view b);
 // True if it ends in the number that Blender gives a copy: "thigh.L.001".
 bool is_copy_name(std::string_view joint_name);
 
-// True for two parts of one bone by name: "DEF-thigh.L" and "DEF-thigh.L.001", "upperarm01.L" and "upperarm02.L". Not
-// for shoulders: the first of two may be the clavicle.
+// True for two parts of one bone by name: "DEF-thigh.L" and "DEF-thigh.L.001", "upperarm01.L" and "upperarm02.L",
+// "Shoulder_L" and "ShoulderPart1_L". Not for other shoulders: the first of two may be the clavicle.
 bool are_parts(std::string_view top, std::string_view below);
 
 // True if a joint's name says that it shares out another's twist: "upperarm_twist_01_l".

@@ -207,16 +207,16 @@ void require_parts_on(const ChainBone& bone)
         const std::string& name = bone.name(part.place);
         const bool is_twist = is_twist_name(name), is_roll = is_roll_name(name);
         const double even = static_cast<double>(&part - parts.data() + 1) / static_cast<double>(parts.size() + 1);
-        const bool is_uneven_copy = is_copy_name(name) && std::abs(part.at - even) > 0.05;
+        const bool is_uneven = std::abs(part.at - even) > 0.05;
         if (!is_twist && part.off > 0.1)
             refuse({part.place}, fmt::format("is off its line by {:.0f} % of its length", 100 * part.off),
                    "name the joints");
         if (!is_twist) sharing.push_back(part.place);
-        if (!is_twist && !is_roll && !is_uneven_copy) continue;
+        if (!is_twist && !is_roll && !(is_copy_name(name) && is_uneven)) continue;
         // It may be the joint that it is taken for a part of: that turns what hangs on it.
         require_still({part.place}, {bone.clip, bone.chain, part.place, bone.last});
         const bool is_shown = bone.clip.frame_count > 1 && bone.swing_of({bone.first}).degrees > kSwing;
-        if (!is_twist && !is_shown)
+        if (!is_twist && is_uneven && !is_shown)
             refuse({part.place}, "may be the joint that it turns in, and the clip does not show that it is none",
                    "use a clip that swings it, or name the joints");
     }

@@ -62,11 +62,11 @@ Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoin
                std::span<const GivenHinge> hinges);
 
 // Throws CannotBind where joints between two of the limb's, and not at the place of either, are no parts of that bone:
-// a twist bone by name that turns what hangs on it by more than 15 degrees in a frame; others off the line between the
-// two by more than a tenth of its length at rest, or all together turning the bone by more than 15 degrees. A roll
-// bone, and one called a copy ("thigh.L.001") that does not divide the bone evenly, may be the joint that the bone
-// turns in: it must show that it is none as a twist bone does, in a clip of two frames or more in which the joint that
-// the bone starts at turns the bone by more than 15 degrees.
+// a twist or roll bone by name that turns what hangs on it by more than 15 degrees in a frame; others and roll bones
+// off the line between the two by more than a tenth of its length at rest, or all together turning the bone by more
+// than 15 degrees. A roll bone, or one called a copy ("thigh.L.001"), that does not divide the bone evenly may be the
+// joint that the bone turns in: it must show that it is none as a twist bone does, in a clip of two frames or more in
+// which the joint that the bone starts at turns the bone by more than 15 degrees.
 void require_parts_between(const formats::Clip& clip, const Limb& limb);
 
 }  // namespace swivel::tools

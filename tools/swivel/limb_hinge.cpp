@@ -104,9 +104,10 @@ std::optional<Hinge> own_hinge(const Clip& clip, const LimbChain& chain, const C
     const Vector3d bend = bend_of(rest, upper);
     const std::optional<Vector3d> mean = mean_bend(clip, chain, upper);
     // Knock-knees, or a forearm that hangs, bend at rest across what the clip does; knees pressed through, against it.
+    const bool is_sure = bend_degrees(rest) > kSurelyBent;
     const double more = mean ? mean->norm() / bend.norm() : 0, off = mean ? degrees_between(*mean, bend) : 0;
-    const bool clip_differs = (off > 30 && more > 2) || (off > 120 && more > 1);
-    if (bend_degrees(rest) > (mean ? kBent : kSurelyBent) && !clip_differs) return rest_hinge(rest);
+    const bool clip_differs = (off > 30 && more > 2) || (is_sure ? off > 120 && more > 1 : off > 60);
+    if ((is_sure || (mean && bend_degrees(rest) > kBent)) && !clip_differs) return rest_hinge(rest);
     if (mean) return Hinge{mean->normalized(), "mean bend of the clip"};
     return std::nullopt;
 }

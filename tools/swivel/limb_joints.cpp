@@ -51,6 +51,8 @@ constexpr Naming kArmNamings[] = {
     {{"shoulder*", "elbow*", "hand*"}, "Synty"},
     {{"arm*shoulder2", "arm*elbow", "arm*wrist"}, "XNALara"},
     {{"*humerus", "*radius", "*wrist"}, "Acclaim"},
+    {{"腕*", "ひじ*", "手首*"}, "MikuMikuDance in Blender"},
+    {{"upperarm*", "lowerarm*", "wrist*"}, "KayKit"},
 };
 constexpr Naming kLegNamings[] = {
     {{"*upleg", "*leg", "*foot"}, "Mixamo, CMU, MotionBuilder"},
@@ -74,6 +76,9 @@ constexpr Naming kLegNamings[] = {
     {{"upperleg*", "lowerleg*", "ankle*"}, "Synty"},
     {{"leg*thigh", "leg*knee", "leg*ankle"}, "XNALara"},
     {{"*femur", "*tibia", "*foot"}, "Acclaim"},
+    {{"足*", "ひざ*", "足首*"}, "MikuMikuDance in Blender"},
+    {{"hip*", "knee*", "foot*"}, "Valve, Source 1"},
+    {{"upleg*", "leg*", "foot*"}, "Blender"},
 };
 
 std::string with_side(std::string_view naming, std::string_view side)
