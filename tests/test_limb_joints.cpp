@@ -255,6 +255,14 @@ TEST_CASE("limb joints: of two figures in one file none is taken")
     CHECK(problem({mixamo, mixamo, unreal}) == "'upperarm_l' and 'LeftArm' both begin a left arm");
     CHECK(problem({{"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}, {"LeftShoulder", "LeftElbow", "LeftWrist"}}) ==
           "'LeftShoulder' and 'LeftArm_1' both begin a left arm");
+    // Controls that no skin names are no figure, however many.
+    for (const std::vector<Names>& controls : {std::vector<Names>{mixamo}, {mixamo, mixamo}}) {
+        std::vector<Names> chains = {unreal};
+        chains.insert(chains.end(), controls.begin(), controls.end());
+        Clip clip = skeleton(chains);
+        for (std::size_t n = 1 + unreal.size(); n < clip.joints.size(); ++n) clip.joints[n].is_bone = false;
+        CHECK(found(clip, LimbKind::arm, Side::left) == unreal);
+    }
     CHECK(problem({{"upperarm_l", "lowerarm_l"}}) == "no joint is called 'hand_l' or alike for its wrist");
     // One limb by two habits is one: the palm and the fist of one arm.
     CHECK(found(skeleton({{"UpperArm.L", "LowerArm.L", "Palm.L", "Fist.L"}}), LimbKind::arm, Side::left) ==
@@ -277,6 +285,10 @@ TEST_CASE("limb joints: limbs below trunks of one name are two figures'")
         CHECK(apart({{"Hips", "Spine", "LeftArm"}, {"Hips" + end, "Spine" + end, "RightArm"}}) == std::array{1, 4});
     }
     CHECK_FALSE(apart({{"Bone.003", "LeftArm"}, {"Bone.007", "RightArm"}}));
+    CHECK_FALSE(apart({{"Bone.003", "Bone.004", "LeftArm"}, {"Bone.007", "Bone.008", "RightArm"}}));
+    CHECK_FALSE(apart({{"Spine", "LeftArm"}, {"Spine_1", "Spine_2", "LeftUpLeg"}}));
+    for (const std::string prefix : {"joint", "jnt", "Bip"})  // a prefix that is all of a name
+        CHECK_FALSE(apart({{prefix + "_3", "LeftArm"}, {prefix + "_7", "RightArm"}}));
     CHECK_FALSE(apart({{"LeftShoulder", "LeftArm"}, {"RightShoulder", "RightArm"}}));  // one root is above both
     CHECK_FALSE(apart({{"Spine", "LeftArm"}, {"Spine1", "LeftUpLeg"}}));
     CHECK_FALSE(apart({{"", "LeftArm"}, {"", "RightArm"}}));  // no names tell nothing

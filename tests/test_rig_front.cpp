@@ -62,8 +62,10 @@ std::string doubt_of(const Body& body, const Vector3d& front = Vector3d::UnitZ()
     const json report = rig_report(rig_of(body));
     INFO(report.dump());
     const std::string doubt = report.value("faces_in_doubt", "");
+    std::size_t count = 0;
     for (const json& limb : report.at("limbs")) {
         if (limb.value("problem", "").starts_with("no joints have names")) continue;
+        ++count;
         const bool arm = limb.at("limb").get<std::string>().ends_with("arm");
         const bool tells = (arm ? body.elbow : body.knee) > 5 || (arm ? body.clip_elbow : body.clip_knee) != 0;
         CHECK(limb.at("bound") == (doubt.empty() || tells));
@@ -71,6 +73,7 @@ std::string doubt_of(const Body& body, const Vector3d& front = Vector3d::UnitZ()
             CHECK(limb.at("problem").get<std::string>().find("tells which way it bends, and " + doubt + "; use") !=
                   std::string::npos);
     }
+    CHECK(count == body.limbs.size());
     if (doubt.empty()) CHECK(degrees_between(vector_of(report.at("faces")), body.turn * front) < 1e-3);
     return doubt;
 }
@@ -153,6 +156,49 @@ TEST_CASE("rig front: shoulders, hips and toes that face apart are in doubt")
     }
 }
 
+TEST_CASE("rig front: straight limbs that are turned about their own bones are in doubt")
+{
+    const auto toe = [](double degrees) {
+        return Body{.on_foot = {{"Toe", {0.1 * std::sin(degrees * kDegree), 0, 0.1 * std::cos(degrees * kDegree)}}}};
+    };
+    CHECK(doubt_of(toe(55)).empty());
+    CHECK(doubt_of(toe(65)) == "the left leg's foot points aside");
+    CHECK(doubt_of(toe(75)) == "the left leg's foot points aside");  // both together tell nothing
+    CHECK(doubt_of({.left_bone = {-0.1, 0, 0.28}}).empty());
+    CHECK(doubt_of({.left_bone = {-0.28, 0, 0.1}}) == "the left arm crosses the body");
+    // A side split, and one leg kicked up.
+    const auto split = [](double left, double right) {
+        GltfRig rig = rig_of({});
+        for (auto& node : rig.json["nodes"]) {
+            const std::string name = node.value("name", "");
+            const double degrees = name == "LeftUpLeg" ? left : name == "RightUpLeg" ? right : 0;
+            const Quaterniond turn(AngleAxisd(degrees * kDegree, kZ));
+            node["rotation"] = {turn.x(), turn.y(), turn.z(), turn.w()};
+        }
+        return rig_report(rig).value("faces_in_doubt", "");
+    };
+    CHECK(split(55, -55).empty());
+    CHECK(split(65, -65) == "the left leg stands off the trunk");
+    CHECK(split(0, -100) == "the right leg stands off the trunk");
+}
+
+TEST_CASE("rig front: arms that point ahead bend up, arms that point back bend down; legs the other way")
+{
+    const auto bends = [](const Vector3d& arm, const Vector3d& leg, const char* limb) {
+        const json report = rig_report(rig_of({.left_bone = arm, .leg_bone = leg}));
+        return limb_of(report, limb).at("hinge_source").get<std::string>();
+    };
+    const Vector3d down = {0, -0.45, 0};
+    CHECK(bends({0, 0, 0.3}, down, "left_arm").starts_with("elbows bend upwards"));
+    CHECK(bends({0, 0, -0.3}, down, "left_arm").starts_with("elbows bend downwards"));
+    CHECK(bends({0, -0.3, 0}, down, "right_arm").starts_with("elbows bend forwards"));
+    for (const double back : {-0.26, -0.28, -0.3}) {  // 60 degrees back and more: no leap where the row changes
+        const json limb =
+            limb_of(rig_report(rig_of({.left_bone = {0, -std::sqrt(0.0901 - back * back), back}})), "left_arm");
+        CHECK(degrees_between(vector_of(limb.at("hinge")), kX) < 1);
+    }
+}
+
 TEST_CASE("rig front: a trunk that does not stand on its legs is in doubt")
 {
     const std::string doubt = "the trunk does not stand on the legs";
@@ -163,9 +209,66 @@ TEST_CASE("rig front: a trunk that does not stand on its legs is in doubt")
         CHECK(doubt_of({.chest = near}).empty());
     CHECK(doubt_of({.chest = {0, 1, 0}, .pelvis = {0, 1, 0}}).empty());
     // Arms of one figure and legs of another.
-    const std::string trunks = "the limbs do not hang on one trunk";
-    CHECK(doubt_of({.one_trunk = false}) == trunks);
+    CHECK(doubt_of({.one_trunk = false}) == "the joint that all limbs hang on is far from the hips");
     CHECK(doubt_of({.limbs = kArms, .one_trunk = false}).empty());
+}
+
+TEST_CASE("rig front: limbs on no common joint tell nothing together")
+{
+    GltfRig rig;
+    for (const std::string side : {"Left", "Right"}) {
+        const double x = side == "Left" ? 1 : -1;
+        const int upper = rig.add(side + "Arm", -1, {0.2 * x, 1.5, 0});
+        rig.add(side + "Hand", rig.add(side + "ForeArm", upper, {0.3 * x, 0, 0}), {0.3 * x, 0, 0});
+    }
+    const json arms = rig_report(rig);
+    CHECK(arms.at("faces_in_doubt") == "neither shoulders nor hips tell left from right");
+    CHECK(problem_of(arms, "left_arm").starts_with("neither rest pose nor clip tells"));
+    const int pelvis = rig.add("Pelvis", -1, {0, 1, 0});
+    for (const std::string side : {"Left", "Right"}) {
+        const int upper = rig.add(side + "UpLeg", pelvis, {side == "Left" ? 0.1 : -0.1, 0, 0});
+        rig.add(side + "Foot", rig.add(side + "Leg", upper, {0, -0.45, 0}), {0, -0.45, 0});
+    }
+    CHECK(rig_report(rig).at("faces_in_doubt") == "the limbs do not hang on one trunk");
+}
+
+TEST_CASE("rig front: a mirror counts above the pair that tells")
+{
+    // Shoulders too close to tell, below a mirror of their own or not; hips below one or not.
+    const auto in_doubt = [](double above_all, double above_arms) {
+        GltfRig rig;
+        const int pelvis = rig.add("Pelvis", -1, {0, 1, 0}, Quaterniond::Identity(), {above_all, 1, 1});
+        const int chest = rig.add("Chest", pelvis, {0, 0.5, 0}, Quaterniond::Identity(), {above_arms, 1, 1});
+        for (const std::string side : {"Left", "Right"}) {
+            const double x = side == "Left" ? 1 : -1;
+            const int arm = rig.add(side + "Arm", chest, {0.01 * x, 0, 0}),
+                      leg = rig.add(side + "UpLeg", pelvis, {0.1 * x, 0, 0});
+            rig.add(side + "Hand", rig.add(side + "ForeArm", arm, {0.3 * x, 0, 0}), {0.3 * x, 0, 0});
+            rig.add(side + "Foot", rig.add(side + "Leg", leg, {0, -0.45, 0}), {0, -0.45, 0});
+        }
+        return rig_report(rig).value("faces_in_doubt", "").starts_with("without toes the mirror");
+    };
+    CHECK(in_doubt(-1, 1));
+    CHECK(in_doubt(-1, -1));
+    CHECK_FALSE(in_doubt(1, -1));
+    CHECK_FALSE(in_doubt(1, 1));
+}
+
+TEST_CASE("rig front: a small bend at rest is believed where the figure tells as much, not beside the file's axes")
+{
+    for (const double bend : {6.0, 12.0, 19.0}) {
+        CHECK(problem_of(rig_report(rig_of({.hips = -0.1, .knee = bend})), "left_leg").empty());
+        const std::string problem =
+            problem_of(rig_report(rig_of({.limbs = {"LeftArm"}, .turn = turned(180, kY), .elbow = bend})), "left_arm");
+        CHECK(problem.find("degrees, too little to tell its way, no clip tells, and the left arm is not on its side") !=
+              std::string::npos);
+    }
+    CHECK(problem_of(rig_report(rig_of({.limbs = {"LeftArm"}, .turn = turned(180, kY), .elbow = 21})), "left_arm")
+              .empty());
+    // Legs that lie along the file's +Z, of a figure that nothing tells: no way to face is up.
+    const json lies = rig_report(rig_of({.hips = 0.001, .limbs = kLegs, .turn = turned(90, kX)}));
+    CHECK(degrees_between(vector_of(lies.at("faces")), vector_of(lies.at("up"))) == Approx(90));
+    CHECK(problem_of(lies, "left_leg").find("neither shoulders nor hips tell left from right") != std::string::npos);
 }
 
 TEST_CASE("rig front: limbs that bend otherwise than the figure faces put it in doubt, and are bound themselves")

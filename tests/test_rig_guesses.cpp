@@ -161,6 +161,17 @@ TEST_CASE("rigs: a joint at the place of the next is no stranger, but for roundi
     CHECK(problem(1e-3).ends_with("and is no twist bone by its name"));
 }
 
+TEST_CASE("rigs: twist bones do not count where the parts of a bone divide it evenly")
+{
+    GltfRig rig;
+    const int upper = rig.add("DEF-upper_arm.L", rig.add("Hips", -1, {0, 0, 0}), {0.2, 1, 0});
+    const int half = rig.add("DEF-upper_arm.L.001", upper, {0.2, 0, 0});
+    const int twist = rig.add("upper_arm_twist.L", half, {0.16, 0, 0});
+    const int elbow = rig.add("DEF-forearm.L", twist, {0.04, 0, 0}, Quaterniond(AngleAxisd(-0.5, Vector3d::UnitY())));
+    rig.add("DEF-hand.L", elbow, {0.3, 0, 0});
+    CHECK(problem_of(rig_report(rig), "left_arm").empty());
+}
+
 TEST_CASE("rigs: the parts of a bone are judged together")
 {
     const auto problem = [](double each) {
@@ -178,7 +189,7 @@ TEST_CASE("rigs: the parts of a bone are judged together")
     CHECK(problem(5).empty());
     CHECK(
         problem(14).starts_with("'upperarm02_l', 'upperarm03_l', 'upperarm04_l' on the bone from 'upperarm01_l' to "
-                                "'lowerarm01_l' turns it by 3"));
+                                "'lowerarm01_l' turn it by 3"));
 }
 
 TEST_CASE("rigs: what may be the joint that a bone turns in must show in a clip that it is none")
@@ -223,9 +234,9 @@ TEST_CASE("rigs: what may be the joint that a bone turns in must show in a clip 
     const Vector3d up = Vector3d::UnitZ();
     CHECK(problem({.turn = 80}).empty());
     CHECK(problem({.turn = 14, .axis = up}).empty());
-    CHECK(
-        problem({.own = -40, .turn = 16, .axis = up}) ==
-        "'LeftArmRoll' on the bone from 'LeftArm' to 'LeftForeArm' turns it by 16 degrees in frame 1; name the joints");
+    CHECK(problem({.own = -40, .turn = 16, .axis = up}) ==
+          "'LeftArmRoll' on the bone from 'LeftArm' to 'LeftForeArm' swings what hangs on it by 16 degrees in frame 1; "
+          "name the joints");
     const std::string unshown =
         "'LeftArmRoll' on the bone from 'LeftArm' to 'LeftForeArm' may be the joint that it turns in, and the clip "
         "does "
@@ -245,7 +256,7 @@ TEST_CASE("rigs: what may be the joint that a bone turns in must show in a clip 
     CHECK(problem({.name = "LeftArmTwist", .times = {}}).empty());
     CHECK(problem({.name = "LeftArmTwist", .own = 10, .turn = 80}).empty());
     CHECK(problem({.name = "LeftArmTwist", .own = 10, .turn = 14, .axis = up}).empty());
-    CHECK(problem({.name = "LeftArmTwist", .turn = 16, .axis = up}).find("turns it by 16 degrees") !=
+    CHECK(problem({.name = "LeftArmTwist", .turn = 16, .axis = up}).find("hangs on it by 16 degrees") !=
           std::string::npos);
     // Rigify divides its bones evenly; a clavicle called as the upper arm is does not.
     for (const double even : {0.46, 0.5, 0.54}) CHECK(problem({.name = "Arm.L.001", .at = even, .times = {}}).empty());

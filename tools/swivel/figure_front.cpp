@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/figure_front.h"
-#include "tools/swivel/limb_words.h"
-#include "tools/swivel/vectors.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +7,9 @@
 #include <cctype>
 #include <cmath>
 #include <vector>
+
+#include "tools/swivel/limb_words.h"
+#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 
@@ -128,8 +129,11 @@ void tell_up(const RestingFigure& figure, Front& front)
         if (figure.has_pair(0)) trunk = figure.middle(0, 0) - figure.middle(2, 0);
         if (trunk.norm() < 0.1 * length) trunk.setZero();
         const int fork = figure.has_pair(0) ? fork_of(figure.clip, figure.fork(0), figure.fork(2)) : figure.fork(2);
-        if (fork < 0 || (figure.place(fork) - figure.middle(2, 0)).norm() > 0.75 * length)
+        // 0.75: a root on the floor is a leg below, a pelvis and MikuMikuDance's centre a quarter.
+        if (fork < 0)
             front.doubt = "the limbs do not hang on one trunk";
+        else if ((figure.place(fork) - figure.middle(2, 0)).norm() > 0.75 * length)
+            front.doubt = "the joint that all limbs hang on is far from the hips";
     }
     if (!trunk.isZero(0) && !legs.isZero(0) && are_apart(trunk, legs))
         front.doubt = "the trunk does not stand on the legs";
@@ -164,7 +168,7 @@ std::optional<Vector3d> across_pair(const RestingFigure& figure, std::size_t pai
     return Vector3d((mirrored ? Vector3d(-*side) : *side).cross(up));
 }
 
-// Where both feet point. A foot's only joint without a name may be its heel, or hold a shoe, so it must agree with
+// Where both feet point. A foot's only joint, not called toe, may be its heel, or hold a shoe, so it must agree with
 // `ahead`; a bird's toes point both ways and tell nothing.
 std::optional<Vector3d> across_toes(const RestingFigure& figure, const Vector3d& up,
                                     const std::optional<Vector3d>& ahead)
@@ -174,7 +178,8 @@ std::optional<Vector3d> across_toes(const RestingFigure& figure, const Vector3d&
     const Vector3d both = left.direction + right.direction;
     if (!(both.norm() > 0.25 * (left.count + right.count))) return std::nullopt;
     const auto way = level(both, up);
-    const bool named = left.named || right.named;
+    const auto is_named = [](const Toes& toes) { return toes.named || toes.count == 0; };
+    const bool named = is_named(left) && is_named(right);
     if (!way || (!named && (!ahead || are_apart(*way, *ahead)))) return std::nullopt;
     return way;
 }
@@ -204,6 +209,30 @@ std::string doubt_of_z(const RestingFigure& figure)
     return is_told ? "" : "nothing tells that the figure faces the file's +Z";
 }
 
+// A limb that is turned where its joint turns it about its own bone, too: no way to face says how it bends.
+std::string doubt_of_turns(const RestingFigure& figure, const Front& front)
+{
+    for (std::size_t limb = 0; limb < 4; ++limb) {
+        const std::size_t other = limb ^ 1;
+        if (!figure.joints[limb] || !figure.joints[other]) continue;
+        const std::string name = plain_name(formats::kLimbNames[limb]);
+        const Vector3d along = figure.place(limb, 2) - figure.place(limb, 0);
+        if (limb < 2) {
+            const Vector3d out = figure.place(limb, 0) - figure.place(other, 0);
+            if (out.norm() > 0.25 * figure.upper_length(limb) && degrees_between(along, out) > 120)
+                return fmt::format("the {} crosses the body", name);
+            continue;
+        }
+        if (figure.has_pair(0) && along.norm() > 0.3 * figure.leg_length() && are_apart(-along, front.up))
+            return fmt::format("the {} stands off the trunk", name);
+        const Toes toes = figure.toes(limb);
+        const auto way = level(toes.direction, front.up);
+        if (toes.named && toes.direction.norm() > 0.25 * toes.count && way && are_apart(*way, front.forwards))
+            return fmt::format("the {}'s foot points aside", name);
+    }
+    return "";
+}
+
 void tell_forwards(const RestingFigure& figure, Front& front)
 {
     const auto doubt = [&](const char* why) {
@@ -215,20 +244,24 @@ void tell_forwards(const RestingFigure& figure, Front& front)
     if (ahead) {
         front.forwards = *ahead;
         front.source = shoulders ? "left and right shoulder" : "left and right hip";
+        front.is_told = true;
     }
     if (shoulders && hips && are_apart(*shoulders, *hips)) doubt("shoulders and hips face apart");
-    const bool mirrored = figure.pose_w[static_cast<std::size_t>(figure.fork(figure.has_pair(0) ? 0 : 2))].mirrored;
+    const bool mirrored = ahead && figure.pose_w[static_cast<std::size_t>(figure.fork(shoulders ? 0 : 2))].mirrored;
     if (toes) {
         // Below a mirror left and right may be exchanged or not: the toes know.
         if (ahead && are_apart(*toes, *ahead) && !(mirrored && !are_apart(*toes, -*ahead)))
             doubt("the toes point otherwise than shoulders and hips face");
         front.forwards = *toes;
         front.source = "the toes";
+        front.is_told = true;
     } else if (!ahead) {
+        front.forwards = level(front.forwards, front.up).value_or(front.up.unitOrthogonal());
         doubt("neither shoulders nor hips tell left from right");
     } else if (mirrored) {
         doubt("without toes the mirror above the figure leaves open whether left and right are exchanged");
     }
+    if (front.doubt.empty()) front.doubt = doubt_of_turns(figure, front);
 }
 
 }  // namespace

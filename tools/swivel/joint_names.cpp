@@ -48,9 +48,11 @@ std::string plain(std::string_view name)
     for (bool again = true; again;) {
         again = false;
         for (const std::string_view prefix : kPrefixes) {
-            if (!out.starts_with(prefix) || out.size() == prefix.size()) continue;
-            out.erase(0, prefix.size());
-            while (!out.empty() && is_digit(out[0])) out.erase(0, 1);
+            if (!out.starts_with(prefix)) continue;
+            std::string rest = out.substr(prefix.size());
+            while (!rest.empty() && is_digit(rest[0])) rest.erase(0, 1);
+            if (rest.empty()) continue;  // it is all of the name
+            out = rest;
             again = true;
         }
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/limb_axes.h"
-#include "tools/swivel/vectors.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
+
+#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 

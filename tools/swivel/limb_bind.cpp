@@ -172,14 +172,14 @@ struct ChainBone {
 
 constexpr double kSwing = 15;  // degrees: what a joint that only twists its bone stays below, one that aims it exceeds
 
-// What require_parts_between() asks of one bone.
-void require_parts_on(const ChainBone& bone)
+// A joint between two of a limb's, as to the bone between these, for a length of 1.
+struct Part {
+    std::size_t place;  // in the chain
+    double at, off;     // where along the bone it is, and how far from it
+};
+std::vector<Part> parts_of(const ChainBone& bone)
 {
     const Vector3d along = bone.at_rest();
-    struct Part {
-        std::size_t place;  // in the chain
-        double at, off;     // where on the bone it is, and how far from it, for a length of 1
-    };
     std::vector<Part> parts;
     for (std::size_t place = bone.first + 1; place < bone.last; ++place) {
         const Vector3d step = rest_bone(bone.clip, bone.chain, bone.first, place) / along.norm();
@@ -188,39 +188,58 @@ void require_parts_on(const ChainBone& bone)
         const double at = step.dot(along.normalized());
         parts.push_back({place, at, (step - std::clamp(at, 0.0, 1.0) * along.normalized()).norm()});
     }
+    return parts;
+}
 
-    const auto refuse = [&](const std::vector<std::size_t>& blamed, const std::string& why, const char* advice) {
-        std::vector<std::string> names;
-        for (const std::size_t place : blamed) names.push_back(bone.shown(place));
-        throw CannotBind(fmt::format("'{}' on the bone from '{}' to '{}' {}", fmt::join(names, "', '"),
-                                     bone.shown(bone.first), bone.shown(bone.last), why),
-                         advice);
-    };
-    const auto require_still = [&](const std::vector<std::size_t>& moving, const ChainBone& of) {
-        const ChainBone::Swing swing = of.swing_of(moving);
-        if (swing.degrees > kSwing)
-            refuse(moving, fmt::format("turns it by {:.0f} degrees in frame {}", swing.degrees, swing.frame),
-                   "name the joints");
-    };
+[[noreturn]] void refuse(const ChainBone& bone, const std::vector<std::size_t>& blamed, const std::string& why,
+                         const char* advice)
+{
+    std::vector<std::string> names;
+    for (const std::size_t place : blamed) names.push_back(bone.shown(place));
+    throw CannotBind(fmt::format("'{}' on the bone from '{}' to '{}' {}", fmt::join(names, "', '"),
+                                 bone.shown(bone.first), bone.shown(bone.last), why),
+                     advice);
+}
+
+void require_still(const ChainBone& bone, std::size_t place)
+{
+    const auto own = ChainBone{bone.clip, bone.chain, place, bone.last}.swing_of({place});
+    if (own.degrees > kSwing)
+        refuse(bone, {place},
+               fmt::format("swings what hangs on it by {:.0f} degrees in frame {}", own.degrees, own.frame),
+               "name the joints");
+}
+
+// What require_parts_between() asks of one bone.
+void require_parts_on(const ChainBone& bone)
+{
     std::vector<std::size_t> sharing;  // those that are no twist bones by name
-    for (const Part& part : parts) {
+    std::vector<Part> dividing;  // those that may be the joint which the bone turns in, unless they divide it evenly
+    for (const Part& part : parts_of(bone)) {
         const std::string& name = bone.name(part.place);
         const bool is_twist = is_twist_name(name), is_roll = is_roll_name(name);
-        const double even = static_cast<double>(&part - parts.data() + 1) / static_cast<double>(parts.size() + 1);
-        const bool is_uneven = std::abs(part.at - even) > 0.05;
         if (!is_twist && part.off > 0.1)
-            refuse({part.place}, fmt::format("is off its line by {:.0f} % of its length", 100 * part.off),
+            refuse(bone, {part.place}, fmt::format("is off its line by {:.0f} % of its length", 100 * part.off),
                    "name the joints");
         if (!is_twist) sharing.push_back(part.place);
-        if (!is_twist && !is_roll && !(is_copy_name(name) && is_uneven)) continue;
-        // It may be the joint that it is taken for a part of: that turns what hangs on it.
-        require_still({part.place}, {bone.clip, bone.chain, part.place, bone.last});
-        const bool is_shown = bone.clip.frame_count > 1 && bone.swing_of({bone.first}).degrees > kSwing;
-        if (!is_twist && is_uneven && !is_shown)
-            refuse({part.place}, "may be the joint that it turns in, and the clip does not show that it is none",
+        if (!is_twist && (is_roll || is_copy_name(name))) dividing.push_back(part);
+        if (is_twist || is_roll) require_still(bone, part.place);
+    }
+    for (std::size_t n = 0; n < dividing.size(); ++n) {
+        const double even = static_cast<double>(n + 1) / static_cast<double>(dividing.size() + 1);
+        if (std::abs(dividing[n].at - even) < 0.05) continue;  // tools that split bones split them evenly
+        const std::size_t place = dividing[n].place;
+        require_still(bone, place);
+        if (bone.clip.frame_count < 2 || bone.swing_of({bone.first}).degrees <= kSwing)  // one pose is no motion
+            refuse(bone, {place}, "may be the joint that it turns in, and the clip does not show that it is none",
                    "use a clip that swings it, or name the joints");
     }
-    require_still(sharing, bone);
+    if (sharing.empty()) return;
+    if (const auto all = bone.swing_of(sharing); all.degrees > kSwing)
+        refuse(bone, sharing,
+               fmt::format("{} it by {:.0f} degrees in frame {}", sharing.size() > 1 ? "turn" : "turns", all.degrees,
+                           all.frame),
+               "name the joints");
 }
 
 }  // namespace

@@ -77,10 +77,14 @@ TableBend bend_by_table(LimbKind kind, const ChainPose& rest, const JointPose& p
 {
     const auto seen = [&](const Vector3d& v) { return parent_w.mirrored ? formats::mirrored(v) : v; };
     const Vector3d upper = rest.upper_bone().normalized(), upper_w = parent_w.rotation * seen(rest.turn[0] * upper);
-    const bool is_arm = kind == LimbKind::arm, points_ahead = std::abs(upper_w.dot(front.forwards)) > 0.9;
-    const Vector3d flexion_w = (is_arm ? 1 : -1) * (points_ahead ? front.up : front.forwards);
+    const bool is_arm = kind == LimbKind::arm;
+    const double ahead = upper_w.dot(front.forwards), sense = is_arm ? 1 : -1;
+    const bool is_level =
+        std::abs(ahead) > 0.9;  // swung up from where it hangs, and what bends forwards bends up, then
+    const Vector3d flexion_w = sense * (is_level ? (ahead > 0 ? front.up : Vector3d(-front.up)) : front.forwards);
     const Vector3d flexion = rest.turn[0].conjugate() * seen(parent_w.rotation.conjugate() * flexion_w);
-    const char* way = points_ahead ? (is_arm ? "upwards" : "downwards") : (is_arm ? "forwards" : "backwards");
+    const bool positive = sense * (is_level ? ahead : 1) > 0;
+    const char* way = is_level ? (positive ? "upwards" : "downwards") : (positive ? "forwards" : "backwards");
     return {flexion.cross(upper).normalized(), fmt::format("{} bend {}", is_arm ? "elbows" : "knees", way)};
 }
 
@@ -140,6 +144,12 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
     const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
     const TableBend table = bend_by_table(limb.kind, rest, parent_w, front);
     const double bend_deg = bend_degrees(rest), off = degrees_between(bend, table.axis);
+    if (!front.doubt.empty() && !front.is_told && bend_deg > kBent)
+        throw CannotBind(
+            fmt::format("at rest it bends by {:.1f} degrees, too little to tell its way, no clip tells, and "
+                        "{}",
+                        bend_deg, front.doubt),
+            advice_for(limb));
     if (bend_deg > kBent && off > 60)
         throw CannotBind(
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
@@ -152,8 +162,9 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
         throw CannotBind("neither rest pose nor clip tells which way it bends, and " + front.doubt, advice_for(limb));
     if (bend_deg > 0.5 && off < 45)
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
-    return {table.axis,
-            fmt::format("{}, facing by {}, as neither rest pose nor clip tells", table.words, front.source)};
+    const char* why = bend_deg > 0.5 ? "as the rest pose bends otherwise and too little to tell"
+                                     : "as neither rest pose nor clip tells";
+    return {table.axis, fmt::format("{}, facing by {}, {}", table.words, front.source, why)};
 }
 
 }  // namespace swivel::tools

@@ -148,8 +148,11 @@ struct Attempt {
     std::array<std::vector<int>, 3> bearers;
 
     // A limb, or more than one.
-    bool is_whole() const
+    bool is_whole(const Clip& clip) const
     {
+        const auto is_bone = [&](int joint) { return joint_at(clip, joint).is_bone; };
+        const auto has_bone = [&](const auto& each) { return std::any_of(each.begin(), each.end(), is_bone); };
+        if (!result.joints && std::none_of(bearers.begin(), bearers.end(), has_bone)) return false;
         return result.joints || (fits == 3 && std::any_of(bearers.begin(), bearers.end(),
                                                           [](const auto& each) { return each.size() > 1; }));
     }
@@ -231,7 +234,7 @@ LimbByName limb_by_name(const Clip& clip, LimbName limb)
             for (const std::string_view side : sides) {
                 Attempt made = attempt(clip, plain_names, limb, naming, side);
                 if (made.fits > nearest.fits) nearest = made;
-                if (made.is_whole()) whole_limbs.push_back(std::move(made));
+                if (made.is_whole(clip)) whole_limbs.push_back(std::move(made));
             }
     }
     const auto has_joints = [](const Attempt& made) { return made.result.joints.has_value(); };
@@ -242,7 +245,8 @@ LimbByName limb_by_name(const Clip& clip, LimbName limb)
     const auto other = std::find_if(whole_limbs.begin(), whole_limbs.end(), is_beside);
     if (other == whole_limbs.end()) return fit->result;
     const auto first_of = [&](const std::vector<int>& bearers) {
-        return *std::find_if(bearers.begin(), bearers.end(), [&](int joint) { return joint != joints[0]; });
+        return *std::find_if(bearers.begin(), bearers.end(),
+                             [&](int joint) { return std::find(joints.begin(), joints.end(), joint) == joints.end(); });
     };
     const auto name = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     return {std::nullopt,
@@ -266,8 +270,9 @@ std::optional<std::array<int, 2>> trunks_apart(const Clip& clip, int joint_a, in
         for (const int b : above_b) {
             const std::string &name_a = joint_at(clip, a).name, &name_b = joint_at(clip, b).name;
             if (!are_namesakes(name_a, name_b)) continue;
-            if (nearly || plain(name_a) == plain(name_b)) return std::array{a, b};
-            nearly = {a, b};
+            const bool is_another = nearly && !are_namesakes(name_a, joint_at(clip, (*nearly)[0]).name);
+            if (is_another || plain(name_a) == plain(name_b)) return std::array{a, b};
+            if (!nearly) nearly = {a, b};
         }
     return std::nullopt;
 }

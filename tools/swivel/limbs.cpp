@@ -173,8 +173,9 @@ void keep_together(const Clip& clip, std::span<Candidate> limbs)
     std::vector<std::string> problems(limbs.size());
     for (std::size_t n = 0; n < limbs.size(); ++n)
         for (const Candidate& other : limbs) {
+            if (limbs[n].source) break;
             const auto trunks = trunks_apart(clip, limbs[n], other);
-            if (limbs[n].source || !trunks) continue;
+            if (!trunks) continue;
             problems[n] = fmt::format("it hangs on {}, the {} on {}: two figures", shown((*trunks)[0]),
                                       plain_name(other.name), shown((*trunks)[1]));
             break;
@@ -326,7 +327,9 @@ LimbSearch look_for_limbs(const Clip& clip, const std::filesystem::path& file, c
 FoundLimbs find_limbs(const Clip& clip, const std::filesystem::path& file, const LimbChoice& choice)
 {
     FoundLimbs found;
-    for (LimbFinding& finding : look_for_limbs(clip, file, choice).findings) {
+    LimbSearch search = look_for_limbs(clip, file, choice);
+    found.doubt = search.front.doubt;
+    for (LimbFinding& finding : search.findings) {
         if (finding.has_names && !finding.limb)
             throw InputError(
                 file, fmt::format("the {} cannot be bound: {}", plain_name(finding.name), problem_text(finding)));

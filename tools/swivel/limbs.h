@@ -74,6 +74,7 @@ LimbSearch look_for_limbs(const formats::Clip& clip, const std::filesystem::path
 struct FoundLimbs {
     std::vector<Limb> limbs;           // arms first
     std::vector<LimbFinding> missing;  // each with its reason
+    std::string doubt;                 // Front::doubt; those that are bound do not hang on it
 };
 
 // The limbs that bind. Throws as look_for_limbs() does, for a kind of which no limb has names in use, and for a limb

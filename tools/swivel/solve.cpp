@@ -52,6 +52,7 @@ struct Job {
     std::optional<formats::CrowdFile> crowd;
     std::vector<Limb> limbs;
     std::vector<LimbFinding> missing;
+    std::string doubt;  // of the front
     CrowdPlan plan;
     std::string targets;  // "clip" or a file
 };
@@ -153,6 +154,7 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
     FoundLimbs found = find_limbs(clip, options.clip, choice);
     job.limbs = std::move(found.limbs);
     job.missing = std::move(found.missing);
+    job.doubt = std::move(found.doubt);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
@@ -171,7 +173,8 @@ void run(const Options& options)
     if (!options.out.empty() && formats::lower_suffix(options.out) != ".csv") file.require_can_write(options.out);
     const Job job = make_job(options, choice, file.clip());
     require_other_file(options, job);
-    const SolveFacts facts{options.clip, options.crowd, job.targets, job.plan.characters, job.plan.seed, job.missing};
+    const SolveFacts facts{options.clip,        options.crowd, file.describe(), job.targets,
+                           job.plan.characters, job.plan.seed, job.missing,     job.doubt};
     if (!options.json) print_clip(facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);

@@ -13,8 +13,8 @@ namespace swivel::tools {
 
 void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    fmt::print("clip     {}: {} joints, {} frames, {:.1f} frames/s\n", facts.clip, clip.joints.size(), clip.frame_count,
-               1 / clip.frame_time);
+    fmt::print("clip     {}: {}, {} joints, {} frames, {:.1f} frames/s\n", facts.clip, facts.motion, clip.joints.size(),
+               clip.frame_count, 1 / clip.frame_time);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
         fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge {}, {}\n", kind_name(limb.name.kind),
@@ -23,6 +23,9 @@ void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<co
     for (const LimbFinding& finding : facts.missing)
         fmt::print("{:<8} {:<5} missing: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
                    finding.problem);
+    if (!facts.doubt.empty())
+        fmt::print("note     the figure's front is in doubt: {}; a hinge in a crowd file turns a limb over\n",
+                   facts.doubt);
     std::string counts;
     for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
         const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
@@ -38,13 +41,10 @@ void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<co
 
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    nlohmann::ordered_json out{{"clip", facts.clip},
-                               {"joints", clip.joints.size()},
-                               {"frames", clip.frame_count},
-                               {"frame_time", clip.frame_time},
-                               {"characters", facts.characters},
-                               {"seed", facts.seed},
-                               {"targets", facts.targets}};
+    nlohmann::ordered_json out{
+        {"clip", facts.clip},         {"motion", facts.motion},        {"joints", clip.joints.size()},
+        {"frames", clip.frame_count}, {"frame_time", clip.frame_time}, {"characters", facts.characters},
+        {"seed", facts.seed},         {"targets", facts.targets}};
     if (!facts.crowd.empty()) out["crowd"] = facts.crowd;
     for (const Limb& limb : limbs) {
         const LimbWords& words = words_of(limb.name.kind);
@@ -57,6 +57,7 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
              {"hinge", {limb.hinge.x(), limb.hinge.y(), limb.hinge.z()}},
              {"hinge_source", limb.hinge_source}});
     }
+    if (!facts.doubt.empty()) out["faces_in_doubt"] = facts.doubt;
     for (const LimbFinding& finding : facts.missing)
         out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", finding.problem}});
     return out;

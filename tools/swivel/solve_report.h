@@ -13,10 +13,12 @@ namespace swivel::tools {
 
 struct SolveFacts {
     std::string clip, crowd;  // files; crowd may be empty
+    std::string motion;       // MotionFile::describe()
     std::string targets;      // "clip" or a file
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
     std::span<const LimbFinding> missing{};  // limbs of the kinds solved that the skeleton has no names of
+    std::string doubt{};                     // why the figure's front may be wrong; empty: nothing speaks against it
 };
 
 // Lines for people, on stdout.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Directions, as reports have them.
+// Angles between directions, and numbers for people.
 #pragma once
 
 #include <Eigen/Geometry>
