@@ -161,11 +161,11 @@ TEST_CASE("rig front: straight limbs that are turned about their own bones are i
     const auto toe = [](double degrees) {
         return Body{.on_foot = {{"Toe", {0.1 * std::sin(degrees * kDegree), 0, 0.1 * std::cos(degrees * kDegree)}}}};
     };
-    CHECK(doubt_of(toe(55)).empty());
-    CHECK(doubt_of(toe(65)) == "the left leg's foot points aside");
+    CHECK(doubt_of(toe(40)).empty());
+    CHECK(doubt_of(toe(50)) == "the left leg's foot points aside");
     CHECK(doubt_of(toe(75)) == "the left leg's foot points aside");  // both together tell nothing
-    CHECK(doubt_of({.left_bone = {-0.1, 0, 0.28}}).empty());
-    CHECK(doubt_of({.left_bone = {-0.28, 0, 0.1}}) == "the left arm crosses the body");
+    CHECK(doubt_of({.left_bone = {-0.1, -0.28, 0}}).empty());
+    CHECK(doubt_of({.left_bone = {-0.28, -0.1, 0}}) == "the left arm crosses the body");
     // A side split, and one leg kicked up.
     const auto split = [](double left, double right) {
         GltfRig rig = rig_of({});
@@ -182,21 +182,49 @@ TEST_CASE("rig front: straight limbs that are turned about their own bones are i
     CHECK(split(0, -100) == "the right leg stands off the trunk");
 }
 
-TEST_CASE("rig front: arms that point ahead bend up, arms that point back bend down; legs the other way")
+TEST_CASE("rig front: straight arms that point ahead, behind or overhead, and legs that do not hang, are refused")
 {
-    const auto bends = [](const Vector3d& arm, const Vector3d& leg, const char* limb) {
-        const json report = rig_report(rig_of({.left_bone = arm, .leg_bone = leg}));
-        return limb_of(report, limb).at("hinge_source").get<std::string>();
+    const auto left_arm = [](const Vector3d& bone) {
+        return limb_of(rig_report(rig_of({.left_bone = bone})), "left_arm");
     };
-    const Vector3d down = {0, -0.45, 0};
-    CHECK(bends({0, 0, 0.3}, down, "left_arm").starts_with("elbows bend upwards"));
-    CHECK(bends({0, 0, -0.3}, down, "left_arm").starts_with("elbows bend downwards"));
-    CHECK(bends({0, -0.3, 0}, down, "right_arm").starts_with("elbows bend forwards"));
-    for (const double back : {-0.26, -0.28, -0.3}) {  // 60 degrees back and more: no leap where the row changes
-        const json limb =
-            limb_of(rig_report(rig_of({.left_bone = {0, -std::sqrt(0.0901 - back * back), back}})), "left_arm");
-        CHECK(degrees_between(vector_of(limb.at("hinge")), kX) < 1);
+    const auto is_bound = [&](const Vector3d& bone) { return left_arm(bone).at("bound").get<bool>(); };
+    const auto point = [](double degrees, const Vector3d& from, const Vector3d& to) -> Vector3d {
+        return 0.3 * (std::cos(degrees * kDegree) * from + std::sin(degrees * kDegree) * to);
+    };
+    // Swung forwards and back from hanging, and level out of a T-pose: about the very axis that it bends by, first, and
+    // with the axis, then, which stays upright.
+    for (const double degrees : {-55.0, -20.0, 0.0, 20.0, 55.0}) {
+        for (const auto& [start, hinge] : {std::pair(Vector3d(-kY), kX), std::pair(kX, kY)}) {
+            const json limb = left_arm(point(degrees, start, kZ));
+            INFO(limb.dump());
+            REQUIRE(limb.at("bound").get<bool>());
+            CHECK(limb.at("hinge_source").get<std::string>().starts_with("elbows bend forwards"));
+            CHECK(degrees_between(vector_of(limb.at("hinge")), hinge) < 1);
+        }
     }
+    for (const double degrees : {-115.0, -90.0, -65.0, 65.0, 90.0, 115.0})
+        for (const Vector3d& start : {Vector3d(-kY), kX}) CHECK_FALSE(is_bound(point(degrees, start, kZ)));
+    CHECK(is_bound(point(40, kX, kY)));
+    CHECK_FALSE(is_bound(point(50, kX, kY)));
+    CHECK_FALSE(is_bound(0.3 * kY));
+    const std::string anywhere = "the arm points ahead, behind or overhead, where straight ones bend either way";
+    CHECK(problem_of(rig_report(rig_of({.left_bone = 0.3 * kZ})), "left_arm")
+              .starts_with("neither rest pose nor clip tells which way it bends, and " + anywhere));
+    // A bend of 5 to 20 degrees has nothing to be held against; above, or with a clip, the limb tells itself.
+    const Vector3d ahead = point(80, -kY, kZ);
+    CHECK(problem_of(rig_report(rig_of({.left_bone = ahead, .elbow = 12})), "left_arm")
+              .starts_with("at rest it bends by 12.0 degrees, too little to tell its way, no clip tells, and " +
+                           anywhere));
+    CHECK(problem_of(rig_report(rig_of({.left_bone = ahead, .elbow = 25})), "left_arm").empty());
+    CHECK(problem_of(rig_report(rig_of({.left_bone = ahead, .clip_elbow = 25})), "left_arm").empty());
+    // Of legs, one alone, as up is along both where there is no trunk.
+    const auto leg = [&](double degrees) {
+        return problem_of(rig_report(rig_of({.leg_bone = 1.5 * point(degrees, -kY, kZ), .limbs = {"LeftUpLeg"}})),
+                          "left_leg");
+    };
+    CHECK(leg(0).empty());
+    CHECK(leg(50).empty());
+    CHECK_FALSE(leg(70).empty());
 }
 
 TEST_CASE("rig front: a trunk that does not stand on its legs is in doubt")

@@ -227,7 +227,8 @@ std::string doubt_of_turns(const RestingFigure& figure, const Front& front)
             return fmt::format("the {} stands off the trunk", name);
         const Toes toes = figure.toes(limb);
         const auto way = level(toes.direction, front.up);
-        if (toes.named && toes.direction.norm() > 0.25 * toes.count && way && are_apart(*way, front.forwards))
+        if (toes.named && toes.direction.norm() > 0.25 * toes.count && way &&
+            degrees_between(*way, front.forwards) > 45)
             return fmt::format("the {}'s foot points aside", name);
     }
     return "";

@@ -68,30 +68,50 @@ std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, cons
     return is_clear ? std::optional(Vector3d(sum / static_cast<double>(clip.frame_count))) : std::nullopt;
 }
 
-// How the table has a limb bend at rest.
+// How elbows and knees bend.
 struct TableBend {
     Vector3d axis;      // in the upper joint's axes, unit: the hinge
     std::string words;  // "elbows bend forwards"
 };
-TableBend bend_by_table(LimbKind kind, const ChainPose& rest, const JointPose& parent_w, const Front& front)
+
+// Not where a limb points so that nobody can say how it was turned about its own bone on the way there: legs more than
+// 60 degrees off hanging; arms within 45 degrees of overhead, and those whose elbow would bend more than 60 degrees
+// apart after a swing out of a T-pose, after a swing from hanging, and forwards.
+bool table_knows(LimbKind kind, const Vector3d& upper_w, const Front& front)
+{
+    if (kind == LimbKind::leg) return degrees_between(upper_w, -front.up) <= 60;
+    if (degrees_between(upper_w, front.up) < 45) return false;
+    const Vector3d left = front.up.cross(front.forwards), out = upper_w.dot(left) < 0 ? Vector3d(-left) : left;
+    const auto swung_from = [&](const Vector3d& start) -> Vector3d { return aim(start, upper_w) * front.forwards; };
+    const Vector3d from_out = swung_from(out), from_hanging = swung_from(-front.up);
+    const Vector3d forwards = front.forwards - front.forwards.dot(upper_w) * upper_w;
+    return degrees_between(from_out, from_hanging) <= 60 && degrees_between(from_out, forwards) <= 60 &&
+           degrees_between(from_hanging, forwards) <= 60;
+}
+
+std::optional<TableBend> bend_by_table(LimbKind kind, const ChainPose& rest, const JointPose& parent_w,
+                                       const Front& front)
 {
     const auto seen = [&](const Vector3d& v) { return parent_w.mirrored ? formats::mirrored(v) : v; };
     const Vector3d upper = rest.upper_bone().normalized(), upper_w = parent_w.rotation * seen(rest.turn[0] * upper);
+    if (!table_knows(kind, upper_w, front)) return std::nullopt;
     const bool is_arm = kind == LimbKind::arm;
-    const double ahead = upper_w.dot(front.forwards), sense = is_arm ? 1 : -1;
-    const bool is_level =
-        std::abs(ahead) > 0.9;  // swung up from where it hangs, and what bends forwards bends up, then
-    const Vector3d flexion_w = sense * (is_level ? (ahead > 0 ? front.up : Vector3d(-front.up)) : front.forwards);
+    const Vector3d flexion_w = is_arm ? front.forwards : Vector3d(-front.forwards);
     const Vector3d flexion = rest.turn[0].conjugate() * seen(parent_w.rotation.conjugate() * flexion_w);
-    const bool positive = sense * (is_level ? ahead : 1) > 0;
-    const char* way = is_level ? (positive ? "upwards" : "downwards") : (positive ? "forwards" : "backwards");
-    return {flexion.cross(upper).normalized(), fmt::format("{} bend {}", is_arm ? "elbows" : "knees", way)};
+    return TableBend{flexion.cross(upper).normalized(), is_arm ? "elbows bend forwards" : "knees bend backwards"};
 }
 
 // What to do where nothing tells a limb's hinge.
 std::string advice_for(LimbName limb)
 {
     return fmt::format("use a clip that bends it, or give limb.{}.hinge in a crowd file", limb_word(limb));
+}
+
+// Why the table is silent.
+std::string points_anywhere(LimbName limb)
+{
+    return limb.kind == LimbKind::arm ? "the arm points ahead, behind or overhead, where straight ones bend either way"
+                                      : "the leg does not hang, so that its knee may bend any way";
 }
 
 // As a crowd file has it.
@@ -131,7 +151,8 @@ std::string doubt_by_bends(const Clip& clip, const std::array<std::optional<Limb
         const JointPose parent_w = parent < 0 ? JointPose() : rest_w[static_cast<std::size_t>(parent)];
         const double most =
             name.kind == LimbKind::arm ? 120 : 90;  // shoulders turn elbows about more than hips do knees
-        if (own && degrees_between(own->axis, bend_by_table(name.kind, rest, parent_w, front).axis) > most)
+        const std::optional<TableBend> table = bend_by_table(name.kind, rest, parent_w, front);
+        if (own && table && degrees_between(own->axis, table->axis) > most)
             return fmt::format("the {} does not bend as in a figure that faces by {}", plain_name(name), front.source);
     }
     return "";
@@ -142,29 +163,30 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
 {
     if (const std::optional<Hinge> own = own_hinge(clip, chain, rest)) return *own;
     const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
-    const TableBend table = bend_by_table(limb.kind, rest, parent_w, front);
-    const double bend_deg = bend_degrees(rest), off = degrees_between(bend, table.axis);
-    if (!front.doubt.empty() && !front.is_told && bend_deg > kBent)
-        throw CannotBind(
-            fmt::format("at rest it bends by {:.1f} degrees, too little to tell its way, no clip tells, and "
-                        "{}",
-                        bend_deg, front.doubt),
-            advice_for(limb));
+    const std::optional<TableBend> table = bend_by_table(limb.kind, rest, parent_w, front);
+    const double bend_deg = bend_degrees(rest), off = table ? degrees_between(bend, table->axis) : 0;
+    if (bend_deg > kBent && (!table || (!front.doubt.empty() && !front.is_told)))
+        throw CannotBind(fmt::format("at rest it bends by {:.1f} degrees, too little to tell its way, no clip tells, "
+                                     "and {}",
+                                     bend_deg, front.doubt.empty() ? points_anywhere(limb) : front.doubt),
+                         advice_for(limb));
     if (bend_deg > kBent && off > 60)
         throw CannotBind(
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
                         "{}, and no clip tells which holds",
-                        bend_deg, off, table.words, front.source),
+                        bend_deg, off, table->words, front.source),
             advice_for(limb) +
-                fmt::format(": {} as at rest, {} as {}", row(bend.normalized()), row(table.axis), table.words));
+                fmt::format(": {} as at rest, {} as {}", row(bend.normalized()), row(table->axis), table->words));
     if (bend_deg > kBent) return rest_hinge(rest);
-    if (!front.doubt.empty())
-        throw CannotBind("neither rest pose nor clip tells which way it bends, and " + front.doubt, advice_for(limb));
+    if (!table || !front.doubt.empty())
+        throw CannotBind("neither rest pose nor clip tells which way it bends, and " +
+                             (front.doubt.empty() ? points_anywhere(limb) : front.doubt),
+                         advice_for(limb));
     if (bend_deg > 0.5 && off < 45)
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
     const char* why = bend_deg > 0.5 ? "as the rest pose bends otherwise and too little to tell"
                                      : "as neither rest pose nor clip tells";
-    return {table.axis, fmt::format("{}, facing by {}, {}", table.words, front.source, why)};
+    return {table->axis, fmt::format("{}, facing by {}, {}", table->words, front.source, why)};
 }
 
 }  // namespace swivel::tools

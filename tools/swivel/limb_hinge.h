@@ -30,11 +30,12 @@ std::string doubt_by_bends(const formats::Clip& clip, const std::array<std::opti
 // What the limb tells itself: the rest pose's bend, above 20 degrees, unless the clip's mean bend is twice as large and
 // more than 30 degrees off, or larger and more than 120 degrees off; from 5 to 20 degrees if the clip bends, too, and
 // neither twice as much and more than 30 degrees off nor more than 60 degrees off; else the clip's mean bend, from one
-// degree and if it keeps its side. If it tells nothing: elbows bend forwards and knees backwards (up and down where the
-// bone points forwards, down and up where it points backwards), or the rest pose's bend above half a degree if it is
-// within 45 degrees of that, above 5 if within 60. rest: of the chain; parent_w: the upper joint's parent at rest.
+// degree and if it keeps its side. If it tells nothing: elbows bend forwards and knees backwards, or the rest pose's
+// bend above half a degree if it is within 45 degrees of that, above 5 if within 60. rest: of the chain; parent_w: the
+// upper joint's parent at rest.
 // Throws CannotBind where the limb tells nothing itself and the rest pose bends by more than 5 degrees and otherwise,
-// or by less and front is in doubt.
+// or by less and front is in doubt, or where it points so that neither way is known: an arm ahead, behind or overhead,
+// a leg that does not hang.
 Hinge choose_hinge(const formats::Clip& clip, formats::LimbName limb, const LimbChain& chain, const ChainPose& rest,
                    const formats::JointPose& parent_w, const Front& front);
 
