@@ -75,18 +75,17 @@ struct TableBend {
 };
 
 // Not where a limb points so that nobody can say how it was turned about its own bone on the way there: legs more than
-// 60 degrees off hanging; arms within 45 degrees of overhead, and those whose elbow would bend more than 60 degrees
-// apart after a swing out of a T-pose, after a swing from hanging, and forwards.
+// 60 degrees off hanging; arms within 45 degrees of overhead, and those whose elbow would bend, after a swing from
+// hanging, more than 60 degrees off forwards or off where it does after a swing out of a T-pose.
 bool table_knows(LimbKind kind, const Vector3d& upper_w, const Front& front)
 {
     if (kind == LimbKind::leg) return degrees_between(upper_w, -front.up) <= 60;
     if (degrees_between(upper_w, front.up) < 45) return false;
     const Vector3d left = front.up.cross(front.forwards), out = upper_w.dot(left) < 0 ? Vector3d(-left) : left;
     const auto swung_from = [&](const Vector3d& start) -> Vector3d { return aim(start, upper_w) * front.forwards; };
-    const Vector3d from_out = swung_from(out), from_hanging = swung_from(-front.up);
-    const Vector3d forwards = front.forwards - front.forwards.dot(upper_w) * upper_w;
-    return degrees_between(from_out, from_hanging) <= 60 && degrees_between(from_out, forwards) <= 60 &&
-           degrees_between(from_hanging, forwards) <= 60;
+    const Vector3d from_hanging = swung_from(-front.up),
+                   forwards = front.forwards - front.forwards.dot(upper_w) * upper_w;
+    return degrees_between(from_hanging, forwards) <= 60 && degrees_between(from_hanging, swung_from(out)) <= 60;
 }
 
 std::optional<TableBend> bend_by_table(LimbKind kind, const ChainPose& rest, const JointPose& parent_w,
