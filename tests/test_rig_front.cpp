@@ -312,6 +312,12 @@ TEST_CASE("rig front: limbs that bend otherwise than the figure faces put it in 
     CHECK(doubt_of({.clip_knee = -40}) == "the left leg " + by);
     CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .clip_knee = 40}) ==
           "the left leg " + by);
+    // Left and right exchanged, known by little; knees pressed through, of which no toes say that they are no more.
+    CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .knee = 3}) == "the left leg " + by);
+    CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .elbow = 3}) == "the left arm " + by);
+    CHECK(doubt_of({.knee = -3}) == "the left leg " + by);
+    CHECK(doubt_of({.knee = -1.5}).empty());
+    CHECK(doubt_of({.on_foot = {{"Toe", {0, 0, 0.1}}}, .knee = -3}).empty());
 }
 
 TEST_CASE("rig front: a mirror without toes leaves open what is left and right")

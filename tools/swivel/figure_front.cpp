@@ -255,7 +255,7 @@ void tell_forwards(const RestingFigure& figure, Front& front)
             doubt("the toes point otherwise than shoulders and hips face");
         front.forwards = *toes;
         front.source = "the toes";
-        front.is_told = true;
+        front.is_told = front.is_by_toes = true;
     } else if (!ahead) {
         front.forwards = level(front.forwards, front.up).value_or(front.up.unitOrthogonal());
         doubt("neither shoulders nor hips tell left from right");

@@ -20,6 +20,7 @@ struct Front {
     std::string up_source = "the file's +Y";  // of up
     std::string doubt;                        // why either may be wrong, for people; empty: nothing speaks against them
     bool is_told = false;                     // forwards is the figure's own, not the file's
+    bool is_by_toes = false;                  // which know it even where left and right have each other's names
 };
 
 // joints: of the limbs in the order of formats::kLimbNames, those that are known. Up is from the hips to the shoulders,
@@ -30,13 +31,11 @@ struct Front {
 // - what some of these tell otherwise than others by more than 60 degrees, unless a mirror above explains the toes;
 // - limbs on no common joint, or on one that is farther from the hips than three quarters of a leg;
 // - a pair of limbs of which nothing tells left from right, or which is below a mirror and without toes;
-// - an arm that crosses the body, a leg more than 60 degrees off the trunk, a foot more than 60 degrees off forwards:
-// they
-//   are turned about their own bones, too;
-// - where the file's axes are taken: a trunk, leg or what an arm hangs on more than 60 degrees off +Y, a limb that is
-// not
-//   on its own side of a figure that faces +Z, limbs that do not say where their side is. (Where nothing is above a
-//   limb that could speak against +Y it is taken, as files of every kind keep to it.)
+// - an arm that crosses the body, a leg more than 60 degrees off the trunk, a foot more than 45 degrees off forwards:
+//   such limbs are turned about their own bones, too;
+// - where the file's axes are taken: a trunk, leg or what an arm hangs on more than 60 degrees off +Y, a limb on the
+//   wrong side of a figure that faces +Z, limbs that do not say where their side is. (Where nothing is above a limb
+//   that could speak against +Y it is taken, as files of every kind keep to it.)
 Front figure_front(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
 
 }  // namespace swivel::tools

@@ -23,9 +23,9 @@ using formats::LimbName;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// In degrees, of a rest pose: more than modelling leaves by chance, and more than any knee or elbow bends the wrong way
-// (pressed through, knock-kneed, carried off the body).
-constexpr double kBent = 5, kSurelyBent = 20;
+// In degrees, of a rest pose: more than rounding leaves, more than modelling leaves by chance, and more than any knee
+// or elbow bends the wrong way (pressed through, knock-kneed, carried off the body).
+constexpr double kSlightlyBent = 2, kBent = 5, kSurelyBent = 20;
 
 // The bend of two bones given in one space: the axis, as long as its sine.
 Vector3d bend_of(const Vector3d& upper, const Vector3d& lower) { return lower.normalized().cross(upper.normalized()); }
@@ -148,10 +148,16 @@ std::string doubt_by_bends(const Clip& clip, const std::array<std::optional<Limb
         const std::optional<Hinge> own = own_hinge(clip, chain, rest);
         const int parent = formats::joint_at(clip, chain.upper()).parent;
         const JointPose parent_w = parent < 0 ? JointPose() : rest_w[static_cast<std::size_t>(parent)];
-        const double most =
-            name.kind == LimbKind::arm ? 120 : 90;  // shoulders turn elbows about more than hips do knees
         const std::optional<TableBend> table = bend_by_table(name.kind, rest, parent_w, front);
-        if (own && table && degrees_between(own->axis, table->axis) > most)
+        if (!table) continue;
+        const auto is_off = [&](const Vector3d& axis, double most) {
+            return degrees_between(axis, table->axis) > most;
+        };
+        // Shoulders turn elbows about more than hips do knees.
+        const bool own_is_off = own && is_off(own->axis, name.kind == LimbKind::arm ? 120 : 90);
+        const bool slight_is_off = !own && !front.is_by_toes && bend_degrees(rest) > kSlightlyBent &&
+                                   is_off(bend_of(rest, rest.upper_bone().normalized()), 120);
+        if (own_is_off || slight_is_off)
             return fmt::format("the {} does not bend as in a figure that faces by {}", plain_name(name), front.source);
     }
     return "";

@@ -22,8 +22,9 @@ struct Hinge {
 };
 
 // Why a front may be wrong: a limb that tells its hinge itself, as choose_hinge() has it, and has an elbow more than
-// 120, a knee more than 90 degrees off the way that elbows and knees bend in a figure that faces so. Empty if none
-// does. joints: of the limbs in the order of formats::kLimbNames, those that are known.
+// 120, a knee more than 90 degrees off the way that elbows and knees bend in a figure that faces so; without toes also
+// one that rests bent by 2 degrees and more, and more than 120 degrees off that way: left and right may be exchanged.
+// Empty if none does. joints: of the limbs in the order of formats::kLimbNames, those that are known.
 std::string doubt_by_bends(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints,
                            const Front& front);
 
