@@ -199,8 +199,8 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
     const Clip& clip = motion.clip();
     const Front& front = search.front;
     const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
-    fmt::print("{}: {}, {} joints, {} of them bones, {} frames\n", file, motion.describe(), clip.joints.size(), bones,
-               clip.frame_count);
+    fmt::print("{}: {}, {} joints, {} of them bones, {} frame{}\n", file, motion.describe(), clip.joints.size(), bones,
+               clip.frame_count, clip.frame_count == 1 ? "" : "s");
     fmt::print("faces {}, told by {}; up is {}, told by {}{}{}\n", vector_text(front.forwards), front.source,
                vector_text(front.up), front.up_source, front.doubt.empty() ? "" : "; in doubt: ", front.doubt);
     for (const LimbFinding& finding : search.findings) {

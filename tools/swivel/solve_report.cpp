@@ -13,8 +13,8 @@ namespace swivel::tools {
 
 void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    fmt::print("clip     {}: {}, {} joints, {} frames, {:.1f} frames/s\n", facts.clip, facts.motion, clip.joints.size(),
-               clip.frame_count, 1 / clip.frame_time);
+    fmt::print("clip     {}: {}, {} joints, {} frame{}, {:.1f} frames/s\n", facts.clip, facts.motion,
+               clip.joints.size(), clip.frame_count, clip.frame_count == 1 ? "" : "s", 1 / clip.frame_time);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
         fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge {}, {}\n", kind_name(limb.name.kind),
