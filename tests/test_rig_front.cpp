@@ -1,89 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Which way a figure faces: all that tells it agrees, or straight limbs, which bend by it alone, are refused.
-#include "tests/rig_report.h"
+#include "tests/rig_body.h"
 
 using namespace swivel::test;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using nlohmann::json;
-
-namespace {
-
-// A figure that faces +z and stands along +y, its limbs straight.
-struct Body {
-    double shoulders = 0.2, hips = 0.1;  // half the distance of each pair
-    Vector3d chest = {0, 1.5, 0}, pelvis = {0, 1, 0};
-    Vector3d left_bone = {0.3, 0, 0}, leg_bone = {0, -0.45, 0};  // of an arm, of a leg
-    Quaterniond chest_turn = Quaterniond::Identity();            // of the shoulders about the chest
-    std::vector<std::pair<std::string, Vector3d>> on_foot = {};  // joints by name, without side; x is to the side
-    std::vector<std::string> limbs = {"LeftArm", "RightArm", "LeftUpLeg", "RightUpLeg"};
-    bool one_trunk = true;
-    Quaterniond turn = Quaterniond::Identity();  // of the whole
-    Vector3d scale = {1, 1, 1};                  // of what is above it
-    double elbow = 0, knee = 0;                  // degrees at rest, as elbows and knees bend
-    double clip_elbow = 0, clip_knee = 0;        // in the clip's mean, which there is where one of them is not 0
-};
-
-GltfRig rig_of(const Body& body)
-{
-    GltfRig rig;
-    const int scene = rig.add("Scene", -1, {0, 0, 0}, Quaterniond::Identity(), body.scale);
-    const int root = rig.add("Root", scene, {0, 0, 0}, body.turn);
-    const int pelvis = rig.add("Pelvis", body.one_trunk ? root : scene, body.pelvis);
-    const int chest = body.one_trunk ? rig.add("Chest", pelvis, body.chest - body.pelvis, body.chest_turn)
-                                     : rig.add("Chest", root, body.chest, body.chest_turn);
-    const bool moves = body.clip_elbow != 0 || body.clip_knee != 0;
-    const int animation = moves ? rig.add_animation("clip") : -1;
-    for (const std::string& limb : body.limbs) {
-        const bool is_arm = limb.ends_with("Arm");
-        const double x = limb.starts_with("Left") ? 1 : -1;
-        const std::string side = x > 0 ? "Left" : "Right";
-        const Vector3d bone =
-            is_arm ? Vector3d(x * body.left_bone.x(), body.left_bone.y(), body.left_bone.z()) : body.leg_bone;
-        const Vector3d axis = is_arm ? Vector3d(bone.cross(Vector3d::UnitZ()).normalized()) : Vector3d::UnitX();
-        const double at_rest = is_arm ? body.elbow : body.knee, in_clip = is_arm ? body.clip_elbow : body.clip_knee;
-        const int upper = rig.add(limb, is_arm ? chest : pelvis, {x * (is_arm ? body.shoulders : body.hips), 0, 0});
-        const int lower =
-            rig.add(side + (is_arm ? "ForeArm" : "Leg"), upper, bone, Quaterniond(AngleAxisd(at_rest * kDegree, axis)));
-        const int end = rig.add(side + (is_arm ? "Hand" : "Foot"), lower, bone);
-        if (in_clip != 0)
-            rig.add_keys(animation, lower, "rotation", {0, 1.0f / 30}, turns(axis, {0.5 * in_clip, 1.5 * in_clip}));
-        if (!is_arm)
-            for (const auto& [name, step] : body.on_foot) rig.add(side + name, end, {x * step.x(), step.y(), step.z()});
-    }
-    return rig;
-}
-
-// What is in doubt of the front, which then no straight limb is bound by; empty where all are bound and it is `front`.
-std::string doubt_of(const Body& body, const Vector3d& front = Vector3d::UnitZ())
-{
-    const json report = rig_report(rig_of(body));
-    INFO(report.dump());
-    const std::string doubt = report.value("faces_in_doubt", "");
-    std::size_t count = 0;
-    for (const json& limb : report.at("limbs")) {
-        if (limb.value("problem", "").starts_with("no joints have names")) continue;
-        ++count;
-        const bool arm = limb.at("limb").get<std::string>().ends_with("arm");
-        const bool tells = (arm ? body.elbow : body.knee) > 5 || (arm ? body.clip_elbow : body.clip_knee) != 0;
-        CHECK(limb.at("bound") == (doubt.empty() || tells));
-        if (limb.at("bound") == false)
-            CHECK(limb.at("problem").get<std::string>().find("tells which way it bends, and " + doubt + "; use") !=
-                  std::string::npos);
-    }
-    CHECK(count == body.limbs.size());
-    if (doubt.empty()) CHECK(degrees_between(vector_of(report.at("faces")), body.turn * front) < 1e-3);
-    return doubt;
-}
-
-Quaterniond turned(double degrees, const Vector3d& axis) { return Quaterniond(AngleAxisd(degrees * kDegree, axis)); }
-
-const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
-const std::vector<std::string> kArms = {"LeftArm", "RightArm"}, kLegs = {"LeftUpLeg", "RightUpLeg"};
-
-}  // namespace
 
 TEST_CASE("rigs: what hangs on a foot and points elsewhere is no toe")
 {
@@ -182,54 +106,6 @@ TEST_CASE("rig front: straight limbs that are turned about their own bones are i
     CHECK(split(0, -100) == "the right leg stands off the trunk");
 }
 
-TEST_CASE("rig front: straight arms that point ahead, behind or overhead, and legs that do not hang, are refused")
-{
-    const auto left_arm = [](const Vector3d& bone) {
-        return limb_of(rig_report(rig_of({.left_bone = bone})), "left_arm");
-    };
-    const auto is_bound = [&](const Vector3d& bone) { return left_arm(bone).at("bound").get<bool>(); };
-    const auto point = [](double degrees, const Vector3d& from, const Vector3d& to) -> Vector3d {
-        return 0.3 * (std::cos(degrees * kDegree) * from + std::sin(degrees * kDegree) * to);
-    };
-    // Swung forwards and back from hanging, and level out of a T-pose: about the very axis that it bends by, first, and
-    // with the axis, then, which stays upright.
-    for (const double degrees : {-55.0, -20.0, 0.0, 20.0, 55.0}) {
-        for (const auto& [start, hinge] : {std::pair(Vector3d(-kY), kX), std::pair(kX, kY)}) {
-            const json limb = left_arm(point(degrees, start, kZ));
-            INFO(limb.dump());
-            REQUIRE(limb.at("bound").get<bool>());
-            CHECK(limb.at("hinge_source").get<std::string>().starts_with("elbows bend forwards"));
-            CHECK(degrees_between(vector_of(limb.at("hinge")), hinge) < 1);
-        }
-    }
-    for (const double degrees : {-115.0, -90.0, -65.0, 65.0, 90.0, 115.0})
-        for (const Vector3d& start : {Vector3d(-kY), kX}) CHECK_FALSE(is_bound(point(degrees, start, kZ)));
-    CHECK(is_bound(point(40, kX, kY)));
-    CHECK_FALSE(is_bound(point(50, kX, kY)));
-    CHECK_FALSE(is_bound(0.3 * kY));
-    const std::string anywhere = "the arm points ahead, behind or overhead, where straight ones bend either way";
-    CHECK(problem_of(rig_report(rig_of({.left_bone = 0.3 * kZ})), "left_arm")
-              .starts_with("neither rest pose nor clip tells which way it bends, and " + anywhere));
-    // A bend of 5 to 20 degrees has nothing to be held against; above, or with a clip, the limb tells itself.
-    const Vector3d ahead = point(80, -kY, kZ);
-    CHECK(problem_of(rig_report(rig_of({.left_bone = ahead, .elbow = 12})), "left_arm")
-              .starts_with("at rest it bends by 12.0 degrees, too little to tell its way, no clip tells, and " +
-                           anywhere));
-    CHECK(problem_of(rig_report(rig_of({.left_bone = ahead, .elbow = 25})), "left_arm").empty());
-    CHECK(problem_of(rig_report(rig_of({.left_bone = ahead, .clip_elbow = 25})), "left_arm").empty());
-    CHECK_FALSE(is_bound({0.19, 0.096, -0.213}));  // raised behind the shoulder: both swings agree, and not forwards
-    // Of legs, one alone: two would put the front in doubt.
-    const auto leg = [&](double degrees) {
-        const json report = rig_report(
-            rig_of({.leg_bone = 1.5 * point(degrees, -kY, kZ), .limbs = {"LeftArm", "RightArm", "LeftUpLeg"}}));
-        CHECK(report.value("faces_in_doubt", "").empty());
-        return problem_of(report, "left_leg");
-    };
-    CHECK(leg(0).empty());
-    CHECK(leg(50).empty());
-    CHECK(leg(70).ends_with("use a clip that bends it, or give limb.left_leg.hinge in a crowd file"));
-}
-
 TEST_CASE("rig front: a trunk that does not stand on its legs is in doubt")
 {
     const std::string doubt = "the trunk does not stand on the legs";
@@ -283,41 +159,6 @@ TEST_CASE("rig front: a mirror counts above the pair that tells")
     CHECK(in_doubt(-1, -1));
     CHECK_FALSE(in_doubt(1, -1));
     CHECK_FALSE(in_doubt(1, 1));
-}
-
-TEST_CASE("rig front: a small bend at rest is believed where the figure tells as much, not beside the file's axes")
-{
-    for (const double bend : {6.0, 12.0, 19.0}) {
-        CHECK(problem_of(rig_report(rig_of({.hips = -0.1, .knee = bend})), "left_leg").empty());
-        const std::string problem =
-            problem_of(rig_report(rig_of({.limbs = {"LeftArm"}, .turn = turned(180, kY), .elbow = bend})), "left_arm");
-        CHECK(problem.find("degrees, too little to tell its way, no clip tells, and the left arm is not on its side") !=
-              std::string::npos);
-    }
-    CHECK(problem_of(rig_report(rig_of({.limbs = {"LeftArm"}, .turn = turned(180, kY), .elbow = 21})), "left_arm")
-              .empty());
-    // Legs that lie along the file's +Z, of a figure that nothing tells: no way to face is up.
-    const json lies = rig_report(rig_of({.hips = 0.001, .limbs = kLegs, .turn = turned(90, kX)}));
-    CHECK(degrees_between(vector_of(lies.at("faces")), vector_of(lies.at("up"))) == Approx(90));
-    CHECK(problem_of(lies, "left_leg").find("neither shoulders nor hips tell left from right") != std::string::npos);
-}
-
-TEST_CASE("rig front: limbs that bend otherwise than the figure faces put it in doubt, and are bound themselves")
-{
-    CHECK(doubt_of({.clip_elbow = 40}).empty());
-    CHECK(doubt_of({.clip_knee = 40}).empty());
-    CHECK(doubt_of({.elbow = 40, .clip_knee = 40}).empty());
-    const std::string by = "does not bend as in a figure that faces by left and right shoulder";
-    CHECK(doubt_of({.clip_elbow = -40}) == "the left arm " + by);
-    CHECK(doubt_of({.clip_knee = -40}) == "the left leg " + by);
-    CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .clip_knee = 40}) ==
-          "the left leg " + by);
-    // Left and right exchanged, known by little; knees pressed through, of which no toes say that they are no more.
-    CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .knee = 3}) == "the left leg " + by);
-    CHECK(doubt_of({.shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .elbow = 3}) == "the left arm " + by);
-    CHECK(doubt_of({.knee = -3}) == "the left leg " + by);
-    CHECK(doubt_of({.knee = -1.5}).empty());
-    CHECK(doubt_of({.on_foot = {{"Toe", {0, 0, 0.1}}}, .knee = -3}).empty());
 }
 
 TEST_CASE("rig front: a mirror without toes leaves open what is left and right")

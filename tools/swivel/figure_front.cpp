@@ -90,6 +90,11 @@ struct RestingFigure {
         if (!found.named && below.size() == 1) found = {step(below[0]), 1, false};
         return found;
     }
+    bool has_named_toes() const  // on each foot that has any
+    {
+        const auto is_named = [](const Toes& toes) { return toes.named || toes.count == 0; };
+        return is_named(toes(2)) && is_named(toes(3));
+    }
 };
 
 bool are_apart(const Vector3d& a, const Vector3d& b) { return degrees_between(a, b) > 60; }
@@ -178,9 +183,7 @@ std::optional<Vector3d> across_toes(const RestingFigure& figure, const Vector3d&
     const Vector3d both = left.direction + right.direction;
     if (!(both.norm() > 0.25 * (left.count + right.count))) return std::nullopt;
     const auto way = level(both, up);
-    const auto is_named = [](const Toes& toes) { return toes.named || toes.count == 0; };
-    const bool named = is_named(left) && is_named(right);
-    if (!way || (!named && (!ahead || are_apart(*way, *ahead)))) return std::nullopt;
+    if (!way || (!figure.has_named_toes() && (!ahead || are_apart(*way, *ahead)))) return std::nullopt;
     return way;
 }
 
@@ -255,7 +258,8 @@ void tell_forwards(const RestingFigure& figure, Front& front)
             doubt("the toes point otherwise than shoulders and hips face");
         front.forwards = *toes;
         front.source = "the toes";
-        front.is_told = front.is_by_toes = true;
+        front.is_told = true;
+        front.is_by_named_toes = figure.has_named_toes();
     } else if (!ahead) {
         front.forwards = level(front.forwards, front.up).value_or(front.up.unitOrthogonal());
         doubt("neither shoulders nor hips tell left from right");

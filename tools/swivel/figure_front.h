@@ -20,7 +20,7 @@ struct Front {
     std::string up_source = "the file's +Y";  // of up
     std::string doubt;                        // why either may be wrong, for people; empty: nothing speaks against them
     bool is_told = false;                     // forwards is the figure's own, not the file's
-    bool is_by_toes = false;                  // which know it even where left and right have each other's names
+    bool is_by_named_toes = false;            // which tell forwards without left and right
 };
 
 // joints: of the limbs in the order of formats::kLimbNames, those that are known. Up is from the hips to the shoulders,

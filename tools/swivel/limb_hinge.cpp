@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -23,9 +24,10 @@ using formats::LimbName;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// In degrees, of a rest pose: more than rounding leaves, more than modelling leaves by chance, and more than any knee
-// or elbow bends the wrong way (pressed through, knock-kneed, carried off the body).
-constexpr double kSlightlyBent = 2, kBent = 5, kSurelyBent = 20;
+// In degrees, of a rest pose: more than rounding leaves, enough to speak against the front that shoulders or hips tell,
+// more than modelling leaves by chance, and more than any knee or elbow bends the wrong way (pressed through,
+// knock-kneed, carried off the body).
+constexpr double kBarelyBent = 0.5, kSpeaksAgainst = 2, kBent = 5, kSurelyBent = 20;
 
 // The bend of two bones given in one space: the axis, as long as its sine.
 Vector3d bend_of(const Vector3d& upper, const Vector3d& lower) { return lower.normalized().cross(upper.normalized()); }
@@ -51,20 +53,23 @@ Hinge rest_hinge(const ChainPose& rest)
 }
 
 // The mean of the frames' bends, axes as long as their sines; nothing for a clip that hardly bends the limb, or to both
-// sides.
-std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, const Vector3d& rest_bone)
+// sides, or not otherwise than at rest.
+std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, const ChainPose& rest)
 {
     if (clip.frame_count < 2) return std::nullopt;  // one pose is no motion
+    constexpr double kOneDegree = 0.02;             // its sine, about
+    const Vector3d rest_bone = rest.upper_bone().normalized(), at_rest = bend_of(rest, rest_bone);
     Vector3d sum = Vector3d::Zero();
-    double weight = 0;
+    double weight = 0, farthest = 0;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const Vector3d bend = bend_of(chain_pose(clip, frame, chain), rest_bone);
         if (!bend.allFinite()) continue;
         sum += bend;
         weight += bend.norm();
+        farthest = std::max(farthest, (bend - at_rest).norm());
     }
-    // 0.02: a mean bend of one degree; half: the bends must agree on an axis, not cancel.
-    const bool is_clear = weight > 0.02 * static_cast<double>(clip.frame_count) && sum.norm() > 0.5 * weight;
+    const bool is_clear = farthest > kOneDegree && weight > kOneDegree * static_cast<double>(clip.frame_count) &&
+                          sum.norm() > 0.5 * weight;  // half: the bends must agree on an axis, not cancel
     return is_clear ? std::optional(Vector3d(sum / static_cast<double>(clip.frame_count))) : std::nullopt;
 }
 
@@ -74,27 +79,32 @@ struct TableBend {
     std::string words;  // "elbows bend forwards"
 };
 
-// Not where a limb points so that nobody can say how it was turned about its own bone on the way there: legs more than
-// 60 degrees off hanging; arms within 45 degrees of overhead, and those whose elbow would bend, after a swing from
-// hanging, more than 60 degrees off forwards or off where it does after a swing out of a T-pose.
-bool table_knows(LimbKind kind, const Vector3d& upper_w, const Front& front)
+// Whether it is known how a straight limb bends that points there. It is not where it depends on the way there how the
+// limb is turned about its own bone: for legs more than 60 degrees off hanging; for arms within 45 degrees of overhead,
+// where the elbow bends forwards if they were raised by the side and backwards if by the front, and for those whose
+// elbow would bend, after a swing from hanging, more than 60 degrees off forwards or off where it does after a swing
+// out of a T-pose.
+bool table_knows(LimbName limb, const Vector3d& upper_w, const Front& front)
 {
-    if (kind == LimbKind::leg) return degrees_between(upper_w, -front.up) <= 60;
+    if (limb.kind == LimbKind::leg) return degrees_between(upper_w, -front.up) <= 60;
     if (degrees_between(upper_w, front.up) < 45) return false;
-    const Vector3d left = front.up.cross(front.forwards), out = upper_w.dot(left) < 0 ? Vector3d(-left) : left;
+    const Vector3d left = front.up.cross(front.forwards),
+                   own_side = limb.side == formats::Side::left ? left : Vector3d(-left);
+    // More than crosses a body: below a mirror left and right may be exchanged.
+    const Vector3d out = degrees_between(upper_w, own_side) > 120 ? Vector3d(-own_side) : own_side;
     const auto swung_from = [&](const Vector3d& start) -> Vector3d { return aim(start, upper_w) * front.forwards; };
-    const Vector3d from_hanging = swung_from(-front.up),
-                   forwards = front.forwards - front.forwards.dot(upper_w) * upper_w;
+    const Vector3d from_hanging = swung_from(-front.up);
+    const Vector3d forwards = front.forwards - front.forwards.dot(upper_w) * upper_w;
     return degrees_between(from_hanging, forwards) <= 60 && degrees_between(from_hanging, swung_from(out)) <= 60;
 }
 
-std::optional<TableBend> bend_by_table(LimbKind kind, const ChainPose& rest, const JointPose& parent_w,
+std::optional<TableBend> bend_by_table(LimbName limb, const ChainPose& rest, const JointPose& parent_w,
                                        const Front& front)
 {
     const auto seen = [&](const Vector3d& v) { return parent_w.mirrored ? formats::mirrored(v) : v; };
     const Vector3d upper = rest.upper_bone().normalized(), upper_w = parent_w.rotation * seen(rest.turn[0] * upper);
-    if (!table_knows(kind, upper_w, front)) return std::nullopt;
-    const bool is_arm = kind == LimbKind::arm;
+    if (!table_knows(limb, upper_w, front)) return std::nullopt;
+    const bool is_arm = limb.kind == LimbKind::arm;
     const Vector3d flexion_w = is_arm ? front.forwards : Vector3d(-front.forwards);
     const Vector3d flexion = rest.turn[0].conjugate() * seen(parent_w.rotation.conjugate() * flexion_w);
     return TableBend{flexion.cross(upper).normalized(), is_arm ? "elbows bend forwards" : "knees bend backwards"};
@@ -125,7 +135,7 @@ std::optional<Hinge> own_hinge(const Clip& clip, const LimbChain& chain, const C
 {
     const Vector3d upper = rest.upper_bone().normalized();
     const Vector3d bend = bend_of(rest, upper);
-    const std::optional<Vector3d> mean = mean_bend(clip, chain, upper);
+    const std::optional<Vector3d> mean = mean_bend(clip, chain, rest);
     // Knock-knees, or a forearm that hangs, bend at rest across what the clip does; knees pressed through, against it.
     const bool is_sure = bend_degrees(rest) > kSurelyBent;
     const double more = mean ? mean->norm() / bend.norm() : 0, off = mean ? degrees_between(*mean, bend) : 0;
@@ -140,27 +150,32 @@ std::optional<Hinge> own_hinge(const Clip& clip, const LimbChain& chain, const C
 std::string doubt_by_bends(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints, const Front& front)
 {
     const std::vector<JointPose> rest_w = formats::rest_pose(clip);
+    bool is_confirmed = front.is_by_named_toes || !front.is_told;  // an exchange of left and right turns neither
+    double most_bent = kSpeaksAgainst;                             // of the limbs that tell no hinge themselves
+    std::string against;                                           // what that one says
     for (std::size_t n = 0; n < joints.size(); ++n) {
         if (!joints[n]) continue;
         const LimbName name = formats::kLimbNames[n];
         const LimbChain chain = chain_of(clip, *joints[n]);
         const ChainPose rest = rest_pose(clip, chain);
-        const std::optional<Hinge> own = own_hinge(clip, chain, rest);
         const int parent = formats::joint_at(clip, chain.upper()).parent;
         const JointPose parent_w = parent < 0 ? JointPose() : rest_w[static_cast<std::size_t>(parent)];
-        const std::optional<TableBend> table = bend_by_table(name.kind, rest, parent_w, front);
+        const std::optional<TableBend> table = bend_by_table(name, rest, parent_w, front);
         if (!table) continue;
-        const auto is_off = [&](const Vector3d& axis, double most) {
-            return degrees_between(axis, table->axis) > most;
-        };
-        // Shoulders turn elbows about more than hips do knees.
-        const bool own_is_off = own && is_off(own->axis, name.kind == LimbKind::arm ? 120 : 90);
-        const bool slight_is_off = !own && !front.is_by_toes && bend_degrees(rest) > kSlightlyBent &&
-                                   is_off(bend_of(rest, rest.upper_bone().normalized()), 120);
-        if (own_is_off || slight_is_off)
-            return fmt::format("the {} does not bend as in a figure that faces by {}", plain_name(name), front.source);
+        const std::string said =
+            fmt::format("the {} does not bend as in a figure that faces by {}", plain_name(name), front.source);
+        if (const std::optional<Hinge> own = own_hinge(clip, chain, rest)) {
+            const double off = degrees_between(own->axis, table->axis);
+            // Shoulders turn elbows about more than hips do knees.
+            if (off > (name.kind == LimbKind::arm ? 120 : 90)) return said;
+            is_confirmed = is_confirmed || off < 60;
+        } else if (bend_degrees(rest) > most_bent) {
+            most_bent = bend_degrees(rest);
+            const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
+            against = degrees_between(bend, table->axis) > 120 ? said : "";  // all but the other way round
+        }
     }
-    return "";
+    return is_confirmed ? "" : against;
 }
 
 Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, const ChainPose& rest,
@@ -168,13 +183,17 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
 {
     if (const std::optional<Hinge> own = own_hinge(clip, chain, rest)) return *own;
     const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
-    const std::optional<TableBend> table = bend_by_table(limb.kind, rest, parent_w, front);
+    const std::optional<TableBend> table = bend_by_table(limb, rest, parent_w, front);
     const double bend_deg = bend_degrees(rest), off = table ? degrees_between(bend, table->axis) : 0;
-    if (bend_deg > kBent && (!table || (!front.doubt.empty() && !front.is_told)))
-        throw CannotBind(fmt::format("at rest it bends by {:.1f} degrees, too little to tell its way, no clip tells, "
-                                     "and {}",
-                                     bend_deg, front.doubt.empty() ? points_anywhere(limb) : front.doubt),
-                         advice_for(limb));
+    const bool is_doubted = !front.doubt.empty() && (bend_deg <= kBent || !front.is_told);
+    if (is_doubted || !table)
+        throw CannotBind(
+            (bend_deg > kBent
+                 ? fmt::format("at rest it bends by {:.1f} degrees, too little to tell its way, no clip tells",
+                               bend_deg)
+                 : "neither rest pose nor clip tells which way it bends") +
+                ", and " + (is_doubted ? front.doubt : points_anywhere(limb)),
+            advice_for(limb));
     if (bend_deg > kBent && off > 60)
         throw CannotBind(
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
@@ -183,14 +202,10 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
             advice_for(limb) +
                 fmt::format(": {} as at rest, {} as {}", row(bend.normalized()), row(table->axis), table->words));
     if (bend_deg > kBent) return rest_hinge(rest);
-    if (!table || !front.doubt.empty())
-        throw CannotBind("neither rest pose nor clip tells which way it bends, and " +
-                             (front.doubt.empty() ? points_anywhere(limb) : front.doubt),
-                         advice_for(limb));
-    if (bend_deg > 0.5 && off < 45)
+    if (bend_deg > kBarelyBent && off < 45)
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
-    const char* why = bend_deg > 0.5 ? "as the rest pose bends otherwise and too little to tell"
-                                     : "as neither rest pose nor clip tells";
+    const char* why = bend_deg > kBarelyBent ? "as the rest pose bends otherwise and too little to tell"
+                                             : "as neither rest pose nor clip tells";
     return {table->axis, fmt::format("{}, facing by {}, {}", table->words, front.source, why)};
 }
 

@@ -22,18 +22,20 @@ struct Hinge {
 };
 
 // Why a front may be wrong: a limb that tells its hinge itself, as choose_hinge() has it, and has an elbow more than
-// 120, a knee more than 90 degrees off the way that elbows and knees bend in a figure that faces so; without toes also
-// one that rests bent by 2 degrees and more, and more than 120 degrees off that way: left and right may be exchanged.
-// Empty if none does. joints: of the limbs in the order of formats::kLimbNames, those that are known.
+// 120, a knee more than 90 degrees off the way that elbows and knees bend in a figure that faces so. Where none is
+// within 60 degrees of that and shoulders or hips tell the front, left and right may be exchanged: then also, of the
+// limbs that tell none themselves, the one bent most at rest, if by more than 2 degrees and more than 120 degrees off.
+// Limbs that point where neither way is known are not asked. Empty if nothing speaks against it. joints: of the limbs
+// in the order of formats::kLimbNames, those that are known.
 std::string doubt_by_bends(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints,
                            const Front& front);
 
 // What the limb tells itself: the rest pose's bend, above 20 degrees, unless the clip's mean bend is twice as large and
-// more than 30 degrees off, or larger and more than 120 degrees off; from 5 to 20 degrees if the clip bends, too, and
-// neither twice as much and more than 30 degrees off nor more than 60 degrees off; else the clip's mean bend, from one
-// degree and if it keeps its side. If it tells nothing: elbows bend forwards and knees backwards, or the rest pose's
-// bend above half a degree if it is within 45 degrees of that, above 5 if within 60. rest: of the chain; parent_w: the
-// upper joint's parent at rest.
+// more than 30 degrees off, or larger and more than 120 degrees off; from 5 to 20 degrees if the clip bends it, too,
+// and neither twice as much and more than 30 degrees off nor more than 60 degrees off; else the clip's mean bend, from
+// one degree, if it keeps its side and leaves the rest pose's by a degree. If it tells nothing: elbows bend forwards
+// and knees backwards, or the rest pose's bend above half a degree if it is within 45 degrees of that, above 5 if
+// within 60. rest: of the chain; parent_w: the upper joint's parent at rest.
 // Throws CannotBind where the limb tells nothing itself and the rest pose bends by more than 5 degrees and otherwise,
 // or by less and front is in doubt, or where it points so that neither way is known: an arm ahead, behind or overhead,
 // a leg that does not hang.
