@@ -180,11 +180,13 @@ TEST_CASE("rig front: a mirror without toes leaves open what is left and right")
 TEST_CASE("rig front: below a mirror the toes tell whether left and right are exchanged")
 {
     const std::vector<std::pair<std::string, Vector3d>> toe = {{"Toe", {0, 0, 0.1}}};
-    const Body exchanged = {.on_foot = toe, .scale = {-1, 1, 1}};
-    const Body in_place = {
-        .shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, 0}, .on_foot = toe, .scale = {-1, 1, 1}};
-    CHECK(doubt_of(exchanged).empty());
-    CHECK(doubt_of(in_place).empty());
+    for (const double ahead : {0.0, 0.1}) {  // in a T-pose, and swung from there out of its own side
+        const Body exchanged = {.left_bone = {0.3, 0, ahead}, .on_foot = toe, .scale = {-1, 1, 1}};
+        const Body in_place = {
+            .shoulders = -0.2, .hips = -0.1, .left_bone = {-0.3, 0, ahead}, .on_foot = toe, .scale = {-1, 1, 1}};
+        CHECK(doubt_of(exchanged).empty());
+        CHECK(doubt_of(in_place).empty());
+    }
 }
 
 TEST_CASE("rig front: the file's own axes are taken where nothing speaks against them")
