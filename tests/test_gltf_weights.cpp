@@ -34,7 +34,7 @@ struct WeightedRig {
         int parent = rig.add("root", -1, {0, 0, 0});
         const int root = parent;
         for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand", "a", "b", "c", "d"})
-            parent = rig.add(name, parent, {0.3, 0.01 * static_cast<double>(std::strlen(name)), 0});
+            parent = rig.add(name, parent, {0.3, 0, -0.01 * static_cast<double>(std::strlen(name))});
         rig.json["skins"] = {{{"joints", {0, 1, 2, 3, 4, 5, 6, 7}}}};
         rig.json["meshes"] = {{{"primitives", json::array()}}};
         const int body = rig.add("body", -1, {0, 0, 0});
@@ -342,13 +342,15 @@ TEST_CASE("gltf weights: a broken mesh is read or refused, never worse")
     made.rig.write(folder / "good.glb");
     const std::string good = slurp(folder / "good.glb");
     std::mt19937 random(5);
-    int read = 0, mended = 0;
+    const std::size_t all = mended_vertex_count(read_gltf(folder / "good.glb"));
+    int read = 0, mended = 0, others = 0;
     for (int round = 0; round < 1000; ++round) {
         spill(folder / "bad.glb", mutated(good, random));
         try {
             const GltfFile file = read_gltf(folder / "bad.glb");
             ++read;
             mended += mended_vertex_count(file) > 0;
+            others += mended_vertex_count(file) != all;
             write_gltf(folder / "new.glb", file, {});
             CHECK(mended_vertex_count(read_gltf(folder / "new.glb")) == 0);
         } catch (const InputError& error) {
@@ -356,7 +358,7 @@ TEST_CASE("gltf weights: a broken mesh is read or refused, never worse")
         }
     }
     CHECK(mended > 50);
-    CHECK(read > mended);
+    CHECK(others > 0);  // the mutations reach the weights
     CHECK(read < 1000);
 }
 
