@@ -234,7 +234,7 @@ swivel_status swivel_solve(swivel_crowd* crowd)
     swivel_status status = SWIVEL_OK;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
-    solve_all(*crowd, *isa->kernels);
+    solve_all(*crowd, isa->kernels);
     return SWIVEL_OK;
 }
 
@@ -244,7 +244,7 @@ swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uin
     if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
-    solve_blocks(*crowd, *isa->kernels, first_block, block_count);
+    solve_blocks(*crowd, isa->kernels, first_block, block_count);
     return SWIVEL_OK;
 }
 
@@ -255,7 +255,7 @@ swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames
     if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
-    solve_frame_all(*crowd, *isa->kernels, frames);
+    solve_frame_all(*crowd, isa->kernels, frames);
     return SWIVEL_OK;
 }
 
@@ -267,7 +267,7 @@ swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame*
     if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
-    solve_frame_blocks(*crowd, *isa->kernels, frames, first_block, block_count);
+    solve_frame_blocks(*crowd, isa->kernels, frames, first_block, block_count);
     return SWIVEL_OK;
 }
 

@@ -66,7 +66,7 @@ swivel_status swivel_solve_active(swivel_crowd* crowd, const uint32_t* active_wo
     if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
-    solve_chosen_all(*crowd, *isa->kernels, active_words);
+    solve_chosen_all(*crowd, isa->kernels, active_words);
     return SWIVEL_OK;
 }
 
@@ -78,7 +78,7 @@ swivel_status swivel_solve_active_blocks(swivel_crowd* crowd, const uint32_t* ac
     if (status != SWIVEL_OK) return status;
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
-    solve_chosen_blocks(*crowd, *isa->kernels, active_words, first_block, block_count);
+    solve_chosen_blocks(*crowd, isa->kernels, active_words, first_block, block_count);
     return SWIVEL_OK;
 }
 
@@ -98,7 +98,7 @@ swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* limbs, uint
         }
         crowd->chosen[limbs[n] / 32] |= 1u << limbs[n] % 32;
     }
-    if (limb_count > 0) solve_chosen_all(*crowd, *isa->kernels, crowd->chosen);
+    if (limb_count > 0) solve_chosen_all(*crowd, isa->kernels, crowd->chosen);
     clear(crowd->chosen, limbs, limb_count);
     return SWIVEL_OK;
 }
@@ -122,7 +122,7 @@ swivel_status swivel_solve_budget(swivel_crowd* crowd, const swivel_in* prioriti
     const Isa* isa = usable_isa(status);
     if (!isa) return status;
     const uint32_t picked = choose(*crowd, priorities, most_blocks, crowd->chosen);
-    if (picked > 0) solve_chosen_all(*crowd, *isa->kernels, crowd->chosen);
+    if (picked > 0) solve_chosen_all(*crowd, isa->kernels, crowd->chosen);
     std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
     if (solved_count) *solved_count = picked;
     return SWIVEL_OK;

@@ -45,7 +45,7 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
     if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
-    *arc_count = allowed_arcs(*crowd, *find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
+    *arc_count = allowed_arcs(*crowd, find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
     return SWIVEL_OK;
 }
 

@@ -60,16 +60,16 @@ void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Grou
 void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
                 float* results, std::uint32_t block_count, bool prefetch)
 {
-    if (crowd.features & kLimbFeatures) return kernels.solve_limbs(limb_run(crowd, group, input, results, block_count));
+    if (crowd.features & kLimbFeatures) return kernels.limbs.solve(limb_run(crowd, group, input, results, block_count));
     const float pole_is_point = crowd.features & SWIVEL_POLE_DIRECTION ? 0.0f : 1.0f;
-    kernels.solve[crowd.features & kFormulaFeatures](
+    kernels.arms.solve[crowd.features & kFormulaFeatures](
         {input, results, block_count, pole_is_point, &group.binding, prefetch});
 }
 
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
                std::uint32_t block_count, bool prefetch)
 {
-    kernels.pack[(crowd.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS](
+    kernels.arms.pack[(crowd.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS](
         {results, words, block_count, prefetch});
 }
 
@@ -91,7 +91,7 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
     // The normal of the last solve counts; compact crowds have none.
     float* const results = crowd.words ? nullptr : crowd.results + row_offset(first, crowd.result_row_count, 0);
     const float* const input = crowd.input + row_offset(first, crowd.input_row_count, 0);
-    return scalar.allowed_arcs(limb_run(crowd, group, input, results, group.block_count), limb, arcs, capacity);
+    return scalar.limbs.allowed_arcs(limb_run(crowd, group, input, results, group.block_count), limb, arcs, capacity);
 }
 
 void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,

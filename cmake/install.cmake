@@ -11,9 +11,9 @@ install(TARGETS swivel EXPORT swivelTargets)
 if(SWIVEL_TOOLS)
   if(BUILD_SHARED_LIBS)  # the command finds the library beside itself
     file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-    set_target_properties(swivel_command PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
+    set_target_properties(swivel_command swivel_race PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
   endif()
-  install(TARGETS swivel_command)
+  install(TARGETS swivel_command swivel_race)
 endif()
 
 # ---- find_package(swivel)

@@ -7,21 +7,26 @@
 
 namespace swivel {
 
-// One table for each build of kernels.cpp, each in the namespace of its instruction set.
+// Two tables for each instruction set, in its namespace.
 inline namespace scalar {
-extern const Kernels kernels;
+extern const ArmKernels arm_kernels;
+extern const LimbKernels limb_kernels;
 }
 inline namespace sse2 {
-extern const Kernels kernels;
+extern const ArmKernels arm_kernels;
+extern const LimbKernels limb_kernels;
 }
 inline namespace avx2 {
-extern const Kernels kernels;
+extern const ArmKernels arm_kernels;
+extern const LimbKernels limb_kernels;
 }
 inline namespace avx512 {
-extern const Kernels kernels;
+extern const ArmKernels arm_kernels;
+extern const LimbKernels limb_kernels;
 }
 inline namespace neon64 {
-extern const Kernels kernels;
+extern const ArmKernels arm_kernels;
+extern const LimbKernels limb_kernels;
 }
 
 namespace {
@@ -36,18 +41,18 @@ const Isa isas[] = {
                 __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                 __builtin_cpu_supports("avx512vl");
      },
-     &avx512::kernels},
+     {avx512::arm_kernels, avx512::limb_kernels}},
 #endif
 #ifdef SWIVEL_HAS_avx2
-    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, &avx2::kernels},
+    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, {avx2::arm_kernels, avx2::limb_kernels}},
 #endif
 #ifdef SWIVEL_HAS_sse2
-    {"sse2", always, &sse2::kernels},
+    {"sse2", always, {sse2::arm_kernels, sse2::limb_kernels}},
 #endif
 #ifdef SWIVEL_HAS_neon64
-    {"neon64", always, &neon64::kernels},
+    {"neon64", always, {neon64::arm_kernels, neon64::limb_kernels}},
 #endif
-    {"scalar", always, &scalar::kernels},
+    {"scalar", always, {scalar::arm_kernels, scalar::limb_kernels}},
 };
 
 std::atomic<const Isa*> chosen{nullptr};

@@ -10,7 +10,7 @@ namespace swivel {
 struct Isa {
     const char* name;
     bool (*can_run)();
-    const Kernels* kernels;
+    Kernels kernels;
 };
 
 // The built-in instruction sets, best first; null past the last.

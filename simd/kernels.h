@@ -39,14 +39,24 @@ struct PackRun {
     bool prefetch;  // words go to memory: call for those of later blocks
 };
 
-struct Kernels {
+// Of plain arms: simd/arm_kernels.cpp.
+struct ArmKernels {
     // By the features that change the formula: SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND.
     void (*solve[8])(const SolveRun& run);
-    void (*solve_limbs)(const LimbRun& run);
-    // Of one limb of a run: stores up to capacity arcs, returns how many there are. In the scalar build alone.
-    std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, swivel_arc* arcs, std::uint32_t capacity);
     // By the features that change the result rows: (SWIVEL_JOINTS | SWIVEL_WITH_HAND) / SWIVEL_JOINTS.
     void (*pack[4])(const PackRun& run);
+};
+
+// Of whole limbs: simd/limb_kernels.cpp.
+struct LimbKernels {
+    void (*solve)(const LimbRun& run);
+    // Of one limb of a run: stores up to capacity arcs, returns how many there are. In the scalar build alone.
+    std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, swivel_arc* arcs, std::uint32_t capacity);
+};
+
+struct Kernels {
+    const ArmKernels& arms;
+    const LimbKernels& limbs;
 };
 
 }  // namespace swivel

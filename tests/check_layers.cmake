@@ -2,6 +2,7 @@
 #
 # The promise: files include what their layer may include and no more, and use only the operations that give the same bits
 # everywhere. One rule a line: rule(folder, what the path must match, the rest of the arrow).
+cmake_minimum_required(VERSION 3.22)
 set(rule_count 0)
 
 # Fills `files` with the C and C++ files of a folder, relative to SOURCE.
@@ -61,6 +62,23 @@ function(must_not_say folder word except reason)
   set(rule_count ${count} PARENT_SCOPE)
 endfunction()
 
+# Every .cpp beside a header of its name includes that first, so that the header is seen to need nothing else.
+function(own_header_first folder)
+  list_files(${folder})
+  foreach(file IN LISTS files)
+    string(REGEX REPLACE "[.]cpp$" ".h" header "${file}")
+    if(file MATCHES "[.]cpp$" AND header IN_LIST files)
+      read_code(${file})
+      string(REGEX MATCH "#[ \t]*include[ \t]*([^\n]*)" first "${code}")
+      if(NOT CMAKE_MATCH_1 STREQUAL "\"${header}\"")
+        message(SEND_ERROR "${file} includes ${CMAKE_MATCH_1} before \"${header}\", its own header")
+      endif()
+    endif()
+  endforeach()
+  math(EXPR count "${rule_count} + 1")
+  set(rule_count ${count} PARENT_SCOPE)
+endfunction()
+
 set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
 
@@ -72,9 +90,10 @@ may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
 
-# ---- simd: kernels.cpp and its pack.h see formulas and lanes, the rest sees neither
+# ---- simd: the two files of kernels and their headers see formulas and lanes, the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|limb_run|pack|rows)[.]h\"")
+may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|pack|rows)[.]h\"")
+may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"simd/(kernels|lanes|limb_run)[.]h\"")
 may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/limb_step[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
@@ -113,6 +132,10 @@ must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmar
 # ---- examples see what an installed swivel has; replay reads files, too
 may_include(examples "examples/replay[.]cpp$" "${standard}|<swivel/swivel[.]hpp>|\"tools/formats/(bvh|clip)[.]h\"")
 may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms)[.]c" "${standard}|<stdio[.]h>|<swivel/swivel[.]h(pp)?>")
+
+foreach(folder core simd batch bench tests tools)
+  own_header_first(${folder})
+endforeach()
 
 foreach(folder core simd batch)
   # ---- names at home in one file

@@ -1,24 +1,25 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: the linker cannot hand one instruction set's code to another. Each object of simd/kernels.cpp defines one strong
-# symbol, its table, and every function that other objects might define, too, carries the instruction set in its name.
-#   NM: the tool; OBJECTS, ISAS: comma-separated, in the same order; DEBUG: 1 for a build without optimisation
-string(REPLACE "," ";" objects "${OBJECTS}")
-string(REPLACE "," ";" isas "${ISAS}")
-list(LENGTH objects object_count)
-list(LENGTH isas isa_count)
-if(NOT object_count EQUAL isa_count OR isa_count EQUAL 0)
-  message(FATAL_ERROR "${isa_count} instruction sets, but ${object_count} objects: ${OBJECTS}")
+# The promise: the linker cannot hand one instruction set's code to another. The two objects of an instruction set's kernels define
+# one strong symbol each, their tables, and every function that other objects might define, too, carries the instruction set in its
+# name.
+#   NM: the tool; OBJECTS: name=object+object,...; DEBUG: 1 for a build without optimisation
+string(REPLACE "," ";" isas "${OBJECTS}")
+if(NOT isas)
+  message(FATAL_ERROR "OBJECTS is empty")
 endif()
 
-foreach(isa object IN ZIP_LISTS isas objects)
-  execute_process(COMMAND ${NM} --defined-only ${object} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+foreach(entry IN LISTS isas)
+  string(REGEX REPLACE "=.*" "" isa "${entry}")
+  string(REGEX REPLACE "^[^=]*=" "" objects "${entry}")
+  string(REPLACE "+" ";" objects "${objects}")
+  execute_process(COMMAND ${NM} --defined-only ${objects} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${NM} ${object} failed: ${errors}")
+    message(FATAL_ERROR "${NM} ${objects} failed: ${errors}")
   endif()
   string(REGEX MATCHALL "[0-9a-f]+ [A-Zu] [^\n]+" symbols "${output}")
   string(LENGTH ${isa} length)
-  set(table "_ZN6swivel${length}${isa}7kernelsE")
+  set(table "_ZN6swivel${length}${isa}1[12](arm|limb)_kernelsE")
   set(table_count 0)
   set(shared_count 0)
   foreach(symbol IN LISTS symbols)
@@ -26,10 +27,10 @@ foreach(isa object IN ZIP_LISTS isas objects)
     list(GET parts 0 kind)
     list(GET parts 1 name)
     if(NOT kind MATCHES "[WVu]")
-      if(name STREQUAL table)
+      if(name MATCHES "^${table}$")
         math(EXPR table_count "${table_count} + 1")
       else()
-        message(SEND_ERROR "${isa}: a strong symbol besides the table: ${name}")
+        message(SEND_ERROR "${isa}: a strong symbol besides the tables: ${name}")
       endif()
     # The namespace of the instruction set, or xsimd's architecture of that name, as a part of the mangled name.
     elseif(NOT name MATCHES "[0-9]${isa}|simd_${isa}" AND NOT "${isa} ${name}" MATCHES "^avx2 .*3avxE")
@@ -41,8 +42,8 @@ foreach(isa object IN ZIP_LISTS isas objects)
       math(EXPR shared_count "${shared_count} + 1")
     endif()
   endforeach()
-  if(NOT table_count EQUAL 1)
-    message(SEND_ERROR "${isa}: ${table_count} tables named ${table} instead of one in ${object}")
+  if(NOT table_count EQUAL 2)
+    message(SEND_ERROR "${isa}: ${table_count} tables ${table} instead of two in ${objects}")
   endif()
-  message(STATUS "${isa}: its table and ${shared_count} functions of its own name")
+  message(STATUS "${isa}: its tables and ${shared_count} functions of its own name")
 endforeach()

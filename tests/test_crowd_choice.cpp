@@ -2,7 +2,7 @@
 //
 // The promise: limbs that are chosen, by bits or by a list, get the bits that solving all would give them; all others
 // keep theirs; blocks without one are not touched, nothing allocates, and wrong choices change nothing.
-#include "tests/count_allocations.h"
+#include "tests/allocation_count.h"
 #include "tests/test_choice.h"
 #include "tests/test_isa_scope.h"
 

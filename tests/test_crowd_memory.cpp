@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: memory is taken once, from whom it was told to, and nothing allocates afterwards.
-#include "tests/count_allocations.h"
+#include "tests/allocation_count.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 

@@ -88,7 +88,7 @@ Multivector exponential(const Multivector& A)
 
 }  // namespace
 
-TEST_CASE("the basis has the metric of G(4,1)", "[dense]")
+TEST_CASE("the dense basis has the metric of G(4,1)", "[dense]")
 {
     for (const Multivector& e : {e1, e2, e3, eplus}) CHECK(distance(e * e, 1) == 0);
     CHECK(distance(eminus * eminus, -1) == 0);

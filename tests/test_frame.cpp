@@ -2,7 +2,7 @@
 //
 // The promise: a whole frame through the caller's arrays gives the bits of writing, solving and reading, for any stride
 // and alignment, touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
-#include "tests/count_allocations.h"
+#include "tests/allocation_count.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"

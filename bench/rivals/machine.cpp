@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bench/rivals/arms.h"
+#include "bench/rivals/cpu_model.h"
 #include "bench/rivals/limbs.h"
 #include "bench/rivals/probe.h"
 #include "bench/rivals/timing.h"
@@ -56,15 +57,6 @@ std::size_t cache_bytes(int level)
 std::array<std::size_t, 3> all_cache_bytes() { return {cache_bytes(1), cache_bytes(2), cache_bytes(3)}; }
 
 }  // namespace
-
-std::string cpu_model()
-{
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name"))
-            if (const std::size_t colon = line.find(':'); colon + 2 < line.size()) return line.substr(colon + 2);
-    return "unknown";
-}
 
 std::string library_build() { return SWIVEL_BUILD_TEXT; }
 

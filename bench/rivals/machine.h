@@ -32,7 +32,6 @@ struct Machine {
     double streamed_bytes_per_ns;
 };
 
-std::string cpu_model();
 // Compiler and flags of the library.
 std::string library_build();
 // Bytes to work on that are at home in a level: half of a cache; in memory four times the largest, within 256 MB to 1

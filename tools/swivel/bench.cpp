@@ -1,141 +1,29 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel bench`: how fast this machine solves, beside textbook rivals in the same run, and how far that is from what
-// the machine can do. The short version of bench/.
+// `swivel bench`: becomes swivel-race, the program beside it (tools/race/).
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <memory>
-#include <nlohmann/json.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <string>
 
-#include "bench/rivals/level.h"
+#include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/common_options.h"
-#include "tools/swivel/interrupt.h"
-#include "tools/swivel/measure.h"
-#include "tools/swivel/report.h"
-#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-struct Options {
-    double seconds = 8;
-    bool json = false;
-};
-
-Json json_of(const bench::Machine& machine)
+void run_bench(const BenchOptions& options)
 {
-    Json out{{"cpu", machine.cpu}, {"streamed_bytes_per_ns", machine.streamed_bytes_per_ns}};
-    for (std::size_t level = 0; level < bench::kMemoryLevels.size(); ++level)
-        out["copy_bytes_per_ns"][bench::kMemoryLevels[level]] = machine.copy_bytes_per_ns[level];
-    for (const bench::IsaLimits& limits : machine.isas)
-        out["limits"][limits.isa] = {{"lanes", limits.lanes},
-                                     {"flops_per_ns", limits.flops_per_ns},
-                                     {"division_ns", limits.division_ns},
-                                     {"root_ns", limits.root_ns},
-                                     {"divide_root_ns", limits.divide_root_ns}};
-    return out;
-}
-
-Json json_of(const Measured& measured)
-{
-    Json out{{"isa", measured.isa}, {"library_build", bench::library_build()}, {"machine", json_of(measured.machine)}};
-    for (const bench::Level* level : bench::runnable_levels()) out["rivals_build"][level->name] = level->flags;
-    for (const Pair& pair : measured.pairs)
-        out["pairs"].push_back({{"work", pair.work},
-                                {"isa", pair.isa},
-                                {"own", pair.own},
-                                {"own_ns", pair.own_ns},
-                                {"other", pair.other},
-                                {"other_ns", pair.other_ns},
-                                {"note", pair.note},
-                                {"ratio", pair.other_ns / pair.own_ns}});
-    const bench::OpCounts& ops = measured.ops;
-    out["ops"] = {{"roots", ops.roots},         {"divisions", ops.divisions},
-                  {"additions", ops.additions}, {"multiplications", ops.multiplications},
-                  {"selects", ops.selects},     {"comparisons", ops.comparisons}};
-    for (const Bound& bound : measured.bounds)
-        out["bounds"].push_back({{"isa", bound.isa},
-                                 {"divider_ns", bound.bound.divider_ns},
-                                 {"arithmetic_ns", bound.bound.arithmetic_ns},
-                                 {"bound_ns", bound.bound.ns()},
-                                 {"measured_ns", bound.measured_ns}});
-    out["row_bytes"] = measured.row_bytes;
-    out["memory_ns"] = measured.memory_ns;
-    return out;
-}
-
-void print_pairs(const Measured& measured)
-{
-    fmt::print("\nNanoseconds an arm: medians, in turns, one thread unless said. Ratio: the other by swivel.\n");
-    fmt::print("{:<16}{:<8}{:>8}  {:<24}{:>8}{:>8}  {}\n", "work", "isa", "swivel", "other", "", "ratio", "");
-    for (const Pair& pair : measured.pairs)
-        fmt::print("{:<16}{:<8}{:>8.2f}  {:<24}{:>8.2f}{:>8.2f}  {}\n", pair.work, pair.isa, pair.own_ns, pair.other,
-                   pair.other_ns, pair.other_ns / pair.own_ns, pair.note);
-}
-
-void print_bounds(const Measured& measured)
-{
-    const bench::OpCounts& ops = measured.ops;
-    fmt::print(
-        "\nAn ordinary arm of P takes {} roots, {} divisions, {} multiplications, {} additions, {} comparisons, {} "
-        "selects and signs.\nThe ports of this CPU need for them, nanoseconds an arm:\n",
-        ops.roots, ops.divisions, ops.multiplications, ops.additions, ops.comparisons, ops.selects);
-    fmt::print("{:<8}{:>10}{:>12}{:>10}{:>12}\n", "isa", "divider", "arithmetic", "swivel", "by bound");
-    for (const Bound& bound : measured.bounds)
-        fmt::print("{:<8}{:>10.2f}{:>12.2f}{:>10.2f}{:>12.2f}\n", bound.isa, bound.bound.divider_ns,
-                   bound.bound.arithmetic_ns, bound.measured_ns, bound.measured_ns / bound.bound.ns());
-}
-
-void print_roofline(const Measured& measured)
-{
-    const auto bytes = static_cast<double>(measured.row_bytes);
-    const double flops = measured.ops.flops();
-    fmt::print("\nRoofline: P does {:.2f} operations a byte; peak without fused ones, and P in cache, GFLOP/s:",
-               flops / bytes);
-    for (const Bound& bound : measured.bounds)
-        fmt::print(" {} {:.0f} {:.0f}{}", bound.isa, limits_of(measured.machine, bound.isa).flops_per_ns,
-                   flops / bound.measured_ns, &bound == &measured.bounds.back() ? "" : ",");
-    fmt::print("\nCopies, GB/s:");
-    for (std::size_t level = 0; level < bench::kMemoryLevels.size(); ++level)
-        fmt::print(" {} {:.0f},", bench::kMemoryLevels[level], measured.machine.copy_bytes_per_ns[level]);
-    fmt::print(" past the caches {:.0f}; P out of cache {:.0f}\n", measured.machine.streamed_bytes_per_ns,
-               bytes / measured.memory_ns);
-}
-
-void run(const Options& options)
-{
-    note_interrupts();
-    const Measured measured = measure(options.seconds);
-    if (options.json) {
-        print_json(json_of(measured));
-        return;
-    }
-    fmt::print("cpu      {}\nlibrary  {}\n", measured.machine.cpu, bench::library_build());
-    for (const bench::Level* level : bench::runnable_levels())
-        fmt::print("rivals   {}: {}\n", level->name, level->flags);
-    print_pairs(measured);
-    print_bounds(measured);
-    print_roofline(measured);
-}
-
-}  // namespace
-
-void add_bench(CLI::App& app)
-{
-    CLI::App* command =
-        app.add_subcommand("bench", "Time solves on this machine beside rivals, copies and the machine's limits");
-    auto options = std::make_shared<Options>();
-    command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed")
-        ->capture_default_str()
-        ->check(number(0.1, 3600));
-    add_json(*command, options->json);
-    command->footer(
-        "Takes about two seconds more, and some 500 MB. For figures to keep, leave the machine alone meanwhile.");
-    command->callback([options] { run(*options); });
+    const std::filesystem::path race = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "swivel-race";
+    const std::string seconds = fmt::format("{}", options.seconds);
+    execl(race.c_str(), "swivel-race", seconds.c_str(), options.json ? "--json" : nullptr, nullptr);
+    if (errno == ENOENT)
+        throw CommandError(
+            1,
+            fmt::format("bench: {} is missing; build it with cmake --build BUILD --target swivel_race", race.string()));
+    throw CommandError(1, fmt::format("bench: {} does not start: {}", race.string(), std::strerror(errno)));
 }
 
 }  // namespace swivel::tools

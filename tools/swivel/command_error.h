@@ -14,4 +14,7 @@ struct CommandError : std::runtime_error {
     int exit_code;
 };
 
+// Prints a failure as one line on stderr and returns its exit code.
+int fail(int code, std::string line);
+
 }  // namespace swivel::tools

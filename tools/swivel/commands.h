@@ -1,18 +1,62 @@
 // SPDX-License-Identifier: MIT
 //
-// The subcommands: each adds itself to the command line, with what to run when it is chosen. They report failure by
-// throwing CommandError, formats::InputError or swivel::Error; main.cpp turns these into one line and an exit code.
+// The subcommands: what each may be asked for, and what runs it. They report failure by throwing CommandError,
+// formats::InputError or swivel::Error; run_swivel() turns these into one line and an exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/swivel/motion_choice.h"
 
 namespace swivel::tools {
 
-void add_demo(CLI::App& app);
-void add_solve(CLI::App& app);
-void add_rig(CLI::App& app);
-void add_verify(CLI::App& app);
-void add_bench(CLI::App& app);
-void add_info(CLI::App& app);
+struct DemoOptions {
+    std::uint32_t characters = 10'000, frames = 240;
+    std::uint64_t seed = 1;
+    unsigned threads = 0;
+    bool json = false;
+};
+void run_demo(const DemoOptions& options);
+
+struct SolveOptions {
+    std::string clip, crowd, out;
+    MotionChoice motion;
+    std::vector<std::string> arms, legs;
+    std::string kinds;
+    std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
+    std::optional<std::uint32_t> characters;
+    std::optional<std::uint64_t> seed;
+    unsigned threads = 0;
+    bool json = false;
+};
+void run_solve(const SolveOptions& options);
+
+struct RigOptions {
+    std::string file, kinds = "all";
+    MotionChoice motion;
+    std::vector<std::string> arms, legs;
+    bool joints = false, json = false;
+};
+void run_rig(const RigOptions& options);
+
+struct VerifyOptions {
+    std::uint64_t arms = 1'000'000, seed = 1;
+    bool json = false;
+};
+void run_verify(const VerifyOptions& options);
+
+struct BenchOptions {
+    double seconds = 8;
+    bool json = false;
+};
+void run_bench(const BenchOptions& options);
+
+struct InfoOptions {
+    bool json = false;
+};
+void run_info(const InfoOptions& options);
 
 }  // namespace swivel::tools

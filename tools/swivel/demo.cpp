@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <vector>
@@ -14,23 +13,14 @@
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/common_options.h"
 #include "tools/swivel/interrupt.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
 namespace {
-
-struct Options {
-    std::uint32_t characters = 10'000, frames = 240;
-    std::uint64_t seed = 1;
-    unsigned threads = 0;
-    bool json = false;
-};
 
 // One arm: metres, y up, the character facing +z before it is turned.
 struct Limb {
@@ -79,7 +69,7 @@ void move(Limb& limb, float side, std::uint32_t frame)
 
 class DemoCrowd {
 public:
-    explicit DemoCrowd(const Options& options)
+    explicit DemoCrowd(const DemoOptions& options)
         : limbs_{std::vector<Limb>(options.characters), std::vector<Limb>(options.characters)},
           residuals_(options.characters),
           flags_(options.characters),
@@ -145,7 +135,9 @@ private:
     Crowd crowd_;
 };
 
-void run(const Options& options)
+}  // namespace
+
+void run_demo(const DemoOptions& options)
 {
     note_interrupts();
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
@@ -171,22 +163,6 @@ void run(const Options& options)
     fmt::print("demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters,
                2 * options.characters, options.frames);
     print_statistics(statistics);
-}
-
-}  // namespace
-
-void add_demo(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("demo", "Solve a made-up crowd and report throughput, errors and flags");
-    auto options = std::make_shared<Options>();
-    add_characters(*command, options->characters, "Characters, two arms each")->capture_default_str();
-    command->add_option("--frames", options->frames, "Frames")
-        ->capture_default_str()
-        ->check(whole_number(1, 1'000'000));
-    add_seed(*command, options->seed, "the characters' differences");
-    add_threads(*command, options->threads);
-    add_json(*command, options->json);
-    command->callback([options] { run(*options); });
 }
 
 }  // namespace swivel::tools

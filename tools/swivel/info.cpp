@@ -3,17 +3,15 @@
 // `swivel info`: what this machine is and what the library was built with.
 #include <fmt/format.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
-#include "bench/rivals/machine.h"
+#include "bench/rivals/cpu_model.h"
 #include "swivel/swivel.hpp"
 #include "tools/formats/scene_import.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/common_options.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {
@@ -45,10 +43,12 @@ nlohmann::ordered_json describe()
     return out;
 }
 
-void print_info(bool as_json)
+}  // namespace
+
+void run_info(const InfoOptions& options)
 {
     const nlohmann::ordered_json info = describe();
-    if (as_json) {
+    if (options.json) {
         print_json(info);
         return;
     }
@@ -57,16 +57,6 @@ void print_info(bool as_json)
             fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     for (const auto& [name, state] : info["built"].items())
         fmt::print("{:<12} {}, {}\n", "built for", name, state.get<std::string>());
-}
-
-}  // namespace
-
-void add_info(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("info", "CPU, instruction set in use, version, build");
-    auto as_json = std::make_shared<bool>(false);
-    add_json(*command, *as_json);
-    command->callback([as_json] { print_info(*as_json); });
 }
 
 }  // namespace swivel::tools

@@ -10,13 +10,9 @@
 
 #include "tools/formats/bvh.h"
 #include "tools/formats/gltf.h"
+#include "tools/swivel/motion_choice.h"
 
 namespace swivel::tools {
-
-struct MotionChoice {
-    std::string clip;  // name or index of an animation; empty: the first
-    double rate = 0;   // frames a second; 0: as the file has them
-};
 
 class MotionFile {
 public:

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -20,7 +19,6 @@
 #include "tools/formats/text.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/common_options.h"
 #include "tools/swivel/crowd_checks.h"
 #include "tools/swivel/given_targets.h"
 #include "tools/swivel/interrupt.h"
@@ -29,23 +27,10 @@
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_report.h"
-#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
 namespace {
-
-struct Options {
-    std::string clip, crowd, out;
-    MotionChoice motion;
-    std::vector<std::string> arms, legs;
-    std::string kinds;
-    std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
-    std::optional<std::uint32_t> characters;
-    std::optional<std::uint64_t> seed;
-    unsigned threads = 0;
-    bool json = false;
-};
 
 // What the options and the crowd file come to.
 struct Job {
@@ -59,7 +44,7 @@ struct Job {
 
 enum class OutKind { none, motion, csv };
 
-OutKind out_kind(const Options& options, std::uint32_t characters)
+OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
 {
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = formats::lower_suffix(options.out);
@@ -77,7 +62,7 @@ OutKind out_kind(const Options& options, std::uint32_t characters)
 }
 
 // What is read would be lost.
-void require_other_file(const Options& options, const Job& job)
+void require_other_file(const SolveOptions& options, const Job& job)
 {
     const auto check = [&](const std::string& input, const char* what) {
         std::error_code ignored;
@@ -90,7 +75,7 @@ void require_other_file(const Options& options, const Job& job)
     if (job.crowd) check(options.crowd, "the crowd file");
 }
 
-Statistics solve_clip(const Options& options, const MotionFile& file, const Job& job)
+Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const Job& job)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
@@ -131,7 +116,7 @@ void require_named_limbs_solved(const LimbChoice& choice)
                            fmt::format("--leg names a leg, but {} solves none; use --limbs all", kinds_words(choice)));
 }
 
-LimbChoice choice_of(const Options& options)
+LimbChoice choice_of(const SolveOptions& options)
 {
     LimbChoice choice;
     choice.kinds = options.kinds;
@@ -143,7 +128,7 @@ LimbChoice choice_of(const Options& options)
 }
 
 // The command line before the crowd file before what is so without both.
-Job make_job(const Options& options, LimbChoice choice, const formats::Clip& clip)
+Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip& clip)
 {
     Job job;
     if (!options.crowd.empty()) {
@@ -162,7 +147,9 @@ Job make_job(const Options& options, LimbChoice choice, const formats::Clip& cli
     return job;
 }
 
-void run(const Options& options)
+}  // namespace
+
+void run_solve(const SolveOptions& options)
 {
     note_interrupts();
     const auto before = std::chrono::steady_clock::now();
@@ -198,55 +185,6 @@ void run(const Options& options)
             "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
             mended, mended == 1 ? "vertex" : "vertices");
     if (!options.out.empty()) fmt::print("written  {}\n", options.out);
-}
-
-}  // namespace
-
-void add_solve(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand(
-        "solve", "Solve the arms and legs of a BVH, glTF, FBX or DAE clip, or of a crowd that performs it");
-    auto options = std::make_shared<Options>();
-    command
-        ->add_option(
-            "clip", options->clip,
-            "Motion file: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel info)")
-        ->required()
-        ->check(file_name());
-    add_motion(*command, options->motion, "a file without animations is solved in its rest pose");
-    command
-        ->add_option("--targets", options->targets,
-                     "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
-                     "motion, or a CSV "
-                     "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
-                     "world; limb is "
-                     "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip")
-        ->default_str("clip");
-    command
-        ->add_option(
-            "--crowd", options->crowd,
-            "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, reach, limits, "
-            "budget; docs/crowd_file.md has every key. Options given here go before it")
-        ->check(file_name());
-    command
-        ->add_option("--out", options->out,
-                     "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
-                     "else of the asset is kept), of an FBX or DAE clip .glb and .gltf, or .csv; without it "
-                     "statistics only")
-        ->check(file_name());
-    command
-        ->add_option("--limbs", options->kinds,
-                     "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
-                     "without it those named alone, or else the arms")
-        ->check(CLI::IsMember({"arms", "legs", "all"}));
-    add_named_limbs(*command, options->arms, options->legs, "the side that is not named is looked for with --limbs");
-    add_characters(*command, options->characters,
-                   "Characters, differing in arm lengths, place and start; the first is the clip's own")
-        ->default_str("1");
-    add_seed(*command, options->seed, "the characters' differences");
-    add_threads(*command, options->threads);
-    add_json(*command, options->json);
-    command->callback([options] { run(*options); });
 }
 
 }  // namespace swivel::tools

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -13,21 +12,14 @@
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/common_options.h"
 #include "tools/swivel/golden_crowd.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/validators.h"
 
 namespace swivel::tools {
 
 namespace {
-
-struct Options {
-    std::uint64_t arms = 1'000'000, seed = 1;
-    bool json = false;
-};
 
 struct Digest {
     std::string isa, how;
@@ -104,7 +96,9 @@ void append_check(const swivel_check* c, void* list)
                                                            {"passed", is_within(*c)}});
 }
 
-void run(const Options& options)
+}  // namespace
+
+void run_verify(const VerifyOptions& options)
 {
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     nlohmann::ordered_json checks = nlohmann::ordered_json::array();
@@ -132,21 +126,6 @@ void run(const Options& options)
     if (!equal)
         throw CommandError(
             1, "verify: instruction sets or chunks gave different bits; the lines marked DIFFERS say which");
-}
-
-}  // namespace
-
-void add_verify(CLI::App& app)
-{
-    CLI::App* command =
-        app.add_subcommand("verify", "Check oracle, double, float and every instruction set against each other");
-    auto options = std::make_shared<Options>();
-    command->add_option("--arms", options->arms, "Random arms in each reach band")
-        ->capture_default_str()
-        ->check(whole_number(1, 1'000'000'000));
-    add_seed(*command, options->seed, "the random arms");
-    add_json(*command, options->json);
-    command->callback([options] { run(*options); });
 }
 
 }  // namespace swivel::tools

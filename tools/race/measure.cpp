@@ -3,7 +3,7 @@
 // Problem P: targets, poles and bone lengths in; shoulder rotations, half flexions and flags out, arms in their own
 // frame. Resident: world targets and parent frames in, local rotations out. Whole frame: the same from and to the pose
 // buffers of 16,384 arms.
-#include "tools/swivel/measure.h"
+#include "tools/race/measure.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include "bench/rivals/contenders.h"
 #include "bench/rivals/probe.h"
 #include "bench/rivals/whole_frame.h"
+#include "tools/race/race.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/parallel.h"
-#include "tools/swivel/race.h"
 
 namespace swivel::tools {
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Counts every allocation of the process it is linked into, operator new's included, whoever asks for it.
-// Include in one file of a test only: it replaces malloc and its relatives, or hooks the sanitizer's.
-#pragma once
+// Replaces malloc and its relatives in the program it is linked into, or hooks the sanitizer's.
+#include "tests/allocation_count.h"
 
 #include <atomic>
 #include <cerrno>
-#include <cstddef>
 #include <cstdlib>
 
 #if defined(__x86_64__)
@@ -20,13 +18,15 @@ extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const
 #endif
 
 namespace swivel::test {
-inline std::atomic<std::size_t> allocations{0};
+namespace {
+std::atomic<std::size_t> allocations{0};
 }
+}  // namespace swivel::test
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
 namespace swivel::test {
-inline std::size_t allocation_count()
+std::size_t allocation_count()
 {
     static const int hooked = __sanitizer_install_malloc_and_free_hooks(
         [](const volatile void*, std::size_t) { ++allocations; }, [](const volatile void*) {});
@@ -38,7 +38,7 @@ inline std::size_t allocation_count()
 #else
 
 namespace swivel::test {
-inline std::size_t allocation_count() { return allocations; }
+std::size_t allocation_count() { return allocations; }
 }  // namespace swivel::test
 
 // glibc's own, under the names it keeps for those who replace malloc. Visible, so that libraries take these, too.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set: loads rows, calls the formulas of core, stores rows. SWIVEL_ARCH is an xsimd
-// architecture or float; SWIVEL_REGISTERS how many registers a step works on side by side.
-#include "simd/kernels.h"
-
+// The kernels of plain arms, compiled once for each instruction set: loads rows, calls the formulas of core, stores
+// rows. SWIVEL_ARCH is an xsimd architecture or float; SWIVEL_REGISTERS how many registers a step works on side by
+// side.
 #include "core/solve_arm.h"
 #include "core/space.h"
+#include "simd/kernels.h"
 #include "simd/lanes.h"
-#include "simd/limb_run.h"
 #include "simd/pack.h"
 #include "simd/rows.h"
 
@@ -66,6 +65,14 @@ struct Shared {
     Binding<T> bind;
     T pole_is_point;
 };
+template <class T>
+SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
+{
+    const swivel_binding& b = *run.binding;
+    return {binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
+                    broadcast<T>(b.shoulder_rest), broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
+            T(run.pole_is_point)};
+}
 
 constexpr bool has(std::uint32_t features, swivel_feature feature) { return features & feature; }
 
@@ -160,8 +167,9 @@ SWIVEL_INLINE Mask<T> solve_plain_step(const Rows<T, Features>& rows, const Shar
 
 // Solves a step of any arms: plain ones to the same bits.
 template <class T, std::uint32_t Features>
-SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Features> rows, const Shared<T>& shared)
+SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Features> rows, const SolveRun& run)
 {
+    const Shared<T> shared = shared_by<T>(run);
     constexpr bool world = has(Features, SWIVEL_WORLD), joints = has(Features, SWIVEL_JOINTS),
                    with_hand = has(Features, SWIVEL_WITH_HAND);
     const SeenGoal<T> seen = seen_goal(rows, shared);
@@ -192,6 +200,17 @@ SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Fe
     store_rest(rows, pose);
 }
 
+// The same for a step of any width, one register after the other: such arms are rare, and one build of that is enough.
+template <class T, std::uint32_t Features>
+SWIVEL_INLINE void solve_any_registers(const Rows<T, Features>& rows, const SolveRun& run)
+{
+    using One = typename KernelNumber<SWIVEL_ARCH, 1>::type;
+    for (std::size_t lane = 0; lane < lane_count<T>; lane += lane_count<One>)
+        solve_any_step(Rows<One, Features>{rows.input + row_offset(lane, input_row_count(Features), 0),
+                                           rows.results + row_offset(lane, result_row_count(Features), 0)},
+                       run);
+}
+
 // Calls for the rows of the block that is solved some blocks after this one: 8 is far enough for memory to answer, and
 // their rows still fit a level 1 cache of 32 KiB. Moves no values: past the run's end, or the crowd's, it is only in
 // vain.
@@ -211,11 +230,7 @@ template <class T, std::uint32_t Features>
 SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block)
 {
     constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > SWIVEL_LANES ? lanes / SWIVEL_LANES : 1;
-    const swivel_binding& b = *run.binding;
-    const Shared<T> shared{
-        binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
-                broadcast<T>(b.shoulder_rest), broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
-        T(run.pole_is_point)};
+    const Shared<T> shared = shared_by<T>(run);
     const std::size_t from = std::size_t{block} * SWIVEL_LANES, step = blocks * SWIVEL_LANES;
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
@@ -227,7 +242,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
         for (std::uint32_t lane = 0; lane < SWIVEL_LANES; lane += lanes) {
             const Rows<T, Features> rows{input + lane, results + lane};
             if (!all(solve_plain_step(rows, shared))) [[unlikely]]
-                solve_any_step(rows, shared);
+                solve_any_registers(rows, run);
         }
         input += row_offset(step, input_row_count(Features), 0);
         results += row_offset(step, result_row_count(Features), 0);
@@ -244,32 +259,13 @@ void solve(const SolveRun& run)
     solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
 }
 
-// For one limb at a time, so one build of it is enough.
-std::uint32_t store_arcs([[maybe_unused]] const LimbRun& run, [[maybe_unused]] std::size_t limb,
-                         [[maybe_unused]] swivel_arc* arcs, [[maybe_unused]] std::uint32_t capacity)
-{
-    if constexpr (std::is_same_v<SWIVEL_ARCH, float>) {
-        const AllowedArcs<float> allowed = allowed_arcs_of(run, limb);
-        const auto count = static_cast<std::uint32_t>(allowed.count);
-        for (std::uint32_t n = 0; n < count && n < capacity; ++n) {
-            const Arc<float>& arc = allowed.arc[n];
-            arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
-        }
-        return count;
-    } else {
-        return 0;
-    }
-}
-
 using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;
 
 }  // namespace
 
-extern const Kernels kernels;
-const Kernels kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>},
-                      solve_limbs<KernelNumber<SWIVEL_ARCH, 1>::type>,
-                      store_arcs,
-                      {pack<PackNumber, 0>, pack<PackNumber, SWIVEL_JOINTS>, pack<PackNumber, SWIVEL_WITH_HAND>,
-                       pack<PackNumber, SWIVEL_JOINTS | SWIVEL_WITH_HAND>}};
+extern const ArmKernels arm_kernels;
+const ArmKernels arm_kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>},
+                             {pack<PackNumber, 0>, pack<PackNumber, SWIVEL_JOINTS>, pack<PackNumber, SWIVEL_WITH_HAND>,
+                              pack<PackNumber, SWIVEL_JOINTS | SWIVEL_WITH_HAND>}};
 
 }  // namespace swivel::inline SWIVEL_ISA

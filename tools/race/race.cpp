@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/swivel/race.h"
+#include "tools/race/race.h"
 
 #include <algorithm>
 #include <random>

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// swivel-race SECONDS [--json], which `swivel bench` runs: how fast this machine solves, beside textbook rivals in the
+// same run, and how far that is from what the machine can do. The short version of bench/. A program of its own, so
+// that the command needs no rivals to build.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "tools/race/report.h"
+#include "tools/swivel/command_error.h"
+#include "tools/swivel/interrupt.h"
+#include "tools/swivel/report.h"
+
+int main(int argc, char** argv)
+{
+    using namespace swivel::tools;
+    const double seconds = argc > 1 ? std::strtod(argv[1], nullptr) : 0;
+    const bool json = argc > 2 && std::strcmp(argv[2], "--json") == 0;
+    if (!(seconds > 0) || argc > 3 || (argc == 3 && !json)) return fail(2, "usage: swivel-race SECONDS [--json]");
+    try {
+        note_interrupts();
+        const Measured measured = measure(seconds);
+        if (json)
+            print_json(json_of(measured));
+        else
+            print_measured(measured);
+        if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
+        return fail(1, "standard output could not be written in full");
+    } catch (const CommandError& error) {
+        return fail(error.exit_code, error.what());
+    } catch (const std::exception& error) {
+        return fail(1, error.what());
+    }
+}
