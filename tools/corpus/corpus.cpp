@@ -89,14 +89,6 @@ void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, 
     }
 }
 
-LimbCounts counts_of(const Crowd& crowd)
-{
-    LimbCounts counts;
-    for (std::uint32_t group = 0; group < counts.size(); ++group)
-        counts[group] = swivel_group_limb_count(crowd.get(), group);
-    return counts;
-}
-
 // What the lists name must be all that the crowd has.
 void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
@@ -146,12 +138,12 @@ Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count)
 }
 void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
 {
-    write_inputs(crowd, recipe, counts_of(crowd), frame, changes_with_frames);
+    write_inputs(crowd, recipe, limb_counts(crowd), frame, changes_with_frames);
 }
 
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash)
 {
-    const LimbCounts counts = counts_of(crowd);
+    const LimbCounts counts = limb_counts(crowd);
     std::vector<std::uint32_t> words;
     for_each_field(recipe.results, [&](Field field) {
         for (std::uint32_t group = 0; group < counts.size(); ++group) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/corpus/interface.h"
 
-#include <bit>
+#include <stdexcept>
+#include <string>
 
 #include "tools/corpus/bindings.h"
 
@@ -160,6 +161,14 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
     def.shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
     def.wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
     return Crowd(def);
+}
+
+LimbCounts limb_counts(const Crowd& crowd)
+{
+    LimbCounts counts;
+    for (std::uint32_t group = 0; group < counts.size(); ++group)
+        counts[group] = swivel_group_limb_count(crowd.get(), group);
+    return counts;
 }
 
 std::uint32_t input_row_count(const Crowd& crowd) { return swivel_input_rows(crowd.get()).row_count; }

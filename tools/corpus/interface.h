@@ -18,6 +18,7 @@ using LimbCounts = std::array<std::uint32_t, 3>;
 std::uint32_t library_features(const Recipe& recipe);
 // An empty crowd of three groups with the bindings of bindings.h.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
+LimbCounts limb_counts(const Crowd& crowd);
 
 // The crowd's own numbers of rows: what the lists of a recipe must add up to.
 std::uint32_t input_row_count(const Crowd& crowd);
