@@ -29,8 +29,8 @@ Arm case_of(const Recipe& recipe, std::uint32_t group, std::uint32_t limb, std::
 {
     if (recipe.part == Part::hard)
         return hard_case(group * hard_case_count() + limb / (3 * kRunLimbs) * kRunLimbs + limb % kRunLimbs);
-    const std::uint32_t start = static_cast<std::uint32_t>(recipe.seed % hard_pose_count());
-    return hard_case((start + limb / 8 + 31 * group + 7 * frame) % hard_pose_count());
+    const std::uint32_t start = static_cast<std::uint32_t>(recipe.seed % kLimbCaseCount);
+    return hard_case((start + limb / 8 + 31 * group + 7 * frame) % kLimbCaseCount);
 }
 
 bool changes_with_frames(Field field) { return field == Field::target || field == Field::pole; }

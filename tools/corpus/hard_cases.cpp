@@ -16,6 +16,7 @@ constexpr float kSpoiling[] = {0.0f,  -0.0f,  1e-15f, -3e-12f, 1e-38f, 1e-45f, 1
 
 constexpr std::uint32_t kPoseCount = std::size(kPoses), kFrameCount = std::size(kFrames), kBadCount = std::size(kBad),
                         kArmNumbers = 20;
+static_assert(kLimbCaseCount <= kPoseCount);
 
 // Number c of a good arm replaced.
 Arm with_number(std::uint32_t c, float bad)
@@ -48,8 +49,6 @@ Arm moved(const Arm& arm, std::uint32_t pass)
 }  // namespace
 
 std::uint32_t hard_case_count() { return kPoseCount + kFrameCount + kArmNumbers * kBadCount; }
-
-std::uint32_t hard_pose_count() { return kPoseCount; }
 
 Arm hard_case(std::uint32_t n)
 {

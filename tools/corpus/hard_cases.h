@@ -13,8 +13,9 @@ namespace swivel::corpus {
 
 // Named poses and frames, and each number of a good arm replaced by each of some bad ones.
 std::uint32_t hard_case_count();
-// How many of them, from the first on, are poses.
-std::uint32_t hard_pose_count();
+// The first of them, which whole limbs have. All are poses; a number of its own, so that further rows move no whole
+// limb.
+inline constexpr std::uint32_t kLimbCaseCount = 101;
 // Case n. Each further pass through them has the poses in another size and along other axes, where these are exact.
 Arm hard_case(std::uint32_t n);
 

@@ -136,10 +136,10 @@ void append_check(const swivel_check* c, void* list)
 void print_digests(const std::vector<Digest>& digests)
 {
     for (const Digest& d : digests) {
-        fmt::print("digest  {:<8} {:<17}", d.isa, d.how);
+        fmt::print("digest  {:<8} {:<16}", d.isa, d.how);
         for (std::size_t n = 0; n < d.parts.size(); ++n)
-            fmt::print(" {} {:016x} ", corpus::name_of(corpus::kParts[n]), d.parts[n]);
-        fmt::print("{}\n", d.is_right() ? "" : " DIFFERS");
+            fmt::print("  {} {:016x}", corpus::name_of(corpus::kParts[n]), d.parts[n]);
+        fmt::print("{}\n", d.is_right() ? "" : "  DIFFERS");
     }
 }
 nlohmann::ordered_json json_of(const std::vector<Digest>& digests)
