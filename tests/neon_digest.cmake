@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise of equal bits on a CPU of another family: builds the library for 64-bit ARM in BUILD, runs print_digest under an
-# emulator, with NEON and with the scalar kernels, and compares with golden.h.
+# emulator, with NEON and with the scalar kernels, and compares with tools/corpus/golden.h.
 foreach(tool aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ qemu-aarch64-static)
   find_program(found_${tool} ${tool})
   if(NOT found_${tool})
@@ -9,13 +9,14 @@ foreach(tool aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ qemu-aarch64-static)
   endif()
 endforeach()
 
+# The lines of kGoldenDigests: "    0x0123456789abcdefu,  // ordinary".
 set(golden "")
-foreach(name kGoldenDigest kGoldenLimbDigest)
-  file(STRINGS ${SOURCE}/tests/golden.h line REGEX "${name} = 0x[0-9a-f]+u")
+foreach(part ordinary hard limbs)
+  file(STRINGS ${SOURCE}/tools/corpus/golden.h line REGEX "^ *0x[0-9a-f]+u, *// ${part}$")
   string(REGEX REPLACE ".*0x([0-9a-f]+)u.*" "\\1" digest "${line}")
   string(LENGTH "${digest}" digits)
   if(NOT digits EQUAL 16)
-    message(FATAL_ERROR "no 16 digits of ${name} in tests/golden.h: '${line}'")
+    message(FATAL_ERROR "no 16 digits of part ${part} in tools/corpus/golden.h: '${line}'")
   endif()
   string(APPEND golden " ${digest}")
 endforeach()
@@ -32,8 +33,9 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD} -DCMAKE_BUILD_TYPE=Release -DCMAKE
     -DCMAKE_CXX_COMPILER=${found_aarch64-linux-gnu-g++} -DSWIVEL_XSIMD_DIR=${XSIMD} -DBUILD_SHARED_LIBS=OFF
     -DSWIVEL_TBB=OFF -DSWIVEL_TESTS=OFF -DSWIVEL_TOOLS=OFF -DSWIVEL_BENCH=OFF -DSWIVEL_SANITIZE=OFF)
 run(${CMAKE_COMMAND} --build ${BUILD} --target swivel --parallel 2)
+file(GLOB corpus ${SOURCE}/tools/corpus/*.cpp)
 run(${found_aarch64-linux-gnu-g++} -std=c++20 -O2 -ffp-contract=off -static -I${SOURCE} -I${BUILD}/public
-    ${SOURCE}/tests/print_digest.cpp ${SOURCE}/tools/swivel/golden_crowd.cpp ${BUILD}/libswivel.a -o ${BUILD}/print_digest)
+    ${SOURCE}/tests/print_digest.cpp ${corpus} ${BUILD}/libswivel.a -o ${BUILD}/print_digest)
 
 foreach(isa neon64 scalar)
   execute_process(COMMAND ${CMAKE_COMMAND} -E env SWIVEL_FORCE_ISA=${isa} ${found_qemu-aarch64-static} ${BUILD}/print_digest

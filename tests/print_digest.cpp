@@ -1,19 +1,44 @@
 // SPDX-License-Identifier: MIT
 //
-// Prints the golden digests, of plain arms and of whole limbs, of the instruction set in use: the part of the bit
-// promise that runs on a CPU of another family, under an emulator.
+// Prints the digests of the corpus's parts, of the instruction set in use: the part of the bit promise that runs on a
+// CPU of another family, under an emulator. With `golden`, prints the tables of tools/corpus/golden.h instead.
 #include <cstdio>
+#include <cstring>
+#include <exception>
+#include <vector>
 
-#include "tools/swivel/golden_crowd.h"
+#include "tools/corpus/corpus.h"
 
-int main()
+namespace {
+
+using namespace swivel;
+using namespace swivel::corpus;
+
+void solve(Crowd& crowd) { crowd.solve(); }
+
+void print_golden()
+{
+    for (const Part part : kParts)
+        std::printf("    0x%016llxu,  // %s\n", static_cast<unsigned long long>(digest_of(part, solve)), name_of(part));
+    for (const Part part : kParts)
+        for (const Recipe& recipe : recipes_of(part))
+            std::printf("    {Part::%s, \"%s\", 0x%016llxu},\n", name_of(part), recipe.name,
+                        static_cast<unsigned long long>(digest_of(recipe, solve)));
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
 {
     try {
-        const auto solve = [](swivel::Crowd& crowd) { crowd.solve(); };
-        const unsigned long long arms = swivel::tools::golden_digest(1000, solve),
-                                 limbs = swivel::tools::limb_digest(1000, solve);
-        std::printf("%s %016llx %016llx\n", swivel_isa_name(), arms, limbs);
-    } catch (const swivel::Error& error) {
+        if (argc == 2 && std::strcmp(argv[1], "golden") == 0) {
+            print_golden();
+            return 0;
+        }
+        std::printf("%s", swivel_isa_name());
+        for (const Part part : kParts) std::printf(" %016llx", static_cast<unsigned long long>(digest_of(part, solve)));
+        std::printf("\n");
+    } catch (const std::exception& error) {
         std::fprintf(stderr, "print_digest: %s\n", error.what());
         return 1;
     }

@@ -16,7 +16,8 @@
 #include "tests/test_crowd.h"
 #include "tests/test_isa_scope.h"
 #include "tests/test_random.h"
-#include "tools/swivel/golden_crowd.h"
+#include "tools/corpus/corpus.h"
+#include "tools/corpus/interface.h"
 
 #ifdef __x86_64__
 #include <xmmintrin.h>
@@ -24,9 +25,7 @@
 
 using namespace swivel;
 using namespace swivel::test;
-using swivel::tools::golden_crowd;
-using swivel::tools::is_feature_set;
-using swivel::tools::kFeatureSets;
+using swivel::corpus::Recipe;
 
 namespace {
 
@@ -122,17 +121,23 @@ const double kAngle = 1.002 * 4 * std::sqrt(3) / (2 * 16383 * std::sqrt(2)) + 3.
 // A half float is off by 2^-11 of its value, so half a flexion by 2 cos sin * 2^-11, and a flexion by at most 2^-10.
 constexpr double kFlexion = 0x1p-10;
 
+Recipe compacted(Recipe recipe)
+{
+    recipe.features |= corpus::kCompact;
+    return recipe;
+}
+const Recipe& hard(const char* name) { return corpus::recipe_of(corpus::Part::hard, name); }
+
 // The same inputs in a crowd with and one without SWIVEL_COMPACT, neither solved.
 struct Twins {
     Crowd floats, compact;
 
-    Twins(std::uint32_t features, std::uint32_t limb_count)
-        : floats(golden_crowd(features, limb_count)), compact(golden_crowd(features | SWIVEL_COMPACT, limb_count))
+    Twins(const Recipe& recipe, std::uint32_t limb_count)
+        : floats(make_crowd(recipe, limb_count)), compact(make_crowd(compacted(recipe), limb_count))
     {
         const swivel_rows from = swivel_input_rows(floats.get()), to = swivel_input_rows(compact.get());
         REQUIRE(from.row_count == to.row_count);
         REQUIRE(from.block_count == to.block_count);
-        std::memcpy(to.base, from.base, std::size_t{from.block_count} * from.row_count * SWIVEL_LANES * sizeof(float));
     }
     void solve()
     {
@@ -141,21 +146,21 @@ struct Twins {
     }
 };
 
-// Calls check(features) for each set that a crowd can have, without SWIVEL_COMPACT.
+// Calls check(recipe) for each crowd of hard arms: every set of features, without SWIVEL_COMPACT.
 template <class Check>
 void for_each_feature_set(const Check& check)
 {
-    for (std::uint32_t features = 0; features < kFeatureSets; ++features) {
-        INFO("features " << features);
-        if (is_feature_set(features)) check(features);
+    for (const Recipe& recipe : corpus::recipes_of(corpus::Part::hard)) {
+        INFO(full_name(recipe));
+        if (!(recipe.features & corpus::kCompact)) check(recipe);
     }
 }
 
-std::vector<swivel_field> rotations_of(std::uint32_t features)
+std::vector<swivel_field> rotations_of(const Recipe& recipe)
 {
     std::vector<swivel_field> fields{SWIVEL_SHOULDER};
-    if (features & SWIVEL_JOINTS) fields.push_back(SWIVEL_ELBOW);
-    if (features & SWIVEL_WITH_HAND) fields.push_back(SWIVEL_WRIST);
+    if (recipe.features & corpus::kJoints) fields.push_back(SWIVEL_ELBOW);
+    if (recipe.features & corpus::kHand) fields.push_back(SWIVEL_WRIST);
     return fields;
 }
 
@@ -259,97 +264,87 @@ TEST_CASE("every half float in 0..1, its neighbours and the ties between two")
 
 TEST_CASE("a compact crowd's words are those of the float results, for every set of features")
 {
-    const IsaScope scope;
-    for (const std::string& isa : runnable_isas()) {
-        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
-        for_each_feature_set([&](std::uint32_t features) {
-            Twins twins(features, 200);
-            twins.solve();
-            for (std::uint32_t group = 0; group < 3; ++group) {
-                const std::uint32_t first = swivel_group_first_limb(twins.compact.get(), group);
-                const auto flags = read<std::uint32_t>(twins.floats, SWIVEL_FLAGS, group);
-                CHECK(read<std::uint32_t>(twins.compact, SWIVEL_FLAGS, group) == flags);
-                for (std::uint32_t n = 0; n < flags.size(); ++n) {
-                    REQUIRE(word_of(twins.compact, SWIVEL_FLAGS, first + n, 0) == (flags[n] & 0xffff));
-                    REQUIRE(word_of(twins.compact, SWIVEL_FLAGS, first + n, 1) == flags[n] >> 16);
-                }
-                for (const swivel_field field : rotations_of(features)) {
-                    const auto values = read<Float4>(twins.floats, field, group),
-                               unpacked = read<Float4>(twins.compact, field, group);
-                    for (std::uint32_t n = 0; n < values.size(); ++n) {
-                        Words3 words;
-                        for (std::uint32_t w = 0; w < 3; ++w) words[w] = word_of(twins.compact, field, first + n, w);
-                        REQUIRE(are_words_of(words, values[n]));
-                        REQUIRE(words == pack(values[n]));
-                        REQUIRE(unpacked[n] == unpack(words));
-                        REQUIRE(is_unit(unpacked[n]));
-                        REQUIRE(is_in_hemisphere(unpacked[n]));
-                        REQUIRE(angle_between(unpacked[n], values[n]) <= kAngle);
-                    }
-                }
-                if (features & SWIVEL_JOINTS) continue;
-                const auto values = read<Float2>(twins.floats, SWIVEL_ELBOW, group),
-                           unpacked = read<Float2>(twins.compact, SWIVEL_ELBOW, group);
-                for (std::uint32_t n = 0; n < values.size(); ++n)
-                    for (std::uint32_t c = 0; c < 2; ++c) {
-                        const std::uint16_t half = word_of(twins.compact, SWIVEL_ELBOW, first + n, c);
-                        REQUIRE(half == pack_half(values[n][c]));
-                        REQUIRE(unpacked[n][c] == swivel_unpack_half(half));
-                        REQUIRE(std::fabs(unpacked[n][c] - values[n][c]) <=
-                                std::max(0x1p-11f * values[n][c], 0x1p-25f));
-                    }
+    for_each_feature_set([&](const Recipe& recipe) {
+        Twins twins(recipe, 200);
+        twins.solve();
+        for (std::uint32_t group = 0; group < 3; ++group) {
+            const std::uint32_t first = swivel_group_first_limb(twins.compact.get(), group);
+            const auto flags = read<std::uint32_t>(twins.floats, SWIVEL_FLAGS, group);
+            CHECK(read<std::uint32_t>(twins.compact, SWIVEL_FLAGS, group) == flags);
+            for (std::uint32_t n = 0; n < flags.size(); ++n) {
+                REQUIRE(word_of(twins.compact, SWIVEL_FLAGS, first + n, 0) == (flags[n] & 0xffff));
+                REQUIRE(word_of(twins.compact, SWIVEL_FLAGS, first + n, 1) == flags[n] >> 16);
             }
-        });
-    }
+            for (const swivel_field field : rotations_of(recipe)) {
+                const auto values = read<Float4>(twins.floats, field, group),
+                           unpacked = read<Float4>(twins.compact, field, group);
+                for (std::uint32_t n = 0; n < values.size(); ++n) {
+                    Words3 words;
+                    for (std::uint32_t w = 0; w < 3; ++w) words[w] = word_of(twins.compact, field, first + n, w);
+                    REQUIRE(are_words_of(words, values[n]));
+                    REQUIRE(words == pack(values[n]));
+                    REQUIRE(unpacked[n] == unpack(words));
+                    REQUIRE(is_unit(unpacked[n]));
+                    REQUIRE(is_in_hemisphere(unpacked[n]));
+                    REQUIRE(angle_between(unpacked[n], values[n]) <= kAngle);
+                }
+            }
+            if (recipe.features & corpus::kJoints) continue;
+            const auto values = read<Float2>(twins.floats, SWIVEL_ELBOW, group),
+                       unpacked = read<Float2>(twins.compact, SWIVEL_ELBOW, group);
+            for (std::uint32_t n = 0; n < values.size(); ++n)
+                for (std::uint32_t c = 0; c < 2; ++c) {
+                    const std::uint16_t half = word_of(twins.compact, SWIVEL_ELBOW, first + n, c);
+                    REQUIRE(half == pack_half(values[n][c]));
+                    REQUIRE(unpacked[n][c] == swivel_unpack_half(half));
+                    REQUIRE(std::fabs(unpacked[n][c] - values[n][c]) <= std::max(0x1p-11f * values[n][c], 0x1p-25f));
+                }
+        }
+    });
 }
 
-TEST_CASE("the words are the same on every instruction set, in every block range, and no other block is touched")
+TEST_CASE("the words are the scalar build's, in every block range, and no other block is touched")
 {
     const IsaScope scope;
-    for_each_feature_set([&](std::uint32_t features) {
+    for_each_feature_set([&](const Recipe& recipe) {
         REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
-        Crowd whole = golden_crowd(features | SWIVEL_COMPACT, 200);
+        Crowd whole = make_crowd(compacted(recipe), 200);
         whole.solve();
+        REQUIRE(swivel_use_isa(scope.before.c_str()) == SWIVEL_OK);
         const Words expected = words_of(whole);
         const std::uint32_t blocks = swivel_block_count(whole.get());
         const std::size_t block_words = expected.size() / blocks;
-        for (const std::string& isa : runnable_isas()) {
-            REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
-            for (const auto& [first, count] :
-                 {std::pair{0u, 1u}, {1u, 3u}, {2u, 8u}, {3u, 9u}, {12u, 2u}, {4u, 17u}, {5u, 0u}, {0u, blocks}}) {
-                INFO(isa << ", blocks " << first << " + " << count);
-                Crowd crowd = golden_crowd(features | SWIVEL_COMPACT, 200);
-                const swivel_words rows = swivel_compact_rows(crowd.get());
-                std::fill_n(rows.base, expected.size(), std::uint16_t{0xa5c3});
-                crowd.solve_blocks(first, count);
-                const Words words = words_of(crowd);
-                std::size_t wrong = 0;
-                for (std::size_t n = 0; n < words.size(); ++n) {
-                    const bool inside = n / block_words >= first && n / block_words < first + count;
-                    wrong += words[n] != (inside ? expected[n] : 0xa5c3);
-                }
-                CHECK(wrong == 0);
+        Crowd crowd = make_crowd(compacted(recipe), 200);
+        for (const auto& [first, count] :
+             {std::pair{0u, 1u}, {1u, 3u}, {2u, 8u}, {3u, 9u}, {12u, 2u}, {4u, 17u}, {5u, 0u}, {0u, blocks}}) {
+            INFO("blocks " << first << " + " << count);
+            const swivel_words rows = swivel_compact_rows(crowd.get());
+            std::fill_n(rows.base, expected.size(), std::uint16_t{0xa5c3});
+            crowd.solve_blocks(first, count);
+            const Words words = words_of(crowd);
+            std::size_t wrong = 0;
+            for (std::size_t n = 0; n < words.size(); ++n) {
+                const bool inside = n / block_words >= first && n / block_words < first + count;
+                wrong += words[n] != (inside ? expected[n] : 0xa5c3);
             }
+            CHECK(wrong == 0);
         }
     });
-    for (const std::string& isa : runnable_isas()) {  // ten chunks and more, and rows that come from memory
-        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
-        for (const std::uint32_t limb_count : {20000u, 500000u}) {
-            Crowd crowd = golden_crowd(SWIVEL_COMPACT, limb_count),
-                  by_blocks = golden_crowd(SWIVEL_COMPACT, limb_count);
-            crowd.solve();
-            for (std::uint32_t block = 0, end = swivel_block_count(crowd.get()); block < end; block += 777)
-                by_blocks.solve_blocks(block, std::min(777u, end - block));
-            CHECK(words_of(crowd) == words_of(by_blocks));
-        }
+    for (const std::uint32_t limb_count : {20000u, 500000u}) {  // ten chunks and more, and rows that come from memory
+        Crowd crowd = make_crowd(compacted(hard("arms")), limb_count),
+              by_blocks = make_crowd(compacted(hard("arms")), limb_count);
+        crowd.solve();
+        for (std::uint32_t block = 0, end = swivel_block_count(crowd.get()); block < end; block += 777)
+            by_blocks.solve_blocks(block, std::min(777u, end - block));
+        CHECK(words_of(crowd) == words_of(by_blocks));
     }
 }
 
 #ifdef __x86_64__
 TEST_CASE("words and what is read from them do not depend on the caller's floating-point environment")
 {
-    const auto solve_and_read = [] {
-        Crowd crowd = golden_crowd(SWIVEL_COMPACT | SWIVEL_WITH_HAND, 300);
+    Crowd crowd = make_crowd(hard("hand-compact"), 300);  // here, as its numbers do depend on it
+    const auto solve_and_read = [&] {
         crowd.solve();
         return std::tuple{words_of(crowd), read<Float4>(crowd, SWIVEL_SHOULDER), read<Float2>(crowd, SWIVEL_ELBOW),
                           unpack({12345, 23456, 3456}), swivel_unpack_half(1)};
@@ -367,14 +362,15 @@ TEST_CASE("wrists of random arms stay within the stated distance of the float cr
 {
     // A shoulder off by kAngle moves the wrist by that times its distance, an elbow by that times the forearm.
     const struct {
-        std::uint32_t features;
+        const char* name;
         double bound;
-    } cases[] = {{0, kAngle + kFlexion}, {SWIVEL_JOINTS, 2 * kAngle}, {SWIVEL_JOINTS | SWIVEL_WITH_HAND, 2 * kAngle}};
+    } cases[] = {{"arms", kAngle + kFlexion}, {"joints", 2 * kAngle}, {"joints-hand", 2 * kAngle}};
     CHECK(kAngle + kFlexion <= 1.13e-3);  // as swivel.h says
     CHECK(2 * kAngle <= 3.1e-4);
-    for (const auto& [features, bound] : cases) {
-        Twins twins(features, 60000);
-        Random random{features + 1};
+    std::uint64_t seed = 0;
+    for (const auto& [name, bound] : cases) {
+        Twins twins(hard(name), 60000);
+        Random random{++seed};
         std::vector<Float3> targets(60000), poles(60000);
         std::vector<Float2> lengths(60000);
         for (std::size_t n = 0; n < targets.size(); ++n) {
@@ -406,7 +402,7 @@ TEST_CASE("wrists of random arms stay within the stated distance of the float cr
             worst_residual = std::max(worst_residual, std::fabs(packed_off[n] - off[n]));
             worst_angle = std::max(worst_angle, angle_between(shoulders[n], packed_shoulders[n]));
         }
-        INFO("features " << features);
+        INFO(name);
         CHECK(worst_angle <= kAngle);
         CHECK(worst <= bound);
         CHECK(worst > 0.3 * bound);
@@ -417,7 +413,7 @@ TEST_CASE("wrists of random arms stay within the stated distance of the float cr
 
 TEST_CASE("forward kinematics are those of the unpacked values")
 {
-    Twins twins(0, 500);
+    Twins twins(hard("arms"), 500);
     twins.solve();
     const auto shoulders = read<Float4>(twins.compact, SWIVEL_SHOULDER);
     const auto elbows = read<Float2>(twins.compact, SWIVEL_ELBOW),
@@ -441,7 +437,8 @@ TEST_CASE("forward kinematics are those of the unpacked values")
 TEST_CASE("rows of a compact crowd: words for results, floats for inputs, half the memory")
 {
     const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
-    for_each_feature_set([&](std::uint32_t features) {
+    for_each_feature_set([&](const Recipe& recipe) {
+        const std::uint32_t features = library_features(recipe);
         const Crowd crowd(features | SWIVEL_COMPACT, groups), floats(features, groups);
         const bool joints = features & SWIVEL_JOINTS, hand = features & SWIVEL_WITH_HAND;
         const std::uint32_t sizes[] = {3, joints ? 3u : 2u, hand ? 3u : 0u, 2};
@@ -497,9 +494,8 @@ TEST_CASE("rows of a compact crowd: words for results, floats for inputs, half t
 
 TEST_CASE("padding lanes of inputs may hold anything and reach no one's words")
 {
-    for_each_feature_set([&](std::uint32_t features) {
-        Crowd crowd = golden_crowd(features | SWIVEL_COMPACT, 21),
-              poisoned = golden_crowd(features | SWIVEL_COMPACT, 21);
+    for_each_feature_set([&](const Recipe& recipe) {
+        Crowd crowd = make_crowd(compacted(recipe), 21), poisoned = make_crowd(compacted(recipe), 21);
         const swivel_rows in = swivel_input_rows(poisoned.get());
         for (std::uint32_t row = 0; row < 2 * in.row_count; ++row)
             if (row >= in.row_count) std::fill_n(in.base + row * SWIVEL_LANES + 5, 11, kNan);
@@ -514,7 +510,7 @@ TEST_CASE("padding lanes of inputs may hold anything and reach no one's words")
 
 TEST_CASE("values are read into any stride and alignment, and nothing beside them")
 {
-    Crowd crowd = golden_crowd(SWIVEL_COMPACT | SWIVEL_WITH_HAND, 100);
+    Crowd crowd = make_crowd(hard("hand-compact"), 100);
     crowd.solve();
     for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_TARGET}) {
         const std::size_t bytes = field == SWIVEL_ELBOW    ? 8

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel verify`: every formula against the others, and the same bits from every instruction set, thread count and
-// chunk size of this machine.
+// `swivel verify`: every formula against the others, and the corpus's golden bits from every instruction set, thread
+// count and chunk size of this machine.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tools/corpus/corpus.h"
+#include "tools/corpus/golden.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/golden_crowd.h"
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
@@ -21,20 +23,45 @@ namespace swivel::tools {
 
 namespace {
 
+using PartDigests = std::array<std::uint64_t, std::size(corpus::kParts)>;
+PartDigests golden_digests()
+{
+    PartDigests digests;
+    std::ranges::copy(corpus::kGoldenDigests, digests.begin());
+    return digests;
+}
+
 struct Digest {
     std::string isa, how;
-    std::uint64_t arms, limbs;  // of plain arms, and of whole limbs with all that may be asked of them
+    PartDigests parts;
+    PartDigests expected;            // the golden ones; of crowds in other sizes the first instruction set's
+    std::vector<std::string> wrong;  // crowds whose bits are not the golden ones
 
-    bool operator==(const Digest& other) const { return arms == other.arms && limbs == other.limbs; }
+    bool is_right() const { return parts == expected; }
+    bool is_golden() const { return expected == golden_digests(); }  // that is, should be
 };
-
-// Enough plain arms that oneTBB shares them out. Whole limbs take a hundred times as long.
-constexpr std::uint32_t kDigestArms = 20'000, kDigestLimbs = 400;
 
 template <class Solve>
 Digest digest_of(const char* isa, const std::string& how, Solve solve)
 {
-    return {isa, how, golden_digest(kDigestArms, solve), limb_digest(kDigestLimbs, solve)};
+    Digest digest{isa, how, {}, golden_digests(), {}};
+    for (std::size_t n = 0; n < digest.parts.size(); ++n) {
+        const std::vector<std::uint64_t> crowds = corpus::digests_of(corpus::kParts[n], solve);
+        digest.parts[n] = corpus::fold(crowds);
+        const std::vector<std::string> wrong = corpus::wrong_crowds(corpus::kParts[n], crowds);
+        digest.wrong.insert(digest.wrong.end(), wrong.begin(), wrong.end());
+    }
+    return digest;
+}
+
+// A crowd of each part, so large that oneTBB shares it out.
+template <class Solve>
+PartDigests large_digests(Solve solve)
+{
+    using corpus::Part;
+    return {corpus::digest_of(corpus::recipe_of(Part::ordinary, "world-joints-hand"), solve, 20'000),
+            corpus::digest_of(corpus::recipe_of(Part::hard, "world-joints-hand"), solve, 20'000),
+            corpus::digest_of(corpus::recipe_of(Part::limbs, "set-all-limits"), solve, 2'000)};
 }
 
 void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
@@ -44,17 +71,20 @@ void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
         crowd.solve_blocks(first, std::min(chunk, blocks - first));
 }
 
-// The golden crowd on one instruction set, every way there is to run it.
+// The corpus on one instruction set, every way there is to run it.
 void add_digests(const char* isa, std::vector<Digest>& digests)
 {
+    const auto solve = [](Crowd& crowd) { crowd.solve(); };
+    digests.push_back(digest_of(isa, "whole", solve));
+    for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u})
+        digests.push_back(digest_of(isa, fmt::format("chunks of {}", chunk),
+                                    [chunk](Crowd& crowd) { solve_in_chunks(crowd, chunk); }));
     for (const unsigned threads : {1u, 2u}) {
         const ThreadLimit limit(threads);
-        const std::string how = fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
-        digests.push_back(digest_of(isa, how, [](Crowd& crowd) { crowd.solve(); }));
-    }
-    for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u, 1u << 20}) {
-        const std::string how = chunk == 1u << 20 ? "one chunk" : fmt::format("chunks of {}", chunk);
-        digests.push_back(digest_of(isa, how, [chunk](Crowd& crowd) { solve_in_chunks(crowd, chunk); }));
+        const std::string how = fmt::format("large, {} thread{}", threads, threads == 1 ? "" : "s");
+        const PartDigests parts = large_digests(solve);
+        const auto first = std::ranges::find_if(digests, [](const Digest& d) { return d.how.starts_with("large"); });
+        digests.push_back({isa, how, parts, first == digests.end() ? parts : first->parts, {}});
     }
 }
 
@@ -96,6 +126,42 @@ void append_check(const swivel_check* c, void* list)
                                                            {"passed", is_within(*c)}});
 }
 
+void print_digests(const std::vector<Digest>& digests)
+{
+    for (const Digest& d : digests) {
+        fmt::print("digest  {:<8} {:<16}", d.isa, d.how);
+        for (std::size_t n = 0; n < d.parts.size(); ++n)
+            fmt::print("  {} {:016x}", corpus::name_of(corpus::kParts[n]), d.parts[n]);
+        fmt::print("{}\n", d.is_right() ? "" : "  DIFFERS");
+    }
+}
+nlohmann::ordered_json json_of(const std::vector<Digest>& digests)
+{
+    nlohmann::ordered_json list;
+    for (const Digest& d : digests) {
+        nlohmann::ordered_json each{{"isa", d.isa}, {"how", d.how}};
+        for (std::size_t n = 0; n < d.parts.size(); ++n)
+            each[corpus::name_of(corpus::kParts[n])] = fmt::format("{:016x}", d.parts[n]);
+        each["golden"] = d.is_golden();
+        each["passed"] = d.is_right();
+        list.push_back(each);
+    }
+    return list;
+}
+
+std::string what_is_wrong(const Digest& digest)
+{
+    if (!digest.is_golden())
+        return fmt::format(
+            "{}, {}: large crowds have other bits than in the first such line; this build does not give "
+            "equal bits",
+            digest.isa, digest.how);
+    return fmt::format(
+        "{}, {}: other bits than tools/corpus/golden.h has{}; this build does not give the bits of its "
+        "version",
+        digest.isa, digest.how, digest.wrong.empty() ? "" : " for " + corpus::shortened(digest.wrong));
+}
+
 }  // namespace
 
 void run_verify(const VerifyOptions& options)
@@ -106,26 +172,17 @@ void run_verify(const VerifyOptions& options)
     check(swivel_verify(options.arms, options.seed, options.json ? append_check : print_check, &checks, &passed));
 
     const std::vector<Digest> digests = all_digests();
-    bool equal = true;
-    for (const Digest& digest : digests) equal = equal && digest == digests[0];
+    const auto wrong = std::ranges::find_if(digests, [](const Digest& d) { return !d.is_right(); });
+    const bool equal = wrong == digests.end();
     if (options.json) {
-        nlohmann::ordered_json out{{"checks", checks}, {"equal_digests", equal}, {"passed", passed && equal}};
-        for (const Digest& d : digests)
-            out["digests"].push_back({{"isa", d.isa},
-                                      {"how", d.how},
-                                      {"digest", fmt::format("{:016x}", d.arms)},
-                                      {"limb_digest", fmt::format("{:016x}", d.limbs)}});
-        print_json(out);
+        print_json(
+            {{"checks", checks}, {"equal_digests", equal}, {"passed", passed && equal}, {"digests", json_of(digests)}});
     } else {
-        for (const Digest& d : digests)
-            fmt::print("digest  {:<8} {:<12} arms {:016x}  whole limbs {:016x}{}\n", d.isa, d.how, d.arms, d.limbs,
-                       d == digests[0] ? "" : "  DIFFERS");
-        fmt::print("{}\n", passed && equal ? "all checks passed, all digests equal" : "FAILED");
+        print_digests(digests);
+        fmt::print("{}\n", passed && equal ? "all checks passed, all digests are the golden ones" : "FAILED");
     }
     if (!passed) throw CommandError(1, "verify: a check is over its limit; the lines marked FAILED say which");
-    if (!equal)
-        throw CommandError(
-            1, "verify: instruction sets or chunks gave different bits; the lines marked DIFFERS say which");
+    if (!equal) throw CommandError(1, "verify: " + what_is_wrong(*wrong));
 }
 
 }  // namespace swivel::tools

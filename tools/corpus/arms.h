@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// Plain arms as numbers: ordinary ones, well inside of what the plain formula holds for, in every band of reach.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/corpus/recipe.h"
+
+namespace swivel::corpus {
+
+// What a plain arm of any crowd is given; a crowd writes those that it has. In the world where it has parents.
+struct Arm {
+    std::array<float, 3> target = {0.5f, 0.75f, 1}, pole = {0.25f, -1, 0.5f};
+    std::array<float, 2> lengths = {1, 0.75f};
+    std::array<float, 3> parent_position = {0, 0, 0};
+    std::array<float, 4> parent_rotation = {0, 0, 0, 1};
+    std::array<float, 1> parent_scale = {1};
+    std::array<float, 4> hand = {0.1f, 0.5f, 0.5f, 0.7f};
+
+    // Empty for fields that plain arms do not have.
+    std::span<float> values(Field field);
+    float length() const { return lengths[0] + lengths[1]; }
+};
+inline constexpr Field kArmFields[] = {
+    Field::target,          Field::pole,         Field::lengths, Field::parent_position,
+    Field::parent_rotation, Field::parent_scale, Field::hand};
+
+// limb_count arms of a group. frame: their goals are others in every frame, all else stays.
+std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count,
+                               std::uint32_t frame);
+
+}  // namespace swivel::corpus

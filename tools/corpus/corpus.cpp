@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "tools/corpus/corpus.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "tools/corpus/arms.h"
+#include "tools/corpus/golden.h"
+#include "tools/corpus/hard_cases.h"
+#include "tools/corpus/interface.h"
+#include "tools/corpus/limb_values.h"
+
+namespace swivel::corpus {
+
+namespace {
+
+// Limbs come in runs. Of the hard part: hard cases, ordinary arms, arms of which numbers are spoilt. Of whole limbs:
+// spoilt ones, one in eight of them a hard pose, and ordinary ones.
+enum class Run { cases, ordinary, spoilt };
+Run run_of(const Recipe& recipe, std::uint32_t limb)
+{
+    constexpr Run hard[] = {Run::cases, Run::ordinary, Run::spoilt};
+    if (recipe.part == Part::hard) return hard[limb / kRunLimbs % 3];
+    if (recipe.part == Part::ordinary || !is_spoilt_run(limb)) return Run::ordinary;
+    return limb % 8 == 3 ? Run::cases : Run::spoilt;
+}
+// A limb's hard case. Groups of the hard part start with a pass of their own; whole limbs have some of the poses.
+Arm case_of(const Recipe& recipe, std::uint32_t group, std::uint32_t limb, std::uint32_t frame)
+{
+    if (recipe.part == Part::hard)
+        return hard_case(group * hard_case_count() + limb / (3 * kRunLimbs) * kRunLimbs + limb % kRunLimbs);
+    const std::uint32_t start = static_cast<std::uint32_t>(recipe.seed % kLimbCaseCount);
+    return hard_case((start + limb / 8 + 31 * group + 7 * frame) % kLimbCaseCount);
+}
+
+bool changes_with_frames(Field field) { return field == Field::target || field == Field::pole; }
+
+// Numbers of arms replaced, one in sixteen.
+void spoil_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t frame, std::span<Arm> arms)
+{
+    for (const Field field : kArmFields) {
+        Random random = stream(recipe.seed, group, field, Use::spoil, changes_with_frames(field) ? frame : 0);
+        for (std::uint32_t limb = 0; limb < arms.size(); ++limb)
+            if (run_of(recipe, limb) == Run::spoilt) spoil(random, arms[limb].values(field), 16);
+    }
+}
+void put_hard_cases(const Recipe& recipe, std::uint32_t group, std::uint32_t frame, std::span<Arm> arms)
+{
+    for (std::uint32_t limb = 0; limb < arms.size(); ++limb)
+        if (run_of(recipe, limb) == Run::cases) arms[limb] = case_of(recipe, group, limb, frame);
+}
+
+bool is_of_arms(Field field) { return std::ranges::find(kArmFields, field) != std::end(kArmFields); }
+
+void write_arms(Crowd& crowd, Field field, std::uint32_t group, std::span<Arm> arms)
+{
+    std::vector<float> values;
+    for (Arm& arm : arms) {
+        const std::span<float> value = arm.values(field);
+        values.insert(values.end(), value.begin(), value.end());
+    }
+    write_field(crowd, field, group, values);
+}
+
+// Calls act(field) for each field of a list.
+template <class Act>
+void for_each_field(const FieldList& list, Act act)
+{
+    for (const Field field : list)
+        if (field != Field::none) act(field);
+}
+
+// Writes the inputs that are wanted, of all groups.
+template <class IsWanted>
+void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, std::uint32_t frame, IsWanted is_wanted)
+{
+    for (std::uint32_t group = 0; group < counts.size(); ++group) {
+        const std::vector<Arm> ordinary = ordinary_arms(recipe, group, counts[group], frame);
+        std::vector<Arm> arms = ordinary;
+        put_hard_cases(recipe, group, frame, arms);
+        spoil_arms(recipe, group, frame, arms);
+        for_each_field(recipe.inputs, [&](Field field) {
+            if (!is_wanted(field)) return;
+            if (is_of_arms(field))
+                write_arms(crowd, field, group, arms);
+            else
+                write_field(crowd, field, group, limb_values(recipe, field, group, ordinary));
+        });
+    }
+}
+
+// What the lists name must be all that the crowd has.
+void check_rows(const Recipe& recipe, const Crowd& crowd)
+{
+    std::uint32_t inputs = 0, results = 0;
+    for_each_field(recipe.inputs, [&](Field field) { inputs += component_count(recipe, field); });
+    for_each_field(recipe.results, [&](Field field) { results += result_row_count(recipe, field); });
+    for_each_field(recipe.left_out, [&](Field field) { results += result_row_count(recipe, field); });
+    const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
+        if (listed != has)
+            throw std::logic_error("corpus: crowd " + full_name(recipe) + " lists " + std::to_string(listed) +
+                                   " rows of " + what + ", the library has " + std::to_string(has));
+    };
+    require(inputs, input_row_count(crowd), "inputs");
+    require(results, result_row_count(crowd), "results");
+}
+
+}  // namespace
+
+const char* name_of(Part part)
+{
+    constexpr const char* names[] = {"ordinary", "hard", "limbs"};
+    return names[static_cast<std::size_t>(part)];
+}
+std::string full_name(const Recipe& recipe) { return std::string(name_of(recipe.part)) + " " + recipe.name; }
+
+std::span<const Recipe> recipes_of(Part part)
+{
+    return part == Part::ordinary ? ordinary_recipes() : part == Part::hard ? hard_recipes() : limb_recipes();
+}
+const Recipe& recipe_of(Part part, std::string_view name)
+{
+    for (const Recipe& recipe : recipes_of(part))
+        if (recipe.name == name) return recipe;
+    throw std::out_of_range("corpus: part " + std::string(name_of(part)) + " has no crowd " + std::string(name));
+}
+
+std::uint32_t own_limb_count(Part part) { return part == Part::limbs ? 600 : 1000; }
+std::uint32_t frame_count(Part part) { return part == Part::limbs ? 3 : 1; }
+
+Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count)
+{
+    const LimbCounts counts = {limb_count, limb_count / 2 + 1, 7};
+    Crowd crowd = create_crowd(recipe, counts);
+    check_rows(recipe, crowd);
+    write_inputs(crowd, recipe, counts, 0, [](Field) { return true; });
+    return crowd;
+}
+void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
+{
+    write_inputs(crowd, recipe, limb_counts(crowd), frame, changes_with_frames);
+}
+
+std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash)
+{
+    const LimbCounts counts = limb_counts(crowd);
+    std::vector<std::uint32_t> words;
+    for_each_field(recipe.results, [&](Field field) {
+        for (std::uint32_t group = 0; group < counts.size(); ++group) {
+            words.resize(std::size_t{counts[group]} * component_count(recipe, field));
+            read_field(crowd, field, group, words);
+            for (const std::uint32_t word : words)
+                for (int byte = 0; byte < 4; ++byte) hash = (hash ^ (word >> (8 * byte) & 0xffu)) * 0x100000001b3u;
+        }
+    });
+    return hash;
+}
+
+std::uint64_t fold(std::uint64_t hash, std::uint64_t digest)
+{
+    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (digest >> (8 * byte) & 0xffu)) * 0x100000001b3u;
+    return hash;
+}
+std::uint64_t fold(const std::vector<std::uint64_t>& digests)
+{
+    std::uint64_t hash = kDigestStart;
+    for (const std::uint64_t digest : digests) hash = fold(hash, digest);
+    return hash;
+}
+
+std::uint64_t golden_of(const Recipe& recipe)
+{
+    for (const GoldenCrowd& golden : kGoldenCrowds)
+        if (golden.part == recipe.part && golden.name == std::string_view(recipe.name)) return golden.digest;
+    return 0;
+}
+
+std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests)
+{
+    std::vector<std::string> names;
+    const std::span<const Recipe> recipes = recipes_of(part);
+    for (std::size_t n = 0; n < recipes.size(); ++n)
+        if (digests.at(n) != golden_of(recipes[n])) names.push_back(full_name(recipes[n]));
+    return names;
+}
+std::string shortened(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (std::size_t n = 0; n < names.size() && n < 3; ++n) text += (n == 0 ? "" : ", ") + names[n];
+    return names.size() <= 3 ? text : text + " and " + std::to_string(names.size() - 3) + " more";
+}
+
+}  // namespace swivel::corpus

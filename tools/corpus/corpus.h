@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// The crowds that the promise of equal bits is checked on, in three parts, and their digests. Frozen: a crowd's
+// numbers are its own, whatever the library's names, defaults and orders are. golden.h has what the digests must be.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "swivel/swivel.hpp"
+#include "tools/corpus/recipes.h"
+
+namespace swivel::corpus {
+
+const char* name_of(Part part);
+std::span<const Recipe> recipes_of(Part part);
+// Throws std::out_of_range where there is none.
+const Recipe& recipe_of(Part part, std::string_view name);
+// "hard world-joints", for messages.
+std::string full_name(const Recipe& recipe);
+
+// Limbs in the first group of a crowd at its own size, which golden.h is about.
+std::uint32_t own_limb_count(Part part);
+// The crowd with every input written: limb_count limbs in the first group, half as many and one in the second, seven
+// in the third. A limb's numbers do not depend on how many there are. Throws std::logic_error where the recipe's lists
+// do not name every input and every result.
+Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
+
+// How many times a crowd is solved, with other goals each time. Crowds of whole limbs carry things on.
+std::uint32_t frame_count(Part part);
+// Writes the goals of frame 1, 2...; make_crowd() wrote those of frame 0.
+void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
+
+// FNV-1a (64 bits) of the words of all limbs' results, field by field as the recipe lists them, group by group.
+inline constexpr std::uint64_t kDigestStart = 0xcbf29ce484222325u;
+std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash = kDigestStart);
+// The same of digests.
+std::uint64_t fold(std::uint64_t hash, std::uint64_t digest);
+
+// The digest of one crowd, each frame solved by solve(crowd). limb_count 0: the crowd's own.
+template <class Solve>
+std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_count = 0)
+{
+    Crowd crowd = make_crowd(recipe, limb_count == 0 ? own_limb_count(recipe.part) : limb_count);
+    std::uint64_t hash = kDigestStart;
+    for (std::uint32_t frame = 0; frame < frame_count(recipe.part); ++frame) {
+        if (frame > 0) write_goals(crowd, recipe, frame);
+        solve(crowd);
+        hash = digest_results(crowd, recipe, hash);
+    }
+    return hash;
+}
+
+// Of every crowd of a part, in the order of recipes_of().
+template <class Solve>
+std::vector<std::uint64_t> digests_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)
+{
+    std::vector<std::uint64_t> digests;
+    for (const Recipe& recipe : recipes_of(part)) digests.push_back(digest_of(recipe, solve, limb_count));
+    return digests;
+}
+
+// Of a part: its crowds' digests folded.
+std::uint64_t fold(const std::vector<std::uint64_t>& digests);
+template <class Solve>
+std::uint64_t digest_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)
+{
+    return fold(digests_of(part, solve, limb_count));
+}
+
+// What golden.h says of a crowd at its own size; 0 where it says nothing.
+std::uint64_t golden_of(const Recipe& recipe);
+// The names of a part's crowds whose digests, at their own sizes, are not the golden ones.
+std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests);
+// "hard joints, hard world and 3 more": at most three of the names. Empty for none.
+std::string shortened(const std::vector<std::string>& names);
+
+}  // namespace swivel::corpus

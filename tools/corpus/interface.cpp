@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "tools/corpus/interface.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "tools/corpus/bindings.h"
+
+namespace swivel::corpus {
+
+namespace {
+
+struct FeatureName {
+    Feature feature;
+    std::uint32_t library;
+};
+constexpr FeatureName kFeatures[] = {
+    {kWorld, SWIVEL_WORLD},
+    {kJoints, SWIVEL_JOINTS},
+    {kHand, SWIVEL_WITH_HAND},
+    {kPoleDirection, SWIVEL_POLE_DIRECTION},
+    {kCompact, SWIVEL_COMPACT},
+    {kEffector, SWIVEL_WITH_EFFECTOR},
+    {kAngle, SWIVEL_WITH_ANGLE},
+    {kPoleNormal, SWIVEL_POLE_NORMAL},
+    {kIncoming, SWIVEL_WITH_INCOMING},
+    {kPoleIncoming, SWIVEL_POLE_INCOMING},
+    {kWeights, SWIVEL_WITH_WEIGHTS},
+    {kReach, SWIVEL_WITH_REACH},
+    {kStep, SWIVEL_WITH_STEP},
+    {kFlexion, SWIVEL_LIMIT_FLEXION},
+    {kShoulderCone, SWIVEL_LIMIT_SHOULDER_CONE},
+    {kHumeralTwist, SWIVEL_LIMIT_HUMERAL_TWIST},
+    {kShoulderBox, SWIVEL_LIMIT_SHOULDER_BOX},
+    {kHandCone, SWIVEL_LIMIT_HAND_CONE},
+    {kForearmTwist, SWIVEL_LIMIT_FOREARM_TWIST},
+    {kHandTwist, SWIVEL_LIMIT_HAND_TWIST},
+    {kWristBox, SWIVEL_LIMIT_WRIST_BOX},
+    {kAim, SWIVEL_WITH_AIM},
+    {kClavicle, SWIVEL_WITH_CLAVICLE},
+};
+
+struct FieldName {
+    Field field;
+    swivel_field library;
+    std::uint32_t components;
+};
+constexpr FieldName kFields[] = {
+    {Field::target, SWIVEL_TARGET, 3},
+    {Field::pole, SWIVEL_POLE, 3},
+    {Field::lengths, SWIVEL_LENGTHS, 2},
+    {Field::parent_position, SWIVEL_PARENT_POSITION, 3},
+    {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4},
+    {Field::parent_scale, SWIVEL_PARENT_SCALE, 1},
+    {Field::hand, SWIVEL_HAND, 4},
+    {Field::effector, SWIVEL_EFFECTOR, 3},
+    {Field::angle, SWIVEL_ANGLE, 2},
+    {Field::incoming_shoulder, SWIVEL_INCOMING_SHOULDER, 4},
+    {Field::incoming_elbow, SWIVEL_INCOMING_ELBOW, 4},
+    {Field::incoming_wrist, SWIVEL_INCOMING_WRIST, 4},
+    {Field::weights, SWIVEL_WEIGHTS, 3},
+    {Field::reach, SWIVEL_REACH, 4},
+    {Field::most_swivel, SWIVEL_MOST_SWIVEL, 2},
+    {Field::flexion_limit, SWIVEL_FLEXION_LIMIT, 2},
+    {Field::shoulder_cone, SWIVEL_SHOULDER_CONE, 4},
+    {Field::humeral_twist, SWIVEL_HUMERAL_TWIST, 4},
+    {Field::shoulder_box, SWIVEL_SHOULDER_BOX, 12},
+    {Field::hand_cone, SWIVEL_HAND_CONE, 4},
+    {Field::forearm_twist, SWIVEL_FOREARM_TWIST, 4},
+    {Field::hand_twist, SWIVEL_HAND_TWIST, 7},
+    {Field::wrist_box, SWIVEL_WRIST_BOX, 12},
+    {Field::aim, SWIVEL_AIM, 5},
+    {Field::clavicle, SWIVEL_CLAVICLE, 4},
+    {Field::shoulder, SWIVEL_SHOULDER, 4},
+    {Field::elbow, SWIVEL_ELBOW, 2},  // 4 with joints
+    {Field::wrist, SWIVEL_WRIST, 4},
+    {Field::flags, SWIVEL_FLAGS, 1},
+    {Field::stretch, SWIVEL_STRETCH, 1},
+    {Field::normal, SWIVEL_NORMAL, 3},
+    {Field::twist, SWIVEL_TWIST, 4},  // for each bone
+    {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4},
+};
+
+struct FlagName {
+    Flag flag;
+    std::uint32_t library;
+};
+constexpr FlagName kFlags[] = {
+    {kReached, SWIVEL_REACHED},
+    {kSoftened, SWIVEL_SOFTENED},
+    {kStretched, SWIVEL_STRETCHED},
+    {kClampedFar, SWIVEL_CLAMPED_FAR},
+    {kClampedNear, SWIVEL_CLAMPED_NEAR},
+    {kSwivelUndefined, SWIVEL_SWIVEL_UNDEFINED},
+    {kLimitedFlexion, SWIVEL_LIMITED_FLEXION},
+    {kLimitedShoulderCone, SWIVEL_LIMITED_SHOULDER_CONE},
+    {kLimitedHumeralTwist, SWIVEL_LIMITED_HUMERAL_TWIST},
+    {kLimitedShoulderBox, SWIVEL_LIMITED_SHOULDER_BOX},
+    {kLimitedHandCone, SWIVEL_LIMITED_HAND_CONE},
+    {kLimitedForearmTwist, SWIVEL_LIMITED_FOREARM_TWIST},
+    {kLimitedHandTwist, SWIVEL_LIMITED_HAND_TWIST},
+    {kLimitedWristBox, SWIVEL_LIMITED_WRIST_BOX},
+    {kLimitedStep, SWIVEL_LIMITED_STEP},
+    {kInfeasible, SWIVEL_INFEASIBLE},
+    {kJumped, SWIVEL_JUMPED},
+    {kBadInput, SWIVEL_BAD_INPUT},
+};
+
+// In the order of enum Order.
+constexpr swivel_euler_order kOrders[] = {SWIVEL_XYZ, SWIVEL_XZY, SWIVEL_YZX, SWIVEL_YXZ, SWIVEL_ZXY, SWIVEL_ZYX};
+
+const FieldName& name_of(Field field)
+{
+    for (const FieldName& name : kFields)
+        if (name.field == field) return name;
+    throw std::logic_error("corpus: interface.cpp has no row for field " + std::to_string(static_cast<int>(field)));
+}
+
+std::uint32_t own_flags(std::uint32_t library)
+{
+    std::uint32_t flags = 0;
+    for (const FlagName& name : kFlags) {
+        if (library & name.library) flags |= name.flag;
+        library &= ~name.library;
+    }
+    return library == 0 ? flags : flags | kUnknownFlag;
+}
+
+void copy(const Quaternion& q, float (&to)[4]) { to[0] = q.x, to[1] = q.y, to[2] = q.z, to[3] = q.w; }
+
+swivel_binding library_binding(const Binding& own)
+{
+    swivel_binding binding{};
+    copy(own.parent_from_arm, binding.parent_from_arm);
+    copy(own.upper_from_arm, binding.upper_from_arm);
+    copy(own.fore_from_arm, binding.fore_from_arm);
+    copy(own.shoulder_rest, binding.shoulder_rest);
+    copy(own.elbow_rest, binding.elbow_rest);
+    copy(own.wrist_rest, binding.wrist_rest);
+    return binding;
+}
+
+}  // namespace
+
+std::uint32_t library_features(const Recipe& recipe)
+{
+    std::uint32_t features = recipe.twist_bones * SWIVEL_TWIST_BONES;
+    for (const FeatureName& name : kFeatures)
+        if (recipe.features & name.feature) features |= name.library;
+    return features;
+}
+
+Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
+{
+    swivel_group_def groups[kGroupCount];
+    for (std::uint32_t g = 0; g < kGroupCount; ++g) groups[g] = {limb_counts[g], library_binding(kBindings[g])};
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.features = library_features(recipe);
+    def.groups = groups;
+    def.group_count = kGroupCount;
+    def.shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
+    def.wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
+    return Crowd(def);
+}
+
+LimbCounts limb_counts(const Crowd& crowd)
+{
+    LimbCounts counts;
+    for (std::uint32_t group = 0; group < counts.size(); ++group)
+        counts[group] = swivel_group_limb_count(crowd.get(), group);
+    return counts;
+}
+
+std::uint32_t input_row_count(const Crowd& crowd) { return swivel_input_rows(crowd.get()).row_count; }
+std::uint32_t result_row_count(const Crowd& crowd)
+{
+    return swivel_result_rows(crowd.get()).row_count + swivel_compact_rows(crowd.get()).row_count;  // one is 0
+}
+std::uint32_t result_row_count(const Recipe& recipe, Field field)
+{
+    const std::uint32_t components = component_count(recipe, field);
+    if (!(recipe.features & kCompact)) return components;
+    return field == Field::flags ? 2 : components == 4 ? 3 : components;
+}
+
+std::uint32_t component_count(const Recipe& recipe, Field field)
+{
+    const std::uint32_t components = name_of(field).components;
+    if (field == Field::elbow && (recipe.features & kJoints)) return 4;
+    return field == Field::twist ? components * recipe.twist_bones : components;
+}
+
+void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values)
+{
+    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
+    const swivel_in in{values.data(), values.size() / count * sizeof(float)};
+    check(swivel_write(crowd.get(), name_of(field).library, group, 0, count, in));
+}
+
+void read_field(const Crowd& crowd, Field field, std::uint32_t group, std::span<std::uint32_t> words)
+{
+    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
+    const swivel_out out{words.data(), words.size() / count * sizeof(std::uint32_t)};
+    check(swivel_read(crowd.get(), name_of(field).library, group, 0, count, out));
+    if (field != Field::flags) return;
+    for (std::uint32_t& word : words) word = own_flags(word);
+}
+
+}  // namespace swivel::corpus

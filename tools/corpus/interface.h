@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// The corpus's only contact with the library: crowds made, written and read by the corpus's own features, fields and
+// flags. When the library renames or reorders any of its own, interface.cpp follows and nothing else does.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "swivel/swivel.hpp"
+#include "tools/corpus/recipe.h"
+
+namespace swivel::corpus {
+
+using LimbCounts = std::array<std::uint32_t, 3>;
+
+// The recipe's features in the library's bits.
+std::uint32_t library_features(const Recipe& recipe);
+// An empty crowd of three groups with the bindings of bindings.h.
+Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
+LimbCounts limb_counts(const Crowd& crowd);
+
+// The crowd's own numbers of rows: what the lists of a recipe must add up to.
+std::uint32_t input_row_count(const Crowd& crowd);
+std::uint32_t result_row_count(const Crowd& crowd);
+// Rows that a result takes, by the corpus's own count.
+std::uint32_t result_row_count(const Recipe& recipe, Field field);
+
+// values: component_count() floats for each limb of the group.
+void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values);
+// words: component_count() for each limb of the group; flag words have the corpus's bits.
+void read_field(const Crowd& crowd, Field field, std::uint32_t group, std::span<std::uint32_t> words);
+
+}  // namespace swivel::corpus

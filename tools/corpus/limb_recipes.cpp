@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "tools/corpus/recipes.h"
+
+namespace swivel::corpus {
+
+namespace {
+
+using enum Field;
+using enum Part;
+
+// clang-format off
+constexpr Recipe kLimbs[] = {
+    {limbs, "effector", 0xca1ab21554c6c4b3u, kHand | kEffector,
+     {target, pole, lengths, hand, effector}, {shoulder, elbow, wrist, flags}},
+    {limbs, "angle", 0x0f4bf777e1030fe1u, kAngle, {target, pole, lengths, angle}, {shoulder, elbow, flags}},
+    {limbs, "pole-normal", 0x908a3e291dd257d5u, kPoleNormal, {target, pole, lengths}, {shoulder, elbow, flags}},
+    {limbs, "incoming", 0x2e0126319a72180du, kIncoming,
+     {target, pole, lengths, incoming_shoulder, incoming_elbow}, {shoulder, elbow, flags}},
+    {limbs, "incoming-hand", 0xfed5ce26af1ac6dau, kHand | kIncoming,
+     {target, pole, lengths, hand, incoming_shoulder, incoming_elbow, incoming_wrist}, {shoulder, elbow, wrist,
+     flags}},
+    {limbs, "pole-incoming", 0xcc31d7b90ff191f0u, kIncoming | kPoleIncoming,
+     {target, lengths, incoming_shoulder, incoming_elbow}, {shoulder, elbow, flags}},
+    {limbs, "weights", 0xf768f221a91b4e9du, kIncoming | kWeights,
+     {target, pole, lengths, incoming_shoulder, incoming_elbow, weights}, {shoulder, elbow, flags}},
+    {limbs, "weights-hand", 0x4a66b263ab8474ccu, kHand | kIncoming | kWeights,
+     {target, pole, lengths, hand, incoming_shoulder, incoming_elbow, incoming_wrist, weights}, {shoulder, elbow,
+     wrist, flags}},
+    {limbs, "reach", 0xc689c846b6b81ec6u, kReach, {target, pole, lengths, reach}, {shoulder, elbow, flags, stretch}},
+    {limbs, "step", 0x535f2002b9f7f89eu, kStep,
+     {target, pole, lengths, most_swivel}, {shoulder, elbow, flags, normal}},
+    {limbs, "flexion", 0x355cca5db3c7b88eu, kFlexion,
+     {target, pole, lengths, flexion_limit}, {shoulder, elbow, flags}},
+    {limbs, "shoulder-cone", 0x857ce06bf9a21be1u, kShoulderCone,
+     {target, pole, lengths, shoulder_cone}, {shoulder, elbow, flags}},
+    {limbs, "humeral-twist", 0x02c89680e98c5884u, kHumeralTwist,
+     {target, pole, lengths, humeral_twist}, {shoulder, elbow, flags}},
+    {limbs, "shoulder-box-xyz", 0xd6442260559d7e79u, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::xyz, Order::xyz},
+    {limbs, "shoulder-box-xzy", 0x0473b8248ac03649u, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::xzy, Order::xyz},
+    {limbs, "shoulder-box-yzx", 0x3cc89b41f339a684u, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::yzx, Order::xyz},
+    {limbs, "shoulder-box-yxz", 0xd68c20053f91ed95u, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::yxz, Order::xyz},
+    {limbs, "shoulder-box-zxy", 0x5f4e45815c00d3d2u, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::zxy, Order::xyz},
+    {limbs, "shoulder-box-zyx", 0x86f4f14cc599fac7u, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::zyx, Order::xyz},
+    {limbs, "hand-cone", 0xd2e06b36b9ea43d4u, kHand | kHandCone,
+     {target, pole, lengths, hand, hand_cone}, {shoulder, elbow, wrist, flags}},
+    {limbs, "forearm-twist", 0xb2a57e606d09cf94u, kHand | kForearmTwist,
+     {target, pole, lengths, hand, forearm_twist}, {shoulder, elbow, wrist, flags}},
+    {limbs, "hand-twist", 0x8d1eac030bab1534u, kHand | kHandTwist,
+     {target, pole, lengths, hand, hand_twist}, {shoulder, elbow, wrist, flags}},
+    {limbs, "wrist-box-xyz", 0x25609be3c444a62eu, kHand | kWristBox,
+     {target, pole, lengths, hand, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::xyz, Order::xyz},
+    {limbs, "wrist-box-xzy", 0xed20eb98ea70df2du, kHand | kWristBox,
+     {target, pole, lengths, hand, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::xyz, Order::xzy},
+    {limbs, "wrist-box-yzx", 0x133945bae4114d10u, kHand | kWristBox,
+     {target, pole, lengths, hand, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::xyz, Order::yzx},
+    {limbs, "wrist-box-yxz", 0x40ba6f09be38fcbbu, kHand | kWristBox,
+     {target, pole, lengths, hand, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::xyz, Order::yxz},
+    {limbs, "wrist-box-zxy", 0xd31f0231deef4351u, kHand | kWristBox,
+     {target, pole, lengths, hand, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::xyz, Order::zxy},
+    {limbs, "wrist-box-zyx", 0xc8fd442ec56309d2u, kHand | kWristBox,
+     {target, pole, lengths, hand, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::xyz, Order::zyx},
+    {limbs, "twist-bones-1", 0x0286ecec43432c6bu, kHand,
+     {target, pole, lengths, hand}, {shoulder, elbow, wrist, flags, twist}, {}, 1},
+    {limbs, "twist-bones-3", 0xbbb458d39fd583ebu, kHand,
+     {target, pole, lengths, hand}, {shoulder, elbow, wrist, flags, twist}, {}, 3},
+    {limbs, "twist-bones-7", 0x43e94334742de49bu, kHand,
+     {target, pole, lengths, hand}, {shoulder, elbow, wrist, flags, twist}, {}, 7},
+    {limbs, "twist-bones-3-joints", 0xf6bd8eca9f374cd6u, kJoints | kHand,
+     {target, pole, lengths, hand}, {shoulder, elbow, wrist, flags, twist}, {}, 3},
+    {limbs, "aim", 0x2293d03e9e6024cdu, kAim, {target, pole, lengths, aim}, {shoulder, elbow, flags}},
+    {limbs, "aim-hand", 0x3d0d125a162d85c6u, kHand | kAim,
+     {target, pole, lengths, hand, aim}, {shoulder, elbow, wrist, flags}},
+    {limbs, "clavicle", 0xf2e25394dbda118bu, kWorld | kClavicle,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, clavicle}, {shoulder, elbow, flags,
+     clavicle_turn}},
+    {limbs, "angle-world-direction", 0x59227301507a4f34u, kWorld | kPoleDirection | kAngle,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, angle}, {shoulder, elbow, flags}},
+    {limbs, "compact-angle", 0x77a22873705bdd12u, kCompact | kAngle,
+     {target, pole, lengths, angle}, {shoulder, elbow, flags}},
+    {limbs, "compact-limits", 0x0c67a2cb603c1616u, kWorld | kJoints | kHand | kCompact | kAngle | kFlexion |
+     kShoulderCone,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, angle, flexion_limit,
+     shoulder_cone}, {shoulder, elbow, wrist, flags}},
+    {limbs, "set-incoming", 0x498e0b0d13f8bb73u, kIncoming,
+     {target, pole, lengths, incoming_shoulder, incoming_elbow}, {shoulder, elbow, flags}, {}, 0, Order::yxz,
+     Order::zxy},
+    {limbs, "set-world-joints-normal-angle-step", 0x2875a2d038ccde1eu, kWorld | kJoints | kPoleNormal | kAngle |
+     kStep,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, angle, most_swivel}, {shoulder, elbow,
+     flags, normal}, {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-joints-hand-incoming-pole-flexion-reach", 0xe6160abb7e3b9a59u, kJoints | kHand | kIncoming |
+     kPoleIncoming | kReach | kFlexion,
+     {target, lengths, hand, incoming_shoulder, incoming_elbow, incoming_wrist, reach, flexion_limit}, {shoulder,
+     elbow, wrist, flags, stretch}, {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-shoulder-cone", 0x9d411e83fb7eca2fu, kShoulderCone,
+     {target, pole, lengths, shoulder_cone}, {shoulder, elbow, flags}, {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-shoulder-box", 0x6965c425b110d30au, kShoulderBox,
+     {target, pole, lengths, shoulder_box}, {shoulder, elbow, flags}, {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-both-boxes", 0x2f2a44422f862cecu, kHand | kShoulderBox | kWristBox,
+     {target, pole, lengths, hand, shoulder_box, wrist_box}, {shoulder, elbow, wrist, flags}, {}, 0, Order::yxz,
+     Order::zxy},
+    {limbs, "set-world-hand-twists", 0x9f61d62f48f8f164u, kWorld | kHand | kEffector | kHumeralTwist | kHandCone |
+     kForearmTwist | kHandTwist,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, humeral_twist, hand_cone,
+     forearm_twist, hand_twist}, {shoulder, elbow, wrist, flags}, {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-all-limits", 0xbdef9f4b0ecb476fu, kWorld | kJoints | kHand | kPoleDirection | kEffector | kAngle |
+     kIncoming | kWeights | kReach | kStep | kFlexion | kShoulderCone | kHumeralTwist | kShoulderBox | kHandCone |
+     kForearmTwist | kHandTwist | kWristBox,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, angle, incoming_shoulder,
+     incoming_elbow, incoming_wrist, weights, reach, most_swivel, flexion_limit, shoulder_cone, humeral_twist,
+     shoulder_box, hand_cone, forearm_twist, hand_twist, wrist_box}, {shoulder, elbow, wrist, flags, stretch, normal},
+     {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-aim", 0xd2e83592e220532fu, kWorld | kJoints | kHand | kEffector | kStep | kShoulderCone | kAim,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, effector, most_swivel,
+     shoulder_cone, aim}, {shoulder, elbow, wrist, flags, normal}, {}, 0, Order::yxz, Order::zxy},
+    {limbs, "set-clavicle", 0xe655f6aa8e18a60eu, kWorld | kJoints | kHand | kIncoming | kWeights | kClavicle,
+     {target, pole, lengths, parent_position, parent_rotation, parent_scale, hand, incoming_shoulder, incoming_elbow,
+     incoming_wrist, weights, clavicle}, {shoulder, elbow, wrist, flags, clavicle_turn}, {}, 0, Order::yxz,
+     Order::zxy},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Recipe> limb_recipes() { return kLimbs; }
+
+}  // namespace swivel::corpus

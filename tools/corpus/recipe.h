@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// What a crowd of the corpus is, in words of the corpus alone: features, fields and flags have numbers of their own,
+// which never change, whatever the library calls them. interface.cpp knows the library's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace swivel::corpus {
+
+enum class Part : std::uint8_t {
+    ordinary,  // plain arms that the plain formula holds for
+    hard,      // plain arms of bad numbers, degenerate poles, straight, folded, of every size
+    limbs,     // whole limbs: each feature alone, and many together
+};
+inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs};
+
+enum Feature : std::uint32_t {
+    kWorld = 1u << 0,
+    kJoints = 1u << 1,
+    kHand = 1u << 2,
+    kPoleDirection = 1u << 3,
+    kCompact = 1u << 4,
+    kEffector = 1u << 5,
+    kAngle = 1u << 6,
+    kPoleNormal = 1u << 7,
+    kIncoming = 1u << 8,
+    kPoleIncoming = 1u << 9,
+    kWeights = 1u << 10,
+    kReach = 1u << 11,
+    kStep = 1u << 12,
+    kFlexion = 1u << 13,
+    kShoulderCone = 1u << 14,
+    kHumeralTwist = 1u << 15,
+    kShoulderBox = 1u << 16,
+    kHandCone = 1u << 17,
+    kForearmTwist = 1u << 18,
+    kHandTwist = 1u << 19,
+    kWristBox = 1u << 20,
+    kAim = 1u << 21,
+    kClavicle = 1u << 22,
+};
+
+// Random numbers of a field depend on its number here.
+enum class Field : std::uint8_t {
+    none = 0,
+    target = 1,
+    pole = 2,
+    lengths = 3,
+    parent_position = 4,
+    parent_rotation = 5,
+    parent_scale = 6,
+    hand = 7,
+    effector = 8,
+    angle = 9,
+    incoming_shoulder = 10,
+    incoming_elbow = 11,
+    incoming_wrist = 12,
+    weights = 13,
+    reach = 14,
+    most_swivel = 15,
+    flexion_limit = 16,
+    shoulder_cone = 17,
+    humeral_twist = 18,
+    shoulder_box = 19,
+    hand_cone = 20,
+    forearm_twist = 21,
+    hand_twist = 22,
+    wrist_box = 23,
+    aim = 24,
+    clavicle = 25,
+    // results
+    shoulder = 64,
+    elbow = 65,
+    wrist = 66,
+    flags = 67,
+    stretch = 68,
+    normal = 69,
+    twist = 70,
+    clavicle_turn = 71,
+};
+
+// Bits of the flag words that are digested.
+enum Flag : std::uint32_t {
+    kReached = 1u << 0,
+    kSoftened = 1u << 1,
+    kStretched = 1u << 2,
+    kClampedFar = 1u << 3,
+    kClampedNear = 1u << 4,
+    kSwivelUndefined = 1u << 5,
+    kLimitedFlexion = 1u << 6,
+    kLimitedShoulderCone = 1u << 7,
+    kLimitedHumeralTwist = 1u << 8,
+    kLimitedShoulderBox = 1u << 9,
+    kLimitedHandCone = 1u << 10,
+    kLimitedForearmTwist = 1u << 11,
+    kLimitedHandTwist = 1u << 12,
+    kLimitedWristBox = 1u << 13,
+    kLimitedStep = 1u << 14,
+    kInfeasible = 1u << 15,
+    kJumped = 1u << 16,
+    kBadInput = 1u << 17,
+    kUnknownFlag = 1u << 31,  // the library set a bit that the corpus does not know
+};
+inline constexpr std::uint32_t kEveryFlag = (1u << 18) - 1;
+
+enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
+
+// Lists of fields end with the first Field::none.
+using FieldList = std::array<Field, 28>;
+
+struct Recipe {
+    Part part;
+    const char* name;
+    std::uint64_t seed;
+    std::uint32_t features;   // of enum Feature
+    FieldList inputs;         // what is written: all that the features bring
+    FieldList results;        // what is digested, in this order
+    FieldList left_out = {};  // results that are deliberately not digested
+    std::uint32_t twist_bones = 0;
+    Order shoulder_order = Order::xyz, wrist_order = Order::xyz;
+};
+
+// Floats of a field's value, or the one word of flags.
+std::uint32_t component_count(const Recipe& recipe, Field field);
+
+}  // namespace swivel::corpus

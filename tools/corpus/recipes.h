@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+//
+// The tables of the corpus's crowds, part by part. Rows may be added at a table's end.
+#pragma once
+
+#include <span>
+
+#include "tools/corpus/recipe.h"
+
+namespace swivel::corpus {
+
+// Both have the same sets of features: all of plain arms.
+std::span<const Recipe> ordinary_recipes();
+std::span<const Recipe> hard_recipes();
+// Each feature alone, with what it needs, and sets of many.
+std::span<const Recipe> limb_recipes();
+
+}  // namespace swivel::corpus

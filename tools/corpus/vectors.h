@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors and rotations in double, of + - * / and square roots alone: the same numbers on every machine.
+#pragma once
+
+#include <cmath>
+
+#include "tools/corpus/random.h"
+
+namespace swivel::corpus {
+
+struct Vector {
+    double x, y, z;
+};
+struct Rotation {
+    Vector v;
+    double w;
+};
+
+inline double square_root(double x) { return std::sqrt(x); }
+
+inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator*(double s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector cross(const Vector& a, const Vector& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Vector unit(const Vector& a) { return (1 / square_root(dot(a, a))) * a; }
+
+inline Rotation unit(const Rotation& q)
+{
+    const double scale = 1 / square_root(dot(q.v, q.v) + q.w * q.w);
+    return {scale * q.v, scale * q.w};
+}
+// q: of unit length.
+inline Vector turn(const Rotation& q, const Vector& a)
+{
+    const Vector t = 2 * cross(q.v, a);
+    return a + q.w * t + cross(q.v, t);
+}
+
+inline Vector random_direction(Random& random)
+{
+    for (;;) {
+        const Vector v{random.signed_unit(), random.signed_unit(), random.signed_unit()};
+        const double length2 = dot(v, v);
+        if (length2 > 0.01 && length2 < 1) return unit(v);
+    }
+}
+// Of unit length, orthogonal to a unit axis.
+inline Vector random_across(Random& random, const Vector& axis)
+{
+    for (;;) {
+        const Vector v = cross(axis, random_direction(random));
+        if (dot(v, v) > 0.01) return unit(v);
+    }
+}
+inline Rotation random_unit_rotation(Random& random)
+{
+    for (;;) {
+        const Rotation q{{random.signed_unit(), random.signed_unit(), random.signed_unit()}, random.signed_unit()};
+        const double length2 = dot(q.v, q.v) + q.w * q.w;
+        if (length2 > 0.01 && length2 < 1) return unit(q);
+    }
+}
+
+}  // namespace swivel::corpus
