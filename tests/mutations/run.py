@@ -17,21 +17,20 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
-TREE_NAME, LONGEST_TEST = "tree", 120  # seconds; the slowest of the tests takes a tenth of that
+LONGEST_TEST = 120  # seconds; the slowest of the tests takes a tenth of that
 
 
 class Failure(Exception):
     """Nothing can be said of any mutation."""
 
 
-def output_of(*command, **more):
-    return subprocess.run(command, check=True, capture_output=True, text=True, **more).stdout
-
-
 def copy_tree(tree):
     """Makes the tree what git tracks, and will track, as it is now. Files that are right stay untouched, so little is rebuilt."""
-    listed = output_of("git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", cwd=SOURCE).split("\0")
-    wanted = {name for name in listed if name and (SOURCE / name).is_file()}
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=SOURCE,
+                            capture_output=True, text=True)
+    if listed.returncode != 0:
+        raise Failure(f"git cannot list the tree: {listed.stderr.strip()}")
+    wanted = {name for name in listed.stdout.split("\0") if name and (SOURCE / name).is_file()}
     for old in tree.rglob("*"):
         if not old.is_dir() and str(old.relative_to(tree)) not in wanted:
             old.unlink()
@@ -92,8 +91,10 @@ def ending_of(case):
     if message not in ("", "Failed"):
         return message.lower()  # a timeout, a crash
     said = case.findtext("system-out", "")
-    place = re.search(r"([\w.]+:\d+): FAILED", said) or re.search(r"^(FAIL|ERROR): \w+", said, re.MULTILINE)
-    return place.group(place.lastindex if ":" in place.group(1) else 0) if place else "failed"
+    for place in (r"(test_[\w.]+:\d+): FAILED", r"(test_[\w.]+:\d+)", r"^(?:FAIL|ERROR): (\w+)"):  # Catch, RapidCheck, Python
+        if found := re.search(place, said, re.MULTILINE):
+            return found.group(1)
+    return "failed"
 
 
 def verdict_on(mutation, tree, build):
@@ -140,7 +141,7 @@ def mutations_like(patterns):
 
 def run_all(mutations, work):
     """Yields each mutation with its verdict and the seconds it took."""
-    tree = work / TREE_NAME
+    tree = work / "tree"
     tree.mkdir(parents=True, exist_ok=True)
     copy_tree(tree)
     number = 0
