@@ -8,12 +8,12 @@ each mutation is applied; what its test runs is built, and nothing else; the tes
 file just once, a mutant that does not compile, and a mutant that its test lets pass are failures.
 """
 import argparse
+import fcntl
 import re
 import subprocess
 import sys
 import time
 import tomllib
-import xml.etree.ElementTree
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
@@ -75,22 +75,14 @@ class Build:
 
     def run(self, tests):
         """How each test ended: passed, or where it failed first, or how else it ended."""
-        report = self.folder / "mutations.xml"
-        report.unlink(missing_ok=True)
         names = "|".join(re.escape(name) for name in tests)
-        subprocess.run(["ctest", "--test-dir", self.folder, "-R", f"^({names})$", "--timeout", str(LONGEST_TEST),
-                        "--output-junit", report], capture_output=True)
-        return {case.get("name"): ending_of(case) for case in xml.etree.ElementTree.parse(report).iter("testcase")}
+        said = subprocess.run(["ctest", "--test-dir", self.folder, "-R", f"^({names})$", "--timeout", str(LONGEST_TEST),
+                               "--output-on-failure"], capture_output=True, text=True, errors="replace").stdout
+        lines = re.findall(r"^ *\d+/\d+ Test +#\d+: (\S+) \.+ *(?:\*\*\*)?(.+?) +[\d.]+ sec", said, re.MULTILINE)
+        return {name: first_place(said) if ending == "Failed" else ending.lower() for name, ending in lines}
 
 
-def ending_of(case):
-    if case.get("status") == "run":
-        return "passed"
-    failure = case.find("failure")
-    message = failure.get("message", "") if failure is not None else case.get("status")
-    if message not in ("", "Failed"):
-        return message.lower()  # a timeout, a crash
-    said = case.findtext("system-out", "")
+def first_place(said):
     for place in (r"(test_[\w.]+:\d+): FAILED", r"(test_[\w.]+:\d+)", r"^(?:FAIL|ERROR): (\w+)"):  # Catch, RapidCheck, Python
         if found := re.search(place, said, re.MULTILINE):
             return found.group(1)
@@ -114,7 +106,7 @@ def verdict_on(mutation, tree, build):
         ending = build.run([test]).get(test, "not run")
     finally:
         file.write_text(text)
-    if ending in ("passed", "not run", "notrun", "disabled"):
+    if ending in ("passed", "not run"):
         return f"SURVIVED: {test} {ending}"
     return f"killed by {test}, {ending}"
 
@@ -143,6 +135,11 @@ def run_all(mutations, work):
     """Yields each mutation with its verdict and the seconds it took."""
     tree = work / "tree"
     tree.mkdir(parents=True, exist_ok=True)
+    lock = open(work / "lock", "w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        raise Failure(f"another run is at work in {work}; wait for it, or give --work another folder") from None
     copy_tree(tree)
     number = 0
     for isa in dict.fromkeys(mutation.get("isa", "scalar") for mutation in mutations):
