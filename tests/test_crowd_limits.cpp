@@ -95,6 +95,108 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     for (std::uint32_t bit = 7; bit < 14; ++bit) CHECK(seen[bit] > 20);
 }
 
+TEST_CASE("a wish that breaks a limit by more than rounding leaves is not granted")
+{
+    constexpr std::uint32_t count = 300;
+    Random random{9};
+    Crowd free = crowd_of(0, count), crowd = crowd_of(SWIVEL_LIMIT_SHOULDER_CONE, count);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const Limb limb = random_limb(random, 0, {1, 1.2f});
+        write_limb(free, 0, n, limb);
+        write_limb(crowd, 0, n, limb);
+    }
+    free.solve();
+    std::vector<Vector3d> axes;
+    std::vector<double> openings;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        // Outside by 20 times what is tolerated.
+        const Vector3d upper = quat(read<Float4>(free, SWIVEL_SHOULDER)[n]).normalized() * Vector3d::UnitZ();
+        axes.push_back(vec(floats(random.direction())).normalized());
+        openings.push_back(std::min(axes[n].dot(upper) + 1e-5, 1.0));
+        Float4 cone;
+        CHECK(swivel_cone(axes[n].data(), std::acos(openings[n]), cone.data()) == SWIVEL_OK);
+        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
+    }
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        INFO("limb " << n);
+        CHECK((flags[n] & SWIVEL_LIMITED_SHOULDER_CONE) != 0);
+        if (flags[n] & SWIVEL_INFEASIBLE) continue;
+        const Vector3d upper = quat(shoulders[n]).normalized() * Vector3d::UnitZ();
+        CHECK(cone_violation(axes[n], openings[n], upper) <= 1e-6);
+    }
+}
+
+TEST_CASE("a scan of the circle finds no nearer allowed swivel, and none better where none is allowed")
+{
+    constexpr std::uint32_t count = 600, limits = SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
+    Random random{10};
+    Crowd wished = crowd_of(0, count), crowd = crowd_of(limits | SWIVEL_LIMIT_SHOULDER_BOX, count);
+    struct Limited {
+        Vector3d line, axis;
+        double opening = kPi;
+        AngleRange twist;
+        AngleBox box;
+        bool has_box;
+    };
+    std::vector<Limited> limited;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const Limb limb = random_limb(random, 0, {1, 1.2f});
+        write_limb(wished, 0, n, limb);
+        write_limb(crowd, 0, n, limb);
+        Limited l{vec(limb.target).normalized(), vec(floats(random.direction())).normalized(), kPi, {}, {}, n % 2 == 0};
+        if (l.has_box) {
+            for (AngleRange& range : l.box.range) range = {random.between(-kPi, kPi), random.between(0.5, 2.5)};
+        } else {
+            l.opening = random.between(0.2, 2.5);
+            l.twist = {random.between(-kPi, kPi), random.between(0.2, 2.5)};
+        }
+        Float4 cone;
+        CHECK(swivel_cone(l.axis.data(), l.opening, cone.data()) == SWIVEL_OK);
+        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
+        put(crowd, SWIVEL_HUMERAL_TWIST, n, range_of(l.twist));
+        Float12 box;
+        for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(range_of(l.box.range[k]), box.begin() + 4 * k);
+        put(crowd, SWIVEL_SHOULDER_BOX, n, box);
+        limited.push_back(l);
+    }
+    wished.solve();
+    crowd.solve();
+    const auto wishes = read<Float4>(wished, SWIVEL_SHOULDER), got = read<Float4>(crowd, SWIVEL_SHOULDER);
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    int moved = 0, none = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const Limited& l = limited[n];
+        const Quaterniond wish = quat(wishes[n]).normalized(), pose = quat(got[n]).normalized();
+        const auto violation = [&](const Quaterniond& q) {
+            if (l.has_box) return box_violation(l.box, q.toRotationMatrix());
+            return std::max(cone_violation(l.axis, std::cos(l.opening), q * Vector3d::UnitZ()),
+                            twist_violation(Vector3d::UnitZ(), l.twist, q));
+        };
+        const double swivel = wish.angularDistance(pose), by = violation(pose);
+        double nearest = 2 * kPi, least = 2;
+        for (int step = -1800; step <= 1800; ++step) {
+            const double angle = kPi * step / 1800, there = violation(Eigen::AngleAxisd(angle, l.line) * wish);
+            if (there <= -1e-6) nearest = std::min(nearest, std::fabs(angle));
+            least = std::min(least, there);
+        }
+        INFO("limb " << n << ", flags " << flags[n] << ", swivel " << swivel << ", broken by " << by);
+        if (flags[n] & SWIVEL_INFEASIBLE) {
+            ++none;
+            CHECK(least > -1e-6);
+            if (!l.has_box) CHECK(by <= least + 2e-6);  // outside of a box there is no one way to measure how far
+        } else {
+            moved += swivel > 0.01;
+            CHECK(by <= 2e-6);
+            CHECK(swivel <= nearest + 1e-3);  // an arc's end may be flat
+        }
+    }
+    CHECK(moved > 100);
+    CHECK(none > 100);
+}
+
 TEST_CASE("the body's other side is the mirror image")
 {
     constexpr std::uint32_t count = 300;
