@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/run_command.h"
+#include "tests/run_program.h"
 #include "tests/test_data.h"
 
 namespace swivel::test {
@@ -20,7 +20,7 @@ inline nlohmann::json ask_check(std::vector<std::string> arguments)
     const fs::path folder = fs::path(SWIVEL_SOURCE_DIR) / "tests" / "gltf";
     INFO("node and its packages are set up by tools/test: npm ci in tests/gltf");
     REQUIRE(fs::is_directory(folder / "node_modules"));
-    arguments.insert(arguments.begin(), {"node", (folder / "check.mjs").string()});
+    arguments.insert(arguments.begin(), {"/usr/bin/env", "node", (folder / "check.mjs").string()});
     const Outcome outcome = run_program(folder, arguments);
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiled once for each instruction set, as simd/kernels.cpp is: the operations of lanes_ops.h on its lanes.
+// Compiled once for each instruction set, as the kernels are: the operations of lanes_ops.h on its lanes.
 #include "simd/lanes.h"
 #include "tests/lanes_ops.h"
 

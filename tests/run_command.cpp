@@ -1,166 +1,92 @@
 // SPDX-License-Identifier: MIT
 #include "tests/run_command.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/wait.h>
+#include <sys/mman.h>
 #include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <cstdio>
+#include <iostream>
 
-#include <array>
-#include <cerrno>
-#include <cstdlib>
-#include <fstream>
-#include <string_view>
-
-extern char** environ;
+#include "tools/swivel/command_line.h"
 
 namespace swivel::test {
+
 namespace {
 
-// Two ends of a channel; closed when they go out of scope.
-struct Channel {
-    int reading = -1, writing = -1;
+void flush_all()
+{
+    std::cout.flush();
+    std::cerr.flush();
+    std::fflush(nullptr);
+}
 
-    Channel() = default;
-    Channel(const Channel&) = delete;
-    Channel& operator=(const Channel&) = delete;
-    ~Channel()
+// While it lives, what this process writes to a file descriptor goes to memory.
+class Capture {
+public:
+    explicit Capture(int descriptor)
+        : descriptor_(descriptor), before_(::dup(descriptor)), memory_(::memfd_create("capture", 0))
     {
-        close_end(reading);
-        close_end(writing);
+        REQUIRE(before_ >= 0);
+        REQUIRE(::dup2(memory_, descriptor_) >= 0);
     }
-    static void close_end(int& end)
+    Capture(const Capture&) = delete;
+    Capture& operator=(const Capture&) = delete;
+    ~Capture()
     {
-        if (end >= 0) ::close(end);
-        end = -1;
+        ::dup2(before_, descriptor_);
+        ::close(before_);
+        ::close(memory_);
     }
+    std::string text() const
+    {
+        std::string all(static_cast<std::size_t>(::lseek(memory_, 0, SEEK_END)), '\0');
+        all.resize(static_cast<std::size_t>(::pread(memory_, all.data(), all.size(), 0)));
+        return all;
+    }
+
+private:
+    int descriptor_, before_, memory_;
 };
 
-void open_channel(Channel& channel, bool terminal)
-{
-    if (!terminal) {
-        std::array<int, 2> ends{};
-        REQUIRE(::pipe2(ends.data(), O_CLOEXEC) == 0);
-        channel.reading = ends[0];
-        channel.writing = ends[1];
-        return;
+// While it lives, the working directory is another.
+class InFolder {
+public:
+    explicit InFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path())
+    {
+        std::filesystem::current_path(folder);
     }
-    channel.reading = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(channel.reading >= 0);
-    REQUIRE(::grantpt(channel.reading) == 0);
-    REQUIRE(::unlockpt(channel.reading) == 0);
-    channel.writing = ::open(::ptsname(channel.reading), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(channel.writing >= 0);
-}
+    InFolder(const InFolder&) = delete;
+    InFolder& operator=(const InFolder&) = delete;
+    ~InFolder() { std::filesystem::current_path(before_); }
 
-std::vector<std::string> merged_environment(const std::vector<std::string>& changes)
-{
-    const auto name_of = [](std::string_view entry) { return entry.substr(0, entry.find('=')); };
-    std::vector<std::string> merged;
-    for (char** entry = environ; *entry; ++entry) {
-        bool is_changed = false;
-        for (const std::string& change : changes) is_changed = is_changed || name_of(change) == name_of(*entry);
-        if (!is_changed) merged.emplace_back(*entry);
-    }
-    for (const std::string& change : changes) {
-        if (change.find('=') != std::string::npos) merged.push_back(change);
-    }
-    return merged;
-}
-
-std::vector<char*> pointers(std::vector<std::string>& words)
-{
-    std::vector<char*> all;
-    for (std::string& word : words) all.push_back(word.data());
-    all.push_back(nullptr);
-    return all;
-}
-
-// Takes what there is; closes the end when the other side has gone (a terminal says so with an error).
-void take(int& reading, std::string& into)
-{
-    std::array<char, 1 << 16> buffer;
-    const ssize_t count = ::read(reading, buffer.data(), buffer.size());
-    if (count > 0)
-        into.append(buffer.data(), static_cast<std::size_t>(count));
-    else if (count == 0 || errno != EINTR)
-        Channel::close_end(reading);
-}
-
-// The peak so far. wait4() will not do: what it tells begins with the memory of the process that forked. Neither does
-// the child before it has become the command.
-void look_up_peak(pid_t child, Outcome& outcome)
-{
-    const std::filesystem::path process = "/proc/" + std::to_string(child);
-    std::error_code gone;
-    if (!std::filesystem::equivalent(process / "exe", SWIVEL_COMMAND, gone)) return;
-    std::ifstream status(process / "status");
-    for (std::string word; status >> word;)
-        if (word == "VmHWM:") status >> outcome.peak_kib;
-}
-
-void listen(pid_t child, Channel& out, Channel& err, Outcome& outcome)
-{
-    while (out.reading >= 0 || err.reading >= 0) {
-        std::array<pollfd, 2> ends = {{{out.reading, POLLIN, 0}, {err.reading, POLLIN, 0}}};  // -1 is passed over
-        look_up_peak(child, outcome);
-        if (::poll(ends.data(), ends.size(), 10) <= 0) continue;
-        if (ends[0].revents) take(out.reading, outcome.out);
-        if (ends[1].revents) take(err.reading, outcome.err);
-    }
-}
-
-Outcome run(const std::filesystem::path& folder, std::vector<std::string> words, const Surroundings& surroundings)
-{
-    Channel out, err;
-    open_channel(out, false);
-    open_channel(err, surroundings.terminal);
-    if (!surroundings.stdout_file.empty()) {
-        Channel::close_end(out.writing);
-        out.writing = ::open(surroundings.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);
-        REQUIRE(out.writing >= 0);
-    }
-    std::vector<std::string> environment = merged_environment(surroundings.environment);
-    const std::vector<char*> argv = pointers(words), envp = pointers(environment);
-
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {  // only calls that are safe between fork and exec
-        ::alarm(surroundings.max_seconds);
-        if (::chdir(folder.c_str()) == 0 && ::dup2(out.writing, STDOUT_FILENO) >= 0 &&
-            ::dup2(err.writing, STDERR_FILENO) >= 0) {
-            ::execve(argv[0], argv.data(), envp.data());
-        }
-        ::_exit(127);
-    }
-    Channel::close_end(out.writing);
-    Channel::close_end(err.writing);
-    Outcome outcome;
-    listen(child, out, err, outcome);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0) REQUIRE(errno == EINTR);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    REQUIRE(outcome.exit_code != 127);
-    return outcome;
-}
+private:
+    std::filesystem::path before_;
+};
 
 }  // namespace
 
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                    const Surroundings& surroundings)
+Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments)
+{
+    std::vector<const char*> argv = {"swivel"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    const InFolder there(folder);
+    flush_all();
+    const Capture out(STDOUT_FILENO), err(STDERR_FILENO);
+    Outcome outcome;
+    outcome.exit_code = tools::run_swivel(static_cast<int>(argv.size()), argv.data());
+    flush_all();
+    outcome.out = out.text();
+    outcome.err = err.text();
+    return outcome;
+}
+
+Outcome spawn_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                      const Surroundings& surroundings)
 {
     std::vector<std::string> words = {SWIVEL_COMMAND};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return run(folder, std::move(words), surroundings);
-}
-
-Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& words,
-                    const Surroundings& surroundings)
-{
-    std::vector<std::string> all = {"/usr/bin/env"};
-    all.insert(all.end(), words.begin(), words.end());
-    return run(folder, std::move(all), surroundings);
+    return run_program(folder, std::move(words), surroundings);
 }
 
 }  // namespace swivel::test

@@ -1,34 +1,21 @@
-#pragma once
 // SPDX-License-Identifier: MIT
-// Runs the built swivel command in a folder, as a process of its own and without a shell, and keeps what it said.
-// Owns the process; knows nothing of what the command does.
+//
+// Runs the swivel command in a folder and keeps what it said.
+#pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tests/run_program.h"
+
 namespace swivel::test {
 
-struct Outcome {
-    int exit_code = -1;    // -N: ended by signal N; SIGALRM where it took too long
-    std::string out, err;  // every byte of stdout and stderr
-    long peak_kib = 0;     // largest resident memory, looked up 100 times a second; what comes later is missed
-};
+// Runs `swivel arguments...` as a function of this process, with `folder` as its working directory.
+Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-struct Surroundings {
-    std::vector<std::string> environment{};  // "NAME=value" on top of this process's own; "NAME" alone removes it
-    bool terminal = false;                   // stderr is a terminal
-    std::string stdout_file{};               // where stdout goes instead of Outcome::out
-    unsigned max_seconds = 300;
-};
-
-// Runs `swivel arguments...` with `folder` as its working directory and waits for it. Fails the test if it cannot
-// start.
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                    const Surroundings& surroundings = {});
-
-// The same for another program, found as a shell finds it; peak_kib stays 0.
-Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& words,
-                    const Surroundings& surroundings = {});
+// The same as a process of its own: for what only a process has, an environment, a terminal, a peak of memory, a time.
+Outcome spawn_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                      const Surroundings& surroundings = {});
 
 }  // namespace swivel::test

@@ -262,7 +262,7 @@ TEST_CASE("clip back: every instruction set writes the same bytes")
         INFO(isa);
         const Surroundings forced{{"SWIVEL_FORCE_ISA=" + isa}};
         const Outcome outcome =
-            run_command(folder.path, {"solve", must_find_jump().string(), "--json", "--out", "out.bvh"}, forced);
+            spawn_command(folder.path, {"solve", must_find_jump().string(), "--json", "--out", "out.bvh"}, forced);
         REQUIRE(outcome.exit_code == 0);
         CHECK(nlohmann::json::parse(outcome.out).at("isa") == isa);
         const std::string bytes = slurp(folder / "out.bvh");

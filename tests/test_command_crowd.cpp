@@ -274,7 +274,7 @@ TEST_CASE("crowd: memory is bounded by clip and crowd, not by their product")
         // A sanitizer keeps freed memory for a while; here that would hide what is measured.
         const Surroundings lean{{"ASAN_OPTIONS=quarantine_size_mb=1:thread_local_quarantine_size_kb=64"}};
         const Outcome outcome =
-            run_command(folder.path, {"solve", "clip.bvh", "--characters", "500", "--out", "poses.csv"}, lean);
+            spawn_command(folder.path, {"solve", "clip.bvh", "--characters", "500", "--out", "poses.csv"}, lean);
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         return outcome.peak_kib;

@@ -199,7 +199,7 @@ TEST_CASE("gltf buffers: a file of several buffers is read once, and no more tha
     const GltfFile file = read_gltf(folder / "rig.gltf");
     REQUIRE(file.buffers.size() == 16);
     for (std::size_t n = 0; n < 16; ++n) CHECK(file.buffers[n].size() == kSize - n % 2);
-    const Outcome outcome = run_command(folder.path, {"rig", "rig.gltf"});
+    const Outcome outcome = spawn_command(folder.path, {"rig", "rig.gltf"});
     INFO(outcome.peak_kib);
     CHECK(outcome.peak_kib > 60'000);
     CHECK(outcome.peak_kib < 300'000);

@@ -273,7 +273,7 @@ TEST_CASE("rigs: a crowd file's targets may come from a pipe")
     std::thread writer(
         [&] { spill(pipe, "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n0,0,left_arm,2,1,0,1,2,0\n"); });
     const Outcome outcome =
-        run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml", "--json"}, {.max_seconds = 10});
+        spawn_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml", "--json"}, {.max_seconds = 10});
     const int nobody_else = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // lets the writer go if the command did not
     writer.join();
     close(nobody_else);

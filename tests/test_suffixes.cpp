@@ -28,13 +28,13 @@ TEST_CASE("The command reads and writes suffixes of any case")
     const TempFolder folder;
     fs::copy_file(must_find_jump(), folder / "JUMP.BVH");
     for (const std::string out : {"NEW.BVH", "New.Csv"}) {
-        const Outcome outcome = run_command(folder.path, {"solve", "JUMP.BVH", "--out", out});
+        const Outcome outcome = spawn_command(folder.path, {"solve", "JUMP.BVH", "--out", out});
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         CHECK(slurp(folder / out).starts_with(out == "NEW.BVH" ? "HIERARCHY" : "frame,"));
     }
     spill(folder / "bad.GLTF", "[]");
-    const Outcome glb = run_command(folder.path, {"rig", "bad.GLTF"});
+    const Outcome glb = spawn_command(folder.path, {"rig", "bad.GLTF"});
     CHECK(glb.exit_code == 1);
     CHECK(glb.err.find("its JSON is no object") != std::string::npos);
 }
@@ -57,8 +57,8 @@ TEST_CASE("The command says whether it reads FBX and DAE, and is right")
 {
     const TempFolder folder;
     spill(folder / "no.FBX", "no FBX");
-    const Outcome info = run_command(folder.path, {"info", "--json"}),
-                  rig = run_command(folder.path, {"rig", "no.FBX"});
+    const Outcome info = spawn_command(folder.path, {"info", "--json"}),
+                  rig = spawn_command(folder.path, {"rig", "no.FBX"});
     const bool reads = info.out.find("\"fbx_dae\": \"read by assimp ") != std::string::npos;
     CHECK(reads != (info.out.find("\"fbx_dae\": \"not read by this build\"") != std::string::npos));
     CHECK(rig.exit_code == 1);

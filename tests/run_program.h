@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs a program in a folder, as a process of its own and without a shell, and keeps what it said.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace swivel::test {
+
+struct Outcome {
+    int exit_code = -1;    // -N: ended by signal N; SIGALRM where it took too long
+    std::string out, err;  // every byte of stdout and stderr
+    long peak_kib = 0;     // largest resident memory, looked up 100 times a second; what comes later is missed
+};
+
+struct Surroundings {
+    std::vector<std::string> environment{};  // "NAME=value" on top of this process's own; "NAME" alone removes it
+    bool terminal = false;                   // stderr is a terminal
+    std::string stdout_file{};               // where stdout goes instead of Outcome::out
+    unsigned max_seconds = 300;
+};
+
+// Runs words[0], a path, with `folder` as its working directory and waits for it. Fails the test if it cannot start.
+Outcome run_program(const std::filesystem::path& folder, std::vector<std::string> words,
+                    const Surroundings& surroundings = {});
+
+}  // namespace swivel::test
