@@ -2,6 +2,7 @@
 #
 # The promise of equal bits on a CPU of another family: builds the library for 64-bit ARM in BUILD, runs print_digest under an
 # emulator, with NEON and with the scalar kernels, and compares with tools/corpus/golden.h.
+#   BUILD: an own folder; XSIMD: the folder of xsimd's headers; OPTIMISATION: flags; the bits depend on none
 foreach(tool aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ qemu-aarch64-static)
   find_program(found_${tool} ${tool})
   if(NOT found_${tool})
@@ -28,7 +29,8 @@ function(run)
   endif()
 endfunction()
 
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD} -DCMAKE_BUILD_TYPE=Release -DCMAKE_SYSTEM_NAME=Linux
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD} -DCMAKE_BUILD_TYPE=Release
+    "-DCMAKE_CXX_FLAGS_RELEASE=${OPTIMISATION} -DNDEBUG" -DCMAKE_SYSTEM_NAME=Linux
     -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_C_COMPILER=${found_aarch64-linux-gnu-gcc}
     -DCMAKE_CXX_COMPILER=${found_aarch64-linux-gnu-g++} -DSWIVEL_XSIMD_DIR=${XSIMD} -DBUILD_SHARED_LIBS=OFF
     -DSWIVEL_TBB=OFF -DSWIVEL_TESTS=OFF -DSWIVEL_TOOLS=OFF -DSWIVEL_BENCH=OFF -DSWIVEL_SANITIZE=OFF)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise: a host may build swivel as a part of itself, with options of its own that swivel's bits do not depend on, and its own
-# programs get no option of swivel's. Built for scalar alone, which is what takes time here.
+# programs get no option of swivel's. Built for scalar alone and hardly optimised, as that takes the time here.
 #   WORK: an own folder; SOURCE: the repository; SHARED, TBB; see package/host.cmake
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
@@ -13,7 +13,7 @@ else()
   set(how -DFETCH=ON)
 endif()
 build_host(${CMAKE_CURRENT_LIST_DIR}/package/subdirectory ${WORK} -DSWIVEL=${SOURCE} -DSWIVEL_ISAS=scalar -DSWIVEL_TBB=${TBB}
-           -DCMAKE_BUILD_TYPE=Release ${how})
+           -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" ${how})
 must_print_the_line(${WORK}/arm_c)
 must_print_the_line(${WORK}/arm_cpp)
 
