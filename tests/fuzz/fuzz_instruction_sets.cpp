@@ -15,7 +15,7 @@ using namespace swivel::fuzz;
 
 namespace {
 
-constexpr std::uint32_t kMostLimbs = 40;
+constexpr std::uint32_t kMostLimbs = 24;
 
 struct Destroy {
     void operator()(swivel_crowd* crowd) const { swivel_crowd_destroy(crowd); }
@@ -110,6 +110,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Shape shape{features_of(bytes), groups_of(bytes, kMostLimbs), {}, {}};
     shape.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
     shape.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
+    const bool solves_parts = bytes.one_in(8);  // on all, not on the best alone
     std::vector<std::vector<float>> inputs;
     const Crowd crowd = make(shape);
     for (int frame = 0; frame < 2; ++frame) {
@@ -122,6 +123,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!swivel_isa_runs(isa)) continue;
         SWIVEL_REQUIRE(swivel_use_isa(isa) == SWIVEL_OK);
         SWIVEL_REQUIRE(solve_all(shape, inputs, solve_whole) == expected);
+        if (!solves_parts && n != 0) continue;  // these two take as long again
         SWIVEL_REQUIRE(solve_all(shape, inputs, solve_blocks) == expected);
         SWIVEL_REQUIRE(solve_all(shape, inputs, solve_some_then_others) == expected);
     }
