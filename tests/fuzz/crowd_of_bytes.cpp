@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::uint32_t kHandLimits =
     SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
+constexpr std::uint32_t kPlain =
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET;
 constexpr std::uint32_t kTwist = 7 * SWIVEL_TWIST_BONES;
 constexpr std::uint32_t kAll = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
 
@@ -139,7 +141,10 @@ float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits
 
 std::uint32_t features_of(Bytes& bytes)
 {
+    const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
     std::uint32_t features = bytes.take<std::uint32_t>() & kAll;
+    if (kind == 1) features &= kPlain;                       // with other kernels than whole limbs, so often
+    if (kind == 2) features &= bytes.take<std::uint32_t>();  // few
     settle(features, SWIVEL_POLE_INCOMING, 0, SWIVEL_POLE_NORMAL | SWIVEL_POLE_DIRECTION);
     settle(features, SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, SWIVEL_POLE_NORMAL);
     settle(features, SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, 0);
