@@ -233,7 +233,8 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     says(with("/animations/1/samplers/0/input", 1), "wrong type");
     says(with("/animations/1/samplers/0/interpolation", "MAGIC"), "interpolation 'MAGIC' is unknown");
     says(with("/animations/1/channels/1/target/node", 1), "two channels of animation 1 are for the rotation of node 1");
-    says(with("/nodes/1/rotation", "0 0 1 0"), "node 1 has a bad rotation: a list of 4 numbers is needed");
+    says(with("/nodes/1/rotation", "0 0 1 0"),
+         "node 1 has a bad rotation: a list of 4 numbers that floats can hold is needed");
     says(with("/nodes/1/translation", {{"x", 5}}), "node 1 has a bad translation");
     says(with("/nodes/1/children", {1.5}), "node 1 has a bad children");
     says(with("/nodes/1", 5), "node 1 is no object");

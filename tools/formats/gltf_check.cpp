@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -30,10 +32,11 @@ bool is_size(const Json& value) { return is_whole(value, std::uint64_t{1} << 53)
 bool is_text(const Json& value) { return value.is_string(); }
 bool is_object(const Json& value) { return value.is_object(); }
 
+// Of the size of floats, which accessors have, too: squares and products of some are still finite.
+bool is_float(const Json& value) { return value.is_number() && std::abs(value.get<double>()) <= double{FLT_MAX}; }
 bool is_numbers(const Json& value, std::size_t count)
 {
-    return value.is_array() && value.size() == count &&
-           std::all_of(value.begin(), value.end(), [](const Json& each) { return each.is_number(); });
+    return value.is_array() && value.size() == count && std::all_of(value.begin(), value.end(), is_float);
 }
 
 bool is_indices(const Json& value) { return value.is_array() && std::all_of(value.begin(), value.end(), is_index); }
@@ -89,10 +92,10 @@ void check_node(const Element& node)
     };
     node.may_have_text("name");
     node.may_have("children", "a list of nodes", is_indices);
-    node.may_have("translation", "a list of 3 numbers", numbers(3));
-    node.may_have("rotation", "a list of 4 numbers", numbers(4));
-    node.may_have("scale", "a list of 3 numbers", numbers(3));
-    node.may_have("matrix", "a list of 16 numbers", numbers(16));
+    node.may_have("translation", "a list of 3 numbers that floats can hold", numbers(3));
+    node.may_have("rotation", "a list of 4 numbers that floats can hold", numbers(4));
+    node.may_have("scale", "a list of 3 numbers that floats can hold", numbers(3));
+    node.may_have("matrix", "a list of 16 numbers that floats can hold", numbers(16));
 }
 
 void check_channel(const Element& channel)

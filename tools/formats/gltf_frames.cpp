@@ -171,9 +171,9 @@ void sample_frames(GltfFile& file, double rate)
     file.times = frame_times(file, rate);
     Clip& clip = file.clip;
     clip.frame_count = file.times.size();
-    clip.frame_time = clip.frame_count > 1 ? static_cast<double>(file.times.back() - file.times.front()) /
-                                                 static_cast<double>(clip.frame_count - 1)
-                                           : kRestFrameTime;
+    // In double: the difference of two floats may be more than a float holds.
+    const double seconds = static_cast<double>(file.times.back()) - static_cast<double>(file.times.front());
+    clip.frame_time = clip.frame_count > 1 ? seconds / static_cast<double>(clip.frame_count - 1) : kRestFrameTime;
     lay_out(clip);
     for (const GltfChannel& channel : file.channels) fill(file, channel);
 }

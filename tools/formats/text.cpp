@@ -68,7 +68,7 @@ std::string read_text(const std::filesystem::path& path)
     const std::uintmax_t size = std::filesystem::file_size(path, unknown);
     std::string text;
     if (!unknown) text.reserve(static_cast<std::size_t>(size));
-    const auto chunk = std::make_unique<char[]>(kChunkBytes);
+    const auto chunk = std::make_unique_for_overwrite<char[]>(kChunkBytes);
     while (const std::size_t count = read_chunk(path, file.get(), chunk.get(), kChunkBytes)) {
         text.append(chunk.get(), count);
     }

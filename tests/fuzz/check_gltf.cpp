@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/check_gltf.h"
+
+#include "tests/fuzz/check_clip.h"
+
+namespace swivel::fuzz {
+namespace {
+
+using namespace swivel::formats;
+using Eigen::Quaterniond;
+
+void check_channels(const GltfFile& file)
+{
+    for (const GltfChannel& channel : file.channels) {
+        SWIVEL_REQUIRE(channel.joint >= 0 && static_cast<std::size_t>(channel.joint) < file.clip.joints.size());
+        SWIVEL_REQUIRE(channel.sampler < file.samplers.size());
+    }
+    for (const GltfSampler& sampler : file.samplers) {
+        const std::size_t each = sampler.interpolation == Interpolation::cubic ? 3 : 1;
+        SWIVEL_REQUIRE(!sampler.time.empty() && sampler.value.size() == each * sampler.time.size());
+        for (std::size_t n = 1; n < sampler.time.size(); ++n) SWIVEL_REQUIRE(sampler.time[n - 1] < sampler.time[n]);
+        for (const Eigen::Vector4d& value : sampler.value) SWIVEL_REQUIRE(value.allFinite());
+    }
+}
+
+void check_weights(const GltfFile& file)
+{
+    for (const GltfWeights& weights : file.weights) {
+        SWIVEL_REQUIRE(!weights.primitives.empty() && !weights.sets.empty());
+        SWIVEL_REQUIRE(weights.mended_count > 0 && weights.mended_count <= weights.sets[0].size() / 4);
+        for (const auto& set : weights.sets) SWIVEL_REQUIRE(set.size() == weights.sets[0].size());
+        for (const auto& set : weights.sets)
+            for (const float weight : set) SWIVEL_REQUIRE(std::isfinite(weight));
+    }
+}
+
+void check_file(const GltfFile& file)
+{
+    check_clip(file.clip);
+    SWIVEL_REQUIRE(file.times.size() == file.clip.frame_count);
+    for (const float time : file.times) SWIVEL_REQUIRE(std::isfinite(time));
+    for (std::size_t n = 1; n < file.times.size(); ++n) SWIVEL_REQUIRE(file.times[n - 1] < file.times[n]);
+    SWIVEL_REQUIRE(file.animation >= -1 && file.animation < static_cast<int>(file.animation_names.size()));
+    check_channels(file);
+    check_weights(file);
+}
+
+// The joint's rotation in `file` at a time, by its own keys.
+Quaterniond rotation_at(const GltfFile& file, int joint, float time)
+{
+    for (const GltfChannel& channel : file.channels)
+        if (channel.joint == joint && channel.path == GltfPath::rotation)
+            return sample_rotation(file.samplers[channel.sampler], static_cast<double>(time));
+    return file.clip.joints[static_cast<std::size_t>(joint)].rest_rotation;
+}
+
+// Nothing new written: all is as it was.
+void check_copy(const GltfFile& file, const std::filesystem::path& to, const GltfChoice& choice)
+{
+    write_gltf(to, file, {});
+    const GltfFile again = read_gltf(to, choice);
+    SWIVEL_REQUIRE(again.times == file.times);
+    SWIVEL_REQUIRE(again.clip.translation == file.clip.translation && again.clip.scale == file.clip.scale);
+    SWIVEL_REQUIRE(again.clip.rotation.size() == file.clip.rotation.size());
+    for (std::size_t n = 0; n < file.clip.rotation.size(); ++n)
+        SWIVEL_REQUIRE(again.clip.rotation[n].coeffs() == file.clip.rotation[n].coeffs());
+    SWIVEL_REQUIRE(again.weights.empty());  // they add up now
+}
+
+// Its own rotations as new ones: to the rounding of floats, they are what is read.
+void check_new_keys(const GltfFile& file, const std::filesystem::path& to)
+{
+    std::vector<std::vector<Quaterniond>> rotations(file.clip.joints.size());
+    std::vector<RotationOverride> overrides;
+    for (std::size_t n = 0; n < rotations.size(); ++n) {
+        if (file.clip.joints[n].is_sheared) continue;
+        rotations[n] = rotations_of(file.clip, n);
+        overrides.push_back({static_cast<int>(n), rotations[n]});
+    }
+    write_gltf(to, file, overrides);
+    if (overrides.empty()) return;
+    const GltfFile again = read_gltf(to, {std::to_string(std::max(file.animation, 0)), 0});
+    check_file(again);
+    SWIVEL_REQUIRE(again.clip.joints.size() == file.clip.joints.size());
+    for (const RotationOverride& change : overrides)
+        for (std::size_t frame = 0; frame < file.times.size(); ++frame)
+            SWIVEL_REQUIRE(rotation_at(again, change.joint, file.times[frame]).angularDistance(change.rotation[frame]) <
+                           1e-6);
+}
+
+}  // namespace
+
+void check_gltf(const std::filesystem::path& path, const std::filesystem::path& written, const GltfChoice& choice)
+{
+    GltfFile file;
+    try {
+        file = read_gltf(path, choice);
+    } catch (const InputError& error) {
+        check_message(error);
+        return;
+    }
+    check_file(file);
+    for (const char* name : {"out.gltf", "out.glb"}) {
+        check_copy(file, written / name, choice);
+        check_new_keys(file, written / name);
+    }
+}
+
+}  // namespace swivel::fuzz

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/check_results.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "tests/fuzz/require.h"
+
+namespace swivel::fuzz {
+namespace {
+
+constexpr std::uint32_t kFlags = 2 * SWIVEL_JUMPED - 1;
+constexpr std::size_t kMostComponents = 28;  // of seven twist bones
+
+double length_of(const float* v, std::size_t count)
+{
+    double sum = 0;
+    for (std::size_t n = 0; n < count; ++n) sum += double{v[n]} * double{v[n]};
+    return std::sqrt(sum);
+}
+bool is_unit(const float* v, std::size_t count, double slack) { return std::abs(length_of(v, count) - 1) <= slack; }
+
+// w >= 0, and at w = 0 the first of x, y, z that is not zero is positive.
+bool is_on_its_side(const float* q)
+{
+    if (q[3] != 0) return q[3] > 0;
+    for (int n = 0; n < 3; ++n)
+        if (q[n] != 0) return q[n] > 0;
+    return false;
+}
+
+struct Reader {
+    const Session& session;
+    std::uint32_t group, limb;
+    std::array<float, kMostComponents> value{};
+
+    // The components; 0 where the crowd has no such field.
+    std::uint32_t read(swivel_field field)
+    {
+        const std::uint32_t count = component_count(session, field);
+        if (count > 0)
+            SWIVEL_REQUIRE(swivel_read(session.crowd, field, group, limb, 1, {value.data(), sizeof value}) ==
+                           SWIVEL_OK);
+        return count;
+    }
+    void check_quaternions(swivel_field field, bool any_side)
+    {
+        const std::uint32_t count = read(field);
+        for (std::uint32_t n = 0; n < count; n += 4) {
+            SWIVEL_REQUIRE(is_unit(value.data() + n, 4, 1e-6));
+            SWIVEL_REQUIRE(any_side || is_on_its_side(value.data() + n));
+        }
+    }
+};
+
+void check_rotations(Reader& reader)
+{
+    const std::uint32_t features = reader.session.features;
+    const bool follows_incoming = (features & SWIVEL_WITH_INCOMING) && !(features & SWIVEL_COMPACT);
+    reader.check_quaternions(SWIVEL_SHOULDER, follows_incoming);
+    reader.check_quaternions(SWIVEL_WRIST, follows_incoming);
+    reader.check_quaternions(SWIVEL_TWIST, follows_incoming);
+    reader.check_quaternions(SWIVEL_CLAVICLE_TURN, follows_incoming);
+    if (features & SWIVEL_JOINTS) return reader.check_quaternions(SWIVEL_ELBOW, follows_incoming);
+    reader.read(SWIVEL_ELBOW);
+    SWIVEL_REQUIRE(reader.value[0] >= 0 && reader.value[1] >= 0);
+    const double slack = features & SWIVEL_COMPACT ? 1e-3 : 1e-6;  // half floats have 11 bits
+    SWIVEL_REQUIRE(is_unit(reader.value.data(), 2, slack));
+}
+
+void check_places(const Session& session, std::uint32_t group, std::uint32_t limb)
+{
+    std::array<double, 11> places{};
+    const swivel_out hand = {session.features & SWIVEL_WITH_HAND ? places.data() + 6 : nullptr, 32};
+    SWIVEL_REQUIRE(swivel_forward(session.crowd, group, limb, 1, {places.data(), 24}, {places.data() + 3, 24}, hand) ==
+                   SWIVEL_OK);
+    SWIVEL_REQUIRE(swivel_residuals(session.crowd, group, limb, 1, {places.data() + 10, 8}) == SWIVEL_OK);
+    for (const double each : places) SWIVEL_REQUIRE(std::isfinite(each));
+}
+
+}  // namespace
+
+std::vector<char> result_bytes(swivel_crowd& crowd)
+{
+    const swivel_rows rows = swivel_result_rows(&crowd);
+    const swivel_words words = swivel_compact_rows(&crowd);
+    const std::size_t blocks = swivel_block_count(&crowd);
+    const char* const base =
+        rows.base ? reinterpret_cast<const char*>(rows.base) : reinterpret_cast<const char*>(words.base);
+    const std::size_t row_bytes = SWIVEL_LANES * (rows.base ? sizeof(float) : sizeof(std::uint16_t));
+    return {base, base + blocks * (rows.base ? rows.row_count : words.row_count) * row_bytes};
+}
+
+void check_results(const Session& session, std::uint32_t group, std::uint32_t limb)
+{
+    Reader reader{session, group, limb};
+    reader.read(SWIVEL_FLAGS);
+    std::uint32_t flags = 0;
+    std::memcpy(&flags, reader.value.data(), sizeof flags);
+    SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
+    check_rotations(reader);
+    if (reader.read(SWIVEL_STRETCH) > 0) SWIVEL_REQUIRE(reader.value[0] >= 1 && reader.value[0] <= 1000);
+    if (reader.read(SWIVEL_NORMAL) > 0)
+        SWIVEL_REQUIRE(flags == SWIVEL_BAD_INPUT ? length_of(reader.value.data(), 3) == 0
+                                                 : is_unit(reader.value.data(), 3, 1e-6));
+    if (flags != SWIVEL_BAD_INPUT) check_places(session, group, limb);
+}
+
+void check_others(Session& session, const std::vector<bool>& chosen)
+{
+    const std::vector<char> now = result_bytes(*session.crowd);
+    const std::size_t lanes = session.lane_count(), bytes = session.features & SWIVEL_COMPACT ? 2 : 4,
+                      row_count = lanes == 0 ? 0 : now.size() / bytes / lanes;
+    SWIVEL_REQUIRE(now.size() == session.results_before.size());
+    for (std::uint32_t group = 0; group < session.group_count; ++group)
+        for (std::uint32_t limb = 0; limb < swivel_group_limb_count(session.crowd, group); ++limb) {
+            const std::size_t lane = swivel_group_first_limb(session.crowd, group) + limb;
+            for (std::size_t row = 0; row < row_count && !chosen[lane]; ++row) {
+                const std::size_t at =
+                    bytes * (((lane / SWIVEL_LANES) * row_count + row) * SWIVEL_LANES + lane % SWIVEL_LANES);
+                SWIVEL_REQUIRE(std::memcmp(now.data() + at, session.results_before.data() + at, bytes) == 0);
+            }
+        }
+}
+
+}  // namespace swivel::fuzz

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/crowd_of_bytes.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace swivel::fuzz {
+namespace {
+
+constexpr std::uint32_t kHandLimits =
+    SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
+constexpr std::uint32_t kPlain =
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET;
+constexpr std::uint32_t kTwist = 7 * SWIVEL_TWIST_BONES;
+constexpr std::uint32_t kAll = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
+
+// Where a feature of `of` is there, what it needs comes in and what it excludes goes.
+void settle(std::uint32_t& features, std::uint32_t of, std::uint32_t needs, std::uint32_t excludes)
+{
+    if (features & of) features = (features | needs) & ~excludes;
+}
+
+float hard_number(Random& random)
+{
+    constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr std::array hard = {0.0f,  -0.0f, 1e-15f, -3e-12f, 1e-38f, 1e-45f, 1.0f,  -1.0f,   1e15f, -1e15f,
+                                 2e15f, 3e38f, inf,    -inf,    nan,    0.5f,   1e-9f, 0.9999f, 1e7f,  1e-7f};
+    return hard[random.below(static_cast<std::uint32_t>(hard.size()))];
+}
+
+std::array<double, 3> any_axis(Random& random) { return {random.share(), random.share(), random.share()}; }
+// Two angles, the smaller first, of 0 to `most`.
+std::array<double, 2> two_angles(Random& random, double most)
+{
+    const double a = std::abs(random.share()) * most, b = std::abs(random.share()) * most;
+    return {std::min(a, b), std::max(a, b)};
+}
+
+void make_range(Random& random, float* range)
+{
+    const auto [least, most] = two_angles(random, 6);
+    swivel_range(least - 3, most - 3, range);
+}
+
+// What limits and the like are made with; false for other fields.
+bool make_limit(Random& random, swivel_field field, float* value)
+{
+    const std::array<double, 3> axis = any_axis(random);
+    const auto [least, most] = two_angles(random, 3.1415926);
+    switch (field) {
+        case SWIVEL_ANGLE:
+            return swivel_turn(4 * least - 6, value), true;
+        case SWIVEL_MOST_SWIVEL:
+            return swivel_turn(least, value), true;
+        case SWIVEL_FLEXION_LIMIT:
+            return swivel_flexion(least, most, value), true;
+        case SWIVEL_SHOULDER_CONE:
+        case SWIVEL_HAND_CONE:
+            return swivel_cone(axis.data(), most, value), true;
+        case SWIVEL_HUMERAL_TWIST:
+        case SWIVEL_FOREARM_TWIST:
+            return make_range(random, value), true;
+        case SWIVEL_HAND_TWIST: {
+            float cone[4] = {0, 0, 1, 0};
+            swivel_cone(axis.data(), 1, cone);
+            std::copy_n(cone, 3, value);
+            return make_range(random, value + 3), true;
+        }
+        case SWIVEL_SHOULDER_BOX:
+        case SWIVEL_WRIST_BOX:
+            for (int n = 0; n < 3; ++n) make_range(random, value + 4 * n);
+            return true;
+        case SWIVEL_AIM:
+            return swivel_aim(axis.data(), most, value), true;
+        default:
+            return false;
+    }
+}
+
+void make_ordinary(Random& random, swivel_field field, std::span<float> value)
+{
+    if (make_limit(random, field, value.data())) return;
+    for (float& x : value) x = random.share();
+    switch (field) {
+        case SWIVEL_LENGTHS:
+        case SWIVEL_PARENT_SCALE:
+            for (float& x : value) x = std::abs(x) + 0.01f;
+            break;
+        case SWIVEL_WEIGHTS:
+            for (float& x : value) x = std::abs(x);
+            break;
+        case SWIVEL_REACH:
+            for (float& x : value) x = 0.25f * std::abs(x);
+            value[2] += 1;
+            break;
+        case SWIVEL_CLAVICLE:
+            value[3] = std::abs(value[3]);
+            break;
+        case SWIVEL_TARGET:
+            for (float& x : value) x *= 2;
+            break;
+        default:
+            break;
+    }
+}
+
+// A row of the crowd, and where in it.
+float& input_at(const swivel_rows& rows, std::uint32_t limb, std::uint32_t row)
+{
+    return rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES];
+}
+
+swivel_binding binding_of(Random random)
+{
+    swivel_chain chain;
+    for (auto* q : {&chain.shoulder_rotation, &chain.elbow_rotation, &chain.wrist_rotation})
+        for (float& x : *q) x = random.share();
+    for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.hinge})
+        for (float& x : *v) x = random.share();
+    const float one[4] = {0, 0, 0, 1};
+    swivel_binding binding;
+    for (auto* q : {&binding.parent_from_arm, &binding.upper_from_arm, &binding.fore_from_arm, &binding.shoulder_rest,
+                    &binding.elbow_rest, &binding.wrist_rest})
+        std::copy_n(one, 4, *q);
+    swivel_bind(&chain, &binding, nullptr);  // leaves it alone where it fails
+    return binding;
+}
+
+}  // namespace
+
+std::uint64_t Random::bits()
+{
+    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits() >> 40) - (1 << 23)) * 0x1p-23f; }
+
+std::uint32_t features_of(Bytes& bytes)
+{
+    const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
+    std::uint32_t features = bytes.take<std::uint32_t>() & kAll;
+    if (kind == 1) features &= kPlain;                       // with other kernels than whole limbs, so often
+    if (kind == 2) features &= bytes.take<std::uint32_t>();  // few
+    settle(features, SWIVEL_POLE_INCOMING, 0, SWIVEL_POLE_NORMAL | SWIVEL_POLE_DIRECTION);
+    settle(features, SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, SWIVEL_POLE_NORMAL);
+    settle(features, SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, 0);
+    settle(features, SWIVEL_WITH_AIM, 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_LIMIT_FLEXION | kHandLimits);
+    settle(features, SWIVEL_COMPACT, 0, SWIVEL_WITH_CLAVICLE | kTwist | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP);
+    settle(features, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, 0);
+    settle(features, SWIVEL_WITH_EFFECTOR | kHandLimits | kTwist, SWIVEL_WITH_HAND, 0);
+    return features;
+}
+
+std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
+{
+    std::vector<swivel_group_def> groups(1 + bytes.take<std::uint8_t>() % 3);
+    for (swivel_group_def& group : groups)
+        group = {1 + bytes.take<std::uint8_t>() % most_limbs, binding_of({bytes.take<std::uint16_t>()})};
+    return groups;
+}
+
+void make_value(Random& random, swivel_field field, std::uint32_t kind, std::span<float> value)
+{
+    if (kind % 8 < 7) {
+        make_ordinary(random, field, value);
+        if (kind % 8 == 6)
+            for (float& x : value)
+                if (random.below(4) == 0) x = hard_number(random);
+    } else {
+        for (float& x : value) x = std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()));
+    }
+}
+
+void fill_inputs(Bytes& bytes, swivel_crowd& crowd)
+{
+    const swivel_rows rows = swivel_input_rows(&crowd);
+    const std::uint32_t limbs = rows.block_count * SWIVEL_LANES;
+    for (int f = 0; f < SWIVEL_SHOULDER; ++f) {
+        const auto field = static_cast<swivel_field>(f);
+        const std::uint32_t count = swivel_field_row_count(&crowd, field);
+        if (count == 0) continue;
+        const std::uint32_t first_row = swivel_field_first_row(&crowd, field), kind = bytes.take<std::uint8_t>();
+        Random random{bytes.take<std::uint16_t>()};
+        std::array<float, 12> value{};
+        for (std::uint32_t limb = 0; limb < limbs; ++limb) {
+            make_value(random, field, kind, std::span(value).first(count));
+            for (std::uint32_t c = 0; c < count; ++c) input_at(rows, limb, first_row + c) = value[c];
+        }
+    }
+    for (std::uint32_t n = bytes.take<std::uint8_t>() % 32; n > 0; --n) {
+        const std::uint32_t limb = bytes.take<std::uint8_t>() % limbs;
+        input_at(rows, limb, bytes.take<std::uint8_t>() % rows.row_count) = bytes.any_float();
+    }
+}
+
+}  // namespace swivel::fuzz

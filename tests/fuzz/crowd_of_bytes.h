@@ -1,0 +1,36 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// Crowds as a fuzzer's bytes say: features that go together, groups, bindings, and inputs from ordinary to absurd.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "swivel/swivel.h"
+#include "tests/fuzz/bytes.h"
+
+namespace swivel::fuzz {
+
+// A set of features that swivel_crowd_create() takes.
+std::uint32_t features_of(Bytes& bytes);
+
+// Bindings are sound; each group has 1 to most_limbs limbs.
+std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);
+
+// SplitMix64 (Steele, Lea, Flood, 2014): many numbers from a few bytes.
+struct Random {
+    std::uint64_t state;
+
+    std::uint64_t bits();
+    float share();  // -1 to 1
+    std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(bits() >> 32) % limit; }
+};
+
+// A value of a field, of as many floats as it has. kind says how hard: 0 to 5 as such fields should be, 6 with some
+// numbers at which formulas break, 7 any bits.
+void make_value(Random& random, swivel_field field, std::uint32_t kind, std::span<float> value);
+
+// Writes all inputs of all limbs, padding too: a kind and a seed a field, then single numbers here and there.
+void fill_inputs(Bytes& bytes, swivel_crowd& crowd);
+
+}  // namespace swivel::fuzz

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// The C interface: a crowd of any def, then calls in any order with any arguments. What must fail fails and changes
+// nothing, what must succeed does and keeps the promises of swivel.h; no byte beside the caller's values is touched.
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+#include "tests/fuzz/check_results.h"
+#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/interface_session.h"
+#include "tests/fuzz/require.h"
+
+using namespace swivel::fuzz;
+
+namespace {
+
+constexpr std::uint32_t kMostLimbs = 40;
+constexpr int kMostCalls = 40;
+
+struct Free {
+    void operator()(char* memory) const { std::free(memory); }
+};
+using Arena = std::unique_ptr<char, Free>;
+
+Arena aligned(std::size_t bytes) { return Arena(static_cast<char*>(std::aligned_alloc(64, bytes))); }
+
+// A def of which something is wrong makes no crowd.
+void spoil(Bytes& bytes, swivel_crowd_def& def, std::vector<swivel_group_def>& groups)
+{
+    switch (bytes.below(8)) {
+        case 0:
+            def.size = bytes.take<std::uint16_t>();
+            break;
+        case 1:
+            def.features = bytes.take<std::uint32_t>();
+            break;
+        case 2:
+            def.group_count = bytes.below(2);
+            break;
+        case 3:
+            groups.back().limb_count = 0;
+            break;
+        case 4:
+            groups.back().limb_count = (1u << 31) + bytes.take<std::uint16_t>();
+            break;
+        case 5:
+            groups.back().binding.fore_from_arm[0] = bytes.any_float();
+            break;
+        case 6:
+            def.shoulder_order = static_cast<swivel_euler_order>(bytes.take<std::uint8_t>());
+            break;
+        default:
+            def.release = [](void*, std::size_t, void*) {};
+    }
+    const std::size_t needed = swivel_crowd_bytes(&def);  // 0: it was spoilt
+    const Arena memory = aligned(64);
+    def.memory = memory.get();
+    def.memory_bytes = needed == 0 ? SIZE_MAX : needed - 1;
+    if (bytes.one_in(2)) {
+        def.memory = nullptr;
+        if (!def.release) {
+            def.allocate = [](std::size_t, std::size_t, void*) -> void* { return nullptr; };
+            def.release = [](void*, std::size_t, void*) { std::abort(); };
+        }
+    }
+    if (needed > 0 && !def.memory && !def.allocate) return;  // it would be made
+    swivel_crowd* crowd = reinterpret_cast<swivel_crowd*>(memory.get());
+    const swivel_status status = swivel_crowd_create(&def, &crowd);
+    SWIVEL_REQUIRE(status == (needed == 0 ? SWIVEL_INVALID_ARGUMENT : SWIVEL_OUT_OF_MEMORY) && !crowd);
+}
+
+void call_fill(Session& session)
+{
+    fill_inputs(session.bytes, *session.crowd);
+    // Normals of earlier solves stay.
+}
+
+void call_one(Session& session)
+{
+    constexpr std::array calls = {call_fill,         call_write,        call_write_doubles, call_read,
+                                  call_solve,        call_solve_blocks, call_solve_frame,   call_solve_active,
+                                  call_solve_list,   call_choose,       call_reset,         call_allowed_arcs,
+                                  call_joint_angles, call_forward,      call_residuals,     call_helper};
+    session.arena_before.assign(session.arena.begin(), session.arena.end());
+    session.results_before = result_bytes(*session.crowd);
+    calls[session.bytes.take<std::uint8_t>() % calls.size()](session);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    Bytes bytes(data, size);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.features = features_of(bytes);
+    std::vector<swivel_group_def> groups = groups_of(bytes, kMostLimbs);
+    def.groups = groups.data();
+    def.group_count = static_cast<std::uint32_t>(groups.size());
+    def.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
+    def.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
+    if (bytes.one_in(32)) return spoil(bytes, def, groups), 0;
+
+    const std::size_t needed = swivel_crowd_bytes(&def);
+    SWIVEL_REQUIRE(needed > 0);
+    const Arena arena = aligned(needed);
+    def.memory = arena.get();
+    def.memory_bytes = needed;
+    Session session{bytes, nullptr, def.features, def.group_count, {arena.get(), needed}};
+    SWIVEL_REQUIRE(swivel_crowd_create(&def, &session.crowd) == SWIVEL_OK);
+    session.is_solved.resize(session.lane_count());
+    for (int n = 0; n < kMostCalls && !bytes.is_empty(); ++n) call_one(session);
+    swivel_crowd_destroy(session.crowd);
+    return 0;
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+//
+// Calls of the C interface that copy values in and out.
+#include <array>
+#include <cstring>
+
+#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/interface_session.h"
+#include "tests/fuzz/require.h"
+#include "tests/fuzz/strided.h"
+
+namespace swivel::fuzz {
+namespace {
+
+// A field, one in 16 times none that there is.
+swivel_field take_field(Session& session, std::uint32_t limit)
+{
+    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.take<std::uint16_t>());
+    return static_cast<swivel_field>(session.bytes.below(limit));
+}
+
+// Bytes of a value; those of a float for a field that the crowd does not have.
+std::size_t value_bytes(const Session& session, swivel_field field)
+{
+    return sizeof(float) * std::max(component_count(session, field), 1u);
+}
+
+bool is_position(swivel_field field)
+{
+    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+}
+
+void require_equal_rows(const Session& session, swivel_field field, const Limbs& limbs, const Strided& values)
+{
+    const std::size_t size = values.value_bytes();
+    std::vector<char> read(size * limbs.count + 1);  // so that none is not null
+    SWIVEL_REQUIRE(swivel_read(session.crowd, field, limbs.group, limbs.first, limbs.count, {read.data(), size}) ==
+                   SWIVEL_OK);
+    for (std::size_t n = 0; n < limbs.count; ++n)
+        SWIVEL_REQUIRE(std::memcmp(read.data() + n * size, values.at(n), size) == 0);
+}
+
+}  // namespace
+
+void call_write(Session& session)
+{
+    const swivel_field field = take_field(session, SWIVEL_SHOULDER + 1);
+    const Limbs limbs = take_limbs(session);
+    const std::uint32_t kind = session.bytes.take<std::uint8_t>();
+    Random random{session.bytes.take<std::uint16_t>()};
+    Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, field), true);
+    const bool is_there = field < SWIVEL_SHOULDER && component_count(session, field) > 0;
+    values.fill([&](std::size_t, char* at) {
+        std::array<float, 12> value{};
+        const std::size_t count = values.value_bytes() / sizeof(float);
+        if (is_there) make_value(random, field, kind, std::span(value).first(count));
+        if (is_there) std::memcpy(at, value.data(), values.value_bytes());
+    });
+    const swivel_status status = swivel_write(session.crowd, field, limbs.group, limbs.first, limbs.count, values.in());
+    check_status(session, status, limbs.is_valid && is_there && values.is_valid());
+    if (status == SWIVEL_OK) require_equal_rows(session, field, limbs, values);
+}
+
+void call_write_doubles(Session& session)
+{
+    Bytes& bytes = session.bytes;
+    const swivel_field field = take_field(session, SWIVEL_PARENT_POSITION + 1);
+    const Limbs limbs = take_limbs(session);
+    const bool any_bits = bytes.one_in(3), has_origins = bytes.one_in(2);
+    Random random{bytes.take<std::uint16_t>()};
+    const auto fill = [&](std::size_t, char* at) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double value = any_bits ? std::bit_cast<double>(random.bits()) : 1e6 + double{random.share()};
+            std::memcpy(at + c * sizeof value, &value, sizeof value);
+        }
+    };
+    const std::size_t count = limbs.is_valid ? limbs.count : 1, size = 3 * sizeof(double);
+    Strided values(bytes, count, size, true), origins(bytes, count, size, true);
+    values.fill(fill);
+    origins.fill(fill);
+    const bool is_given = has_origins && !origins.is_null(),
+               is_direction = field == SWIVEL_POLE && (session.features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL));
+    const swivel_status status =
+        swivel_write_doubles(session.crowd, field, limbs.group, limbs.first, limbs.count, values.in(),
+                             has_origins ? origins.in() : swivel_in{nullptr, origins.stride()});
+    const bool is_there = is_position(field) && component_count(session, field) > 0;
+    check_status(
+        session, status,
+        limbs.is_valid && is_there && values.is_valid() && !(is_given && (is_direction || !origins.is_valid())));
+}
+
+void call_read(Session& session)
+{
+    const swivel_field field = take_field(session, SWIVEL_FIELD_COUNT + 1);
+    const Limbs limbs = take_limbs(session);
+    Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, field), false);
+    const bool is_there = field < SWIVEL_FIELD_COUNT && component_count(session, field) > 0;
+    const swivel_status status = swivel_read(session.crowd, field, limbs.group, limbs.first, limbs.count, values.out());
+    check_status(session, status, limbs.is_valid && is_there && values.is_valid());
+    values.check_gaps(status != SWIVEL_OK);
+    SWIVEL_REQUIRE(status != SWIVEL_OK || limbs.count == 0 ||
+                   std::memcmp(session.arena.data(), session.arena_before.data(), session.arena.size()) == 0);
+}
+
+}  // namespace swivel::fuzz

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// Calls of the C interface about single poses, and those that need no crowd.
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "tests/fuzz/crowd_of_bytes.h"
+#include "tests/fuzz/interface_session.h"
+#include "tests/fuzz/require.h"
+#include "tests/fuzz/strided.h"
+
+namespace swivel::fuzz {
+namespace {
+
+template <std::size_t N>
+bool is_near_unit(const std::array<float, N>& value, std::size_t first, std::size_t count)
+{
+    double sum = 0;
+    for (std::size_t n = first; n < first + count; ++n) sum += double{value[n]} * double{value[n]};
+    return std::abs(sum - 1) < 1e-5;
+}
+
+double take_angle(Bytes& bytes) { return bytes.one_in(3) ? bytes.any_double() : 4 * double{bytes.share()}; }
+
+// A helper's outcome: sound values, or the old ones.
+template <std::size_t N>
+void check_helper(swivel_status status, const std::array<float, N>& value, bool is_sound)
+{
+    SWIVEL_REQUIRE(status == SWIVEL_OK || status == SWIVEL_INVALID_ARGUMENT);
+    std::array<float, N> old;
+    old.fill(7);
+    SWIVEL_REQUIRE(status == SWIVEL_OK ? is_sound : value == old);
+}
+
+void call_limits(Bytes& bytes)
+{
+    const double least = take_angle(bytes), most = take_angle(bytes);
+    const std::array<double, 3> axis = {take_angle(bytes), take_angle(bytes), take_angle(bytes)};
+    std::array<float, 4> range, cone;
+    std::array<float, 2> flexion;
+    std::array<float, 5> aim;
+    range.fill(7), cone.fill(7), flexion.fill(7), aim.fill(7);
+    check_helper(swivel_range(least, most, range.data()), range,
+                 is_near_unit(range, 0, 2) && is_near_unit(range, 2, 2) && range[3] >= 0);
+    check_helper(swivel_cone(axis.data(), most, cone.data()), cone, is_near_unit(cone, 0, 3) && std::abs(cone[3]) <= 1);
+    check_helper(swivel_flexion(least, most, flexion.data()), flexion,
+                 flexion[0] <= 1 && flexion[0] >= flexion[1] && flexion[1] >= 0);
+    check_helper(swivel_aim(axis.data(), most, aim.data()), aim,
+                 is_near_unit(aim, 0, 3) && is_near_unit(aim, 3, 2) && aim[3] >= 0 && aim[4] >= 0);
+    swivel_turn(least, flexion.data());
+    SWIVEL_REQUIRE(!std::isfinite(least) || is_near_unit(flexion, 0, 2));
+}
+
+void call_mirror(Bytes& bytes)
+{
+    const auto field = static_cast<swivel_field>(bytes.below(SWIVEL_FIELD_COUNT + 2));
+    const auto order = static_cast<swivel_euler_order>(bytes.below(8));
+    std::array<float, 12> value, mirrored;
+    for (float& x : value) x = bytes.any_float();
+    mirrored = value;
+    const swivel_status status = swivel_mirror(field, order, mirrored.data(), mirrored.data());
+    SWIVEL_REQUIRE((status == SWIVEL_OK) == (field < SWIVEL_SHOULDER && order <= SWIVEL_ZYX));
+    if (status == SWIVEL_OK) swivel_mirror(field, order, mirrored.data(), mirrored.data());
+    SWIVEL_REQUIRE(std::memcmp(value.data(), mirrored.data(), sizeof value) == 0);
+}
+
+void call_bind(Bytes& bytes)
+{
+    std::array<float, 21> numbers;
+    const bool any_bits = bytes.one_in(3);
+    for (float& x : numbers) x = any_bits ? bytes.any_float() : bytes.share();
+    swivel_chain chain;
+    static_assert(sizeof chain == sizeof numbers);
+    std::memcpy(&chain, numbers.data(), sizeof chain);
+    std::array<float, 24> binding;
+    std::array<float, 2> lengths = {7, 7};
+    static_assert(sizeof binding == sizeof(swivel_binding));
+    binding.fill(7);
+    swivel_binding bound;
+    std::memcpy(&bound, binding.data(), sizeof bound);
+    const swivel_status status = swivel_bind(&chain, &bound, lengths.data());
+    std::memcpy(binding.data(), &bound, sizeof bound);
+    bool is_sound = lengths[0] > 0 && lengths[1] > 0 && std::isfinite(lengths[0]) && std::isfinite(lengths[1]);
+    for (std::size_t n = 0; n < binding.size(); n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
+    check_helper(status, binding, is_sound);
+}
+
+void call_unpack(Bytes& bytes)
+{
+    const auto stride = 1 + bytes.below(20);
+    std::vector<std::uint16_t> words(2 * stride + 1);
+    for (std::uint16_t& word : words) word = bytes.take<std::uint16_t>();
+    std::array<float, 4> xyzw;
+    swivel_unpack_rotation(words.data(), stride, xyzw.data());
+    for (const float x : xyzw) SWIVEL_REQUIRE(std::abs(x) <= 1);
+    swivel_unpack_half(words[0]);
+}
+
+void call_isa(Bytes& bytes)
+{
+    const char* const name = swivel_isa_at(bytes.below(6));
+    if (name && swivel_isa_runs(name)) {
+        SWIVEL_REQUIRE(swivel_use_isa(name) == SWIVEL_OK);
+        SWIVEL_REQUIRE(swivel_isa_name() == name);
+    } else {
+        const char* const before = swivel_isa_name();
+        SWIVEL_REQUIRE(swivel_use_isa(name) != SWIVEL_OK);
+        SWIVEL_REQUIRE(swivel_isa_name() == before);
+    }
+}
+
+bool are_solved(const Session& session, const Limbs& limbs)
+{
+    for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count; ++n)
+        if (!session.is_solved[limbs.first_lane + n]) return false;
+    return limbs.is_valid;
+}
+
+}  // namespace
+
+void call_reset(Session& session)
+{
+    const Limbs limbs = take_limbs(session);
+    check_status(session, swivel_reset(session.crowd, limbs.group, limbs.first, limbs.count), limbs.is_valid);
+    for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count && (session.features & SWIVEL_WITH_STEP); ++n)
+        session.is_solved[limbs.first_lane + n] = false;  // their normal is none
+}
+
+void call_allowed_arcs(Session& session)
+{
+    const Limbs limbs = take_limbs(session);
+    const bool is_valid = limbs.is_valid && limbs.first < swivel_group_limb_count(session.crowd, limbs.group);
+    std::vector<swivel_arc> arcs(session.bytes.below(6));
+    std::uint32_t count = ~0u;
+    // A range of bad limbs may be bad for its count alone, and this takes none.
+    if (!is_valid && limbs.group < session.group_count &&
+        limbs.first < swivel_group_limb_count(session.crowd, limbs.group))
+        return;
+    const swivel_status status = swivel_allowed_arcs(session.crowd, limbs.group, limbs.first, arcs.data(),
+                                                     static_cast<std::uint32_t>(arcs.size()), &count);
+    check_status(session, status, is_valid);
+    SWIVEL_REQUIRE((status == SWIVEL_OK) == (count != ~0u));
+    for (std::size_t n = 0; status == SWIVEL_OK && n < std::min<std::size_t>(count, arcs.size()); ++n)
+        for (const auto* end : {&arcs[n].from, &arcs[n].to})
+            SWIVEL_REQUIRE(std::abs(std::hypot((*end)[0], (*end)[1]) - 1) < 1e-4f);
+}
+
+void call_joint_angles(Session& session)
+{
+    const Limbs limbs = take_limbs(session);
+    const auto shoulder_order = static_cast<swivel_euler_order>(session.bytes.below(7)),
+               wrist_order = static_cast<swivel_euler_order>(session.bytes.below(7));
+    const int family = static_cast<int>(session.bytes.take<std::uint8_t>() % 8) / 3;
+    Strided angles(session.bytes, limbs.is_valid ? limbs.count : 1, 7 * sizeof(double), false);
+    const swivel_status status = swivel_joint_angles(session.crowd, limbs.group, limbs.first, limbs.count,
+                                                     shoulder_order, wrist_order, family, angles.out());
+    check_status(
+        session, status,
+        limbs.is_valid && shoulder_order <= SWIVEL_ZYX && wrist_order <= SWIVEL_ZYX && family < 2 && angles.is_valid());
+    angles.check_gaps(status != SWIVEL_OK);
+    if (status != SWIVEL_OK || !are_solved(session, limbs)) return;
+    for (std::size_t n = 0; n < limbs.count; ++n) {
+        std::array<double, 7> seven;
+        std::memcpy(seven.data(), angles.at(n), sizeof seven);
+        for (const double angle : seven) SWIVEL_REQUIRE(std::abs(angle) <= 6.2831854);
+    }
+}
+
+void call_forward(Session& session)
+{
+    const Limbs limbs = take_limbs(session);
+    const std::size_t count = limbs.is_valid ? limbs.count : 1;
+    Strided elbow(session.bytes, count, 24, false), wrist(session.bytes, count, 24, false),
+        hand(session.bytes, count, 32, false);
+    const swivel_status status =
+        swivel_forward(session.crowd, limbs.group, limbs.first, limbs.count, elbow.out(), wrist.out(), hand.out());
+    const auto is_sound = [](const Strided& out) { return out.is_null() || out.is_valid(); };
+    check_status(session, status,
+                 limbs.is_valid && is_sound(elbow) && is_sound(wrist) && is_sound(hand) &&
+                     (hand.is_null() || (session.features & SWIVEL_WITH_HAND)));
+    for (const Strided* out : {&elbow, &wrist, &hand}) out->check_gaps(status != SWIVEL_OK);
+}
+
+void call_residuals(Session& session)
+{
+    const Limbs limbs = take_limbs(session);
+    Strided distance(session.bytes, limbs.is_valid ? limbs.count : 1, sizeof(double), false);
+    const swivel_status status = swivel_residuals(session.crowd, limbs.group, limbs.first, limbs.count, distance.out());
+    check_status(session, status, limbs.is_valid && distance.is_valid());
+    distance.check_gaps(status != SWIVEL_OK);
+}
+
+void call_helper(Session& session)
+{
+    constexpr std::array helpers = {call_limits, call_mirror, call_bind, call_unpack, call_isa};
+    helpers[session.bytes.below(helpers.size())](session.bytes);
+}
+
+}  // namespace swivel::fuzz

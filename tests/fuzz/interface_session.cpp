@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/interface_session.h"
+
+#include <cstring>
+#include <string_view>
+
+#include "tests/fuzz/check_results.h"
+#include "tests/fuzz/require.h"
+
+namespace swivel::fuzz {
+
+Limbs take_limbs(Session& session)
+{
+    Bytes& bytes = session.bytes;
+    Limbs limbs;
+    limbs.group = bytes.below(session.group_count);
+    const std::uint32_t has = swivel_group_limb_count(session.crowd, limbs.group);
+    limbs.first = bytes.below(has + 1);
+    limbs.count = bytes.below(has - limbs.first + 1);
+    limbs.first_lane = swivel_group_first_limb(session.crowd, limbs.group) + limbs.first;
+    if (!bytes.one_in(16)) return limbs;
+    limbs.is_valid = false;
+    switch (bytes.take<std::uint8_t>() % 3) {
+        case 0:
+            limbs.group = session.group_count + bytes.take<std::uint32_t>() / 2;
+            break;
+        case 1:
+            limbs.first = has + 1 + bytes.take<std::uint32_t>() / 2;
+            break;
+        default:
+            limbs.count = has - limbs.first + 1 + bytes.take<std::uint32_t>() / 2;
+    }
+    return limbs;
+}
+
+std::uint32_t component_count(const Session& session, swivel_field field)
+{
+    if (field < SWIVEL_SHOULDER || !(session.features & SWIVEL_COMPACT))
+        return swivel_field_row_count(session.crowd, field);
+    switch (field) {
+        case SWIVEL_SHOULDER:
+            return 4;
+        case SWIVEL_ELBOW:
+            return session.features & SWIVEL_JOINTS ? 4 : 2;
+        case SWIVEL_WRIST:
+            return session.features & SWIVEL_WITH_HAND ? 4 : 0;
+        case SWIVEL_FLAGS:
+            return 1;
+        default:
+            return 0;
+    }
+}
+
+void check_status(const Session& session, swivel_status status, bool expected)
+{
+    SWIVEL_REQUIRE((status == SWIVEL_OK) == expected);
+    if (expected) return;
+    SWIVEL_REQUIRE(status == SWIVEL_INVALID_ARGUMENT);
+    const std::string_view said = swivel_last_error();
+    SWIVEL_REQUIRE(!said.empty() && said.find('\n') == std::string_view::npos);
+    SWIVEL_REQUIRE(session.arena.size() == session.arena_before.size());
+    SWIVEL_REQUIRE(std::memcmp(session.arena.data(), session.arena_before.data(), session.arena.size()) == 0);
+}
+
+void check_solved(Session& session, const std::vector<bool>& chosen)
+{
+    for (std::uint32_t group = 0; group < session.group_count; ++group) {
+        const std::uint32_t first = swivel_group_first_limb(session.crowd, group);
+        for (std::uint32_t limb = 0; limb < swivel_group_limb_count(session.crowd, group); ++limb) {
+            if (!chosen[first + limb]) continue;
+            session.is_solved[first + limb] = true;
+            check_results(session, group, limb);
+        }
+    }
+    check_others(session, chosen);
+}
+
+}  // namespace swivel::fuzz

@@ -1,0 +1,61 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// One crowd and what the fuzzer of the C interface knows of it. Each call here takes its arguments from the bytes,
+// sound or not, knows whether it must succeed, and checks what it did.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "swivel/swivel.h"
+#include "tests/fuzz/bytes.h"
+
+namespace swivel::fuzz {
+
+struct Session {
+    Bytes& bytes;
+    swivel_crowd* crowd = nullptr;
+    std::uint32_t features = 0, group_count = 0;
+    std::span<const char> arena = {};     // all of the crowd's memory, where it is ours
+    std::vector<char> arena_before = {};  // as it was before the call at hand
+    std::vector<char> results_before = {};
+    std::vector<bool> is_solved = {};  // each lane
+
+    std::uint32_t lane_count() const { return swivel_block_count(crowd) * SWIVEL_LANES; }
+};
+
+// Some limbs of one group, there or not.
+struct Limbs {
+    std::uint32_t group = 0, first = 0, count = 0;
+    bool is_valid = true;
+    std::uint32_t first_lane = 0;  // where valid
+};
+Limbs take_limbs(Session& session);
+
+// Floats, or the one word, of a field's value as callers have it; 0: the crowd has no such field.
+std::uint32_t component_count(const Session& session, swivel_field field);
+
+// A call was to succeed or not, and did so; if not, it has changed nothing.
+void check_status(const Session& session, swivel_status status, bool expected);
+// Lanes with chosen[lane] were solved, results of all others are the bits they were.
+void check_solved(Session& session, const std::vector<bool>& chosen);
+
+// ---- the calls: interface_copies.cpp, interface_solves.cpp, interface_poses.cpp
+void call_write(Session& session);
+void call_write_doubles(Session& session);
+void call_read(Session& session);
+void call_solve(Session& session);
+void call_solve_blocks(Session& session);
+void call_solve_frame(Session& session);
+void call_solve_active(Session& session);
+void call_solve_list(Session& session);
+void call_choose(Session& session);
+void call_reset(Session& session);
+void call_allowed_arcs(Session& session);
+void call_joint_angles(Session& session);
+void call_forward(Session& session);
+void call_residuals(Session& session);
+// Those that need no crowd.
+void call_helper(Session& session);
+
+}  // namespace swivel::fuzz
