@@ -12,7 +12,6 @@
 #include "swivel/swivel.h"
 #include "tools/swivel/limb_words.h"
 #include "tools/swivel/parallel.h"
-#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 
@@ -155,12 +154,6 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
         if (s->upper_twist.count > 0) out["turned_over"][words_of(kind).limbs] = s->turned_over;
     return out;
-}
-
-std::string vector_text(const Eigen::Vector3d& v)
-{
-    const Eigen::Vector3d shown = to_three_decimals(v);
-    return fmt::format("({:.3f} {:.3f} {:.3f})", shown.x(), shown.y(), shown.z());
 }
 
 void print_json(const nlohmann::ordered_json& json)

@@ -3,9 +3,7 @@
 // What a run measured, as lines for people or as JSON for machines.
 #pragma once
 
-#include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
 #include "tools/swivel/statistics.h"
 
@@ -14,9 +12,6 @@ namespace swivel::tools {
 // Throughput, instruction set, threads, errors, flags: on stdout.
 void print_statistics(const Statistics& statistics);
 nlohmann::ordered_json json_of(const Statistics& statistics);
-
-// "(0.000 1.000 0.000)", without the sign of a 0.
-std::string vector_text(const Eigen::Vector3d& v);
 
 // Prints JSON on stdout; bytes of file and joint names that are not UTF-8 are replaced.
 void print_json(const nlohmann::ordered_json& json);

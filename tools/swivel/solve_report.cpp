@@ -8,6 +8,7 @@
 
 #include "tools/swivel/limb_words.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 
