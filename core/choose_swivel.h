@@ -47,9 +47,10 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
 }
 
 // The swivel at which the limits have the most room, though it is less than none: the room is the least of lines and
-// the most of such alternatives, so it peaks where a line does or where two lines of an alternative are equal.
+// the most of such alternatives, so it peaks where a line does or where two lines of an alternative are equal. Long and
+// rarely needed, so a function of its own.
 template <class T>
-SWIVEL_INLINE constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
 {
     Edge<T> edge[kMostEdges];
     const int count = edges(limits, true, edge);

@@ -23,7 +23,7 @@ namespace swivel::tools {
 namespace {
 
 // One arm: metres, y up, the character facing +z before it is turned.
-struct Limb {
+struct DemoArm {
     float target[3], pole[3], lengths[2], position[3], rotation[4];
     float pace, phase, reach;  // of its loop: turns a frame, turns, size
 };
@@ -31,9 +31,9 @@ struct Limb {
 float unit(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24f; }
 
 // The shoulder of character n, on the side +1 or -1, turned about the vertical.
-Limb make_limb(std::uint32_t n, float side, std::uint32_t columns, std::mt19937& random)
+DemoArm make_limb(std::uint32_t n, float side, std::uint32_t columns, std::mt19937& random)
 {
-    Limb limb{};
+    DemoArm limb{};
     const float size = 0.9f + 0.2f * unit(random), turn = 6.2831853f * unit(random);
     const float x = 2.0f * static_cast<float>(n % columns), z = 2.0f * static_cast<float>(n / columns);
     limb.lengths[0] = 0.30f * size;
@@ -51,7 +51,7 @@ Limb make_limb(std::uint32_t n, float side, std::uint32_t columns, std::mt19937&
 
 // Where the hand and the elbow should be in a frame: a figure of eight in front of the shoulder, the elbow low and
 // outwards.
-void move(Limb& limb, float side, std::uint32_t frame)
+void move(DemoArm& limb, float side, std::uint32_t frame)
 {
     const float t = 6.2831853f * (limb.phase + limb.pace * static_cast<float>(frame));
     const float local[3] = {side * 0.4f * limb.reach * std::sin(t), 0.4f * limb.reach * std::sin(2 * t),
@@ -70,7 +70,7 @@ void move(Limb& limb, float side, std::uint32_t frame)
 class DemoCrowd {
 public:
     explicit DemoCrowd(const DemoOptions& options)
-        : limbs_{std::vector<Limb>(options.characters), std::vector<Limb>(options.characters)},
+        : limbs_{std::vector<DemoArm>(options.characters), std::vector<DemoArm>(options.characters)},
           residuals_(options.characters),
           flags_(options.characters),
           crowd_(SWIVEL_WORLD, groups(options.characters))
@@ -78,7 +78,7 @@ public:
         const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(options.characters)));
         std::mt19937 random(static_cast<std::uint32_t>(options.seed ^ options.seed >> 32));
         for (std::uint32_t group = 0; group < 2; ++group) {
-            std::vector<Limb>& limbs = limbs_[group];
+            std::vector<DemoArm>& limbs = limbs_[group];
             for (std::uint32_t n = 0; n < limbs.size(); ++n) limbs[n] = make_limb(n, side(group), columns, random);
             write(SWIVEL_LENGTHS, group, limbs[0].lengths);
             write(SWIVEL_PARENT_POSITION, group, limbs[0].position);
@@ -89,7 +89,7 @@ public:
     void solve_frame(std::uint32_t frame, Statistics& statistics)
     {
         for (std::uint32_t group = 0; group < 2; ++group) {
-            std::vector<Limb>& limbs = limbs_[group];
+            std::vector<DemoArm>& limbs = limbs_[group];
             for_ranges(static_cast<std::uint32_t>(limbs.size()), [&](std::uint32_t begin, std::uint32_t end) {
                 for (std::uint32_t n = begin; n < end; ++n) move(limbs[n], side(group), frame);
             });
@@ -126,10 +126,10 @@ private:
     void write(swivel_field field, std::uint32_t group, const float* first)
     {
         check(swivel_write(crowd_.get(), field, group, 0, static_cast<std::uint32_t>(limbs_[group].size()),
-                           {first, sizeof(Limb)}));
+                           {first, sizeof(DemoArm)}));
     }
 
-    std::vector<Limb> limbs_[2];  // left, right
+    std::vector<DemoArm> limbs_[2];  // left, right
     std::vector<double> residuals_;
     std::vector<std::uint32_t> flags_;
     Crowd crowd_;
