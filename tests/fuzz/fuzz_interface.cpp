@@ -49,7 +49,7 @@ void spoil(Bytes& bytes, swivel_crowd_def& def, std::vector<swivel_group_def>& g
             groups.back().binding.fore_from_arm[0] = bytes.any_float();
             break;
         case 6:
-            def.shoulder_order = static_cast<swivel_euler_order>(bytes.take<std::uint8_t>());
+            def.shoulder_order = static_cast<swivel_euler_order>(bytes.below(8));
             break;
         default:
             def.release = [](void*, std::size_t, void*) {};

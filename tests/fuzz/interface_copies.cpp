@@ -12,10 +12,10 @@
 namespace swivel::fuzz {
 namespace {
 
-// A field, one in 16 times none that there is.
+// A field, one in 16 times any that C++ lets the enum hold.
 swivel_field take_field(Session& session, std::uint32_t limit)
 {
-    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.take<std::uint16_t>());
+    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.below(64));
     return static_cast<swivel_field>(session.bytes.below(limit));
 }
 
