@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` puts under the prefix: two headers, the library, the command, package files, the licence. All of it
-# may be moved as a whole: no file names its place.
+# What `cmake --install` puts under the prefix: two headers, the library, the command and swivel-race, package files, the licence. All
+# of it may be moved as a whole: no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

@@ -3,7 +3,7 @@
 # The promise: the linker cannot hand one instruction set's code to another. The two objects of an instruction set's kernels define
 # one strong symbol each, their tables, and every function that other objects might define, too, carries the instruction set in its
 # name.
-#   NM: the tool; OBJECTS: name=object+object,...; DEBUG: 1 for a build without optimisation
+#   NM: the tool; OBJECTS: name=object|object,...; DEBUG: 1 for a build without optimisation
 string(REPLACE "," ";" isas "${OBJECTS}")
 if(NOT isas)
   message(FATAL_ERROR "OBJECTS is empty")
@@ -12,7 +12,7 @@ endif()
 foreach(entry IN LISTS isas)
   string(REGEX REPLACE "=.*" "" isa "${entry}")
   string(REGEX REPLACE "^[^=]*=" "" objects "${entry}")
-  string(REPLACE "+" ";" objects "${objects}")
+  string(REPLACE "|" ";" objects "${objects}")
   execute_process(COMMAND ${NM} --defined-only ${objects} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "${NM} ${objects} failed: ${errors}")

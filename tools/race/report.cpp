@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
 #include "tools/race/report.h"
 
 #include <fmt/format.h>

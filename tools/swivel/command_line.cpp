@@ -148,7 +148,7 @@ void add_solve(CLI::App& app)
         ->add_option(
             "--crowd", options->crowd,
             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, reach, limits, "
-            "budget; docs/crowd_file.md has every key. Options given here go before it")
+            "budget; docs/crowd_file.md has every key. Options given here override it")
         ->check(file_name());
     command
         ->add_option("--out", options->out,
