@@ -15,6 +15,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void note_interrupts()
 {
+    interrupted = 0;  // of an earlier run in this process
     for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, [](int number) {
             interrupted = 1;
