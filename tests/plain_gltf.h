@@ -35,52 +35,9 @@ struct PlainGltf {
     int parent_of(int node) const { return parents.at(static_cast<std::size_t>(node)); }
 };
 
-inline std::string plain_base64(std::string_view text)
-{
-    std::string bytes;
-    unsigned bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        const std::size_t digit =
-            std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
-        if (digit == std::string_view::npos) break;
-        bits = bits << 6 | static_cast<unsigned>(digit);
-        if ((count += 6) < 8) continue;
-        count -= 8;
-        bytes += static_cast<char>(bits >> count & 0xff);
-    }
-    return bytes;
-}
+std::string plain_base64(std::string_view text);
 
-inline PlainGltf plain_gltf_of(const fs::path& path)
-{
-    const std::string file = slurp(path);
-    PlainGltf gltf;
-    std::string chunk;
-    if (file.starts_with("glTF")) {
-        std::uint32_t length = 0;
-        std::memcpy(&length, file.data() + 12, 4);
-        gltf.json = nlohmann::json::parse(file.substr(20, length));
-        if (file.size() > 28 + length) chunk = file.substr(28 + length);
-    } else {
-        gltf.json = nlohmann::json::parse(file);
-    }
-    for (const auto& buffer : gltf.json.value("buffers", nlohmann::json::array())) {
-        const std::string uri = buffer.value("uri", "");
-        if (uri.empty())
-            gltf.buffers.push_back(chunk);
-        else if (uri.starts_with("data:"))
-            gltf.buffers.push_back(plain_base64(std::string_view(uri).substr(uri.find(',') + 1)));
-        else
-            gltf.buffers.push_back(slurp(path.parent_path() / uri));
-        REQUIRE(gltf.buffers.back().size() >= buffer.at("byteLength").get<std::size_t>());
-    }
-    gltf.parents.assign(gltf.json.value("nodes", nlohmann::json::array()).size(), -1);
-    for (std::size_t n = 0; n < gltf.parents.size(); ++n)
-        for (const int child : gltf.nodes()[n].value("children", std::vector<int>()))
-            gltf.parents.at(static_cast<std::size_t>(child)) = static_cast<int>(n);
-    return gltf;
-}
+PlainGltf plain_gltf_of(const fs::path& path);
 
 // An accessor's elements, one after the other.
 inline const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index)
@@ -107,66 +64,13 @@ inline const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index
 }
 
 // The value of one node's channel at a time, as the specification's appendix C has it; `rest` where there is none.
-inline Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int node, const std::string& path, double time,
-                                   const Eigen::VectorXd& rest)
-{
-    if (animation < 0) return rest;
-    const auto& from = gltf.json.at("animations").at(static_cast<std::size_t>(animation));
-    for (const auto& channel : from.at("channels")) {
-        const auto& target = channel.at("target");
-        if (target.value("node", -1) != node || target.at("path") != path) continue;
-        const auto& sampler = from.at("samplers").at(channel.at("sampler").get<std::size_t>());
-        const auto &times = plain_numbers(gltf, sampler.at("input")),
-                   &values = plain_numbers(gltf, sampler.at("output"));
-        const std::string kind = sampler.value("interpolation", "LINEAR");
-        const Eigen::Index width = rest.size(), step = kind == "CUBICSPLINE" ? 3 : 1;
-        const auto at = [&](std::size_t key, Eigen::Index part) -> Eigen::VectorXd {
-            return Eigen::Map<const Eigen::VectorXd>(
-                values.data() + width * (step * static_cast<Eigen::Index>(key) + part), width);
-        };
-        std::size_t k = 0;
-        while (k + 1 < times.size() && times[k + 1] <= time) ++k;
-        const Eigen::VectorXd a = at(k, step / 3);
-        if (k + 1 == times.size() || time <= times[k] || kind == "STEP") return a;
-        const double seconds = times[k + 1] - times[k], t = (time - times[k]) / seconds;
-        Eigen::VectorXd b = at(k + 1, step / 3);
-        if (kind == "CUBICSPLINE")
-            return (2 * t * t * t - 3 * t * t + 1) * a + seconds * (t * t * t - 2 * t * t + t) * at(k, 2) +
-                   (-2 * t * t * t + 3 * t * t) * b + seconds * (t * t * t - t * t) * at(k + 1, 0);
-        if (path != "rotation") return (1 - t) * a + t * b;
-        if (a.dot(b) < 0) b = -b;
-        const double angle = std::acos(std::min(a.normalized().dot(b.normalized()), 1.0));
-        if (angle < 1e-7) return (1 - t) * a + t * b;
-        return (std::sin((1 - t) * angle) * a.normalized() + std::sin(t * angle) * b.normalized()) / std::sin(angle);
-    }
-    return rest;
-}
+Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int node, const std::string& path, double time,
+                            const Eigen::VectorXd& rest);
 
 // A node's transform against its parent.
-inline Eigen::Affine3d plain_local(const PlainGltf& gltf, int animation, int node, double time)
-{
-    const auto& at = gltf.nodes().at(static_cast<std::size_t>(node));
-    if (at.contains("matrix")) {
-        const std::vector<double> numbers = at.at("matrix");
-        return Eigen::Affine3d(Eigen::Map<const Eigen::Matrix4d>(numbers.data()).matrix());
-    }
-    const auto value = [&](const char* path, std::vector<double> rest) {
-        rest = at.value(path, rest);
-        return plain_value(gltf, animation, node, path, time,
-                           Eigen::Map<const Eigen::VectorXd>(rest.data(), static_cast<Eigen::Index>(rest.size())));
-    };
-    const Eigen::Vector3d translation = value("translation", {0, 0, 0}), scale = value("scale", {1, 1, 1});
-    const Eigen::Vector4d rotation = value("rotation", {0, 0, 0, 1});
-    return Eigen::Translation3d(translation) * Eigen::Quaterniond(rotation).normalized() * Eigen::Scaling(scale);
-}
+Eigen::Affine3d plain_local(const PlainGltf& gltf, int animation, int node, double time);
 
 // A node's transform in the world; animation -1: at rest.
-inline Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, double time)
-{
-    Eigen::Affine3d world = plain_local(gltf, animation, node, time);
-    for (int up = gltf.parent_of(node); up >= 0; up = gltf.parent_of(up))
-        world = plain_local(gltf, animation, up, time) * world;
-    return world;
-}
+Eigen::Affine3d plain_world(const PlainGltf& gltf, int animation, int node, double time);
 
 }  // namespace swivel::test

@@ -267,7 +267,7 @@ TEST_CASE("a compact crowd's words are those of the float results, for every set
     for_each_feature_set([&](const Recipe& recipe) {
         Twins twins(recipe, 200);
         twins.solve();
-        for (std::uint32_t group = 0; group < 3; ++group) {
+        for (std::uint32_t group = 0; group < corpus::kGroupCount; ++group) {
             const std::uint32_t first = swivel_group_first_limb(twins.compact.get(), group);
             const auto flags = read<std::uint32_t>(twins.floats, SWIVEL_FLAGS, group);
             CHECK(read<std::uint32_t>(twins.compact, SWIVEL_FLAGS, group) == flags);

@@ -230,7 +230,8 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
     for (std::uint32_t n = 0; n < count; ++n) {
         const Quaterniond wrist = fore.conjugate() * local_pose(crowd, n).wrist * hand_rest.conjugate();
         // The rotation's matrix, its swing from e3 taken out: what is left turns e1 about e3.
-        const Quaterniond swing = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), wrist * Vector3d::UnitZ());
+        const Vector3d to = wrist * Vector3d::UnitZ(), across = Vector3d::UnitZ().cross(to);
+        const Quaterniond swing = Quaterniond(1 + to.z(), across.x(), across.y(), across.z()).normalized();
         const Vector3d turned = (swing.conjugate() * wrist) * Vector3d::UnitX();
         const double twist = std::atan2(turned.y(), turned.x());
         for (std::size_t bone = 0; bone < bones; ++bone) {

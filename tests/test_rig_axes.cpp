@@ -97,7 +97,7 @@ TEST_CASE("rig axes: z runs along the resting limb, y where it bends to, x is th
         wish.bent = round % 2 == 0;
         wish.scales = wish.mirrors = round % 3 == 0 ? 0 : 0.4;
         const Figure figure =
-            FigureMaker(random, wish).make(figure_names()[static_cast<std::size_t>(round) % figure_names().size()]);
+            random_figure(random, wish, figure_names()[static_cast<std::size_t>(round) % figure_names().size()]);
         figure.rig.write(folder / "rig.glb");
         const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
         const json report = rig_report(folder);
@@ -140,7 +140,7 @@ TEST_CASE("rig axes: a clip fits into the limits that are printed, and into none
     for (int round = 0; round < 4; ++round) {
         FigureWish wish;
         wish.scales = wish.mirrors = round == 0 ? 0 : 0.4;
-        FigureMaker(random, wish).make(figure_names()[0]).rig.write(folder / "rig.glb");
+        random_figure(random, wish, figure_names()[0]).rig.write(folder / "rig.glb");
         const json report = rig_report(folder);
         REQUIRE(report.at("limbs").size() == 4);
         for (const json& limb : report.at("limbs")) {
@@ -190,7 +190,7 @@ TEST_CASE("rig axes: the lines for people are a crowd file's, and say what JSON 
 {
     const TempFolder folder;
     std::mt19937 random(13);
-    FigureMaker(random, {}).make(figure_names()[0]).rig.write(folder / "rig.glb");
+    random_figure(random, {}, figure_names()[0]).rig.write(folder / "rig.glb");
     const std::string out = run_command(folder.path, {"rig", "rig.glb"}).out;
     const json report = rig_report(folder);
     std::string all;
@@ -228,7 +228,7 @@ TEST_CASE("rig axes: the lines for people are a crowd file's, and say what JSON 
     CHECK(solved.at("flags").at("limited by flexion") == 0);
     FigureWish still;
     still.moves = false;
-    FigureMaker(random, still).make(figure_names()[0]).rig.write(folder / "rig.glb");
+    random_figure(random, still, figure_names()[0]).rig.write(folder / "rig.glb");
     CHECK_FALSE(rig_report(folder).at("limbs")[0].contains("clip_range"));
     CHECK(lines_of(run_command(folder.path, {"rig", "rig.glb"}).out, "left_arm").empty());
 }
@@ -337,7 +337,7 @@ TEST_CASE("rig axes: a limb's chain is what bind() takes")
     std::mt19937 random(14);
     FigureWish wish;
     wish.scales = 0.4;
-    FigureMaker(random, wish).make(figure_names()[0]).rig.write(folder / "rig.glb");
+    random_figure(random, wish, figure_names()[0]).rig.write(folder / "rig.glb");
     const json report = rig_report(folder);
     for (const json& limb : report.at("limbs")) {
         const json& from = limb.at("chain");

@@ -101,7 +101,7 @@ Tally solve_figures(const FigureWish& wish, int count, unsigned seed)
     std::vector<std::string> written = {"validate"};
     for (int n = 0; n < count; ++n) {
         const FigureNames& names = figure_names()[random() % figure_names().size()];
-        const Figure figure = FigureMaker(random, wish).make(names);
+        const Figure figure = random_figure(random, wish, names);
         const std::string name = std::to_string(n) + (n % 2 ? ".glb" : ".gltf"), out = "out" + name;
         figure.rig.write(folder / name);
         INFO("figure " << n << " of seed " << seed << ", " << names.habit);
@@ -230,7 +230,7 @@ TEST_CASE("rigs: lengths, habits and the way joints bend are what the figure was
         wish.toes = round % 3 == 0;
         wish.scales = wish.mirrors = round % 4 == 0 ? 0 : 0.3;
         const FigureNames& names = figure_names()[static_cast<std::size_t>(round) % figure_names().size()];
-        const Figure figure = FigureMaker(random, wish).make(names);
+        const Figure figure = random_figure(random, wish, names);
         figure.rig.write(folder / "rig.glb");
         // A mirror may have exchanged left and right, or be there to make a left hand's axes a right one's.
         const auto is_open = [&](double bend) { return figure.is_mirrored && !wish.toes && bend == 0; };
@@ -304,7 +304,7 @@ TEST_CASE("rigs: the animation and its rate are chosen, and what a file cannot h
 {
     const TempFolder folder;
     std::mt19937 random(6);
-    FigureMaker(random, {}).make(figure_names()[0]).rig.write(folder / "rig.glb");
+    random_figure(random, {}, figure_names()[0]).rig.write(folder / "rig.glb");
     const auto run = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"solve", "rig.glb"});
         return run_command(folder.path, options);

@@ -9,7 +9,6 @@
 namespace swivel::fuzz {
 
 // Reads a file, which may be refused in one line; `written` is a folder for what is written.
-void check_gltf(const std::filesystem::path& path, const std::filesystem::path& written,
-                const formats::GltfChoice& choice);
+void check_gltf(const std::filesystem::path& path, const std::filesystem::path& written, double rate);
 
 }  // namespace swivel::fuzz

@@ -11,6 +11,6 @@ using namespace swivel::fuzz;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const ScratchFolder folder;
-    check_gltf(folder.spill("in.gltf", text_of(data, size)), folder.path, {});
+    check_gltf(folder.spill("in.gltf", text_of(data, size)), folder.path, 0);
     return 0;
 }

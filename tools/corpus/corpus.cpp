@@ -62,6 +62,13 @@ void write_arms(Crowd& crowd, Field field, std::uint32_t group, std::span<Arm> a
     write_field(crowd, field, group, values);
 }
 
+// FNV-1a over a number's lowest bytes, the lowest first.
+std::uint64_t add_bytes(std::uint64_t hash, std::uint64_t number, int count)
+{
+    for (int byte = 0; byte < count; ++byte) hash = (hash ^ (number >> (8 * byte) & 0xffu)) * 0x100000001b3u;
+    return hash;
+}
+
 // Calls act(field) for each field of a list.
 template <class Act>
 void for_each_field(const FieldList& list, Act act)
@@ -95,7 +102,6 @@ void check_rows(const Recipe& recipe, const Crowd& crowd)
     std::uint32_t inputs = 0, results = 0;
     for_each_field(recipe.inputs, [&](Field field) { inputs += component_count(recipe, field); });
     for_each_field(recipe.results, [&](Field field) { results += result_row_count(recipe, field); });
-    for_each_field(recipe.left_out, [&](Field field) { results += result_row_count(recipe, field); });
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
         if (listed != has)
             throw std::logic_error("corpus: crowd " + full_name(recipe) + " lists " + std::to_string(listed) +
@@ -149,18 +155,13 @@ std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint
         for (std::uint32_t group = 0; group < counts.size(); ++group) {
             words.resize(std::size_t{counts[group]} * component_count(recipe, field));
             read_field(crowd, field, group, words);
-            for (const std::uint32_t word : words)
-                for (int byte = 0; byte < 4; ++byte) hash = (hash ^ (word >> (8 * byte) & 0xffu)) * 0x100000001b3u;
+            for (const std::uint32_t word : words) hash = add_bytes(hash, word, 4);
         }
     });
     return hash;
 }
 
-std::uint64_t fold(std::uint64_t hash, std::uint64_t digest)
-{
-    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (digest >> (8 * byte) & 0xffu)) * 0x100000001b3u;
-    return hash;
-}
+std::uint64_t fold(std::uint64_t hash, std::uint64_t digest) { return add_bytes(hash, digest, 8); }
 std::uint64_t fold(const std::vector<std::uint64_t>& digests)
 {
     std::uint64_t hash = kDigestStart;

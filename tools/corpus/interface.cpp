@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "tools/corpus/bindings.h"
-
 namespace swivel::corpus {
 
 namespace {

@@ -8,17 +8,21 @@
 #include <span>
 
 #include "swivel/swivel.hpp"
+#include "tools/corpus/bindings.h"
 #include "tools/corpus/recipe.h"
 
 namespace swivel::corpus {
 
-using LimbCounts = std::array<std::uint32_t, 3>;
+using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
 // The recipe's features in the library's bits.
 std::uint32_t library_features(const Recipe& recipe);
 // An empty crowd of three groups with the bindings of bindings.h.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 LimbCounts limb_counts(const Crowd& crowd);
+
+// Floats of a field's value, or the one word of flags.
+std::uint32_t component_count(const Recipe& recipe, Field field);
 
 // The crowd's own numbers of rows: what the lists of a recipe must add up to.
 std::uint32_t input_row_count(const Crowd& crowd);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/corpus/hard_cases.h"
+#include "tools/corpus/interface.h"
 #include "tools/corpus/vectors.h"
 
 namespace swivel::corpus {
@@ -37,6 +38,12 @@ void make_shares(double* v, int count, double most)
 {
     for (int n = 0; n < count; ++n) v[n] = most * size_of(v[n]);
 }
+// Soft far and near, most stretch, least distance.
+void make_reach(double* v)
+{
+    make_shares(v, 4, 0.25);
+    v[2] += 1;
+}
 void make_longer(double* v, int count, double factor)
 {
     for (int n = 0; n < count; ++n) v[n] *= factor;
@@ -55,10 +62,8 @@ void shape(Field field, double* v, double length)
             return;
         case Field::weights:
             return make_shares(v, 3, 1);
-        case Field::reach:  // soft far and near, most stretch, least distance
-            make_shares(v, 4, 0.25);
-            v[2] += 1;
-            return;
+        case Field::reach:
+            return make_reach(v);
         case Field::most_swivel:
             return make_half(v);
         case Field::flexion_limit:

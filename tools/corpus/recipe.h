@@ -114,15 +114,11 @@ struct Recipe {
     Part part;
     const char* name;
     std::uint64_t seed;
-    std::uint32_t features;   // of enum Feature
-    FieldList inputs;         // what is written: all that the features bring
-    FieldList results;        // what is digested, in this order
-    FieldList left_out = {};  // results that are deliberately not digested
+    std::uint32_t features;  // of enum Feature
+    FieldList inputs;        // what is written: all that the features bring
+    FieldList results;       // what is digested, in this order: all that the features bring
     std::uint32_t twist_bones = 0;
     Order shoulder_order = Order::xyz, wrist_order = Order::xyz;
 };
-
-// Floats of a field's value, or the one word of flags.
-std::uint32_t component_count(const Recipe& recipe, Field field);
 
 }  // namespace swivel::corpus

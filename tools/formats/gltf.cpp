@@ -184,6 +184,8 @@ GltfSampler read_sampler(const GltfFile& file, const tinygltf::Model& model, con
 // channels may share one, and many samplers the same accessors.
 class Samplers {
 public:
+    explicit Samplers(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
     // Its place in file.samplers.
     std::size_t place(GltfFile& file, const tinygltf::Model& model, const tinygltf::AnimationSampler& from,
                       bool is_rotation)
@@ -194,14 +196,16 @@ public:
         const GltfSampler& sampler = file.samplers.emplace_back(read_sampler(file, model, from, is_rotation));
         // Times twice: sample_frames() has them all in one list.
         bytes_ += 2 * sampler.time.size() * sizeof(double) + sampler.value.size() * sizeof(Vector4d);
-        if (bytes_ > kMostPoseBytes)
-            refuse(file, fmt::format("the keys of animation {} come to more than 8 GiB; cut it", file.animation));
+        if (bytes_ > most_bytes_)
+            refuse(file, fmt::format("the keys of animation {} come to more than {:g} GiB; cut it", file.animation,
+                                     gibibytes(most_bytes_)));
         return at->second;
     }
 
 private:
     std::map<std::tuple<int, int, Interpolation, bool>, std::size_t> places_;
     std::size_t bytes_ = 0;
+    std::size_t most_bytes_;
 };
 
 // Channels of KHR_animation_pointer may move nodes, too.
@@ -221,11 +225,12 @@ void refuse_pointers_to_nodes(const GltfFile& file, const nlohmann::ordered_json
     }
 }
 
-void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vector<int>& joint_of)
+void read_channels(GltfFile& file, const tinygltf::Model& model, const std::vector<int>& joint_of,
+                   const GltfChoice& choice)
 {
     const tinygltf::Animation& animation = model.animations[static_cast<std::size_t>(file.animation)];
     std::set<std::pair<int, GltfPath>> seen;
-    Samplers samplers;
+    Samplers samplers(choice.most_pose_bytes);
     for (const tinygltf::AnimationChannel& from : animation.channels) {
         const auto is = [&](const char* path) { return from.target_path == path; };
         if (from.target_node < 0 || !(is("translation") || is("rotation") || is("scale"))) continue;
@@ -265,9 +270,9 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     file.animation = choose_animation(file, choice.animation);
     if (file.animation >= 0) {
         refuse_pointers_to_nodes(file, document);
-        read_channels(file, model, joint_of);
+        read_channels(file, model, joint_of, choice);
     }
-    sample_frames(file, choice.rate);
+    sample_frames(file, choice);
     file.weights = mended_weights({file.path, model, file.buffers}, document);
     return file;
 }

@@ -57,15 +57,18 @@ std::size_t mended_vertex_count(const GltfFile& file);
 struct GltfChoice {
     std::string animation = {};  // name or, counted from 0, index; empty: the first
     double rate = 0;             // frames a second, 0: see above
+    // Decoded keys and sampled poses may each take so much.
+    std::size_t most_pose_bytes = std::size_t{8} << 30;
 };
+inline double gibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 0x1p30; }
 
 // Reads and checks a whole file. Throws InputError for anything malformed that concerns the skeleton or the chosen
 // animation; for buffers that are missing, compressed, shorter than they say, or elsewhere than in the file or in plain
 // files at addresses relative to it; for numbers that are not finite, an animation that does not exist or whose name is
-// not unique, and buffers, poses or keys beyond 8 GiB. Meshes make it fail only if an accessor, buffer view or buffer
-// has members of a wrong type. Holds the file about twice, its JSON thrice while it reads, 40 bytes a key (104 with
-// CUBICSPLINE; keys that channels share once) and 8 more while it looks for frames, 32 a frame and joint, 24 a frame
-// for each translation and scale that has keys, and the skin weights that must be mended.
+// not unique, and buffers beyond 8 GiB, poses or keys beyond the choice's most. Meshes make it fail only if an
+// accessor, buffer view or buffer has members of a wrong type. Holds the file about twice, its JSON thrice while it
+// reads, 40 bytes a key (104 with CUBICSPLINE; keys that channels share once) and 8 more while it looks for frames, 32
+// a frame and joint, 24 a frame for each translation and scale that has keys, and the skin weights that must be mended.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
 // The same of a file that is in memory already. path: what messages call it, and what its files lie beside.

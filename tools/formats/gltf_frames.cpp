@@ -90,17 +90,18 @@ std::size_t frame_bytes(const Clip& clip)
 }
 
 // Frame times as floats, as they will be written; keys on a grid are met as they are.
-std::vector<float> frame_times(const GltfFile& file, double rate)
+std::vector<float> frame_times(const GltfFile& file, const GltfChoice& choice)
 {
     const std::vector<double> keys = key_times(file);
     if (keys.empty()) return {0};
     const double begin = keys.front(), length = keys.back() - begin;
     if (length == 0) return {static_cast<float>(begin)};
-    const Division division = divide(file, keys, rate);
+    const Division division = divide(file, keys, choice.rate);
     const double frames = division.steps * division.parts + 1;
-    if (!(frames * static_cast<double>(frame_bytes(file.clip)) <= static_cast<double>(kMostPoseBytes)))
-        throw InputError(file.path, fmt::format("the animation has {:.0f} frames of {} joints, more than 8 GiB; cut it",
-                                                frames, file.clip.joints.size()));
+    if (!(frames * static_cast<double>(frame_bytes(file.clip)) <= static_cast<double>(choice.most_pose_bytes)))
+        throw InputError(file.path,
+                         fmt::format("the animation has {:.0f} frames of {} joints, more than {:g} GiB; cut it", frames,
+                                     file.clip.joints.size(), gibibytes(choice.most_pose_bytes)));
     const auto place = [&](double step) {
         const double time = begin + length * step / division.steps, slack = kSlack * length / division.steps;
         const auto key = std::lower_bound(keys.begin(), keys.end(), time - slack);
@@ -165,10 +166,10 @@ void fill(GltfFile& file, const GltfChannel& channel)
 
 }  // namespace
 
-void sample_frames(GltfFile& file, double rate)
+void sample_frames(GltfFile& file, const GltfChoice& choice)
 {
     count_tracks(file);
-    file.times = frame_times(file, rate);
+    file.times = frame_times(file, choice);
     Clip& clip = file.clip;
     clip.frame_count = file.times.size();
     // In double: the difference of two floats may be more than a float holds.

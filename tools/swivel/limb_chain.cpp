@@ -2,6 +2,7 @@
 #include "tools/swivel/limb_chain.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace swivel::tools {
 
@@ -127,10 +128,13 @@ std::array<Quaterniond, 3> local_rotations(const Clip& clip, std::size_t frame, 
 
 Quaterniond aim(const Vector3d& from, const Vector3d& to)
 {
-    const double size = from.norm() * to.norm();
+    const Vector3d across = from.cross(to);
+    const double cosine = from.dot(to), sine = across.norm();  // both times the two lengths
     // 1e-9: far below what a float of the solver holds, so that what agrees is not touched.
-    if (!(size > 0) || (from.cross(to).norm() <= 1e-9 * size && from.dot(to) > 0)) return Quaterniond::Identity();
-    return Quaterniond::FromTwoVectors(from, to);
+    const bool is_one_line = sine <= 1e-9 * std::fabs(cosine);
+    if (is_one_line && cosine >= 0) return Quaterniond::Identity();
+    const Vector3d axis = is_one_line ? from.unitOrthogonal() : Vector3d(across / sine);
+    return Quaterniond(Eigen::AngleAxisd(std::atan2(sine, cosine), axis));
 }
 
 }  // namespace swivel::tools

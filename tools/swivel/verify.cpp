@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel verify`: every formula against the others, and the corpus's golden bits from every instruction set, thread
-// count and chunk size of this machine.
+// `swivel verify`: the formulas are held against each other, and every instruction set of this machine against the
+// corpus's golden bits, with several thread counts and chunk sizes.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "tests/crowd_stage.h"
+
+namespace swivel::test {
+
+std::string text_of(const Vector3d& v)
+{
+    std::array<char, 100> text{};
+    std::snprintf(text.data(), text.size(), "[%.17g, %.17g, %.17g]", v.x(), v.y(), v.z());
+    return text.data();
+}
+
+double angle_about(const Vector3d& u, const Vector3d& a, const Vector3d& b)
+{
+    const Vector3d from = a - a.dot(u) * u, to = b - b.dot(u) * u;
+    return std::atan2(u.dot(from.cross(to)), from.dot(to)) * kDegrees;
+}
+
+double angle_between(const Vector3d& a, const Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+}
+
+CrowdStage::CrowdStage(std::size_t first, std::size_t step)
+{
+    spill(folder / "clip.bvh", cut(plain_motion_of(must_find_jump()), first, step));
+    clip = plain_motion_of(folder / "clip.bvh");
+    arms = arms_of(clip);
+    legs = legs_of(clip);
+}
+
+Outcome CrowdStage::run(const std::string& toml, std::vector<std::string> more) const
+{
+    spill(folder / "c.toml", toml);
+    more.insert(more.begin(), {"solve", "clip.bvh", "--crowd", "c.toml"});
+    return run_command(folder.path, more);
+}
+
+std::string CrowdStage::output(const std::string& toml, const std::string& out, std::vector<std::string> more) const
+{
+    more.insert(more.end(), {"--out", out});
+    const Outcome outcome = run(toml, more);
+    INFO(toml << outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    REQUIRE(outcome.err.empty());
+    return slurp(folder / out);
+}
+
+PlainMotion CrowdStage::motion(const std::string& toml, const std::vector<std::string>& more) const
+{
+    return plain_motion(output(toml, "out.bvh", more));
+}
+
+std::vector<PoseLine> CrowdStage::rows(const std::string& toml, const std::string& limb, const std::string& columns,
+                                       const std::vector<std::string>& more) const
+{
+    std::vector<PoseLine> lines = pose_lines(output(toml, "out.csv", more), columns);
+    std::erase_if(lines, [&](const PoseLine& line) { return line.limb != limb; });
+    REQUIRE_FALSE(lines.empty());
+    return lines;
+}
+
+nlohmann::json CrowdStage::json(const std::string& toml, std::vector<std::string> more) const
+{
+    more.push_back("--json");
+    const Outcome outcome = run(toml, more);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return nlohmann::json::parse(outcome.out);
+}
+
+ArmAxes CrowdStage::axes(std::size_t arm) const
+{
+    const nlohmann::json hinge = json("[crowd]\n").at("arms_bound").at(arm).at("hinge");
+    const Vector3d z = clip.joint(arms[arm].elbow).offset.normalized();
+    const Vector3d given(hinge.at(0), hinge.at(1), hinge.at(2));
+    const Vector3d x = (given - given.dot(z) * z).normalized();
+    Matrix3d m;
+    m << x, z.cross(x), z;
+    return {m};
+}
+
+void CrowdStage::require_refused(const std::string& toml, const std::string& said, const std::string& out,
+                                 std::vector<std::string> more) const
+{
+    more.insert(more.end(), {"--out", out});
+    fs::remove(folder / out);
+    const Outcome outcome = run(toml, more);
+    INFO(toml << outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Catch::Matchers::StartsWith("swivel: ") && Catch::Matchers::Contains(said));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    CHECK_FALSE(fs::exists(folder / out));
+}
+
+}  // namespace swivel::test

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "tests/test_data.h"
+
+namespace swivel::test {
+
+std::vector<fs::path> data_folders()
+{
+    std::vector<fs::path> folders;
+    if (const char* own = std::getenv("SWIVEL_TEST_DATA"))
+        folders = {own, fs::path(own) / "bvh", fs::path(own) / "gltf"};
+    folders.insert(folders.end(), {"/usr/share/assimp/models/BVH", "/usr/share/assimp/models/glTF2"});
+    const fs::path shared = fs::path(SWIVEL_SOURCE_DIR) / ".." / "shared" / "data";
+    folders.insert(folders.end(), {shared, shared / "bvh", shared / "gltf"});
+    return folders;
+}
+
+fs::path find_data(const std::string& name)
+{
+    const std::string debian_name = name == "cmu_01_01_forward_jump.bvh" ? "01_01.bvh" : name;
+    for (const fs::path& folder : data_folders()) {
+        for (const std::string& candidate : {name, debian_name}) {
+            if (fs::is_regular_file(folder / candidate)) return folder / candidate;
+        }
+    }
+    return {};
+}
+
+fs::path must_find_jump()
+{
+    const fs::path path = find_data("cmu_01_01_forward_jump.bvh");
+    INFO("install assimp-testmodels or set SWIVEL_TEST_DATA");
+    REQUIRE_FALSE(path.empty());
+    return path;
+}
+
+std::vector<fs::path> all_bvh_files()
+{
+    std::vector<fs::path> files;
+    for (const fs::path& folder : data_folders()) {
+        if (!fs::is_directory(folder)) continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+            if (entry.path().extension() == ".bvh") files.push_back(entry.path());
+        }
+    }
+    return files;
+}
+
+std::string slurp(const fs::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string edited(std::string text, std::string_view from, std::string_view to)
+{
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+std::string mutated(std::string text, std::mt19937& random)
+{
+    static constexpr std::array<std::string_view, 12> kScraps = {
+        "nan", "-", "1e999", "{", "}", "\n", ",", "99999999999999999999", "\r", "-1", "#", "JOINT"};
+    const auto below = [&](std::size_t limit) { return limit == 0 ? 0 : random() % limit; };
+    for (std::size_t accidents = 1 + below(4); accidents > 0; --accidents) {
+        const std::size_t at = below(text.size());
+        const std::size_t length = 1 + below(20);
+        switch (below(5)) {
+            case 0:
+                if (!text.empty()) text[at] = static_cast<char>(random() & 0xff);
+                break;
+            case 1:
+                text.erase(at, length);
+                break;
+            case 2:
+                text.insert(at, text.substr(at, length));
+                break;
+            case 3:
+                text.insert(at, kScraps[below(kScraps.size())]);
+                break;
+            default:
+                if (below(10) == 0) text.resize(at);
+                break;
+        }
+    }
+    return text;
+}
+
+TempFolder::TempFolder()
+{
+    std::string name = (fs::temp_directory_path() / "swivel-test-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path = name;
+}
+
+}  // namespace swivel::test
