@@ -20,8 +20,6 @@ namespace {
 using namespace swivel;
 using namespace swivel::corpus;
 
-void solve(Crowd& crowd) { crowd.solve(); }
-
 template <std::size_t N>
 std::vector<std::array<float, N>> values_of(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group)
 {
@@ -217,7 +215,7 @@ TEST_CASE("a crowd whose lists leave out an input or a result is refused")
 
 TEST_CASE("a digest that is not golden is told by its crowd's name")
 {
-    std::vector<std::uint64_t> digests = digests_of(Part::ordinary, solve);
+    std::vector<std::uint64_t> digests = digests_of(Part::ordinary, [](Crowd& crowd) { crowd.solve(); });
     CHECK(wrong_crowds(Part::ordinary, digests).empty());
     digests[2] ^= 1;
     CHECK(wrong_crowds(Part::ordinary, digests) == std::vector{full_name(recipes_of(Part::ordinary)[2])});

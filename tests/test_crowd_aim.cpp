@@ -45,11 +45,11 @@ TEST_CASE("the hand's ray goes through the target, with the flexion and the wris
     constexpr std::uint32_t count = 300;
     Random random{1};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorld | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM, count, limb.bound.binding);
     std::vector<Limb> limbs;
     std::vector<Aim> aims;
     for (std::uint32_t n = 0; n < count; ++n) {
-        Limb each = random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]});
+        Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
         const Parent parent = each.parent();
         each.target = floats(Vector3d(parent.position + parent.scale * random.between(0.2, 8) * random.direction()));
         write_limb(crowd, 0, n, each);  // SWIVEL_HAND is the wrist's local rotation

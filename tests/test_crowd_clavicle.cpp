@@ -9,7 +9,7 @@ using namespace swivel::test;
 
 namespace {
 
-constexpr std::uint32_t kFeatures = kWorld | SWIVEL_WITH_CLAVICLE;
+constexpr std::uint32_t kFeatures = kWorldJointsHand | SWIVEL_WITH_CLAVICLE;
 
 // tan(turn / 2) = share sin theta / (2 (1 - share) + share (1 + cos theta)), about the bone's way to the target.
 Quaterniond turn_of(const Vector3d& bone, const Vector3d& target, double share)
@@ -90,7 +90,7 @@ TEST_CASE("no share turns nothing; nor does a position weight of 0")
     constexpr std::uint32_t count = 50;
     Random random{2};
     const Chained limb = chained(random);
-    Crowd plain = crowd_of(kWorld | SWIVEL_WITH_ANGLE, count, limb.bound.binding),
+    Crowd plain = crowd_of(kWorldJointsHand | SWIVEL_WITH_ANGLE, count, limb.bound.binding),
           none = crowd_of(kFeatures, count, limb.bound.binding),
           kept = crowd_of(kFeatures | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound.binding);
     for (std::uint32_t n = 0; n < count; ++n) {

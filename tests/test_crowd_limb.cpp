@@ -14,8 +14,8 @@ TEST_CASE("whole limbs at rest are the plain arms")
     const std::uint32_t at_rest =
         SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | SWIVEL_WITH_EFFECTOR | kLimits;
     for (const std::uint32_t features :
-         {0u, kWorld & ~std::uint32_t{SWIVEL_WORLD}, kWorld, kWorld | SWIVEL_POLE_DIRECTION,
-          std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
+         {0u, kWorldJointsHand & ~std::uint32_t{SWIVEL_WORLD}, kWorldJointsHand,
+          kWorldJointsHand | SWIVEL_POLE_DIRECTION, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
         for (const std::uint32_t more :
              {std::uint32_t{SWIVEL_WITH_ANGLE}, features & SWIVEL_WITH_HAND ? at_rest : 0u}) {
             Random random{features + more};
@@ -51,12 +51,12 @@ TEST_CASE("an incoming pose of the skeleton's own rotations, kept by weights of 
     constexpr std::uint32_t count = 100;
     Random random{2};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorld | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound.binding);
-    Crowd first = crowd_of(kWorld, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound.binding);
+    Crowd first = crowd_of(kWorldJointsHand, count, limb.bound.binding);
     for (std::uint32_t n = 0; n < count; ++n) {
         const Float2 lengths = {limb.bound.lengths[0], limb.bound.lengths[1]};
-        write_limb(first, 0, n, random_limb(random, kWorld, lengths));
-        write_limb(crowd, 0, n, random_limb(random, kWorld, lengths));
+        write_limb(first, 0, n, random_limb(random, kWorldJointsHand, lengths));
+        write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, lengths));
     }
     first.solve();
     // Any of the two quaternions of each rotation may come in; the same comes out.
@@ -125,11 +125,11 @@ TEST_CASE("an effector in the hand joint's own frame is at the target")
     constexpr std::uint32_t count = 100;
     Random random{3};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorld | SWIVEL_WITH_EFFECTOR, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR, count, limb.bound.binding);
     std::vector<Limb> limbs;
     std::vector<Vector3d> effectors;
     for (std::uint32_t n = 0; n < count; ++n) {
-        Limb each = random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]});
+        Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
         effectors.push_back(vec(floats(Vector3d(random.between(0, 0.3) * random.direction()))));
         const Parent parent = each.parent();
         each.target = floats(Vector3d(vec(each.target) + parent.scale * (quat(each.hand).normalized() * effectors[n])));
@@ -185,10 +185,10 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     Random random{11};
     const Chained limb = chained(random);
     const double upper = limb.bound.lengths[0], fore = limb.bound.lengths[1];
-    Crowd crowd = crowd_of(kWorld | SWIVEL_LIMIT_FLEXION, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_FLEXION, count, limb.bound.binding);
     std::vector<double> wanted, least, most;
     for (std::uint32_t n = 0; n < count; ++n) {
-        const Limb each = random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]});
+        const Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
         write_limb(crowd, 0, n, each);
         const Parent parent = each.parent();
         const double reach = (vec(each.target) - parent.position).norm() / parent.scale;
@@ -220,9 +220,9 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
     constexpr std::uint32_t count = 100, bones = 3;
     Random random{6};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorld | bones * SWIVEL_TWIST_BONES, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_TWIST_BONES, count, limb.bound.binding);
     for (std::uint32_t n = 0; n < count; ++n)
-        write_limb(crowd, 0, n, random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]}));
+        write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
     const auto twists = read<Float12>(crowd, SWIVEL_TWIST);
     const swivel_binding& b = limb.bound.binding;
@@ -303,9 +303,9 @@ TEST_CASE("joint angles turn back into the rotations they are of, in every order
     constexpr std::uint32_t count = 60;
     Random random{7};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorld, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand, count, limb.bound.binding);
     for (std::uint32_t n = 0; n < count; ++n)
-        write_limb(crowd, 0, n, random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]}));
+        write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
     const swivel_binding& b = limb.bound.binding;
     const Quaterniond parent = quat(b.parent_from_arm), upper = quat(b.upper_from_arm), fore = quat(b.fore_from_arm);

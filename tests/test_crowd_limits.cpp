@@ -24,7 +24,7 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     const Chained limb = chained(random);
     swivel_group_def group{count, limb.bound.binding};
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = kWorld | kLimits;
+    def.features = kWorldJointsHand | kLimits;
     def.groups = &group;
     def.group_count = 1;
     def.shoulder_order = SWIVEL_YZX;
@@ -38,7 +38,7 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     };
     std::vector<Limited> limits(count);
     for (std::uint32_t n = 0; n < count; ++n) {
-        write_limb(crowd, 0, n, random_limb(random, kWorld, {limb.bound.lengths[0], limb.bound.lengths[1]}));
+        write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
         Limited& l = limits[n];
         // Each limb has one kind of limit that is narrow; the others are wide open.
         const std::uint32_t kind = n % 7;
@@ -200,7 +200,7 @@ TEST_CASE("a scan of the circle finds no nearer allowed swivel, and none better 
 TEST_CASE("the body's other side is the mirror image")
 {
     constexpr std::uint32_t count = 300;
-    const std::uint32_t features = kWorld | SWIVEL_WITH_ANGLE | kLimits;
+    const std::uint32_t features = kWorldJointsHand | SWIVEL_WITH_ANGLE | kLimits;
     Random random{5};
     const swivel_chain right = skewed_chain(random);
     swivel_chain left = right;
@@ -226,7 +226,7 @@ TEST_CASE("the body's other side is the mirror image")
         put(l, field, n, other);
     };
     for (std::uint32_t n = 0; n < count; ++n) {
-        const Limb limb = random_limb(random, kWorld, {bound.lengths[0], bound.lengths[1]});
+        const Limb limb = random_limb(random, kWorldJointsHand, {bound.lengths[0], bound.lengths[1]});
         Limb other = limb;
         other.target = floats(mirrored(vec(limb.target)));
         other.pole = floats(mirrored(vec(limb.pole)));

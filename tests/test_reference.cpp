@@ -11,14 +11,13 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace {
 
 using namespace swivel;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Wrist and lengths, relative to the whole arm's length.
 constexpr double kClosure = 3e-13;
@@ -49,13 +48,14 @@ double either_sign(double value) { return *rc::gen::arbitrary<bool>() ? value : 
 PosedArm any_arm()
 {
     const double upper = std::exp(uniform(-1.15, 1.15)), fore = std::exp(uniform(-1.15, 1.15));
-    const double tilt = uniform(0.1, kPi - 0.1), azimuth = uniform(-kPi, kPi);
-    const double twist = either_sign(uniform(0.1, kPi - 0.1)), flexion = uniform(0.1, kPi - 0.1);
+    const double tilt = uniform(0.1, std::numbers::pi - 0.1), azimuth = uniform(-std::numbers::pi, std::numbers::pi);
+    const double twist = either_sign(uniform(0.1, std::numbers::pi - 0.1)),
+                 flexion = uniform(0.1, std::numbers::pi - 0.1);
 
     PosedArm arm;
     // The shoulder turns e3 to `along` by pi about the bisector, after a twist about e3; flexion is about -e1.
     const Vector3d along(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt));
-    const Quaterniond middle(Eigen::AngleAxisd(kPi, (along + Vector3d::UnitZ()).normalized()));
+    const Quaterniond middle(Eigen::AngleAxisd(std::numbers::pi, (along + Vector3d::UnitZ()).normalized()));
     arm.shoulder_rotor = middle * Eigen::AngleAxisd(twist, Vector3d::UnitZ());
     arm.elbow_rotor = Eigen::AngleAxisd(flexion, -Vector3d::UnitX());
     arm.cos_flexion = std::cos(flexion);
@@ -71,7 +71,7 @@ PosedArm any_arm()
     return arm;
 }
 
-Vector3d vector(const double v[3]) { return {v[0], v[1], v[2]}; }
+Vector3d vector_of(const double v[3]) { return {v[0], v[1], v[2]}; }
 Quaterniond rotor(const double q[4]) { return {q[3], q[0], q[1], q[2]}; }
 
 // Distance of two rotations: q and -q are one.
@@ -85,7 +85,7 @@ Vector3d wrist(const ReferencePose& pose, const ReferenceArm& goal)
 {
     double out[3];
     wrist_of(pose, goal.upper, goal.fore, out);
-    return vector(out);
+    return vector_of(out);
 }
 
 // 25 arms in each of rapidcheck's 100 cases: 2,500 random arms for every property.
@@ -107,7 +107,7 @@ TEST_CASE("the known answer", "[reference]")
     const ReferencePose pose = solve_reference_for_normal(target, normal, 1.4, 1.3);
 
     const double last_digit = 1e-6;  // one unit in the sixth decimal: the published digits are of single precision
-    CHECK((vector(pose.elbow) - Vector3d(0.980883, 0.980883, -0.189039)).cwiseAbs().maxCoeff() < last_digit);
+    CHECK((vector_of(pose.elbow) - Vector3d(0.980883, 0.980883, -0.189039)).cwiseAbs().maxCoeff() < last_digit);
     CHECK(std::fabs(pose.cos_flexion - -0.005494) < last_digit);
     const auto close = [=](const double q[4], double x, double y, double z, double w) {
         return (rotor(q).coeffs() - Eigen::Vector4d(x, y, z, w)).cwiseAbs().maxCoeff() < last_digit;
@@ -117,13 +117,13 @@ TEST_CASE("the known answer", "[reference]")
     CHECK(close(pose.shoulder_rotor, 0.288289, 0.695991, 0.607577, 0.251667));
 
     // To full precision what has a closed form: the law of cosines, and the bisector of e3 and the upper arm.
-    const Vector3d bisector = (vector(pose.elbow) / 1.4 + Vector3d::UnitZ()).normalized();
+    const Vector3d bisector = (vector_of(pose.elbow) / 1.4 + Vector3d::UnitZ()).normalized();
     CHECK(std::fabs(pose.cos_flexion - (3.63 - 1.96 - 1.69) / (2 * 1.4 * 1.3)) < kTolerance);
     CHECK((rotor(pose.middle_rotor).vec() - bisector).norm() < kTolerance);
 
     double out[3];
     wrist_of(pose, 1.4, 1.3, out);
-    CHECK((vector(out) - vector(target)).norm() <= kClosure * 2.7);
+    CHECK((vector_of(out) - vector_of(target)).norm() <= kClosure * 2.7);
 }
 
 TEST_CASE("the length of the normal does not matter", "[reference]")
@@ -131,7 +131,7 @@ TEST_CASE("the length of the normal does not matter", "[reference]")
     const double target[3] = {1.1, 1.1, 1.1}, normal[3] = {-1, 1, 0}, longer[3] = {-5, 5, 0};
     const ReferencePose pose = solve_reference_for_normal(target, normal, 1.4, 1.3);
     const ReferencePose same = solve_reference_for_normal(target, longer, 1.4, 1.3);
-    CHECK((vector(pose.elbow) - vector(same.elbow)).norm() < kTolerance);
+    CHECK((vector_of(pose.elbow) - vector_of(same.elbow)).norm() < kTolerance);
     CHECK(distance(pose.shoulder_rotor, rotor(same.shoulder_rotor)) < kTolerance);
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("an arm bent at a right angle in the plane of e1 and e2", "[reference]
     const ReferenceArm arm = {{2, 1, 0}, {3, -1, 0}, 2, 1};
     const ReferencePose pose = solve_reference(arm);
     const double h = std::sqrt(0.5);
-    CHECK((vector(pose.elbow) - Vector3d(2, 0, 0)).norm() < kTolerance);
+    CHECK((vector_of(pose.elbow) - Vector3d(2, 0, 0)).norm() < kTolerance);
     CHECK(std::fabs(pose.cos_flexion) < kTolerance);
     CHECK(distance(pose.elbow_rotor, Quaterniond(h, -h, 0, 0)) < kTolerance);
     CHECK(distance(pose.middle_rotor, Quaterniond(0, h, 0, h)) < kTolerance);
@@ -153,7 +153,7 @@ TEST_CASE("the other side of the pole is the other elbow", "[reference]")
     const ReferenceArm arm = {{2, 1, 0}, {-3, 1, 0}, 2, 1};
     const ReferencePose pose = solve_reference(arm);
     // 2 e1 mirrored in the wrist's line along (2, 1, 0).
-    CHECK((vector(pose.elbow) - Vector3d(1.2, 1.6, 0)).norm() < kTolerance);
+    CHECK((vector_of(pose.elbow) - Vector3d(1.2, 1.6, 0)).norm() < kTolerance);
 }
 
 TEST_CASE("random arms", "[reference]")
@@ -161,17 +161,17 @@ TEST_CASE("random arms", "[reference]")
     rc::prop("forward kinematics puts the wrist on the target", [] {
         for_random_arms([](const PosedArm& arm, const ReferencePose& pose) {
             const double size = arm.goal.upper + arm.goal.fore;
-            RC_ASSERT((wrist(pose, arm.goal) - vector(arm.goal.wrist)).norm() <= kClosure * size);
+            RC_ASSERT((wrist(pose, arm.goal) - vector_of(arm.goal.wrist)).norm() <= kClosure * size);
         });
     });
     rc::prop("the elbow is at both bones' lengths, in the swivel plane, on the pole's side", [] {
         for_random_arms([](const PosedArm& arm, const ReferencePose& pose) {
             const double size = arm.goal.upper + arm.goal.fore;
-            const Vector3d elbow = vector(pose.elbow), target = vector(arm.goal.wrist);
+            const Vector3d elbow = vector_of(pose.elbow), target = vector_of(arm.goal.wrist);
             RC_ASSERT(std::fabs(elbow.norm() - arm.goal.upper) <= kClosure * size);
             RC_ASSERT(std::fabs((target - elbow).norm() - arm.goal.fore) <= kClosure * size);
             RC_ASSERT(std::fabs(elbow.dot(arm.normal)) <= kClosure * size);
-            RC_ASSERT(target.cross(elbow).dot(target.cross(vector(arm.goal.pole))) > 0);
+            RC_ASSERT(target.cross(elbow).dot(target.cross(vector_of(arm.goal.pole))) > 0);
             RC_ASSERT((elbow - arm.elbow).norm() <= kClosure * size);
         });
     });
@@ -186,7 +186,7 @@ TEST_CASE("random arms", "[reference]")
     rc::prop("q_s carries e3 to the upper arm and e1 to the normal, q12 alone e3 to the upper arm", [] {
         for_random_arms([](const PosedArm& arm, const ReferencePose& pose) {
             const Vector3d along = arm.elbow / arm.goal.upper;
-            const Vector3d normal = vector(arm.goal.wrist).cross(vector(arm.goal.pole)).normalized();
+            const Vector3d normal = vector_of(arm.goal.wrist).cross(vector_of(arm.goal.pole)).normalized();
             RC_ASSERT((rotor(pose.middle_rotor) * Vector3d::UnitZ() - along).norm() <= kTolerance);
             RC_ASSERT((rotor(pose.shoulder_rotor) * Vector3d::UnitZ() - along).norm() <= kTolerance);
             RC_ASSERT((rotor(pose.shoulder_rotor) * Vector3d::UnitX() - normal).norm() <= kTolerance);
@@ -203,7 +203,7 @@ TEST_CASE("random arms", "[reference]")
         for_random_arms([](const PosedArm& arm, const ReferencePose& pose) {
             const ReferenceArm& goal = arm.goal;
             const ReferencePose same = solve_reference_for_normal(goal.wrist, arm.normal.data(), goal.upper, goal.fore);
-            RC_ASSERT((vector(same.elbow) - vector(pose.elbow)).norm() <= kClosure * (goal.upper + goal.fore));
+            RC_ASSERT((vector_of(same.elbow) - vector_of(pose.elbow)).norm() <= kClosure * (goal.upper + goal.fore));
             RC_ASSERT(distance(same.shoulder_rotor, rotor(pose.shoulder_rotor)) <= kTolerance);
         });
     });
@@ -220,6 +220,6 @@ TEST_CASE("forward kinematics is Eigen's", "[reference]")
             pose.elbow_rotor[c] = q_e[c];
         }
         const double size = arm.goal.upper + arm.goal.fore;
-        RC_ASSERT((wrist(pose, arm.goal) - vector(arm.goal.wrist)).norm() <= kClosure * size);
+        RC_ASSERT((wrist(pose, arm.goal) - vector_of(arm.goal.wrist)).norm() <= kClosure * size);
     });
 }

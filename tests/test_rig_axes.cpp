@@ -12,6 +12,7 @@
 #include "swivel/swivel.hpp"
 #include "tests/plain_gltf.h"
 #include "tests/random_figure.h"
+#include "tests/rig_report.h"
 #include "tests/run_command.h"
 
 using namespace swivel::test;
@@ -27,8 +28,6 @@ json rig_report(const TempFolder& folder)
     REQUIRE(outcome.exit_code == 0);
     return json::parse(outcome.out);
 }
-
-Vector3d vector_of(const json& numbers) { return Vector3d(numbers[0], numbers[1], numbers[2]); }
 
 // Of a figure with its limbs along these directions: the words for the axes of each limb.
 std::vector<std::array<std::string, 3>> words_of(const std::array<Vector3d, 4>& along, const Eigen::Quaterniond& turn)

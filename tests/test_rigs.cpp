@@ -10,6 +10,7 @@
 
 #include "tests/gltf_judges.h"
 #include "tests/random_figure.h"
+#include "tests/rig_report.h"
 #include "tests/run_command.h"
 
 using namespace swivel::test;
@@ -37,8 +38,6 @@ std::vector<LimbNodes> bound_limbs(const json& report)
         if (limb.at("bound") == true) limbs.push_back(limb.at("numbers"));
     return limbs;
 }
-
-Vector3d vector_of(const json& numbers) { return Vector3d(numbers[0], numbers[1], numbers[2]); }
 
 // Solves one animation of a file back from its own wrists, to `out`, and holds the result against it. index -1: it has
 // none.
