@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tests/crowd_stage.h"
 
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+
 namespace swivel::test {
 
 std::string text_of(const Vector3d& v)

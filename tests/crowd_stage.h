@@ -5,10 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <cstdio>
+#include <Eigen/Geometry>
+#include <numbers>
+#include <string>
+#include <vector>
 
-#include "swivel/swivel.h"
 #include "tests/plain_motion.h"
 #include "tests/pose_rows.h"
 #include "tests/run_command.h"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gltf_closure.h"
 
+#include <algorithm>
+#include <catch2/catch.hpp>
+
 namespace swivel::test {
 
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs)

@@ -3,11 +3,7 @@
 // Holds a written glTF file against the one it was solved from: where wrists and elbows are, by the plain reading of
 // both, and whether anything else moved.
 
-#include <catch2/catch.hpp>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -26,8 +22,8 @@ struct Closure {
 
 inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.linear().colwise().normalized(); }
 
-// animation: index in `from`, and -1 (rest) for a file that had none: `to` has one then. nodes_kept: nodes not below
-// any limb, or between its joints, whose local transforms must be as they were.
+// animation: index in `from`, or -1 (rest) for a file that had none: `to` has one then. Nodes that are no limb's joint
+// must have the local transforms they had.
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
 
 // 1e-5 of the limb's length; of an elbow bent by less than 0.02 rad the height over the line from shoulder to wrist is

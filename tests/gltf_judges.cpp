@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gltf_judges.h"
 
+#include <catch2/catch.hpp>
+
 namespace swivel::test {
 
 nlohmann::json ask_check(std::vector<std::string> arguments)

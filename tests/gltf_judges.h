@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 // What Khronos' validator and three.js make of a glTF file: tests/gltf/check.mjs, run by node.
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <Eigen/Geometry>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gltf_rig.h"
 
+#include <cstdint>
 #include <string_view>
 
 namespace swivel::test {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tests/plain_gltf.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
 namespace swivel::test {
 
 std::string plain_base64(std::string_view text)
@@ -48,6 +53,29 @@ PlainGltf plain_gltf_of(const fs::path& path)
         for (const int child : gltf.nodes()[n].value("children", std::vector<int>()))
             gltf.parents.at(static_cast<std::size_t>(child)) = static_cast<int>(n);
     return gltf;
+}
+
+const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index)
+{
+    if (const auto known = gltf.accessors.find(index); known != gltf.accessors.end()) return known->second;
+    const auto& accessor = gltf.json.at("accessors").at(static_cast<std::size_t>(index));
+    REQUIRE(accessor.at("componentType") == 5126);
+    REQUIRE_FALSE(accessor.contains("sparse"));
+    const auto& view = gltf.json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+    const std::string& bytes = gltf.buffers.at(view.at("buffer").get<std::size_t>());
+    const std::string type = accessor.at("type");
+    const std::size_t width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4, count = accessor.at("count");
+    const std::size_t begin = view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u);
+    const std::size_t stride = view.value("byteStride", 4 * width);
+    REQUIRE(begin + (count - 1) * stride + 4 * width <= bytes.size());
+    std::vector<double> numbers;
+    numbers.reserve(count * width);
+    for (std::size_t n = 0; n < count * width; ++n) {
+        float number = 0;
+        std::memcpy(&number, bytes.data() + begin + n / width * stride + n % width * 4, 4);
+        numbers.push_back(number);
+    }
+    return gltf.accessors[index] = numbers;
 }
 
 Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int node, const std::string& path, double time,

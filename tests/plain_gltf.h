@@ -7,11 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/test_data.h"
@@ -40,28 +38,7 @@ std::string plain_base64(std::string_view text);
 PlainGltf plain_gltf_of(const fs::path& path);
 
 // An accessor's elements, one after the other.
-inline const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index)
-{
-    if (const auto known = gltf.accessors.find(index); known != gltf.accessors.end()) return known->second;
-    const auto& accessor = gltf.json.at("accessors").at(static_cast<std::size_t>(index));
-    REQUIRE(accessor.at("componentType") == 5126);
-    REQUIRE_FALSE(accessor.contains("sparse"));
-    const auto& view = gltf.json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
-    const std::string& bytes = gltf.buffers.at(view.at("buffer").get<std::size_t>());
-    const std::string type = accessor.at("type");
-    const std::size_t width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4, count = accessor.at("count");
-    const std::size_t begin = view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u);
-    const std::size_t stride = view.value("byteStride", 4 * width);
-    REQUIRE(begin + (count - 1) * stride + 4 * width <= bytes.size());
-    std::vector<double> numbers;
-    numbers.reserve(count * width);
-    for (std::size_t n = 0; n < count * width; ++n) {
-        float number = 0;
-        std::memcpy(&number, bytes.data() + begin + n / width * stride + n % width * 4, 4);
-        numbers.push_back(number);
-    }
-    return gltf.accessors[index] = numbers;
-}
+const std::vector<double>& plain_numbers(const PlainGltf& gltf, int index);
 
 // The value of one node's channel at a time, as the specification's appendix C has it; `rest` where there is none.
 Eigen::VectorXd plain_value(const PlainGltf& gltf, int animation, int node, const std::string& path, double time,

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "tests/plain_motion.h"
 
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+
 namespace swivel::test {
+
+namespace {
 
 std::vector<std::string> words_of(const std::string& text)
 {
@@ -43,6 +51,21 @@ void read_plain_joints(PlainMotion& motion)
     }
 }
 
+Eigen::Matrix3d axis_matrix(char axis, double angle_deg)
+{
+    const double angle = angle_deg * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+    Eigen::Matrix3d m;
+    if (axis == 'X')
+        m << 1, 0, 0, 0, c, -s, 0, s, c;
+    else if (axis == 'Y')
+        m << c, 0, s, 0, 1, 0, -s, 0, c;
+    else
+        m << c, -s, 0, s, c, 0, 0, 0, 1;
+    return m;
+}
+
+}  // namespace
+
 PlainMotion plain_motion(const std::string& text)
 {
     PlainMotion motion;
@@ -66,19 +89,6 @@ int joint_named(const PlainMotion& motion, std::string_view name)
         std::find_if(motion.joints.begin(), motion.joints.end(), [&](const PlainJoint& j) { return j.name == name; });
     REQUIRE(found != motion.joints.end());
     return static_cast<int>(found - motion.joints.begin());
-}
-
-Eigen::Matrix3d axis_matrix(char axis, double angle_deg)
-{
-    const double angle = angle_deg * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
-    Eigen::Matrix3d m;
-    if (axis == 'X')
-        m << 1, 0, 0, 0, c, -s, 0, s, c;
-    else if (axis == 'Y')
-        m << c, 0, s, 0, 1, 0, -s, 0, c;
-    else
-        m << c, -s, 0, s, c, 0, 0, 0, 1;
-    return m;
 }
 
 std::vector<PlainPose> pose_of(const PlainMotion& motion, std::size_t frame)

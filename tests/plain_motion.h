@@ -5,11 +5,7 @@
 // them, with names of one word and line ends of either kind; anything else fails the test.
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,18 +36,12 @@ struct PlainPose {  // in the world: x_w = position + rotation * x_joint
     Eigen::Matrix3d rotation;
 };
 
-std::vector<std::string> words_of(const std::string& text);
-
-void read_plain_joints(PlainMotion& motion);
-
 PlainMotion plain_motion(const std::string& text);
 
 inline PlainMotion plain_motion_of(const fs::path& path) { return plain_motion(slurp(path)); }
 
 // The joint of that name; fails the test if there is none.
 int joint_named(const PlainMotion& motion, std::string_view name);
-
-Eigen::Matrix3d axis_matrix(char axis, double angle_deg);
 
 std::vector<PlainPose> pose_of(const PlainMotion& motion, std::size_t frame);
 

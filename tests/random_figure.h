@@ -38,7 +38,7 @@ struct Figure {
     std::array<double, 4> bend{};  // of elbows and knees at rest, radians
 };
 
-// random: what the figure is made of; the same numbers make the same figure.
+// random: what the figure is made of.
 Figure random_figure(std::mt19937& random, const FigureWish& wish, const FigureNames& names);
 
 }  // namespace swivel::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/rig_body.h"
 
+#include <catch2/catch.hpp>
+
 namespace swivel::test {
 
 GltfRig rig_of(const Body& body)

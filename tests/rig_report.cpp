@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/rig_report.h"
 
+#include <catch2/catch.hpp>
+#include <cmath>
+
 namespace swivel::test {
 
 std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>& degrees)

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 // What `swivel rig` says of a made-up skeleton.
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
+#include <Eigen/Geometry>
 #include <numbers>
 #include <string>
 #include <vector>

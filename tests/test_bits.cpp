@@ -77,8 +77,8 @@ void for_each_padding_lane(const Crowd& crowd, const swivel_rows& rows, std::uin
             act(rows.base + ((limb / SWIVEL_LANES) * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES);
 }
 
-// For promises that the batching keeps, and no kernel: threads, chunks, choices. Plain arms with and without every
-// feature, and whole limbs, some of which keep their swivel from frame to frame.
+// Crowds for the promises that batching keeps and no kernel does: threads, chunks, choices. They are plain arms with
+// and without every feature, and whole limbs, some of which keep their swivel from frame to frame.
 std::vector<const Recipe*> few_crowds()
 {
     return {&recipe_of(Part::ordinary, "world-joints-hand"),

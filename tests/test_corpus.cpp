@@ -119,7 +119,8 @@ TEST_CASE("every ordinary arm passes the plain formula's own test")
     }
 }
 
-TEST_CASE("in hard crowds, of three runs the middle one is of arms that pass it, and the others are not")
+TEST_CASE(
+    "in hard crowds the middle one of three runs is of arms that pass that test, and the others have arms that do not")
 {
     for (const Recipe& recipe : recipes_of(Part::hard)) {
         const Crowd crowd = make_crowd(recipe, own_limb_count(recipe.part));

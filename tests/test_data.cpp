@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tests/test_data.h"
 
+#include <unistd.h>
+#include <array>
+#include <cstdlib>
+
 namespace swivel::test {
+
+namespace {
 
 std::vector<fs::path> data_folders()
 {
@@ -13,6 +19,8 @@ std::vector<fs::path> data_folders()
     folders.insert(folders.end(), {shared, shared / "bvh", shared / "gltf"});
     return folders;
 }
+
+}  // namespace
 
 fs::path find_data(const std::string& name)
 {

@@ -4,23 +4,19 @@
 // at random. Real files are looked for in $SWIVEL_TEST_DATA, in Debian's assimp-testmodels, and in ../shared/data
 // beside the repository.
 
-#include <unistd.h>
 #include <catch2/catch.hpp>
 
-#include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace swivel::test {
 namespace fs = std::filesystem;
-
-std::vector<fs::path> data_folders();
 
 // A real file by the name it has in ../shared/data; an empty path if this machine has none.
 fs::path find_data(const std::string& name);

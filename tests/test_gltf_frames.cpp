@@ -196,3 +196,15 @@ TEST_CASE("gltf frames: channels with the same keys share them, and all that fra
     // 168,001 frames of 1000 joints: rotations alone are 5 GiB, with all else 12.5.
     CHECK_THROWS_WITH(read_gltf(folder / "rig.glb"), Catch::Contains("168001 frames of 1000 joints, more than 8 GiB"));
 }
+
+TEST_CASE("gltf frames: keys and poses that take more than the choice allows are refused")
+{
+    const TempFolder folder;
+    GltfRig rig = arm_rig();
+    rig.add_keys(0, 0, "rotation", times_of(3, 1), values_of(3, false, true));
+    rig.write(folder / "rig.glb");
+    const auto read = [&](double rate, std::size_t most) { return read_gltf(folder / "rig.glb", {"", rate, most}); };
+    CHECK_THROWS_WITH(read(0, 64), Catch::Contains("the keys of animation 0 come to more than"));
+    CHECK_THROWS_WITH(read(1000, 4096), Catch::Contains("the animation has 2001 frames of 3 joints, more than"));
+    CHECK_NOTHROW(read(1000, 1 << 20));
+}

@@ -26,7 +26,7 @@ void write_all(const fs::path& path, std::string_view text)
 }
 
 // What InputError says when `path` is opened, written and committed; empty if nothing fails.
-std::string complaint_of(const fs::path& path, std::string_view text = "x")
+std::string complaint_about_output(const fs::path& path, std::string_view text = "x")
 {
     try {
         write_all(path, text);
@@ -106,22 +106,22 @@ TEST_CASE("a symbolic link stays a link")
     CHECK(fs::is_symlink(folder / "link.txt"));
     CHECK(fs::is_symlink(folder / "link2.txt"));
     fs::create_symlink("loop.txt", folder / "loop.txt");
-    CHECK_THAT(complaint_of(folder / "loop.txt"), Contains("chain of links"));
+    CHECK_THAT(complaint_about_output(folder / "loop.txt"), Contains("chain of links"));
 }
 
 TEST_CASE("targets that cannot be opened are refused by name and cause")
 {
     const TempFolder folder;
     spill(folder / "file", "x");
-    CHECK_THAT(complaint_of(folder / "none/a.txt"),
+    CHECK_THAT(complaint_about_output(folder / "none/a.txt"),
                StartsWith((folder / "none/a.txt").string() + ": ") && Contains("No such file or directory"));
-    CHECK_THAT(complaint_of(folder.path), Contains("is a directory"));
-    CHECK_THAT(complaint_of(folder / "file/a.txt"), Contains("Not a directory"));
-    CHECK_THAT(complaint_of(""), Contains("needs a name"));
-    CHECK_THAT(complaint_of(folder / std::string(250, 'n')), Contains("too long"));
+    CHECK_THAT(complaint_about_output(folder.path), Contains("is a directory"));
+    CHECK_THAT(complaint_about_output(folder / "file/a.txt"), Contains("Not a directory"));
+    CHECK_THAT(complaint_about_output(""), Contains("needs a name"));
+    CHECK_THAT(complaint_about_output(folder / std::string(250, 'n')), Contains("too long"));
     spill(folder / ("b.txt.partial-" + std::to_string(::getpid())), "rest");
-    CHECK_THAT(complaint_of(folder / "b.txt"), Contains("File exists; remove it"));
-    CHECK_THAT(complaint_of(folder / "line\nbreak/a"), Contains("line\\x0abreak"));
+    CHECK_THAT(complaint_about_output(folder / "b.txt"), Contains("File exists; remove it"));
+    CHECK_THAT(complaint_about_output(folder / "line\nbreak/a"), Contains("line\\x0abreak"));
 }
 
 TEST_CASE("permissions are respected")
@@ -135,23 +135,23 @@ TEST_CASE("permissions are respected")
     fs::permissions(folder / "open", fs::perms(0777));
     fs::permissions(folder / "open/kept.txt", fs::perms(0444));
     const AsNobody nobody;
-    CHECK_THAT(complaint_of(folder / "closed/a.txt"), Contains("Permission denied; check the folder"));
-    CHECK_THAT(complaint_of(folder / "open/kept.txt"), Contains("cannot be replaced: Permission denied"));
-    CHECK(complaint_of(folder / "open/new.txt").empty());
+    CHECK_THAT(complaint_about_output(folder / "closed/a.txt"), Contains("Permission denied; check the folder"));
+    CHECK_THAT(complaint_about_output(folder / "open/kept.txt"), Contains("cannot be replaced: Permission denied"));
+    CHECK(complaint_about_output(folder / "open/new.txt").empty());
 }
 
 TEST_CASE("a full disk is told, at write or at commit")
 {
-    CHECK_THAT(complaint_of("/dev/full"),
+    CHECK_THAT(complaint_about_output("/dev/full"),
                StartsWith("/dev/full: cannot be written: No space left on device; free some"));
-    CHECK_THAT(complaint_of("/dev/full", std::string(5 << 20, 'x')), Contains("No space left"));
+    CHECK_THAT(complaint_about_output("/dev/full", std::string(5 << 20, 'x')), Contains("No space left"));
     CHECK(fs::exists("/dev/full"));
 }
 
 TEST_CASE("devices, pipes and open descriptors are written straight")
 {
     const TempFolder folder;
-    CHECK(complaint_of("/dev/null").empty());
+    CHECK(complaint_about_output("/dev/null").empty());
     CHECK(fs::is_character_file("/dev/null"));
 
     int ends[2];

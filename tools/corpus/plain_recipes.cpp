@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tools/corpus/recipes.h"
 
+#include <array>
+#include <cstdint>
+#include <iterator>
+
 namespace swivel::corpus {
 
 namespace {
@@ -69,7 +73,7 @@ constexpr PlainCrowd kPlainCrowds[] = {
 };
 // clang-format on
 
-constexpr auto recipes_of(Part part)
+constexpr auto plain_recipes_of(Part part)
 {
     std::array<Recipe, std::size(kPlainCrowds)> recipes = {};
     for (std::size_t n = 0; n < recipes.size(); ++n) {
@@ -79,7 +83,7 @@ constexpr auto recipes_of(Part part)
     }
     return recipes;
 }
-constexpr auto kOrdinary = recipes_of(ordinary), kHard = recipes_of(hard);
+constexpr auto kOrdinary = plain_recipes_of(ordinary), kHard = plain_recipes_of(hard);
 
 }  // namespace
 

@@ -128,12 +128,11 @@ std::array<Quaterniond, 3> local_rotations(const Clip& clip, std::size_t frame, 
 
 Quaterniond aim(const Vector3d& from, const Vector3d& to)
 {
-    const Vector3d across = from.cross(to);
-    const double cosine = from.dot(to), sine = across.norm();  // both times the two lengths
-    // 1e-9: far below what a float of the solver holds, so that what agrees is not touched.
-    const bool is_one_line = sine <= 1e-9 * std::fabs(cosine);
-    if (is_one_line && cosine >= 0) return Quaterniond::Identity();
-    const Vector3d axis = is_one_line ? from.unitOrthogonal() : Vector3d(across / sine);
+    const Vector3d start = from.normalized(), end = to.normalized(), across = start.cross(end);
+    const double cosine = start.dot(end), sine = across.norm();
+    const bool has_axis = sine > 1e-9;  // far below what a float of the solver holds: what agrees is not touched
+    if (!has_axis && !(cosine < 0)) return Quaterniond::Identity();
+    const Vector3d axis = has_axis ? Vector3d(across / sine) : start.unitOrthogonal();
     return Quaterniond(Eigen::AngleAxisd(std::atan2(sine, cosine), axis));
 }
 

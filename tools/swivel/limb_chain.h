@@ -52,7 +52,8 @@ Eigen::Vector3d bone_moved_by(const formats::Clip& clip, std::size_t frame, std:
 std::array<Eigen::Quaterniond, 3> local_rotations(const formats::Clip& clip, std::size_t frame, const LimbChain& chain,
                                                   const std::array<Eigen::Quaterniond, 3>& turn);
 
-// The least rotation that takes the direction of `from` to that of `to`; none where either is zero or both agree.
+// The least rotation that takes the direction of `from` to that of `to`; for opposite ones a half turn about any axis
+// across. None where either is zero or both agree.
 Eigen::Quaterniond aim(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace swivel::tools
