@@ -398,6 +398,11 @@ void check_pair(Random& random)
     check_product<table::Product::geometric, A, B>(random);
     check_product<table::Product::outer, A, B>(random);
     check_product<table::Product::inner, A, B>(random);
+}
+
+template <BladeSet A, BladeSet B>
+void check_sum(Random& random)
+{
     const auto a = random_mv<A>(random);
     const auto b = random_mv<B>(random);
     check_near("sum", A, B, dense_of(a + b), dense_of(a) + dense_of(b), kTolerance);
@@ -423,6 +428,14 @@ void check_all_pairs(Random& random, std::index_sequence<N...>)
     constexpr std::size_t count = std::size(kSets);
     (check_pair<kSets[N / count], kSets[N % count]>(random), ...);
 }
+// Of each set with itself and with the next.
+template <std::size_t... N>
+void check_sums(Random& random, std::index_sequence<N...>)
+{
+    constexpr std::size_t count = std::size(kSets);
+    (check_sum<kSets[N], kSets[N]>(random), ...);
+    (check_sum<kSets[N], kSets[(N + 1) % count]>(random), ...);
+}
 template <std::size_t... N>
 void check_all_sets(Random& random, std::index_sequence<N...>)
 {
@@ -430,6 +443,12 @@ void check_all_sets(Random& random, std::index_sequence<N...>)
 }
 
 }  // namespace
+
+TEST_CASE("sums and differences of blade sets are the dense algebra's")
+{
+    Random random{12};
+    for (int n = 0; n < 5; ++n) check_sums(random, std::make_index_sequence<std::size(kSets)>{});
+}
 
 TEST_CASE("products of every pair of blade sets are the dense algebra's")
 {

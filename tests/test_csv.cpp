@@ -190,7 +190,7 @@ TEST_CASE("targets: mutated tables are read or refused in one line")
     const TempFolder folder;
     std::mt19937 random(7);
     int read_count = 0;
-    for (int round = 0; round < 2000; ++round) {
+    for (int round = 0; round < 500; ++round) {
         const std::string text = mutated(round % 2 ? kPlain : kOriented, random);
         CAPTURE(round, text);
         try {
@@ -200,8 +200,8 @@ TEST_CASE("targets: mutated tables are read or refused in one line")
             REQUIRE(std::string(error.what()).find_first_of("\n\r") == std::string::npos);
         }
     }
-    CHECK(read_count > 100);
-    CHECK(read_count < 1900);
+    CHECK(read_count > 25);
+    CHECK(read_count < 475);
 }
 
 TEST_CASE("poses: the text of known rows")
