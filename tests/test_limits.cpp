@@ -229,7 +229,11 @@ Tally judge(std::uint64_t seed, int arms, int often)
         const Scan seen = scan(a, circle, kScanSteps);
         tally.missed += !allowed && seen.allowed > 1;
         // Outside of a box there is no one way to measure how far.
-        if (!allowed && !a.use.shoulder_box && !a.use.wrist_box) tally.not_least += by > seen.least + 1e-6;
+        if (!allowed && !a.use.shoulder_box && !a.use.wrist_box) {
+            tally.not_least += violation(a, circle.at(swivel)) > seen.least + 1e-6;
+            // The pose itself is as far off as floats know the elbow's height over the line: of a straight arm, a root.
+            tally.not_least += by > seen.least + 1e-6 + 2e-7 / circle.away;
+        }
         tally.too_far += allowed && seen.allowed > 0 && std::fabs(swivel) > seen.best + allowance(seen);
     }
     return tally;
