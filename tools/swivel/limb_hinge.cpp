@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "tools/swivel/cannot_bind.h"
@@ -21,8 +20,6 @@ using formats::Clip;
 using formats::JointPose;
 using formats::LimbKind;
 using formats::LimbName;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // In degrees, of a rest pose: more than rounding leaves, enough to speak against the front that shoulders or hips tell,
 // more than modelling leaves by chance, and more than any knee or elbow bends the wrong way (pressed through,
