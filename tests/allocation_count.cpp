@@ -7,6 +7,10 @@
 #include <cerrno>
 #include <cstdlib>
 
+#if defined(__SANITIZE_THREAD__)
+#include <malloc.h>
+#endif
+
 #if defined(__x86_64__)
 #include <mm_malloc.h>  // clang's declares posix_memalign without noexcept, which it allows before a definition only
 #endif
@@ -34,6 +38,17 @@ std::size_t allocation_count()
     return allocations;
 }
 }  // namespace swivel::test
+
+#if defined(__SANITIZE_THREAD__)
+// The thread sanitizer's hook sees no aligned allocation.
+#pragma GCC visibility push(default)
+extern "C" void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept
+{
+    ++swivel::test::allocations;
+    return memalign(alignment, bytes);
+}
+#pragma GCC visibility pop
+#endif
 
 #else
 
