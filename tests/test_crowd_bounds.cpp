@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "swivel/swivel.h"
 #include "tests/crowd_stage.h"
 #include "tests/limit_oracle.h"
 
