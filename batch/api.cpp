@@ -137,39 +137,42 @@ void swivel_crowd_destroy(swivel_crowd* crowd)
     if (crowd->release) crowd->release(crowd->arena, crowd->arena_bytes, crowd->user);
 }
 
-swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, float lengths[2])
+swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
 {
     if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
-    return bind(*chain, *binding, lengths);
+    return bind(*chain, *binding);
 }
 
-uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd->block_count; }
+uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd ? crowd->block_count : 0; }
 uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group)
 {
-    return group < crowd->group_count ? crowd->groups[group].first_block * SWIVEL_LANES : 0;
+    return crowd && group < crowd->group_count ? crowd->groups[group].first_block * SWIVEL_LANES : 0;
 }
 uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group)
 {
-    return group < crowd->group_count ? crowd->groups[group].limb_count : 0;
+    return crowd && group < crowd->group_count ? crowd->groups[group].limb_count : 0;
 }
 uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field)
 {
-    return field_first_row(crowd->features, field);
+    return crowd ? field_first_row(crowd->features, field) : 0;
 }
 uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field)
 {
-    return field_row_count(crowd->features, field);
+    return crowd ? field_row_count(crowd->features, field) : 0;
 }
 swivel_rows swivel_input_rows(swivel_crowd* crowd)
 {
+    if (!crowd) return {};
     return {crowd->input, crowd->block_count, crowd->input_row_count};
 }
 swivel_rows swivel_result_rows(swivel_crowd* crowd)
 {
+    if (!crowd) return {};
     return {crowd->results, crowd->block_count, crowd->results ? crowd->result_row_count : 0};
 }
 swivel_words swivel_compact_rows(swivel_crowd* crowd)
 {
+    if (!crowd) return {};
     return {crowd->words, crowd->block_count, crowd->words ? crowd->result_row_count : 0};
 }
 
@@ -200,7 +203,7 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     if (status != SWIVEL_OK) return status;
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, %s: not a position; doubles are for target, pole and parent_position", group,
+                    "group %u, %s: not a position; doubles are for target, pole and shoulder_position", group,
                     field_name(field));
     if (origins.data && !has_origin(crowd->features, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",

@@ -28,7 +28,33 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
+std::uint32_t flags_of(const swivel_crowd& crowd, std::size_t limb)
+{
+    const std::uint32_t row = field_first_row(crowd.features, SWIVEL_FLAGS);
+    const std::size_t at = row_offset(limb, crowd.result_row_count, row);
+    if (crowd.words) return crowd.words[at] | std::uint32_t{crowd.words[at + SWIVEL_LANES]} << 16;
+    std::uint32_t flags = 0;
+    std::memcpy(&flags, crowd.results + at, sizeof flags);
+    return flags;
+}
+
 }  // namespace
+
+int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb)
+{
+    if (!crowd || !group || !limb) return 0;
+    std::size_t from = *limb;
+    for (std::uint32_t g = *group; g < crowd->group_count; ++g, from = 0) {
+        const Group& at = crowd->groups[g];
+        for (std::size_t n = from; n < at.limb_count; ++n) {
+            if (!(flags_of(*crowd, std::size_t{at.first_block} * SWIVEL_LANES + n) & flags)) continue;
+            *group = g;
+            *limb = static_cast<std::uint32_t>(n);
+            return 1;
+        }
+    }
+    return 0;
+}
 
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {

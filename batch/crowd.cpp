@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <cstring>
 #include <initializer_list>
+#include <limits>
 #include <new>
 
+#include "batch/solve.h"
+#include "batch/streams.h"
+#include "simd/dispatch.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -41,6 +46,72 @@ void fill_field(const swivel_crowd& crowd, swivel_field field, std::initializer_
     for (std::uint32_t block = 0; block < crowd.block_count; ++block) {
         float* row = crowd.input + row_offset(std::size_t{block} * SWIVEL_LANES, crowd.input_row_count, first);
         for (const float value : values) row = std::fill_n(row, std::size_t{SWIVEL_LANES}, value);
+    }
+}
+
+// In every lane, padding too, an arm that any kernel solves without a second thought, and what changes nothing.
+void fill_inputs(const swivel_crowd& crowd)
+{
+    fill_field(crowd, SWIVEL_TARGET, {0, 0, 2});
+    fill_field(crowd, SWIVEL_POLE, {0, -1, 0});
+    fill_field(crowd, SWIVEL_LENGTHS, {1, 1});
+    fill_field(crowd, SWIVEL_PARENT_ROTATION, {0, 0, 0, 1});
+    fill_field(crowd, SWIVEL_PARENT_SCALE, {1});
+    fill_field(crowd, SWIVEL_HAND, {0, 0, 0, 1});
+
+    // No turn, all of the goal, no limit. A range: its middle 0, half its width pi.
+    fill_field(crowd, SWIVEL_ANGLE, {1, 0});
+    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
+        fill_field(crowd, q, {0, 0, 0, 1});
+    fill_field(crowd, SWIVEL_WEIGHTS, {1, 1, 1});
+    fill_field(crowd, SWIVEL_REACH, {0, 0, 1, 0});
+    fill_field(crowd, SWIVEL_MOST_SWIVEL, {-1, 0});
+    fill_field(crowd, SWIVEL_FLEXION_LIMIT, {1, 0});
+    for (const swivel_field cone : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) fill_field(crowd, cone, {0, 0, 1, -1});
+    for (const swivel_field twist : {SWIVEL_HUMERAL_TWIST, SWIVEL_FOREARM_TWIST})
+        fill_field(crowd, twist, {1, 0, -1, 0});
+    fill_field(crowd, SWIVEL_HAND_TWIST, {0, 0, 1, 1, 0, -1, 0});
+    for (const swivel_field box : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX})
+        fill_field(crowd, box, {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0});
+    fill_field(crowd, SWIVEL_AIM, {0, 0, 1, 1, 0});
+}
+
+// In a group's limbs, what nobody can guess: bad input until it is given.
+void unknown_inputs(const swivel_crowd& crowd, const Group& group)
+{
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    constexpr float unknown[] = {kUnknown, kUnknown, kUnknown};
+    const auto start = [&](swivel_field field, const float* value) {
+        copy_in(rows_of(crowd, group, field), 0, group.limb_count, {value, 0});
+    };
+    start(SWIVEL_TARGET, unknown);
+    start(SWIVEL_LENGTHS, crowd.features & SWIVEL_JOINTS ? group.binding.lengths : unknown);
+    if (crowd.features & SWIVEL_WORLD) start(SWIVEL_SHOULDER_POSITION, unknown);
+}
+
+// Every row of a run of blocks holds in each lane what it has in the very first.
+template <class Word>
+void spread(Word* rows, std::uint32_t row_count, std::uint32_t block_count)
+{
+    for (std::uint32_t block = block_count; block-- > 0;)
+        for (std::uint32_t row = 0; row < row_count; ++row)
+            std::fill_n(rows + (std::size_t{block} * row_count + row) * SWIVEL_LANES, std::size_t{SWIVEL_LANES},
+                        rows[std::size_t{row} * SWIVEL_LANES]);
+}
+
+// A group's limbs rest, as their inputs, which are bad, have the kernel do; but nothing is said of limbs never solved.
+void rest(const swivel_crowd& crowd, const Group& group)
+{
+    const FloatEnv env;
+    solve_group(crowd, find_isa("scalar")->kernels, group, group.first_block, 1);
+    const std::size_t first = row_offset(std::size_t{group.first_block} * SWIVEL_LANES, crowd.result_row_count, 0);
+    const std::size_t flags = std::size_t{field_first_row(crowd.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
+    if (crowd.words) {
+        crowd.words[first + flags] = crowd.words[first + flags + SWIVEL_LANES] = 0;
+        spread(crowd.words + first, crowd.result_row_count, group.block_count);
+    } else {
+        crowd.results[first + flags] = 0;
+        spread(crowd.results + first, crowd.result_row_count, group.block_count);
     }
 }
 
@@ -88,28 +159,11 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
         crowd->first_row[f] = static_cast<std::uint16_t>(
             field_first_row(def.features & ~std::uint32_t{SWIVEL_COMPACT}, static_cast<swivel_field>(f)));
 
-    fill_field(*crowd, SWIVEL_TARGET, {0, 0, 2});
-    fill_field(*crowd, SWIVEL_POLE, {0, -1, 0});
-    fill_field(*crowd, SWIVEL_LENGTHS, {1, 1});
-    fill_field(*crowd, SWIVEL_PARENT_ROTATION, {0, 0, 0, 1});
-    fill_field(*crowd, SWIVEL_PARENT_SCALE, {1});
-    fill_field(*crowd, SWIVEL_HAND, {0, 0, 0, 1});
-
-    // What changes nothing: no turn, all of the goal, no limit. A range: its middle 0, half its width pi.
-    fill_field(*crowd, SWIVEL_ANGLE, {1, 0});
-    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
-        fill_field(*crowd, q, {0, 0, 0, 1});
-    fill_field(*crowd, SWIVEL_WEIGHTS, {1, 1, 1});
-    fill_field(*crowd, SWIVEL_REACH, {0, 0, 1, 0});
-    fill_field(*crowd, SWIVEL_MOST_SWIVEL, {-1, 0});
-    fill_field(*crowd, SWIVEL_FLEXION_LIMIT, {1, 0});
-    for (const swivel_field cone : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) fill_field(*crowd, cone, {0, 0, 1, -1});
-    for (const swivel_field twist : {SWIVEL_HUMERAL_TWIST, SWIVEL_FOREARM_TWIST})
-        fill_field(*crowd, twist, {1, 0, -1, 0});
-    fill_field(*crowd, SWIVEL_HAND_TWIST, {0, 0, 1, 1, 0, -1, 0});
-    for (const swivel_field box : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX})
-        fill_field(*crowd, box, {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0});
-    fill_field(*crowd, SWIVEL_AIM, {0, 0, 1, 1, 0});
+    fill_inputs(*crowd);
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        unknown_inputs(*crowd, groups[g]);
+        rest(*crowd, groups[g]);
+    }
     return crowd;
 }
 

@@ -42,7 +42,8 @@ inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_
 
 // Bytes of the arena. The def must be valid.
 std::size_t crowd_bytes(const swivel_crowd_def& def);
-// Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long, and sets all inputs to rest.
+// Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says, and
+// all limbs at rest.
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena);
 
 }  // namespace swivel

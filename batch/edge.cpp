@@ -50,7 +50,7 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
     const bool world = crowd.features & SWIVEL_WORLD, joints = crowd.features & SWIVEL_JOINTS;
     const Rotor<double> one = rotor(0.0, 0.0, 0.0, 1.0);
 
-    Vector<double> shoulder = world ? read.vector_of(SWIVEL_PARENT_POSITION) : vector(0.0, 0.0, 0.0);
+    Vector<double> shoulder = world ? read.vector_of(SWIVEL_SHOULDER_POSITION) : vector(0.0, 0.0, 0.0);
     Rotor<double> parent = world ? read.rotor_of(SWIVEL_PARENT_ROTATION) : one;
     const double scale = world ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
     if (crowd.features & SWIVEL_WITH_CLAVICLE) {

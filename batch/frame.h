@@ -15,7 +15,7 @@ inline constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_TARGET, &swivel_frame::target},
     {SWIVEL_POLE, &swivel_frame::pole},
     {SWIVEL_LENGTHS, &swivel_frame::lengths},
-    {SWIVEL_PARENT_POSITION, &swivel_frame::parent_position},
+    {SWIVEL_SHOULDER_POSITION, &swivel_frame::shoulder_position},
     {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
     {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
     {SWIVEL_HAND, &swivel_frame::hand},

@@ -40,7 +40,7 @@ bool is_along(const Vector<double>& a, const Vector<double>& b)
 
 }  // namespace
 
-swivel_status bind(const swivel_chain& chain, swivel_binding& binding, float* lengths)
+swivel_status bind(const swivel_chain& chain, swivel_binding& binding)
 {
     const Rotor<double> shoulder = rotor_of(chain.shoulder_rotation), elbow = rotor_of(chain.elbow_rotation),
                         wrist = rotor_of(chain.wrist_rotation);
@@ -77,10 +77,8 @@ swivel_status bind(const swivel_chain& chain, swivel_binding& binding, float* le
     store(shoulder, binding.shoulder_rest);
     store(elbow, binding.elbow_rest);
     store(wrist, binding.wrist_rest);
-    if (lengths) {
-        lengths[0] = static_cast<float>(std::sqrt(len2(upper)));
-        lengths[1] = static_cast<float>(std::sqrt(len2(fore)));
-    }
+    binding.lengths[0] = static_cast<float>(std::sqrt(len2(upper)));
+    binding.lengths[1] = static_cast<float>(std::sqrt(len2(fore)));
     return SWIVEL_OK;
 }
 

@@ -9,6 +9,6 @@
 namespace swivel {
 
 // What swivel_bind() promises, arguments already checked for null.
-swivel_status bind(const swivel_chain& chain, swivel_binding& binding, float* lengths);
+swivel_status bind(const swivel_chain& chain, swivel_binding& binding);
 
 }  // namespace swivel

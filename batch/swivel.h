@@ -23,7 +23,7 @@
 //   SWIVEL_TARGET              3     always          wrist position: arm frame, or world with WORLD
 //   SWIVEL_POLE                3     always          pole point, or a direction with POLE_DIRECTION
 //   SWIVEL_LENGTHS             2     always          upper arm, forearm (before the parent's scale)
-//   SWIVEL_PARENT_POSITION     3     WORLD           where the shoulder itself is, in the world (not its parent joint)
+//   SWIVEL_SHOULDER_POSITION   3     WORLD           the shoulder's place in the world
 //   SWIVEL_PARENT_ROTATION     4     WORLD           world rotation of the shoulder's parent joint
 //   SWIVEL_PARENT_SCALE        1     WORLD           uniform scale of the parent, > 0
 //   SWIVEL_HAND                4     WITH_HAND       wanted hand orientation: arm frame, or world with WORLD
@@ -93,7 +93,7 @@
 // swivel_aim() makes the value. Weights, reach, flexion limits and limits of the hand have nothing to do there and are
 // refused.
 //
-// Clavicle: the parent joint, given as it is without this, turns about its own origin, which is PARENT_POSITION less
+// Clavicle: the parent joint, given as it is without this, turns about its own origin, which is SHOULDER_POSITION less
 // the bone (in the parent joint's axes and the unit of the bones, before the parent's scale, no longer than 1e15):
 // towards the target by about the share of the angle between the bone and the target, times the weight of position.
 // Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is smooth,
@@ -115,8 +115,8 @@
 //       The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is
 //       word0 >> 15 | (word1 >> 15) << 1. The other three, in the order x, y, z, w, are
 //       ((word & 32767) - 16384) / (16383 * sqrt 2), of the one of q and -q whose component left out is positive: that
-//       one is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0. Three words of 0, as at creation, are four
-//       zeros.
+//       one is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0. Three words of 0, which no solve writes, are
+//       four zeros.
 //   SWIVEL_ELBOW without JOINTS: 2 words, cos and sin as IEEE half floats, rounded to nearest.
 //   SWIVEL_FLAGS: 2 words, the low and the high half of the uint32_t.
 // A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of it, for
@@ -148,10 +148,10 @@
 // FAR FROM THE ORIGIN. Results depend on differences of positions only, but a float 1e7 units out is good to half a
 // unit. So positions may be given as doubles, with an origin near the arm that is taken off in double before they are
 // rounded: swivel_write_doubles(), or swivel_frame's origin. The three fields of a limb that are positions
-// (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_PARENT_POSITION) must be given from the same origin. Which one
-// does not matter while it is some arm lengths away: a position is rounded to 6e-8 of its distance from its origin. The
-// shoulder's place, or the character's, will do. Rotations need no origin; swivel_forward()'s positions are from it,
-// too.
+// (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_SHOULDER_POSITION) must be given from the same origin. Which
+// one does not matter while it is some arm lengths away: a position is rounded to 6e-8 of its distance from its origin.
+// The shoulder's place, or the character's, will do. Rotations need no origin; swivel_forward()'s positions are from
+// it, too.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 // THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks(),
@@ -246,7 +246,7 @@ typedef enum swivel_field {
     SWIVEL_TARGET,
     SWIVEL_POLE,
     SWIVEL_LENGTHS,
-    SWIVEL_PARENT_POSITION,
+    SWIVEL_SHOULDER_POSITION,
     SWIVEL_PARENT_ROTATION,
     SWIVEL_PARENT_SCALE,
     SWIVEL_HAND,
@@ -279,13 +279,14 @@ typedef enum swivel_field {
     SWIVEL_FIELD_COUNT
 } swivel_field;
 
-// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w. Made by
-// swivel_bind().
+// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w; and how long the
+// bones are. Made by swivel_bind().
 typedef struct swivel_binding {
     float parent_from_arm[4];  // arm frame to the shoulder's parent joint
     float upper_from_arm[4];   // arm frame, bones and hinge at rest, to the shoulder joint's own frame
     float fore_from_arm[4];    // the same, to the elbow joint's own frame
     float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations a limb with bad input gets
+    float lengths[2];                                      // upper arm, forearm; NaN where they are not known
 } swivel_binding;
 
 // A shoulder, elbow and wrist joint at rest, as a skeleton stores them.
@@ -311,7 +312,7 @@ typedef enum swivel_euler_order {
 
 typedef struct swivel_group_def {
     uint32_t limb_count;     // 1 or more
-    swivel_binding binding;  // used with SWIVEL_JOINTS, otherwise ignored
+    swivel_binding binding;  // with SWIVEL_JOINTS: of all limbs, which start with its lengths; otherwise ignored
 } swivel_group_def;
 
 typedef struct swivel_crowd_def {
@@ -370,21 +371,23 @@ static inline swivel_crowd_def swivel_default_crowd_def(void)
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd. Inputs start as a straight arm of two bones of length 1, parent and hand the identity, and those of
-// THE WHOLE LIMB as what changes nothing: no turn, weights 1, every limit wide open; results as zeros. Allocates once.
-// On failure *crowd is null.
+// Makes a crowd. Allocates once. On failure *crowd is null.
+// What has no sensible default starts as NaN, so that a limb which never gets it is SWIVEL_BAD_INPUT: targets, with
+// WORLD the shoulders' places, and bone lengths without JOINTS, where no binding says them. Poles start below the arm
+// frame's or the world's origin, parent and hand as the identity, THE WHOLE LIMB as what changes nothing: no turn,
+// weights 1, every limit wide open. Results start as the rest pose, without flags.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
-// The alignments of a limb from its rest pose, and its two bone lengths (lengths may be null). Fails with
+// The alignments of a limb from its rest pose, and its two bone lengths. Fails with
 // SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a hinge along the upper arm or
 // forearm, or a straight rest pose without a hinge. To bend the limb the other way, negate the hinge. Any thread; no
 // allocation.
-SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding, float lengths[2]);
+SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. A group that
-// does not exist has 0 limbs. Any thread.
+// does not exist has 0 limbs. Of a null crowd everything is 0 here and in the next five calls. Any thread.
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
@@ -417,7 +420,7 @@ SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, u
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                      uint32_t limb_count, swivel_out values);
 
-// The same for positions in double: SWIVEL_TARGET, SWIVEL_POLE and SWIVEL_PARENT_POSITION, 3 consecutive doubles for
+// The same for positions in double: SWIVEL_TARGET, SWIVEL_POLE and SWIVEL_SHOULDER_POSITION, 3 consecutive doubles for
 // each limb. The limb's origin, 3 doubles as well (stride 0: one for all), is subtracted in double and the difference
 // rounded to the row's float, once, to nearest; see FAR FROM THE ORIGIN. Null data of origins: nothing is subtracted.
 // Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one. A difference no float holds
@@ -485,14 +488,14 @@ SWIVEL_API swivel_status swivel_solve_budget(swivel_crowd* crowd, const swivel_i
 // Units and meanings are the fields'. A stride beside null data is ignored.
 typedef struct swivel_frame {
     // Null data: the rows keep what they hold. Stride 0: one value for the whole group.
-    swivel_in target, pole, lengths, parent_position, parent_rotation, parent_scale, hand;
+    swivel_in target, pole, lengths, shoulder_position, parent_rotation, parent_scale, hand;
     swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights, aim, clavicle;
     // Null data: not written.
     swivel_out shoulder, elbow, wrist, flags, stretch, twist, clavicle_turn;
-    // With data: target, pole and parent_position hold 3 doubles each and are taken from this origin, 3 doubles as
+    // With data: target, pole and shoulder_position hold 3 doubles each and are taken from this origin, 3 doubles as
     // well, as by swivel_write_doubles(); a pole that is a direction is doubles, too, but has no origin. A position
-    // left out keeps its rows, which must be from the same origin. May be parent_position itself: then all is from the
-    // shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
+    // left out keeps its rows, which must be from the same origin. May be shoulder_position itself: then all is from
+    // the shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
     swivel_in origin;
 } swivel_frame;
 
@@ -525,6 +528,13 @@ SWIVEL_API swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const sw
 // Forgets the swivel carried from solve to solve, of limbs of a group: the next one is not limited by
 // SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_STEP.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
+
+// The first limb with any of these flags, looked for from limb *limb of group *group on, through all later groups.
+// Returns 1 and stores its place; or returns 0 and changes nothing: there is none, or a pointer is null. Limbs that
+// were never solved have no flags. To go on, add 1 to *limb. Reads the flags alone; no allocation.
+//     for (uint32_t group = 0, limb = 0; swivel_find(crowd, SWIVEL_BAD_INPUT, &group, &limb); ++limb)
+//         printf("limb %u of group %u has bad input\n", limb, group);
+SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
 // An arc of swivels, as cos and sin of its ends, turning from one to the other by the right hand about the line from
 // shoulder to wrist; 0 is the swivel wished for, as far as SWIVEL_MOST_SWIVEL lets it. The whole circle is one arc with

@@ -11,6 +11,7 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <ranges>
 #include <span>
 #include <stdexcept>
@@ -34,15 +35,11 @@ inline void check(swivel_status status)
 }
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind().
-struct BoundLimb {
-    swivel_binding binding;
-    float lengths[2];
-};
-inline BoundLimb bind(const swivel_chain& chain)
+inline swivel_binding bind(const swivel_chain& chain)
 {
-    BoundLimb limb;
-    check(swivel_bind(&chain, &limb.binding, limb.lengths));
-    return limb;
+    swivel_binding binding;
+    check(swivel_bind(&chain, &binding));
+    return binding;
 }
 
 // Values of limit fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
@@ -201,6 +198,16 @@ public:
     void solve_frame_blocks(std::span<const swivel_frame> frames, std::uint32_t first, std::uint32_t count)
     {
         check(swivel_solve_frame_blocks(crowd_, for_all_groups(frames), first, count));
+    }
+
+    // swivel_find(): the next limb with any of these flags, from a place on.
+    struct Place {
+        std::uint32_t group = 0, limb = 0;  // limb: counted within the group
+    };
+    std::optional<Place> find(std::uint32_t flags) const { return find(flags, {}); }
+    std::optional<Place> find(std::uint32_t flags, Place from) const
+    {
+        return swivel_find(crowd_, flags, &from.group, &from.limb) ? std::optional(from) : std::nullopt;
     }
 
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }

@@ -34,7 +34,6 @@ int main(void)
     const char* const names[SIDE_COUNT] = {"left", "right"};
 
     swivel_group_def groups[SIDE_COUNT] = {{0}}; /* limbs of one skeleton's one side: here a single one each */
-    float lengths[SIDE_COUNT][2];
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     int side;
@@ -42,7 +41,7 @@ int main(void)
     for (side = LEFT; side < SIDE_COUNT; ++side) {
         const swivel_chain chain = rest_pose(side);
         groups[side].limb_count = 1;
-        if (swivel_bind(&chain, &groups[side].binding, lengths[side]) != SWIVEL_OK) return failed("swivel_bind");
+        if (swivel_bind(&chain, &groups[side].binding) != SWIVEL_OK) return failed("swivel_bind");
     }
     def.features = SWIVEL_WORLD | SWIVEL_JOINTS;
     def.groups = groups;
@@ -53,11 +52,9 @@ int main(void)
         const uint32_t group = (uint32_t)side;
         /* A stride of 0 is one value for all limbs of the group; there is one limb here. */
         const swivel_in target = {grip[side], 0}, pole = {elbow_hint, 0}, place = {shoulder[side], 0};
-        const swivel_in bones = {lengths[side], 0};
         if (swivel_write(crowd, SWIVEL_TARGET, group, 0, 1, target) != SWIVEL_OK ||
             swivel_write(crowd, SWIVEL_POLE, group, 0, 1, pole) != SWIVEL_OK ||
-            swivel_write(crowd, SWIVEL_PARENT_POSITION, group, 0, 1, place) != SWIVEL_OK ||
-            swivel_write(crowd, SWIVEL_LENGTHS, group, 0, 1, bones) != SWIVEL_OK)
+            swivel_write(crowd, SWIVEL_SHOULDER_POSITION, group, 0, 1, place) != SWIVEL_OK)
             return failed("swivel_write");
     }
     if (swivel_solve(crowd) != SWIVEL_OK) return failed("swivel_solve");

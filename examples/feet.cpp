@@ -71,7 +71,7 @@ struct Leg {
 
 // The skeleton at rest: legs straight down, feet along +z, no rotations. A straight rest pose does not show how a knee
 // bends, so its axis is given: the shin goes backwards by turning about +x, which is -hinge.
-swivel::BoundLimb bind_leg()
+swivel_binding bind_leg()
 {
     swivel_chain chain{};
     chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
@@ -111,7 +111,7 @@ double place_character(Leg* legs, double x, double z, double heading)
     return standing - height;
 }
 
-void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs, const swivel::BoundLimb& leg)
+void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs, const swivel_binding& leg)
 {
     const Floats ankle_to_sole = {0, -static_cast<float>(kAnkleHeight), 0};  // in the ankle joint's frame
     swivel_frame frame{};
@@ -119,9 +119,8 @@ void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs, const swivel::Boun
     frame.effector = {&ankle_to_sole, 0};  // so targets are for soles, not for ankles
     frame.hand = {&legs[0].foot, sizeof(Leg)};
     frame.pole = {&legs[0].knee_forward, sizeof(Leg)};
-    frame.parent_position = {&legs[0].hip, sizeof(Leg)};
+    frame.shoulder_position = {&legs[0].hip, sizeof(Leg)};
     frame.parent_rotation = {&legs[0].pelvis, sizeof(Leg)};
-    frame.lengths = {leg.lengths, 0};
     frame.shoulder = {&legs[0].hip_local, sizeof(Leg)};
     frame.elbow = {&legs[0].knee_local, sizeof(Leg)};
     frame.wrist = {&legs[0].ankle_local, sizeof(Leg)};
@@ -162,8 +161,8 @@ int report(const swivel::Crowd& crowd, const std::vector<Leg>& legs, double most
 
 int stand()
 {
-    const swivel::BoundLimb leg = bind_leg();
-    const swivel_group_def groups[] = {{2 * kCharacterCount, leg.binding}};  // left and right legs are alike
+    const swivel_binding leg = bind_leg();
+    const swivel_group_def groups[] = {{2 * kCharacterCount, leg}};  // left and right legs are alike
     const std::uint32_t features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
     swivel::Crowd crowd(features | SWIVEL_POLE_DIRECTION, groups);
 

@@ -62,7 +62,7 @@ swivel::Crowd make_crowd(std::span<const Character> characters)
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-2.6, 2.6));
     std::vector<std::array<float, 3>> shoulders;
     for (const Character& character : characters) shoulders.push_back(character.shoulder);
-    crowd.write(SWIVEL_PARENT_POSITION, 0, shoulders);
+    crowd.write(SWIVEL_SHOULDER_POSITION, 0, shoulders);
     return crowd;
 }
 

@@ -48,7 +48,7 @@ void store(const Quaterniond& from, std::array<float, 4>& to) { store(from.coeff
 
 // A BVH rests with straight arms and no rotations, which does not show how an elbow bends: its axis is the mean over
 // the clip.
-swivel::BoundLimb bind_arm(const Clip& clip, const Arm& arm)
+swivel_binding bind_arm(const Clip& clip, const Arm& arm)
 {
     const Vector3d upper = clip.joints[arm.elbow].offset, fore = clip.joints[arm.wrist].offset;
     Vector3d hinge = Vector3d::Zero();
@@ -136,7 +136,7 @@ swivel_frame frame_of(std::vector<BodyArm>& arms)
     swivel_frame frame{};
     frame.target = {&arms[0].target, stride};
     frame.pole = {&arms[0].pole, stride};
-    frame.parent_position = {&arms[0].shoulder_place, stride};
+    frame.shoulder_position = {&arms[0].shoulder_place, stride};
     frame.parent_rotation = {&arms[0].parent, stride};
     frame.hand = {&arms[0].hand, stride};
     frame.lengths = {&arms[0].lengths, stride};
@@ -176,9 +176,9 @@ int replay(const char* path, std::size_t body_count)
     std::array<swivel_group_def, 2> groups;  // left arms, right arms: a group shares how its joints lie at rest
     for (std::size_t side = 0; side < 2; ++side) {
         const Arm arm = find_arm(clip, kSides[side]);
-        const swivel::BoundLimb limb = bind_arm(clip, arm);
+        const swivel_binding limb = bind_arm(clip, arm);
         sources[side] = sources_of(clip, arm);
-        groups[side] = {static_cast<std::uint32_t>(body_count), limb.binding};
+        groups[side] = {static_cast<std::uint32_t>(body_count), limb};
         arms[side].resize(body_count);
         set_lengths(arms[side], bodies, limb.lengths);
     }

@@ -85,7 +85,7 @@ SWIVEL_INLINE ArmGoal<T> load_goal(const Rows<T, Features>& rows)
 template <class T, std::uint32_t Features>
 SWIVEL_INLINE ParentFrame<T> load_parent(const Rows<T, Features>& rows)
 {
-    return {rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
+    return {rows.load_vector(SWIVEL_SHOULDER_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
             rows.load(SWIVEL_PARENT_SCALE, 0)};
 }
 

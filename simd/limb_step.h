@@ -173,7 +173,7 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
         entry.valid = entry.valid & is_orientation(goal.hand);
     }
     if (rows.has(SWIVEL_WORLD)) {
-        const ParentFrame<T> parent{rows.load_vector(SWIVEL_PARENT_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
+        const ParentFrame<T> parent{rows.load_vector(SWIVEL_SHOULDER_POSITION), rows.load_rotor(SWIVEL_PARENT_ROTATION),
                                     rows.load(SWIVEL_PARENT_SCALE, 0)};
         entry.valid =
             entry.valid & is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));

@@ -42,7 +42,7 @@ constexpr FieldLayout kFields[] = {
     {"target", 3, 0},
     {"pole", 3, 0, SWIVEL_POLE_INCOMING},
     {"lengths", 2, 0},
-    {"parent_position", 3, SWIVEL_WORLD},
+    {"shoulder_position", 3, SWIVEL_WORLD},
     {"parent_rotation", 4, SWIVEL_WORLD},
     {"parent_scale", 1, SWIVEL_WORLD},
     {"hand", 4, SWIVEL_WITH_HAND},
@@ -136,7 +136,7 @@ constexpr std::uint32_t field_component_count(std::uint32_t features, swivel_fie
 // or normals.
 constexpr bool is_position(swivel_field field)
 {
-    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
 }
 constexpr bool has_origin(std::uint32_t features, swivel_field field)
 {

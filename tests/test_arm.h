@@ -54,7 +54,9 @@ inline bool is_unit(const Float4& q) { return std::abs(quat(q).norm() - 1) <= 1e
 inline Crowd crowd_of(std::uint32_t features, std::uint32_t limb_count, const swivel_binding& binding = {})
 {
     const swivel_group_def group{limb_count, binding};
-    return Crowd(features, std::span(&group, 1));
+    Crowd crowd(features, std::span(&group, 1));
+    if (!(features & SWIVEL_JOINTS)) crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    return crowd;
 }
 
 template <class Value>

@@ -33,9 +33,10 @@ inline bool is_one_line(const std::string& text)
         CHECK(swivel_last_error() != line_before);           \
     } while (false)
 
+// Limbs whose joints are the arm frame, with bones of length 1.
 inline swivel_group_def group_of(std::uint32_t limb_count)
 {
-    return {limb_count, {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}};
+    return {limb_count, {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {1, 1}}};
 }
 
 inline swivel_crowd_def def_of(const swivel_group_def& group)

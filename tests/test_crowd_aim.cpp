@@ -45,7 +45,7 @@ TEST_CASE("the hand's ray goes through the target, with the flexion and the wris
     constexpr std::uint32_t count = 300;
     Random random{1};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM, count, limb.bound);
     std::vector<Limb> limbs;
     std::vector<Aim> aims;
     for (std::uint32_t n = 0; n < count; ++n) {

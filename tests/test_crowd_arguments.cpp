@@ -119,8 +119,9 @@ TEST_CASE("wrong arguments are refused and change nothing")
     CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {nullptr, 12}), bad);
     CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {in, 11}), bad);
     CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {in, 4}), bad);
-    for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_FIELD_COUNT,
-                                     SWIVEL_PARENT_POSITION, SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND})
+    for (const swivel_field field :
+         {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_FIELD_COUNT, SWIVEL_SHOULDER_POSITION,
+          SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND})
         CHECK_REFUSED(swivel_write(c, field, 0, 0, 1, {in, 0}), bad);
 
     CHECK_REFUSED(swivel_read(nullptr, SWIVEL_SHOULDER, 0, 0, 1, {out, 16}), bad);
@@ -313,4 +314,62 @@ TEST_CASE("write_all checks the group and the value's size")
     CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 7, Float3{0, 1, 0}), Error);
     CHECK_THROWS_AS(crowd.write_all(SWIVEL_POLE, 0, 1.0f), Error);
     CHECK(swivel_group_limb_count(crowd.get(), 7) == 0);
+}
+
+TEST_CASE("a crowd that is null has nothing")
+{
+    CHECK(swivel_block_count(nullptr) == 0);
+    CHECK(swivel_group_first_limb(nullptr, 0) == 0);
+    CHECK(swivel_group_limb_count(nullptr, 0) == 0);
+    CHECK(swivel_field_first_row(nullptr, SWIVEL_POLE) == 0);
+    CHECK(swivel_field_row_count(nullptr, SWIVEL_POLE) == 0);
+    CHECK((!swivel_input_rows(nullptr).base && swivel_input_rows(nullptr).row_count == 0));
+    CHECK((!swivel_result_rows(nullptr).base && swivel_result_rows(nullptr).row_count == 0));
+    CHECK((!swivel_compact_rows(nullptr).base && swivel_compact_rows(nullptr).row_count == 0));
+}
+
+TEST_CASE("find gives the limbs with a flag one after the other, and no other")
+{
+    const std::uint32_t counts[] = {5, 16, 40};
+    std::vector<swivel_group_def> groups;
+    for (const std::uint32_t count : counts) groups.push_back(group_of(count));
+    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_COMPACT}}) {
+        Crowd crowd(features, groups);
+        CHECK(!crowd.find(~0u));  // never solved
+        Random random{3};
+        for (std::uint32_t g = 0; g < groups.size(); ++g) {
+            std::vector<Float3> targets(counts[g]);
+            for (Float3& target : targets) target = {0, random.below(3) ? 0.5f : 9.0f, random.below(8) ? 0.1f : kNan};
+            crowd.write(SWIVEL_TARGET, g, targets);
+        }
+        crowd.solve();
+        for (const std::uint32_t flags : {std::uint32_t{SWIVEL_CLAMPED_FAR}, std::uint32_t{SWIVEL_BAD_INPUT},
+                                          std::uint32_t{SWIVEL_CLAMPED_FAR | SWIVEL_BAD_INPUT}, 1u << 29}) {
+            std::vector<std::pair<std::uint32_t, std::uint32_t>> found, expected;
+            std::uint32_t group = 0, limb = 0;
+            for (; swivel_find(crowd.get(), flags, &group, &limb); ++limb) found.emplace_back(group, limb);
+            for (std::uint32_t g = 0; g < groups.size(); ++g) {
+                const auto words = read<std::uint32_t>(crowd, SWIVEL_FLAGS, g);
+                for (std::uint32_t n = 0; n < words.size(); ++n)
+                    if (words[n] & flags) expected.emplace_back(g, n);
+            }
+            CHECK(found == expected);
+            CHECK(found.empty() == (flags == 1u << 29));
+        }
+    }
+}
+
+TEST_CASE("find changes nothing where there is nothing to find")
+{
+    Crowd crowd = crowd_of(0, 20);
+    crowd.solve();
+    std::uint32_t group = 0, limb = 0;
+    CHECK(swivel_find(nullptr, ~0u, &group, &limb) == 0);
+    CHECK(swivel_find(crowd.get(), ~0u, nullptr, &limb) == 0);
+    CHECK(swivel_find(crowd.get(), ~0u, &group, nullptr) == 0);
+    for (const auto& [g, n] : {std::pair{0u, 20u}, {0u, ~0u}, {1u, 0u}, {~0u, 3u}}) {
+        group = g, limb = n;
+        CHECK(swivel_find(crowd.get(), ~0u, &group, &limb) == 0);
+        CHECK((group == g && limb == n));
+    }
 }

@@ -45,7 +45,7 @@ TEST_CASE("the clavicle takes its share, and the arm reaches from where it then 
     constexpr std::uint32_t count = 300;
     Random random{1};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kFeatures, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kFeatures, count, limb.bound);
     std::vector<Shoulder> shoulders;
     for (std::uint32_t n = 0; n < count; ++n) {
         shoulders.push_back(random_shoulder(random, limb));
@@ -90,9 +90,9 @@ TEST_CASE("no share turns nothing; nor does a position weight of 0")
     constexpr std::uint32_t count = 50;
     Random random{2};
     const Chained limb = chained(random);
-    Crowd plain = crowd_of(kWorldJointsHand | SWIVEL_WITH_ANGLE, count, limb.bound.binding),
-          none = crowd_of(kFeatures, count, limb.bound.binding),
-          kept = crowd_of(kFeatures | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound.binding);
+    Crowd plain = crowd_of(kWorldJointsHand | SWIVEL_WITH_ANGLE, count, limb.bound),
+          none = crowd_of(kFeatures, count, limb.bound),
+          kept = crowd_of(kFeatures | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n) {
         Shoulder shoulder = random_shoulder(random, limb);
         write_shoulder(kept, n, shoulder);
@@ -120,7 +120,7 @@ TEST_CASE("the turn is continuous all around, and fades behind")
             targets.push_back(floats(Vector3d(std::cos(angle), 0.0, std::sin(angle))));
         }
         crowd.write(SWIVEL_TARGET, 0, targets);
-        crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.25f, 0, 0});
+        crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.25f, 0, 0});
         crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, share});
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -5, 0});
         crowd.solve();
@@ -154,7 +154,7 @@ TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothl
     for (std::uint32_t n = 0; n < count; ++n)
         targets.push_back(floats(Vector3d(-1, 0, 0.01 * (static_cast<double>(n) - 2000) / 2000)));
     crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.25f, 0, 0});
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.25f, 0, 0});
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 0.9999f});
     crowd.solve();
     const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
@@ -171,7 +171,7 @@ TEST_CASE("a whole share is the whole turn, up to nearly behind")
         targets.push_back(floats(Vector3d(std::cos(angle), std::sin(angle), 0.0)));
     }
     crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.25f, 0, 0});
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.25f, 0, 0});
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 1});
     crowd.solve();
     const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);

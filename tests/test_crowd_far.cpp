@@ -72,7 +72,7 @@ void write_far(Crowd& crowd, std::uint32_t features, const std::vector<FarLimb>&
     };
     put(SWIVEL_TARGET, &FarLimb::target, origins);
     put(SWIVEL_POLE, &FarLimb::pole, features & SWIVEL_POLE_DIRECTION ? swivel_in{} : origins);
-    put(SWIVEL_PARENT_POSITION, &FarLimb::position, origins);
+    put(SWIVEL_SHOULDER_POSITION, &FarLimb::position, origins);
     for (std::uint32_t n = 0; n < count; ++n) write_rest(crowd, n, limbs[n].rest);
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
             swivel_frame frame{};
             frame.target = {&limbs[0].target, sizeof limbs[0]};
             frame.pole = {&limbs[0].pole, sizeof limbs[0]};
-            frame.parent_position = {&limbs[0].position, sizeof limbs[0]};
+            frame.shoulder_position = {&limbs[0].position, sizeof limbs[0]};
             frame.origin = {&limbs[0].origin, one_for_all ? 0 : sizeof limbs[0]};
             framed.solve_frame({&frame, 1});
             CHECK(all_words(framed) == all_words(home));
@@ -201,7 +201,7 @@ TEST_CASE("forward kinematics and residuals are from the origin, too")
     Crowd crowd = crowd_of(SWIVEL_WORLD, 1);
     const Double3 origin[] = {{kFar, 0, 0}}, target[] = {{kFar + 1, 0.5, 0}}, shoulder[] = {{kFar, 0.25, 0}};
     crowd.write_doubles(SWIVEL_TARGET, 0, target, {origin, 0});
-    crowd.write_doubles(SWIVEL_PARENT_POSITION, 0, shoulder, {origin, 0});
+    crowd.write_doubles(SWIVEL_SHOULDER_POSITION, 0, shoulder, {origin, 0});
     crowd.solve();
     std::vector<Double3> wrist(1);
     std::vector<double> off(1);
@@ -218,7 +218,7 @@ TEST_CASE("rows hold the difference, rounded once, for any stride, place and rou
         const std::uint32_t count = 1 + random.below(70);
         Crowd crowd = crowd_of(SWIVEL_WORLD, count);
         const std::uint32_t first = random.below(count), limbs = random.below(count - first + 1);
-        const swivel_field fields[] = {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_PARENT_POSITION};
+        const swivel_field fields[] = {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION};
         const swivel_field field = fields[random.below(3)];
         const std::size_t stride = 24 + random.below(20), origin_stride = random.below(2) ? 24 + random.below(20) : 0;
         const bool with_origin = random.below(4) > 0;
@@ -291,8 +291,8 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
         CHECK_REFUSED(swivel_write_doubles(c, field, 0, 0, 1, good, none), bad);
     swivel_write_doubles(c, SWIVEL_LENGTHS, 0, 0, 1, good, none);
     CHECK(std::string(swivel_last_error()) ==
-          "group 0, lengths: not a position; doubles are for target, pole and parent_position");
-    CHECK_REFUSED(swivel_write_doubles(plain.get(), SWIVEL_PARENT_POSITION, 0, 0, 1, good, good), bad);
+          "group 0, lengths: not a position; doubles are for target, pole and shoulder_position");
+    CHECK_REFUSED(swivel_write_doubles(plain.get(), SWIVEL_SHOULDER_POSITION, 0, 0, 1, good, good), bad);
     CHECK_REFUSED(swivel_write_doubles(directions.get(), SWIVEL_POLE, 0, 0, 1, good, good), bad);
     CHECK(std::string(swivel_last_error()) == "group 0, pole: it is a direction here, which has no origin; give null");
     CHECK(all_words(directions) == before_directions);

@@ -92,11 +92,11 @@ TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as w
             Random random{features * 3 + static_cast<std::uint64_t>(rest)};
             std::vector<swivel_chain> chains;
             std::vector<swivel_group_def> groups;
-            std::vector<BoundLimb> bound;
+            std::vector<swivel_binding> bound;
             for (std::uint32_t g = 0; g < kGroups; ++g) {
                 chains.push_back(random_chain(random, rest));
                 bound.push_back(bind(chains.back()));
-                groups.push_back({kLimbs, bound.back().binding});
+                groups.push_back({kLimbs, bound.back()});
                 CHECK(std::fabs(bound[g].lengths[0] - vec(chains[g].elbow_offset).norm()) <=
                       1e-6 * bound[g].lengths[0]);
                 CHECK(std::fabs(bound[g].lengths[1] - vec(chains[g].wrist_offset).norm()) <=
@@ -119,7 +119,7 @@ TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as w
                     INFO("features " << features << ", rest " << static_cast<int>(rest) << ", group " << g << ", limb "
                                      << n);
                     const Joints local = joints_of(crowd, g, n);
-                    const Parent parent = parent_of(limbs[g][n], bound[g].binding, features);
+                    const Parent parent = parent_of(limbs[g][n], bound[g], features);
                     places.push_back(places_of(chains[g], parent, local));
                     check_places(limbs[g][n], features, places.back(), flags[n]);
                     // The elbow joint turns about the hinge alone, and bends the forearm about -hinge.
@@ -140,9 +140,9 @@ TEST_CASE("skeletons: the rest pose's own wrist and elbow give back the rest rot
             INFO("rest " << static_cast<int>(rest) << ", seed " << seed);
             Random random{seed};
             const swivel_chain chain = random_chain(random, rest);
-            const BoundLimb bound = bind(chain);
+            const swivel_binding bound = bind(chain);
             constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
-            Crowd crowd = crowd_of(features, 1, bound.binding);
+            Crowd crowd = crowd_of(features, 1, bound);
             Limb limb = random_limb(random, features, {bound.lengths[0], bound.lengths[1]});
             const Places places = places_of(chain, limb.parent(), rest_of(chain));
             limb.target = floats(places.wrist);
@@ -166,9 +166,9 @@ TEST_CASE("skeletons: a tilted hinge still turns about one axis of the upper arm
         swivel_chain chain = random_chain(random, Rest::bent);
         const Vector3d tilted = hinge_of(chain) + 0.5 * vec(chain.elbow_offset).normalized();
         std::ranges::copy(floats(tilted), chain.hinge);
-        const BoundLimb bound = bind(chain);
+        const swivel_binding bound = bind(chain);
         constexpr std::uint32_t count = 16, features = SWIVEL_JOINTS | SWIVEL_WORLD;
-        Crowd crowd = crowd_of(features, count, bound.binding);
+        Crowd crowd = crowd_of(features, count, bound);
         std::vector<Limb> limbs;
         for (std::uint32_t n = 0; n < count; ++n) {
             limbs.push_back(random_limb(random, features, {bound.lengths[0], bound.lengths[1]}));
@@ -194,10 +194,10 @@ TEST_CASE("skeletons: the negated hinge bends the limb the other way")
         Random random{seed};
         swivel_chain chain = random_chain(random, Rest::straight);
         constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD;
-        const BoundLimb one = bind(chain);
+        const swivel_binding one = bind(chain);
         for (float& x : chain.hinge) x = -x;
-        const BoundLimb other = bind(chain);
-        const swivel_group_def groups[] = {{1, one.binding}, {1, other.binding}};
+        const swivel_binding other = bind(chain);
+        const swivel_group_def groups[] = {{1, one}, {1, other}};
         Crowd crowd(features, groups);
         const Limb limb = random_limb(random, features, {one.lengths[0], one.lengths[1]});
         write_limb(crowd, 0, 0, limb);
@@ -233,9 +233,9 @@ TEST_CASE("skeletons: a mirrored limb with mirrored goals has mirrored rotations
             std::ranges::copy(mirror3(as3(left.wrist_offset)), right.wrist_offset);
             const Float3 hinge = mirror3(as3(left.hinge));  // an axis of turning mirrors with the other sign
             std::ranges::copy(Float3{-hinge[0], -hinge[1], -hinge[2]}, right.hinge);
-            const BoundLimb l = bind(left), r = bind(right);
+            const swivel_binding l = bind(left), r = bind(right);
             constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
-            const swivel_group_def groups[] = {{1, l.binding}, {1, r.binding}};
+            const swivel_group_def groups[] = {{1, l}, {1, r}};
             Crowd crowd(features, groups);
             const Limb limb = random_limb(random, features, {l.lengths[0], l.lengths[1]});
             Limb other = limb;
@@ -258,7 +258,7 @@ TEST_CASE("skeletons: bad input leaves the skeleton's own rest rotations")
 {
     Random random{4};
     const swivel_chain chain = random_chain(random, Rest::bent);
-    Crowd crowd = crowd_of(SWIVEL_JOINTS | SWIVEL_WITH_HAND, 3, bind(chain).binding);
+    Crowd crowd = crowd_of(SWIVEL_JOINTS | SWIVEL_WITH_HAND, 3, bind(chain));
     crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{0, 0, 1}, {kInf, 0, 0}, {0, 0, 1}});
     crowd.solve();
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[1] == SWIVEL_BAD_INPUT);
@@ -276,16 +276,12 @@ TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
         INFO(what);
         swivel_chain chain = random_chain(random, rest);
         swivel_binding binding;
-        float lengths[2] = {7, 7};
-        REQUIRE(swivel_bind(&chain, &binding, lengths) == SWIVEL_OK);
+        REQUIRE(swivel_bind(&chain, &binding) == SWIVEL_OK);
         std::memset(&binding, 0x5a, sizeof binding);
         const swivel_binding untouched = binding;
-        lengths[0] = lengths[1] = 7;
         spoil(chain);
-        CHECK_REFUSED(swivel_bind(&chain, &binding, lengths), SWIVEL_INVALID_ARGUMENT);
+        CHECK_REFUSED(swivel_bind(&chain, &binding), SWIVEL_INVALID_ARGUMENT);
         CHECK(std::memcmp(&binding, &untouched, sizeof binding) == 0);
-        CHECK(lengths[0] == 7);
-        CHECK(lengths[1] == 7);
     };
     const auto fill = [](auto& values, float x) { std::ranges::fill(values, x); };
     for (const float bad : {0.0f, kNan, kInf, 1e-20f, 3e38f}) {
@@ -312,9 +308,9 @@ TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
 
     swivel_chain chain = random_chain(random, Rest::bent);
     swivel_binding binding;
-    CHECK_REFUSED(swivel_bind(nullptr, &binding, nullptr), SWIVEL_INVALID_ARGUMENT);
-    CHECK_REFUSED(swivel_bind(&chain, nullptr, nullptr), SWIVEL_INVALID_ARGUMENT);
-    CHECK(swivel_bind(&chain, &binding, nullptr) == SWIVEL_OK);
+    CHECK_REFUSED(swivel_bind(nullptr, &binding), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_bind(&chain, nullptr), SWIVEL_INVALID_ARGUMENT);
+    CHECK(swivel_bind(&chain, &binding) == SWIVEL_OK);
     for (const float(&q)[4] :
          {std::cref(binding.parent_from_arm), std::cref(binding.upper_from_arm), std::cref(binding.fore_from_arm),
           std::cref(binding.shoulder_rest), std::cref(binding.elbow_rest), std::cref(binding.wrist_rest)})

@@ -20,8 +20,8 @@ TEST_CASE("whole limbs at rest are the plain arms")
              {std::uint32_t{SWIVEL_WITH_ANGLE}, features & SWIVEL_WITH_HAND ? at_rest : 0u}) {
             Random random{features + more};
             const Chained limb = chained(random);
-            Crowd plain = crowd_of(features, count, limb.bound.binding),
-                  whole = crowd_of(features | more, count, limb.bound.binding);
+            Crowd plain = crowd_of(features, count, limb.bound),
+                  whole = crowd_of(features | more, count, limb.bound);
             for (std::uint32_t n = 0; n < count; ++n) {
                 const Limb each = random_limb(random, features, {limb.bound.lengths[0], limb.bound.lengths[1]});
                 write_limb(plain, 0, n, each);
@@ -51,8 +51,8 @@ TEST_CASE("an incoming pose of the skeleton's own rotations, kept by weights of 
     constexpr std::uint32_t count = 100;
     Random random{2};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound.binding);
-    Crowd first = crowd_of(kWorldJointsHand, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound);
+    Crowd first = crowd_of(kWorldJointsHand, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n) {
         const Float2 lengths = {limb.bound.lengths[0], limb.bound.lengths[1]};
         write_limb(first, 0, n, random_limb(random, kWorldJointsHand, lengths));
@@ -125,7 +125,7 @@ TEST_CASE("an effector in the hand joint's own frame is at the target")
     constexpr std::uint32_t count = 100;
     Random random{3};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR, count, limb.bound);
     std::vector<Limb> limbs;
     std::vector<Vector3d> effectors;
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -185,7 +185,7 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     Random random{11};
     const Chained limb = chained(random);
     const double upper = limb.bound.lengths[0], fore = limb.bound.lengths[1];
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_FLEXION, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_FLEXION, count, limb.bound);
     std::vector<double> wanted, least, most;
     for (std::uint32_t n = 0; n < count; ++n) {
         const Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
@@ -220,12 +220,12 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
     constexpr std::uint32_t count = 100, bones = 3;
     Random random{6};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_TWIST_BONES, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_TWIST_BONES, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n)
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
     const auto twists = read<Float12>(crowd, SWIVEL_TWIST);
-    const swivel_binding& b = limb.bound.binding;
+    const swivel_binding& b = limb.bound;
     const Quaterniond fore = quat(b.fore_from_arm), hand_rest = fore.conjugate() * quat(b.wrist_rest);
     for (std::uint32_t n = 0; n < count; ++n) {
         const Quaterniond wrist = fore.conjugate() * local_pose(crowd, n).wrist * hand_rest.conjugate();
@@ -303,11 +303,11 @@ TEST_CASE("joint angles turn back into the rotations they are of, in every order
     constexpr std::uint32_t count = 60;
     Random random{7};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand, count, limb.bound.binding);
+    Crowd crowd = crowd_of(kWorldJointsHand, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n)
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
-    const swivel_binding& b = limb.bound.binding;
+    const swivel_binding& b = limb.bound;
     const Quaterniond parent = quat(b.parent_from_arm), upper = quat(b.upper_from_arm), fore = quat(b.fore_from_arm);
     const Quaterniond hand_rest = fore.conjugate() * quat(b.wrist_rest);
     const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};

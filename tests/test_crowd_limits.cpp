@@ -22,7 +22,7 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     constexpr std::uint32_t count = 1000;
     Random random{4};
     const Chained limb = chained(random);
-    swivel_group_def group{count, limb.bound.binding};
+    swivel_group_def group{count, limb.bound};
     swivel_crowd_def def = swivel_default_crowd_def();
     def.features = kWorldJointsHand | kLimits;
     def.groups = &group;
@@ -69,7 +69,7 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     }
     crowd.solve();
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    const swivel_binding& b = limb.bound.binding;
+    const swivel_binding& b = limb.bound;
     const Quaterniond parent = quat(b.parent_from_arm), upper = quat(b.upper_from_arm), fore = quat(b.fore_from_arm);
     const Quaterniond hand_rest = fore.conjugate() * quat(b.wrist_rest);
     std::map<std::uint32_t, int> seen;
@@ -216,8 +216,8 @@ TEST_CASE("the body's other side is the mirror image")
     mirror3(right.elbow_offset, left.elbow_offset, 1);
     mirror3(right.wrist_offset, left.wrist_offset, 1);
     mirror3(right.hinge, left.hinge, -1);  // an axis that the forearm turns about
-    Crowd r = crowd_of(features, count, bind(right).binding), l = crowd_of(features, count, bind(left).binding);
-    const BoundLimb bound = bind(right);
+    Crowd r = crowd_of(features, count, bind(right)), l = crowd_of(features, count, bind(left));
+    const swivel_binding bound = bind(right);
     const swivel_euler_order order = SWIVEL_XYZ;
     const auto both = [&](swivel_field field, std::uint32_t n, const auto& value) {
         auto other = value;

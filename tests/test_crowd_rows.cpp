@@ -46,26 +46,95 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
     }
 }
 
-TEST_CASE("a new crowd is at rest, its results are zeros")
+TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
 {
-    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_HAND, 20);
-    const swivel_rows out = swivel_result_rows(crowd.get());
-    for (std::size_t n = 0; n < std::size_t{out.block_count} * out.row_count * SWIVEL_LANES; ++n)
-        REQUIRE(out.base[n] == 0);
-    CHECK(read<Float2>(crowd, SWIVEL_LENGTHS)[19] == Float2{1, 1});
-    CHECK(read<Float4>(crowd, SWIVEL_PARENT_ROTATION)[19] == Float4{0, 0, 0, 1});
-    CHECK(read<Float3>(crowd, SWIVEL_PARENT_POSITION)[19] == Float3{0, 0, 0});
-    CHECK(read<Float1>(crowd, SWIVEL_PARENT_SCALE)[19] == Float1{1});
-    CHECK(read<Float4>(crowd, SWIVEL_HAND)[19] == Float4{0, 0, 0, 1});
-    crowd.solve();
-    for (std::uint32_t limb = 0; limb < 32; ++limb) {  // padding, too
-        const std::vector<std::uint32_t> words = result_words(crowd, limb);
-        CHECK(words == result_words(crowd, 0));
-        CHECK(words.back() == SWIVEL_REACHED);
+    swivel_group_def groups[] = {group_of(20), group_of(5)};
+    std::ranges::copy(Float2{0.3f, 0}, groups[1].binding.lengths);
+    for (const bool joints : {false, true}) {
+        const std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND | (joints ? SWIVEL_JOINTS : 0);
+        const Crowd crowd(features, groups);
+        for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_SHOULDER_POSITION})
+            for (const Float3& value : read<Float3>(crowd, field, 0))
+                for (const float x : value) CHECK(std::isnan(x));
+        CHECK(read<Float4>(crowd, SWIVEL_PARENT_ROTATION)[19] == Float4{0, 0, 0, 1});
+        CHECK(read<Float1>(crowd, SWIVEL_PARENT_SCALE)[19] == Float1{1});
+        CHECK(read<Float4>(crowd, SWIVEL_HAND)[19] == Float4{0, 0, 0, 1});
+        for (const Float2& lengths : read<Float2>(crowd, SWIVEL_LENGTHS, 1)) {
+            if (joints)
+                CHECK(lengths == Float2{0.3f, 0});
+            else
+                CHECK((std::isnan(lengths[0]) && std::isnan(lengths[1])));
+        }
     }
-    CHECK(read<Float4>(crowd, SWIVEL_SHOULDER)[7] == Float4{0, 0, 0, 1});
-    CHECK(read<Float2>(crowd, SWIVEL_ELBOW)[7] == Float2{1, 0});
-    CHECK(read<Float4>(crowd, SWIVEL_WRIST)[7] == Float4{0, 0, 0, 1});
+}
+
+TEST_CASE("a limb that lacks its target, its shoulder's place or its lengths has bad input, and no other")
+{
+    const auto flags_without = [](swivel_field missing) {
+        Crowd crowd(SWIVEL_WORLD, std::span<const swivel_group_def>({group_of(20)}));
+        const auto give = [&](swivel_field field, auto value) {
+            const std::vector values(field == missing ? 19 : 20, value);
+            crowd.write(field, 0, values);
+        };
+        give(SWIVEL_TARGET, Float3{0, 0.5f, 1});
+        give(SWIVEL_SHOULDER_POSITION, Float3{0, 0, 0.2f});
+        give(SWIVEL_LENGTHS, Float2{1, 1});
+        crowd.solve();
+        return read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    };
+    for (const swivel_field missing : {SWIVEL_TARGET, SWIVEL_SHOULDER_POSITION, SWIVEL_LENGTHS}) {
+        const std::vector<std::uint32_t> flags = flags_without(missing);
+        for (std::size_t n = 0; n < 19; ++n) CHECK(flags[n] == SWIVEL_REACHED);
+        CHECK(flags[19] == SWIVEL_BAD_INPUT);
+    }
+    CHECK(flags_without(SWIVEL_HAND)[19] == SWIVEL_REACHED);
+}
+
+TEST_CASE("limbs that were never solved have the bits of bad input, but for its flag")
+{
+    const auto slant = [](float sign) {
+        swivel_chain chain{};
+        for (float(&q)[4] : {std::ref(chain.shoulder_rotation), std::ref(chain.elbow_rotation)})
+            std::ranges::copy(Float4{0.2f * sign, 0.4f, -0.4f * sign, 0.8f}, q);
+        std::ranges::copy(Float4{0.6f, 0, 0, -0.8f * sign}, chain.wrist_rotation);
+        chain.elbow_offset[0] = chain.wrist_offset[0] = 0.3f * sign;
+        chain.hinge[1] = 1;
+        return bind(chain);
+    };
+    const swivel_group_def groups[] = {{33, slant(1)}, {7, slant(-1)}};
+    constexpr std::uint32_t plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
+                            limb = SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | 3 * SWIVEL_TWIST_BONES |
+                                   SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
+    std::vector<std::uint32_t> sets = {plain | limb, SWIVEL_WORLD | SWIVEL_WITH_HAND | limb};
+    for (std::uint32_t n = 0; n < 8; ++n)
+        for (const std::uint32_t compact : {0u, std::uint32_t{SWIVEL_COMPACT}}) sets.push_back(n | compact);
+    for (const std::uint32_t features : sets) {
+        INFO("features " << features);
+        Crowd crowd(features, groups);
+        std::vector<std::vector<float>> fresh;
+        for (const bool solved : {false, true}) {
+            if (solved) crowd.solve();
+            for (std::uint32_t g = 0; g < 2; ++g)
+                for (int f = SWIVEL_SHOULDER; f < SWIVEL_FIELD_COUNT; ++f) {
+                    const auto field = static_cast<swivel_field>(f);
+                    const std::size_t rows = field == SWIVEL_ELBOW && !(features & SWIVEL_JOINTS) ? 2 : 4;
+                    if (swivel_field_row_count(crowd.get(), field) == 0 || field == SWIVEL_FLAGS) continue;
+                    std::vector<float> values(groups[g].limb_count * std::max<std::size_t>(rows, 12));
+                    REQUIRE(swivel_read(crowd.get(), field, g, 0, groups[g].limb_count, {values.data(), 48}) ==
+                            SWIVEL_OK);
+                    fresh.push_back(values);
+                }
+            for (const std::uint32_t flags : read<std::uint32_t>(crowd, SWIVEL_FLAGS, 0))
+                CHECK(flags == (solved ? SWIVEL_BAD_INPUT : 0u));
+        }
+        for (std::size_t n = 0; n < fresh.size() / 2; ++n) CHECK(fresh[n] == fresh[n + fresh.size() / 2]);
+        const Float4 shoulder = read<Float4>(crowd, SWIVEL_SHOULDER, 1)[6];
+        const bool joints = features & SWIVEL_JOINTS;
+        const Float4 rest = joints ? Float4{-0.2f, 0.4f, 0.4f, 0.8f} : Float4{0, 0, 0, 1};
+        CHECK(distance(quat(shoulder), quat(rest)) <= (features & SWIVEL_COMPACT ? 1.54e-4 : 1e-6));
+        if (features & SWIVEL_WITH_REACH) CHECK(read<Float1>(crowd, SWIVEL_STRETCH, 0)[32] == Float1{1});
+        if (features & SWIVEL_WITH_STEP) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
+    }
 }
 
 TEST_CASE("streams of any stride and alignment land in the documented place, bit for bit")

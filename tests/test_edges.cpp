@@ -235,7 +235,7 @@ struct Field {
 const Field kInputs[] = {{SWIVEL_TARGET, "target", false},
                          {SWIVEL_POLE, "pole", false},
                          {SWIVEL_LENGTHS, "lengths", false},
-                         {SWIVEL_PARENT_POSITION, "parent position", false},
+                         {SWIVEL_SHOULDER_POSITION, "shoulder position", false},
                          {SWIVEL_PARENT_ROTATION, "parent rotation", true},
                          {SWIVEL_PARENT_SCALE, "parent scale", true},
                          {SWIVEL_HAND, "hand", true}};
@@ -255,7 +255,7 @@ swivel_binding some_binding(float side)
     chain.elbow_offset[1] = 1;
     chain.wrist_offset[0] = side * 2;
     chain.hinge[2] = side;
-    return bind(chain).binding;
+    return bind(chain);
 }
 
 Crowd good_crowd(std::uint32_t features)
@@ -274,7 +274,7 @@ Crowd good_crowd(std::uint32_t features)
             put(SWIVEL_LENGTHS,
                 Float2{static_cast<float>(random.between(0.5, 1.5)), static_cast<float>(random.between(0.5, 1.5))});
             if (features & SWIVEL_WORLD) {
-                put(SWIVEL_PARENT_POSITION, floats(random.direction()));
+                put(SWIVEL_SHOULDER_POSITION, floats(random.direction()));
                 put(SWIVEL_PARENT_ROTATION, floats(random.rotation()));
                 put(SWIVEL_PARENT_SCALE, Float1{static_cast<float>(random.between(0.5, 2))});
             }
@@ -438,7 +438,7 @@ TEST_CASE("quaternions of any allowed length mean the same rotation")
                     crowd.write(field, 0, std::span(&longer, 1), n);
                 }
             for (std::uint32_t n = 0; n < kCount; ++n)
-                for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_PARENT_POSITION}) {
+                for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION}) {
                     Float3 v;
                     crowd.read(field, 0, std::span(&v, 1), n);
                     const Float3 scaled = floats(Vector3d(scale * vec(v)));

@@ -25,7 +25,7 @@ using Bytes = std::vector<unsigned char>;
 constexpr swivel_in swivel_frame::*kIn[] = {&swivel_frame::target,
                                             &swivel_frame::pole,
                                             &swivel_frame::lengths,
-                                            &swivel_frame::parent_position,
+                                            &swivel_frame::shoulder_position,
                                             &swivel_frame::parent_rotation,
                                             &swivel_frame::parent_scale,
                                             &swivel_frame::hand,
@@ -49,7 +49,7 @@ constexpr Member kMember[kMembers] = {
     {SWIVEL_TARGET, "target", ""},
     {SWIVEL_POLE, "pole", ""},
     {SWIVEL_LENGTHS, "lengths", ""},
-    {SWIVEL_PARENT_POSITION, "parent_position", "SWIVEL_WORLD"},
+    {SWIVEL_SHOULDER_POSITION, "shoulder_position", "SWIVEL_WORLD"},
     {SWIVEL_PARENT_ROTATION, "parent_rotation", "SWIVEL_WORLD"},
     {SWIVEL_PARENT_SCALE, "parent_scale", "SWIVEL_WORLD"},
     {SWIVEL_HAND, "hand", "SWIVEL_WITH_HAND"},
@@ -353,7 +353,7 @@ TEST_CASE("a pose may be read and written in place")
             swivel_frame frame{};
             frame.target = {&all[0].target, stride};
             frame.pole = {&all[0].pole, stride};
-            frame.parent_position = {&all[0].joints[2].position, stride};
+            frame.shoulder_position = {&all[0].joints[2].position, stride};
             frame.parent_rotation = {&all[0].joints[2].rotation, stride};
             frame.parent_scale = {&all[0].joints[2].scale, stride};
             frame.shoulder = {&all[0].joints[2].rotation, stride};  // the bytes the parent's rotation was read from

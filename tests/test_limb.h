@@ -63,7 +63,7 @@ inline void write_limb(Crowd& crowd, std::uint32_t group, std::uint32_t n, const
     put(SWIVEL_TARGET, limb.target);
     put(SWIVEL_POLE, limb.pole);
     put(SWIVEL_LENGTHS, limb.lengths);
-    put(SWIVEL_PARENT_POSITION, limb.position);
+    put(SWIVEL_SHOULDER_POSITION, limb.position);
     put(SWIVEL_PARENT_ROTATION, limb.rotation);
     put(SWIVEL_PARENT_SCALE, limb.scale);
     put(SWIVEL_HAND, limb.hand);

@@ -351,7 +351,7 @@ TEST_CASE("rig axes: a limb's chain is what bind() takes")
         numbers("elbow_offset", chain.elbow_offset);
         numbers("wrist_offset", chain.wrist_offset);
         numbers("hinge", chain.hinge);
-        const swivel::BoundLimb bound = swivel::bind(chain);
+        const swivel_binding bound = swivel::bind(chain);
         const double scale = limb.at("scale");
         for (std::size_t n = 0; n < 2; ++n)
             CHECK(scale * static_cast<double>(bound.lengths[n]) ==

@@ -33,7 +33,7 @@ inline swivel_chain skewed_chain(Random& random)
 
 struct Chained {
     swivel_chain chain;
-    BoundLimb bound;
+    swivel_binding bound;
 };
 inline Chained chained(Random& random)
 {

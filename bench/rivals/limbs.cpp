@@ -73,7 +73,7 @@ swivel_binding binding()
     chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
     chain.elbow_offset[0] = chain.wrist_offset[0] = 1;
     chain.hinge[1] = 1;
-    return swivel::bind(chain).binding;
+    return swivel::bind(chain);
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::spa
     write(SWIVEL_TARGET, given[0].target);
     write(SWIVEL_POLE, given[0].pole);
     write(SWIVEL_LENGTHS, given[0].lengths);
-    write(SWIVEL_PARENT_POSITION, given[0].position);
+    write(SWIVEL_SHOULDER_POSITION, given[0].position);
     write(SWIVEL_PARENT_ROTATION, given[0].rotation);
     write(SWIVEL_PARENT_SCALE, given[0].scale);
     write(SWIVEL_HAND, given[0].hand);

@@ -21,7 +21,7 @@ swivel_binding binding(float side)
     chain.elbow_offset[0] = side * kUpper;
     chain.wrist_offset[0] = side * kFore;
     chain.hinge[1] = side;
-    return swivel::bind(chain).binding;
+    return swivel::bind(chain);
 }
 Rig rig(float side)
 {
@@ -80,7 +80,7 @@ WholeFrame::WholeFrame(std::size_t character_count)
         swivel_frame frame{};
         frame.target = {goals_[0].arm[side].wrist, goal};
         frame.pole = {goals_[0].arm[side].pole, goal};
-        frame.parent_position = {world_[0].arm[side].shoulder.position, pose};
+        frame.shoulder_position = {world_[0].arm[side].shoulder.position, pose};
         frame.parent_rotation = {world_[0].chest.rotation, pose};
         frame.parent_scale = {world_[0].chest.scale, pose};
         frame.shoulder = {local_[0].arm[side].shoulder.rotation, pose};
@@ -99,7 +99,7 @@ void WholeFrame::write()
         };
         put(SWIVEL_TARGET, frame.target);
         put(SWIVEL_POLE, frame.pole);
-        put(SWIVEL_PARENT_POSITION, frame.parent_position);
+        put(SWIVEL_SHOULDER_POSITION, frame.shoulder_position);
         put(SWIVEL_PARENT_ROTATION, frame.parent_rotation);
         put(SWIVEL_PARENT_SCALE, frame.parent_scale);
     }

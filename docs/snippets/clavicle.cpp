@@ -9,7 +9,7 @@ TEST_CASE("docs: clavicle")
     // The shoulder, as the clavicle's joint has it, and a third of the way.
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.15f, 0, 0, 0.33f});
     // The shoulder's place and the clavicle's rotation as they are without this.
-    crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.2f, 1.4f, 0});
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.2f, 1.4f, 0});
     crowd.write_all(SWIVEL_PARENT_ROTATION, 0, Float4{0, 0, 0, 1});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.8f, 0.2f});

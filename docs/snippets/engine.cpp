@@ -11,7 +11,7 @@ struct Character {
     Float4 upper_arm, forearm;
 };
 
-swivel::BoundLimb bound_arm()
+swivel_binding bound_arm()
 {
     swivel_chain chain{};
     chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
@@ -42,12 +42,11 @@ double twist_of(const Character& character)
 
 TEST_CASE("docs: frames in place")
 {
-    const swivel::BoundLimb arm = bound_arm();
+    const swivel_binding arm = bound_arm();
     std::vector<Character> characters(
         40, {{0.3f, -0.2f, 0.3f}, {-0.2f, -0.5f, -0.3f}, {}, {}});
-    const swivel_group_def arms{40, arm.binding};
+    const swivel_group_def arms{40, arm};
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&arms, 1});
-    crowd.write_all(SWIVEL_LENGTHS, 0, arm.lengths);
     // [frame]
     swivel_frame frame{};  // what stays null keeps its rows, or is not written
     frame.target = {&characters[0].grip, sizeof(Character)};
@@ -93,7 +92,7 @@ TEST_CASE("docs: far from the origin")
     const std::array<Double3, 1> shoulder{{{5.0e6 + 0.2, 21.4, -3.0e6}}};
     const std::array<Double3, 1> elbow_hint{{{5.0e6, 20.4, -3.0e6}}};
     const std::array<Double3, 1> grip{{{5.0e6 + 0.5, 21.2, -3.0e6 + 0.3}}};
-    crowd.write_doubles(SWIVEL_PARENT_POSITION, 0, shoulder, origin);
+    crowd.write_doubles(SWIVEL_SHOULDER_POSITION, 0, shoulder, origin);
     crowd.write_doubles(SWIVEL_POLE, 0, elbow_hint, origin);
     crowd.write_doubles(SWIVEL_TARGET, 0, grip, origin);
     crowd.solve();

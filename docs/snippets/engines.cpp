@@ -28,11 +28,10 @@ swivel_chain chain(const Float3& elbow_offset, const Float3& wrist_offset,
 Pose solved(const Arm& arm)
 {
     // [solve]
-    const swivel::BoundLimb bound = swivel::bind(arm.chain);
-    const swivel_group_def group{1, bound.binding};
+    const swivel_binding bound = swivel::bind(arm.chain);
+    const swivel_group_def group{1, bound};
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&group, 1});
-    crowd.write_all(SWIVEL_LENGTHS, 0, bound.lengths);
-    crowd.write_all(SWIVEL_PARENT_POSITION, 0, arm.shoulder);
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, arm.shoulder);
     crowd.write_all(SWIVEL_TARGET, 0, arm.target);
     crowd.write_all(SWIVEL_POLE, 0, arm.pole);
     crowd.solve();

@@ -10,13 +10,12 @@ TEST_CASE("docs: legs")
     leg.elbow_offset[1] = -0.45f;
     leg.wrist_offset[1] = -0.42f;
     leg.hinge[0] = -1;  // flexion turns the shin about -hinge, +x: backwards
-    const swivel::BoundLimb left_leg = swivel::bind(leg);
+    const swivel_binding left_leg = swivel::bind(leg);
     // [end]
-    const swivel_group_def legs{1, left_leg.binding};
+    const swivel_group_def legs{1, left_leg};
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&legs, 1});
-    crowd.write_all(SWIVEL_LENGTHS, 0, left_leg.lengths);
     // [leg_solve]
-    crowd.write_all(SWIVEL_PARENT_POSITION, 0, Float3{0.1f, 0.95f, 0});  // the hip
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.1f, 0.95f, 0});  // the hip
     // The ankle, on a step.
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.1f, 0.25f, 0.1f});
     // In front: where the knee points.

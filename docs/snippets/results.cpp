@@ -35,6 +35,22 @@ TEST_CASE("docs: flags")
     CHECK(flags[0] == SWIVEL_REACHED);
 }
 
+TEST_CASE("docs: find")
+{
+    swivel::Crowd crowd(0, {&arms, 1});
+    give_arms(crowd);
+    crowd.solve();
+    std::vector<std::uint32_t> far;
+    // [find]
+    swivel::Crowd::Place at;  // group 0, limb 0
+    while (const auto found = crowd.find(SWIVEL_CLAMPED_FAR, at)) {
+        far.push_back(found->limb);
+        at = {found->group, found->limb + 1};
+    }
+    // [end]
+    CHECK(far == std::vector<std::uint32_t>{1});
+}
+
 TEST_CASE("docs: forward kinematics and residuals")
 {
     swivel::Crowd crowd(0, {&arms, 1});

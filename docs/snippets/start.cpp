@@ -22,7 +22,7 @@ int main()
     chain.elbow_offset[0] = 0.30f;  // the elbow, as the shoulder joint has it
     chain.wrist_offset[0] = 0.26f;  // the wrist, as the elbow joint has it
     chain.hinge[1] = 1;             // flexion turns the forearm about -hinge
-    const swivel::BoundLimb arm = swivel::bind(chain);
+    const swivel_binding arm = swivel::bind(chain);
 
     // A crowd: how many, what goes in and what comes out.
     const Character first{{0.4f, 1.2f, 0.3f},
@@ -33,15 +33,14 @@ int main()
                           {}};
     std::vector<Character> characters(1000, first);
     const swivel_group_def left_arms{static_cast<std::uint32_t>(characters.size()),
-                                     arm.binding};
+                                     arm};
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&left_arms, 1});
-    crowd.write_all(SWIVEL_LENGTHS, 0, arm.lengths);
 
     // Each frame: from your structures, to your structures.
     swivel_frame frame{};
     frame.target = {characters[0].grip, sizeof(Character)};
     frame.pole = {characters[0].elbow_hint, sizeof(Character)};
-    frame.parent_position = {characters[0].shoulder_position, sizeof(Character)};
+    frame.shoulder_position = {characters[0].shoulder_position, sizeof(Character)};
     frame.parent_rotation = {characters[0].clavicle_rotation, sizeof(Character)};
     frame.shoulder = {characters[0].upper_arm_rotation, sizeof(Character)};
     frame.elbow = {characters[0].forearm_rotation, sizeof(Character)};

@@ -120,11 +120,11 @@ swivel_binding binding_of(Random random)
     for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.hinge})
         for (float& x : *v) x = random.share();
     const float one[4] = {0, 0, 0, 1};
-    swivel_binding binding;
+    swivel_binding binding{};
     for (auto* q : {&binding.parent_from_arm, &binding.upper_from_arm, &binding.fore_from_arm, &binding.shoulder_rest,
                     &binding.elbow_rest, &binding.wrist_rest})
         std::copy_n(one, 4, *q);
-    swivel_bind(&chain, &binding, nullptr);  // leaves it alone where it fails
+    swivel_bind(&chain, &binding);  // leaves it alone where it fails
     return binding;
 }
 

@@ -27,7 +27,7 @@ std::size_t value_bytes(const Session& session, swivel_field field)
 
 bool is_position(swivel_field field)
 {
-    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+    return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
 }
 
 void require_equal_rows(const Session& session, swivel_field field, const Limbs& limbs, const Strided& values)
@@ -64,7 +64,7 @@ void call_write(Session& session)
 void call_write_doubles(Session& session)
 {
     Bytes& bytes = session.bytes;
-    const swivel_field field = take_field(session, SWIVEL_PARENT_POSITION + 1);
+    const swivel_field field = take_field(session, SWIVEL_SHOULDER_POSITION + 1);
     const Limbs limbs = take_limbs(session);
     const bool any_bits = bytes.one_in(3), has_origins = bytes.one_in(2);
     Random random{bytes.take<std::uint16_t>()};

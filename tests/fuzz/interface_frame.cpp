@@ -21,7 +21,7 @@ constexpr Input kInputs[] = {
     {SWIVEL_TARGET, &swivel_frame::target},
     {SWIVEL_POLE, &swivel_frame::pole},
     {SWIVEL_LENGTHS, &swivel_frame::lengths},
-    {SWIVEL_PARENT_POSITION, &swivel_frame::parent_position},
+    {SWIVEL_SHOULDER_POSITION, &swivel_frame::shoulder_position},
     {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
     {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
     {SWIVEL_HAND, &swivel_frame::hand},
@@ -70,7 +70,7 @@ struct Frame {
     void take_input(Session& session, const Input& input, std::uint32_t limb_count, bool doubles)
     {
         const bool is_position =
-            input.field == SWIVEL_TARGET || input.field == SWIVEL_POLE || input.field == SWIVEL_PARENT_POSITION;
+            input.field == SWIVEL_TARGET || input.field == SWIVEL_POLE || input.field == SWIVEL_SHOULDER_POSITION;
         const std::size_t each = doubles && is_position ? sizeof(double) : sizeof(float),
                           components = std::max(component_count(session, input.field), 1u);
         const std::uint32_t kind = session.bytes.take<std::uint8_t>();

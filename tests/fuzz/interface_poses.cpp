@@ -73,16 +73,16 @@ void call_bind(Bytes& bytes)
     swivel_chain chain;
     static_assert(sizeof chain == sizeof numbers);
     std::memcpy(&chain, numbers.data(), sizeof chain);
-    std::array<float, 24> binding;
-    std::array<float, 2> lengths = {7, 7};
+    std::array<float, 26> binding;
     static_assert(sizeof binding == sizeof(swivel_binding));
     binding.fill(7);
     swivel_binding bound;
     std::memcpy(&bound, binding.data(), sizeof bound);
-    const swivel_status status = swivel_bind(&chain, &bound, lengths.data());
+    const swivel_status status = swivel_bind(&chain, &bound);
     std::memcpy(binding.data(), &bound, sizeof bound);
-    bool is_sound = lengths[0] > 0 && lengths[1] > 0 && std::isfinite(lengths[0]) && std::isfinite(lengths[1]);
-    for (std::size_t n = 0; n < binding.size(); n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
+    bool is_sound = true;
+    for (const float length : bound.lengths) is_sound = is_sound && length > 0 && std::isfinite(length);
+    for (std::size_t n = 0; n < 24; n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
     check_helper(status, binding, is_sound);
 }
 

@@ -41,7 +41,7 @@ class Poses(unittest.TestCase):
         places = random.normal(size=(N, 3)).astype(np.float32)
         scale = random.uniform(0.5, 2, N).astype(np.float32)
         world = lambda v: places + scale[:, None] * rotate(parents, v)
-        arms = swivel.solve(world(sample.targets), world(sample.poles), sample.lengths, parent_position=places,
+        arms = swivel.solve(world(sample.targets), world(sample.poles), sample.lengths, shoulder_position=places,
                             parent_rotation=parents, parent_scale=scale, hand=hands)
         _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
         np.testing.assert_allclose(world(wrists), world(sample.targets), atol=4e-6)
@@ -87,6 +87,19 @@ class Poses(unittest.TestCase):
         self.assertEqual(ends.shape[1:], (2, 2))
         np.testing.assert_allclose(np.linalg.norm(ends, axis=2), 1, atol=1e-5)
 
+    def test_find_goes_from_flag_to_flag(self):
+        crowd = swivel.Crowd([5, 40])
+        for group in (0, 1):
+            crowd.write(Field.TARGET, (0.3, 0.2, 0.4), group)
+        crowd.write(Field.TARGET, (0, 0, 9), 1, first=33, count=1)
+        crowd.write(Field.POLE, (np.nan, 0, 0), 0, first=4, count=1)
+        self.assertIsNone(crowd.find(~0 & 0xffffffff))
+        crowd.solve()
+        self.assertEqual(crowd.find(Flag.CLAMPED_FAR | Flag.BAD_INPUT), (0, 4))
+        self.assertEqual(crowd.find(Flag.CLAMPED_FAR | Flag.BAD_INPUT, 0, 5), (1, 33))
+        self.assertIsNone(crowd.find(Flag.CLAMPED_FAR, 1, 34))
+        self.assertIsNone(crowd.find(Flag.REACHED, 2))
+
     def test_joint_angles_rebuild_the_shoulder(self):
         sample = Sample(N)
         crowd = crowd_of(sample)
@@ -103,9 +116,9 @@ class Poses(unittest.TestCase):
     def test_far_from_the_origin(self):
         sample, home = Sample(N), np.array([4e6, -3e6, 5e6])
         far = lambda v: home + v.astype(float)
-        keywords = dict(parent_position=home, origin=home)
+        keywords = dict(shoulder_position=home, origin=home)
         arms = swivel.solve(far(sample.targets), far(sample.poles), sample.lengths, **keywords)
-        near = swivel.solve(sample.targets, sample.poles, sample.lengths, parent_position=(0, 0, 0))
+        near = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_position=(0, 0, 0))
         np.testing.assert_allclose(arms.wrist_position, near.wrist_position, atol=1e-6)
 
     def test_hands_that_aim(self):
@@ -121,7 +134,7 @@ class Poses(unittest.TestCase):
 
     def test_clavicles_take_their_share(self):
         sample, bone = Sample(N), np.array([0.15, 0.05, 0.0])
-        arms = swivel.solve(sample.targets, sample.poles, sample.lengths, parent_position=(0, 0, 0), clavicle=(*bone, 0.3))
+        arms = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_position=(0, 0, 0), clavicle=(*bone, 0.3))
         turn = arms.clavicle_turn
         _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
         wrists = rotate(turn, bone + wrists) - bone

@@ -47,7 +47,7 @@ constexpr FieldName kFields[] = {
     {Field::target, SWIVEL_TARGET, 3},
     {Field::pole, SWIVEL_POLE, 3},
     {Field::lengths, SWIVEL_LENGTHS, 2},
-    {Field::parent_position, SWIVEL_PARENT_POSITION, 3},
+    {Field::parent_position, SWIVEL_SHOULDER_POSITION, 3},
     {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4},
     {Field::parent_scale, SWIVEL_PARENT_SCALE, 1},
     {Field::hand, SWIVEL_HAND, 4},

@@ -19,7 +19,7 @@ struct Member {
     float (swivel_binding::*quaternion)[4];
     const char* text;
 };
-constexpr Member kMembers[] = {
+constexpr Member kQuaternions[] = {
     {"parent_from_arm", &swivel_binding::parent_from_arm, "Arm frame to the shoulder's parent joint: (4,) float32."},
     {"upper_from_arm", &swivel_binding::upper_from_arm, "Arm frame at rest to the shoulder joint's own: (4,) float32."},
     {"fore_from_arm", &swivel_binding::fore_from_arm, "Arm frame at rest to the elbow joint's own: (4,) float32."},
@@ -37,19 +37,20 @@ void copy(const char* name, const py::object& given, float (&numbers)[N])
 
 swivel_binding make_binding(const py::object& parent_from_arm, const py::object& upper_from_arm,
                             const py::object& fore_from_arm, const py::object& shoulder_rest,
-                            const py::object& elbow_rest, const py::object& wrist_rest)
+                            const py::object& elbow_rest, const py::object& wrist_rest, const py::object& lengths)
 {
     const py::object* const given[] = {&parent_from_arm, &upper_from_arm, &fore_from_arm,
                                        &shoulder_rest,   &elbow_rest,     &wrist_rest};
     swivel_binding binding;
-    for (std::size_t n = 0; n < std::size(kMembers); ++n)
-        copy(kMembers[n].name, *given[n], binding.*kMembers[n].quaternion);
+    for (std::size_t n = 0; n < std::size(kQuaternions); ++n)
+        copy(kQuaternions[n].name, *given[n], binding.*kQuaternions[n].quaternion);
+    copy("lengths", lengths, binding.lengths);
     return binding;
 }
 
-BoundLimb bind_chain(const py::object& elbow_offset, const py::object& wrist_offset, const py::object& hinge,
-                     const py::object& shoulder_rotation, const py::object& elbow_rotation,
-                     const py::object& wrist_rotation)
+swivel_binding bind_chain(const py::object& elbow_offset, const py::object& wrist_offset, const py::object& hinge,
+                          const py::object& shoulder_rotation, const py::object& elbow_rotation,
+                          const py::object& wrist_rotation)
 {
     swivel_chain chain;
     copy("elbow_offset", elbow_offset, chain.elbow_offset);
@@ -67,30 +68,26 @@ void add_bindings(py::module_& module)
 {
     py::class_<swivel_binding> binding(
         module, "Binding",
-        "How the arm frame lies in a skeleton's joints, and their rest pose: six unit quaternions x, y, z, w.\n"
-        "Made by bind(); the constructor takes the six as keywords, to keep and restore one.");
+        "How the arm frame lies in a skeleton's joints, and their rest pose, six unit quaternions x, y, z, w, and\n"
+        "the bones' lengths. Made by bind(); an entry of Crowd's groups is (limb_count, this). The constructor\n"
+        "takes all of it as keywords, to keep and restore one.");
     binding.attr("__module__") = "swivel";
     binding.def(py::init(&make_binding), py::kw_only(), py::arg("parent_from_arm"), py::arg("upper_from_arm"),
                 py::arg("fore_from_arm"), py::arg("shoulder_rest"), py::arg("elbow_rest"), py::arg("wrist_rest"),
-                "See the class.");
-    for (const Member& member : kMembers)
+                py::arg("lengths"), "See the class.");
+    for (const Member& member : kQuaternions)
         binding.def_property_readonly(
             member.name,
             [quaternion = member.quaternion](const swivel_binding& b) { return py::array_t<float>(4, b.*quaternion); },
             member.text);
-    py::class_<BoundLimb> made(module, "BoundLimb",
-                               "What bind() finds: an entry of Crowd's groups is (limb_count, this).");
-    made.attr("__module__") = "swivel";
-    made.def_property_readonly(
-            "binding", [](const BoundLimb& limb) { return limb.binding; }, "The alignments, a Binding.")
-        .def_property_readonly(
-            "lengths", [](const BoundLimb& limb) { return py::array_t<float>(2, limb.lengths); },
-            "Upper arm and forearm, in the chain's unit, for Field.LENGTHS: (2,) float32.");
+    binding.def_property_readonly(
+        "lengths", [](const swivel_binding& b) { return py::array_t<float>(2, b.lengths); },
+        "Upper arm and forearm, in the chain's unit, with which limbs start: (2,) float32.");
     const py::tuple identity = py::make_tuple(0, 0, 0, 1), none = py::make_tuple(0, 0, 0);
     module.def("bind", &bind_chain, py::arg("elbow_offset"), py::arg("wrist_offset"), py::arg("hinge") = none,
                py::arg("shoulder_rotation") = identity, py::arg("elbow_rotation") = identity,
                py::arg("wrist_rotation") = identity,
-               "The binding of a limb from its rest pose, as a skeleton stores it: a BoundLimb.\n\n"
+               "The binding of a limb from its rest pose, as a skeleton stores it.\n\n"
                "elbow_offset (3,): the elbow's place in the shoulder joint's frame; wrist_offset (3,): the wrist's\n"
                "in the elbow joint's; hinge (3,): the elbow's axis in the shoulder joint's frame, about whose\n"
                "negative flexion turns the forearm, or zeros: from the rest pose, which then must be bent. Rotations\n"

@@ -73,6 +73,15 @@ py::array allowed_arcs(HeldCrowd& held, std::int64_t limb, std::int64_t group)
     return py::array(py::dtype::of<float>(), shape, arcs.data());  // without a base: a copy
 }
 
+std::optional<std::pair<std::uint32_t, std::uint32_t>> find(HeldCrowd& held, std::uint32_t flags, std::int64_t group,
+                                                            std::int64_t limb)
+{
+    const Crowd::Place from{count_of("group", group), count_of("limb", limb)};
+    const auto place = run(held, Way::kReading, [&] { return held.crowd.find(flags, from); });
+    if (!place) return std::nullopt;
+    return std::pair(place->group, place->limb);
+}
+
 }  // namespace
 
 void add_answers(CrowdClass& crowd)
@@ -98,6 +107,8 @@ void add_answers(CrowdClass& crowd)
               "Three of the shoulder in the given order of axes, the flexion, three of the wrist (0 without\n"
               "Feature.WITH_HAND). Of the two triples for a rotation, family 0 has the middle one within\n"
               "-pi/2..pi/2, family 1 the other.");
+    crowd.def("find", &find, py::arg("flags"), py::arg("group") = 0, py::arg("limb") = 0,
+              "The first limb with any of these flags, from a limb of a group on: (group, limb), or None.");
     crowd.def("allowed_arcs", &allowed_arcs, py::arg("limb"), py::arg("group") = 0,
               "The swivels that one limb's limits allow for its inputs as they are: (arcs, 2, 2) float32.\n\n"
               "For each arc its two ends, for each end cos and sin of the angle about the line from shoulder to\n"

@@ -69,7 +69,7 @@ void add_copies(CrowdClass& crowd)
               "this crowd does not have.");
     crowd.def("write_doubles", &write_doubles, py::arg("field"), py::arg("values"), py::arg("origins") = py::none(),
               py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-              "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.PARENT_POSITION.\n\n"
+              "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION.\n\n"
               "values and origins have shape (count, 3), or (3,) for all limbs, float64. origins are subtracted in\n"
               "double, then the difference is rounded once to float32; None subtracts nothing. All positions of a\n"
               "limb must come from the same origin.");

@@ -24,7 +24,7 @@ constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_TARGET, &swivel_frame::target},
     {SWIVEL_POLE, &swivel_frame::pole},
     {SWIVEL_LENGTHS, &swivel_frame::lengths},
-    {SWIVEL_PARENT_POSITION, &swivel_frame::parent_position},
+    {SWIVEL_SHOULDER_POSITION, &swivel_frame::shoulder_position},
     {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
     {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
     {SWIVEL_HAND, &swivel_frame::hand},
@@ -85,7 +85,7 @@ void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given,
     };
     for (const auto& [field, member] : kFrameInputs)
         if (const std::string key = field_name(field); given.contains(key)) {
-            const bool position = field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_PARENT_POSITION;
+            const bool position = field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
             take(key, values_of(held, field, limbs), frame.*member, doubles && position);
         }
     if (doubles) take("origin", {"origin", limbs.count, 3}, frame.origin, true);
@@ -143,7 +143,7 @@ void add_frames(CrowdClass& crowd)
               "Writes, solves and reads a whole frame a few blocks at a time, from and to your own arrays.\n\n"
               "frames is a dict for each group, or one dict if there is one group. Keys are lower-case names of\n"
               "fields, values arrays of the whole group as write() takes them and as out of read(); a field of a\n"
-              "structured array is one. Inputs: target, pole, lengths, parent_position, parent_rotation,\n"
+              "structured array is one. Inputs: target, pole, lengths, shoulder_position, parent_rotation,\n"
               "parent_scale, hand, effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights,\n"
               "aim, clavicle. Outputs, which are filled: shoulder, elbow, wrist, flags, stretch, twist,\n"
               "clavicle_turn. With the key origin, (n, 3) or (3,), the positions are float64 from there, as in\n"

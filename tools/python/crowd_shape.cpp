@@ -20,9 +20,10 @@ constexpr const char* kCrowdText =
     "Limbs that are solved together: Crowd(groups, features=0, shoulder_order=XYZ, wrist_order=XYZ).\n\n"
     "groups is the number of limbs, or a sequence with one entry for each group of limbs that share a\n"
     "binding: a number, or (number, binding) with what bind() gave, which Feature.JOINTS needs. The\n"
-    "orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX. Inputs start as a straight arm of two\n"
-    "bones of length 1, parent and hand the identity, no limits; results as zeros. After creation the\n"
-    "library allocates nothing.\n\n"
+    "orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX. Targets and shoulder positions start as\n"
+    "NaN, lengths as the binding's, or NaN: a limb that never gets them has Flag.BAD_INPUT. Parents and\n"
+    "hands start as the identity, without limits; results as the rest pose. After creation the library\n"
+    "allocates nothing.\n\n"
     "Arrays have one row for each limb of a group: (n, 3) positions in your unit of length, (n, 4)\n"
     "quaternions x, y, z, w, (n,) single numbers, float32. Different crowds may be used by different\n"
     "threads at once; one crowd may not (RuntimeError), but for readers beside readers, and\n"
@@ -41,7 +42,6 @@ swivel_group_def group_of(py::handle entry)
     if (py::isinstance<py::tuple>(entry) && py::len(entry) == 2) {
         const auto pair = py::reinterpret_borrow<py::tuple>(entry);
         const auto limb_count = limb_count_of(pair[0]);
-        if (limb_count && py::isinstance<BoundLimb>(pair[1])) return {*limb_count, pair[1].cast<BoundLimb>().binding};
         if (limb_count && py::isinstance<swivel_binding>(pair[1])) return {*limb_count, pair[1].cast<swivel_binding>()};
     }
     throw py::type_error("groups: expected a number of limbs or (number of limbs, binding), got " +

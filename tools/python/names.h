@@ -20,7 +20,7 @@ struct Named {
 };
 std::span<const Named> features();
 
-// What messages and keywords call a field: "parent_position".
+// What messages and keywords call a field: "shoulder_position".
 std::string field_name(swivel_field field);
 // The field of a number that came from Python; ValueError if there is none.
 swivel_field field_of(std::int64_t number);

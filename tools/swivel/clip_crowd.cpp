@@ -159,7 +159,7 @@ void ClipCrowd::write_inputs(std::size_t limb)
     const Input& first = inputs_[limb][0];
     for (const auto& [field, from] : {std::pair{SWIVEL_TARGET, &first.target[0]},
                                       {SWIVEL_POLE, first.pole},
-                                      {SWIVEL_PARENT_POSITION, first.position},
+                                      {SWIVEL_SHOULDER_POSITION, first.position},
                                       {SWIVEL_PARENT_ROTATION, first.rotation},
                                       {SWIVEL_HAND, first.hand},
                                       {SWIVEL_INCOMING_SHOULDER, first.shoulder},

@@ -81,7 +81,7 @@ public:
             std::vector<DemoArm>& limbs = limbs_[group];
             for (std::uint32_t n = 0; n < limbs.size(); ++n) limbs[n] = make_limb(n, side(group), columns, random);
             write(SWIVEL_LENGTHS, group, limbs[0].lengths);
-            write(SWIVEL_PARENT_POSITION, group, limbs[0].position);
+            write(SWIVEL_SHOULDER_POSITION, group, limbs[0].position);
             write(SWIVEL_PARENT_ROTATION, group, limbs[0].rotation);
         }
     }

@@ -96,7 +96,7 @@ swivel_chain chain_at(const ChainPose& rest, const Vector3d& hinge)
     return chain;
 }
 
-BoundLimb bind_rest(const ChainPose& rest, const Vector3d& hinge)
+swivel_binding bind_rest(const ChainPose& rest, const Vector3d& hinge)
 {
     try {
         return bind(chain_at(rest, hinge));
@@ -271,7 +271,7 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     limb.hinge_source = hinge.source;
     limb.bound = bind_rest(rest, limb.hinge);
     for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));
-    limb.axes_w = axes_of(limb.bound.binding, parent_w);
+    limb.axes_w = axes_of(limb.bound, parent_w);
     limb.side_twists = side_twists(clip, limb.chain);
     return limb;
 }

@@ -5,9 +5,9 @@ from typing import NamedTuple, Optional
 import numpy as np
 import numpy.typing as npt
 
-from ._core import BoundLimb, Crowd, EulerOrder, Feature, Field, needed_features
+from ._core import Binding, Crowd, EulerOrder, Feature, Field, needed_features
 
-_POSITIONS = (Field.TARGET, Field.POLE, Field.PARENT_POSITION)
+_POSITIONS = (Field.TARGET, Field.POLE, Field.SHOULDER_POSITION)
 
 
 class Arms(NamedTuple):
@@ -47,7 +47,7 @@ def _field(name: str) -> Field:
     return field
 
 
-def _limb_count(features: Feature, binding: Optional[BoundLimb], values: dict[Field, npt.NDArray[np.generic]]) -> int:
+def _limb_count(features: Feature, binding: Optional[Binding], values: dict[Field, npt.NDArray[np.generic]]) -> int:
     """The length of the first array that has a value for each limb; 1 if there is none."""
     one = Crowd([(1, binding) if binding else 1], features)
     for field, array in values.items():
@@ -56,24 +56,27 @@ def _limb_count(features: Feature, binding: Optional[BoundLimb], values: dict[Fi
     return 1
 
 
-def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: npt.ArrayLike, *, features: int = 0,
-          binding: Optional[BoundLimb] = None, origin: Optional[npt.ArrayLike] = None,
+def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optional[npt.ArrayLike] = None, *, features: int = 0,
+          binding: Optional[Binding] = None, origin: Optional[npt.ArrayLike] = None,
           shoulder_order: EulerOrder = EulerOrder.XYZ, wrist_order: EulerOrder = EulerOrder.XYZ,
           **fields: npt.ArrayLike) -> Arms:
     """Solves n arms, each on its own, and gives their rotations, flags and positions by name.
 
     target (n, 3): where the wrists must be. pole (n, 3): points on the elbows' side; None leaves the one there is at creation.
-    lengths (n, 2): upper arm and forearm. Any of them may be one value, (3,) or (2,), for all arms. All in one unit of length,
-    seen from the shoulder, or in the world with parent_position=. Anything that NumPy makes an array of will do.
+    lengths (n, 2): upper arm and forearm; None takes the binding's. Any of them may be one value, (3,) or (2,), for all arms. All in one unit of length,
+    seen from the shoulder, or in the world with shoulder_position=. Anything that NumPy makes an array of will do.
 
     Further keywords are the input fields' lower-case names, and bring the features they need: hand=, parent_rotation=, reach=,
     shoulder_cone=, ...; docs/python.md lists them with their shapes. features adds those without a field, such as
     Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): target,
-    pole and parent_position are taken from there in double precision.
+    pole and shoulder_position are taken from there in double precision.
 
-    ValueError for shapes that do not go together, TypeError for a keyword that is no input field.
+    ValueError for shapes that do not go together and for lengths that nobody gave, TypeError for a keyword that is no input field.
     """
-    given = {"target": target, **({} if pole is None else {"pole": pole}), "lengths": lengths, **fields}
+    given = {"target": target, **{name: value for name, value in (("pole", pole), ("lengths", lengths)) if value is not None},
+             **fields}
+    if lengths is None and binding is None:
+        raise ValueError("solve() needs the bones' lengths; give lengths= or binding=")
     values = {_field(name): np.asarray(value) for name, value in given.items()}
     wanted = Feature(features) | (Feature.JOINTS if binding else Feature(0))
     for field in values:
