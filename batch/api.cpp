@@ -8,6 +8,7 @@
 #include "batch/check.h"
 #include "batch/frame.h"
 #include "batch/rig.h"
+#include "batch/sized.h"
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
@@ -98,34 +99,38 @@ const char* swivel_status_text(swivel_status status)
 
 const char* swivel_last_error(void) { return last_error(); }
 
-size_t swivel_crowd_bytes(const swivel_crowd_def* def) { return check(def) == SWIVEL_OK ? crowd_bytes(*def) : 0; }
+size_t swivel_crowd_bytes(const swivel_crowd_def* def)
+{
+    return check(def) == SWIVEL_OK ? crowd_bytes(full_def(def)) : 0;
+}
 
 swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_crowd_create: crowd is null");
     *crowd = nullptr;
     if (const swivel_status status = check(def); status != SWIVEL_OK) return status;
-    const size_t bytes = crowd_bytes(*def);
-    void (*release)(void*, size_t, void*) = def->release;
+    const swivel_crowd_def full = full_def(def);
+    const size_t bytes = crowd_bytes(full);
+    void (*release)(void*, size_t, void*) = full.release;
     void* arena = nullptr;
-    if (def->memory) {
-        if (reinterpret_cast<std::uintptr_t>(def->memory) % kArenaAlignment != 0)
+    if (full.memory) {
+        if (reinterpret_cast<std::uintptr_t>(full.memory) % kArenaAlignment != 0)
             return fail(SWIVEL_INVALID_ARGUMENT, "the caller's memory is not aligned to %zu bytes", kArenaAlignment);
-        if (def->memory_bytes < bytes)
+        if (full.memory_bytes < bytes)
             return fail(SWIVEL_OUT_OF_MEMORY, "the caller's memory has %zu bytes, the crowd needs %zu",
-                        def->memory_bytes, bytes);
-        arena = def->memory;
+                        full.memory_bytes, bytes);
+        arena = full.memory;
         release = nullptr;
-    } else if (def->allocate) {
-        arena = def->allocate(bytes, kArenaAlignment, def->user);
+    } else if (full.allocate) {
+        arena = full.allocate(bytes, kArenaAlignment, full.user);
     } else {
         arena = std::aligned_alloc(kArenaAlignment, bytes);
         release = [](void* memory, size_t, void*) { std::free(memory); };
     }
     if (!arena) return fail(SWIVEL_OUT_OF_MEMORY, "no memory for a crowd of %zu bytes", bytes);
-    *crowd = place_crowd(*def, arena);
+    *crowd = place_crowd(full, arena);
     (*crowd)->release = release;
-    (*crowd)->user = def->user;
+    (*crowd)->user = full.user;
     begin_schedule(**crowd);
     return SWIVEL_OK;
 }
@@ -140,7 +145,9 @@ void swivel_crowd_destroy(swivel_crowd* crowd)
 swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
 {
     if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
-    return bind(*chain, *binding);
+    if (const swivel_status status = check_size<swivel_chain>("chain", size_of(chain)); status != SWIVEL_OK)
+        return status;
+    return bind(element(chain, 0, swivel_default_chain()), *binding);
 }
 
 uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd ? crowd->block_count : 0; }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "batch/sized.h"
 #include "batch/status.h"
 #include "core/conformal.h"
 #include "simd/rows.h"
@@ -73,36 +74,40 @@ bool is_binding(const swivel_binding& b)
 
 }  // namespace
 
-swivel_status check(const swivel_crowd_def* def)
+swivel_crowd_def full_def(const swivel_crowd_def* def) { return element(def, 0, swivel_default_crowd_def()); }
+
+swivel_status check(const swivel_crowd_def* given)
 {
-    if (!def) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
-    if (def->size != sizeof(swivel_crowd_def))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "crowd def has size %zu, this library's has %zu; another version's header, or not from "
-                    "swivel_default_crowd_def()",
-                    def->size, sizeof(swivel_crowd_def));
-    if (def->features & ~kAllFeatures)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def->features & ~kAllFeatures);
+    if (!given) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
+    if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
+        return status;
+    const swivel_crowd_def def = full_def(given);
+    if (def.features & ~kAllFeatures)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def.features & ~kAllFeatures);
     for (const FeatureRule& rule : kFeatureRules)
-        if ((def->features & rule.feature) && !(def->features & rule.other) == rule.together)
+        if ((def.features & rule.feature) && !(def.features & rule.other) == rule.together)
             return fail(SWIVEL_INVALID_ARGUMENT, "%s", rule.text);
-    if (def->group_count == 0 || !def->groups)
+    if (def.group_count == 0 || !def.groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
-    if (!def->allocate != !def->release)
+    if (!def.allocate != !def.release)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
     for (const auto& [order, name] :
-         {std::pair{def->shoulder_order, "shoulder_order"}, std::pair{def->wrist_order, "wrist_order"}})
+         {std::pair{def.shoulder_order, "shoulder_order"}, std::pair{def.wrist_order, "wrist_order"}})
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)
             return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", name,
                         static_cast<int>(order));
+    if (const swivel_status status = check_size<swivel_group_def>("the first group def", size_of(def.groups));
+        status != SWIVEL_OK)
+        return status;
     std::uint64_t limb_count = 0;
-    for (std::uint32_t g = 0; g < def->group_count; ++g) {
-        if (def->groups[g].limb_count == 0)
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        const swivel_group_def group = group_at(def, g);
+        if (group.limb_count == 0)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
-        if ((def->features & SWIVEL_JOINTS) && !is_binding(def->groups[g].binding))
+        if ((def.features & SWIVEL_JOINTS) && !is_binding(group.binding))
             return fail(SWIVEL_INVALID_ARGUMENT,
                         "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", g);
-        limb_count += std::uint64_t{def->groups[g].limb_count} + SWIVEL_LANES;
+        limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
     if (limb_count > kMostLimbs)
         return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");

@@ -10,8 +10,9 @@
 
 namespace swivel {
 
-// A def that a crowd can be made of.
+// A def that a crowd can be made of, and all of its members.
 swivel_status check(const swivel_crowd_def* def);
+swivel_crowd_def full_def(const swivel_crowd_def* def);
 
 // A range of limbs of a group.
 swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <new>
 
+#include "batch/sized.h"
 #include "batch/solve.h"
 #include "batch/streams.h"
 #include "simd/dispatch.h"
@@ -29,7 +30,7 @@ struct Layout {
 
     explicit Layout(const swivel_crowd_def& def) : block_count(0)
     {
-        for (std::uint32_t g = 0; g < def.group_count; ++g) block_count += blocks_of(def.groups[g]);
+        for (std::uint32_t g = 0; g < def.group_count; ++g) block_count += blocks_of(group_at(def, g));
         groups = aligned(sizeof(swivel_crowd));
         chosen = groups + aligned(def.group_count * sizeof(Group));
         urgency = chosen + aligned(mask_word_count(block_count) * sizeof(std::uint32_t));
@@ -117,6 +118,11 @@ void rest(const swivel_crowd& crowd, const Group& group)
 
 }  // namespace
 
+swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
+{
+    return element(def.groups, g, swivel_default_group_def(0));
+}
+
 std::size_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
 
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
@@ -127,8 +133,9 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     Group* const groups = reinterpret_cast<Group*>(base + layout.groups);
     std::uint32_t first_block = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
-        const std::uint32_t block_count = blocks_of(def.groups[g]);
-        new (groups + g) Group{first_block, block_count, def.groups[g].limb_count, def.groups[g].binding};
+        const swivel_group_def from = group_at(def, g);
+        const std::uint32_t block_count = blocks_of(from);
+        new (groups + g) Group{first_block, block_count, from.limb_count, from.binding};
         first_block += block_count;
     }
 

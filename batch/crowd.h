@@ -40,7 +40,9 @@ namespace swivel {
 // Words of one bit for each lane.
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
 
-// Bytes of the arena. The def must be valid.
+// A group of a def that is full_def()'s.
+swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g);
+// Bytes of the arena. The def must be valid, and full_def()'s.
 std::size_t crowd_bytes(const swivel_crowd_def& def);
 // Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says, and
 // all limbs at rest.

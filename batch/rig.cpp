@@ -26,6 +26,9 @@ void store(const Rotor<double>& q, float (&to)[4])
     to[3] = static_cast<float>(unit.at<kScalar>());
 }
 
+// cos 10 degrees: a rest pose that is bent by less shows noise rather than where the limb bends to.
+constexpr double kBent = 0.984807753;
+
 // The rotor from the arm frame to a joint's own frame: e3 to the joint's bone, e1 to the hinge's part orthogonal to it.
 Rotor<double> align(const Vector<double>& bone, const Vector<double>& hinge)
 {
@@ -55,19 +58,26 @@ swivel_status bind(const swivel_chain& chain, swivel_binding& binding)
 
     const Rotor<double> elbow_unit = normalise(elbow);
     const Vector<double> fore_s = sandwich(elbow_unit, fore);  // in the shoulder joint's frame
-    Vector<double> hinge = vector_of(chain.hinge);
-    if (!(len2(hinge) <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the hinge is not finite; give an axis or zeros");
-    if (len2(hinge) < kTiny2) {
-        if (is_along(upper, fore_s))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "swivel_bind: the rest pose is straight, so it does not show the hinge; give one");
-        hinge = cross(fore_s, upper);
-    }
-    if (is_along(hinge, upper) || is_along(hinge, fore_s))
+    const Vector<double> given = vector_of(chain.bend);
+    if (!(len2(given) <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the bend is not finite; give a direction or zeros");
+    const bool is_given = len2(given) >= kTiny2;
+    if (!is_given && scalar_product(upper, fore_s) >= kBent * std::sqrt(len2(upper) * len2(fore_s)))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind: the hinge lies along the %s; give the axis the elbow turns about",
-                    is_along(hinge, upper) ? "upper arm" : "forearm");
+                    "swivel_bind: the rest pose is bent by 10 degrees or less, too little to show where the limb "
+                    "bends to; give the bend");
+    const Vector<double> bend = is_given ? given : fore_s;
+    if (is_along(bend, upper))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: the %s lies along the upper arm; give the direction that flexion carries the "
+                    "forearm towards",
+                    is_given ? "bend" : "forearm");
+    // Flexion turns from the upper arm, e3, towards the bend, e2: about -e1.
+    const Vector<double> hinge = cross(bend, upper);
+    if (is_along(hinge, fore_s))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: the forearm at rest lies along the axis that the bend turns it about; give another "
+                    "bend");
 
     const Rotor<double> upper_from_arm = align(upper, hinge);
     const Rotor<double> fore_from_arm = align(fore, sandwich(~elbow_unit, hinge));

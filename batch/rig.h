@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From a skeleton's limb at rest to its binding: bone lengths, bone axes, hinge, and the constant rotors between arm
+// From a skeleton's limb at rest to its binding: bone lengths, bone axes, bend, and the constant rotors between arm
 // frame and joints.
 #pragma once
 

@@ -154,11 +154,16 @@
 // it, too.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
+//
+// SIZES. Structures that may grow in later releases start with their size, as the caller's header has it; a function
+// for each gives the defaults. A library accepts those of its own header and of older ones, which are shorter.
+//
 // THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks(),
 // swivel_solve_active_blocks() and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take
 // it const while nothing else runs on it.
 #pragma once
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -291,14 +296,23 @@ typedef struct swivel_binding {
 
 // A shoulder, elbow and wrist joint at rest, as a skeleton stores them.
 typedef struct swivel_chain {
+    size_t size;                 // sizeof(swivel_chain), set by swivel_default_chain()
     float shoulder_rotation[4];  // rest rotation of the shoulder joint relative to its parent joint
     float elbow_rotation[4];     // rest rotation of the elbow joint relative to the shoulder joint
     float wrist_rotation[4];     // rest rotation of the wrist joint relative to the elbow joint
     float elbow_offset[3];       // elbow's place in the shoulder joint's frame
     float wrist_offset[3];       // wrist's place in the elbow joint's frame
-    float hinge[3];  // elbow axis in the shoulder joint's frame: flexion turns the forearm about -hinge. Zero:
-                     // taken from the rest pose, which then must be bent by more than sin 1e-3
+    // Where flexion carries the forearm, in the shoulder joint's frame: mostly forwards for an arm, backwards for a
+    // leg. Any length; it need not be across the bones. Zero: as the rest pose is bent, by more than 10 degrees.
+    float bend[3];
 } swivel_chain;
+
+// Joints that are not turned at rest; bones and bend are still to be given.
+static inline swivel_chain swivel_default_chain(void)
+{
+    const swivel_chain chain = {sizeof(swivel_chain), {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0}, {0}, {0}};
+    return chain;
+}
 
 // The axes of three rotations that make one, each about the axis as the ones before have left it: R = Rx Ry Rz is XYZ.
 typedef enum swivel_euler_order {
@@ -310,16 +324,33 @@ typedef enum swivel_euler_order {
     SWIVEL_ZYX,
 } swivel_euler_order;
 
+// Limbs that share one binding, such as the left arms of one skeleton.
 typedef struct swivel_group_def {
+    size_t size;             // sizeof(swivel_group_def), set by swivel_default_group_def()
     uint32_t limb_count;     // 1 or more
     swivel_binding binding;  // with SWIVEL_JOINTS: of all limbs, which start with its lengths; otherwise ignored
 } swivel_group_def;
+
+// Limbs whose joints have the arm frame's axes at rest, and of lengths that are not known.
+static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
+{
+    const swivel_group_def group = {sizeof(swivel_group_def),
+                                    limb_count,
+                                    {{0, 0, 0, 1},
+                                     {0, 0, 0, 1},
+                                     {0, 0, 0, 1},
+                                     {0, 0, 0, 1},
+                                     {0, 0, 0, 1},
+                                     {0, 0, 0, 1},
+                                     {NAN, NAN}}};
+    return group;
+}
 
 typedef struct swivel_crowd_def {
     size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
     uint32_t features;               // swivel_feature bits
     uint32_t group_count;            // 1 or more
-    const swivel_group_def* groups;  // group_count of them; copied
+    const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
     // Memory, first that is set: the caller's (64-byte aligned, swivel_crowd_bytes() long, the caller frees it after
     // destroy), the caller's callbacks (64-byte aligned results), the C library.
     void* memory;
@@ -361,8 +392,7 @@ SWIVEL_API const char* swivel_status_text(swivel_status status);
 // One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
 SWIVEL_API const char* swivel_last_error(void);
 
-// One group must still be given; no features; the C library's memory. Made by the caller's own compiler, so that its
-// size is that of this header, whichever library is linked.
+// One group must still be given; no features; the C library's memory.
 static inline swivel_crowd_def swivel_default_crowd_def(void)
 {
     const swivel_crowd_def def = {
@@ -381,9 +411,8 @@ SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
 // The alignments of a limb from its rest pose, and its two bone lengths. Fails with
-// SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a hinge along the upper arm or
-// forearm, or a straight rest pose without a hinge. To bend the limb the other way, negate the hinge. Any thread; no
-// allocation.
+// SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a bend along the upper arm or one
+// that turns about the forearm, or a rest pose bent by 10 degrees or less without a bend. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. A group that
@@ -571,7 +600,7 @@ SWIVEL_API swivel_status swivel_aim(const double axis[3], double flexion, float 
 SWIVEL_API void swivel_turn(double angle, float turn[2]);
 // The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side, whose arm frame is the mirror
 // image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton: mirrored in x, offsets are
-// (-x, y, z), rotations (x, -y, -z, w), and a hinge, an axis to turn about, (x, -y, -z). order: of boxes, else ignored.
+// and bends are (-x, y, z), rotations (x, -y, -z, w). order: of boxes, else ignored.
 // from and to have the field's components and may be the same; values of other input fields are copied:
 // places, hands, effectors, aims and poses are for the caller to mirror. Fails for
 // results and for an order that does not exist. Any thread; no allocation.

@@ -34,6 +34,15 @@ inline void check(swivel_status status)
     if (status != SWIVEL_OK) throw Error(status);
 }
 
+// Limbs that share a binding, for a crowd with SWIVEL_JOINTS; or limbs in the arm frame.
+inline swivel_group_def group(std::uint32_t limb_count, const swivel_binding& binding)
+{
+    swivel_group_def made = swivel_default_group_def(limb_count);
+    made.binding = binding;
+    return made;
+}
+inline swivel_group_def group(std::uint32_t limb_count) { return swivel_default_group_def(limb_count); }
+
 // A limb's alignments and bone lengths from its rest pose: swivel_bind().
 inline swivel_binding bind(const swivel_chain& chain)
 {

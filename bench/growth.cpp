@@ -9,7 +9,7 @@ namespace bench {
 void add_growth(Suite& suite)
 {
     for (std::size_t arm_count = 1; arm_count <= 10'000'000; arm_count *= 10) {
-        const swivel_group_def group{static_cast<std::uint32_t>(arm_count), {}};
+        const swivel_group_def group = swivel::group(static_cast<std::uint32_t>(arm_count));
         swivel_crowd_def def = swivel_default_crowd_def();
         def.group_count = 1;
         def.groups = &group;

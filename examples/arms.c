@@ -13,15 +13,14 @@ static int failed(const char* what)
 }
 
 /* The rest pose, in metres: a T-pose facing +z with y up. The left arm's bones run along +x, the right one's along -x;
- * both elbows bend forwards, which is a turn about -y on the left and +y on the right: about -hinge. */
+ * both elbows bend forwards. */
 static swivel_chain rest_pose(int side)
 {
     const float sign = side == LEFT ? 1.0f : -1.0f;
-    swivel_chain chain = {0};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1; /* no rotation: x, y, z, w */
+    swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[0] = sign * 0.30f;
     chain.wrist_offset[0] = sign * 0.26f;
-    chain.hinge[1] = sign;
+    chain.bend[2] = 1;
     return chain;
 }
 
@@ -33,14 +32,14 @@ int main(void)
     const float shoulder[SIDE_COUNT][3] = {{0.18f, 1.40f, 0}, {-0.18f, 1.40f, 0}};
     const char* const names[SIDE_COUNT] = {"left", "right"};
 
-    swivel_group_def groups[SIDE_COUNT] = {{0}}; /* limbs of one skeleton's one side: here a single one each */
+    swivel_group_def groups[SIDE_COUNT]; /* limbs of one skeleton's one side: here a single one each */
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     int side;
 
     for (side = LEFT; side < SIDE_COUNT; ++side) {
         const swivel_chain chain = rest_pose(side);
-        groups[side].limb_count = 1;
+        groups[side] = swivel_default_group_def(1);
         if (swivel_bind(&chain, &groups[side].binding) != SWIVEL_OK) return failed("swivel_bind");
     }
     def.features = SWIVEL_WORLD | SWIVEL_JOINTS;

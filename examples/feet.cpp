@@ -70,14 +70,13 @@ struct Leg {
 };
 
 // The skeleton at rest: legs straight down, feet along +z, no rotations. A straight rest pose does not show how a knee
-// bends, so its axis is given: the shin goes backwards by turning about +x, which is -hinge.
+// bends, so it is given: the shin goes backwards.
 swivel_binding bind_leg()
 {
-    swivel_chain chain{};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[1] = -static_cast<float>(kThigh);
     chain.wrist_offset[1] = -static_cast<float>(kShin);
-    chain.hinge[0] = -1;
+    chain.bend[2] = -1;
     return swivel::bind(chain);
 }
 
@@ -162,7 +161,7 @@ int report(const swivel::Crowd& crowd, const std::vector<Leg>& legs, double most
 int stand()
 {
     const swivel_binding leg = bind_leg();
-    const swivel_group_def groups[] = {{2 * kCharacterCount, leg}};  // left and right legs are alike
+    const swivel_group_def groups[] = {swivel::group(2 * kCharacterCount, leg)};  // left and right legs are alike
     const std::uint32_t features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
     swivel::Crowd crowd(features | SWIVEL_POLE_DIRECTION, groups);
 

@@ -136,7 +136,7 @@ bool equal_results(swivel::Crowd& a, swivel::Crowd& b)
 
 int compare()
 {
-    const swivel_group_def arms[] = {{.limb_count = kArmCount, .binding = {}}};
+    const swivel_group_def arms[] = {swivel::group(kArmCount)};
     swivel::Crowd ours(0, arms), theirs(0, arms);
     JobSystem jobs(std::clamp(std::thread::hardware_concurrency(), 2u, 8u));
 

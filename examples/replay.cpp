@@ -46,19 +46,18 @@ Arm find_arm(const Clip& clip, const std::string& side)
 void store(const auto& from, auto& to) { std::ranges::copy(from.template cast<float>(), std::begin(to)); }
 void store(const Quaterniond& from, std::array<float, 4>& to) { store(from.coeffs(), to); }  // both x, y, z, w
 
-// A BVH rests with straight arms and no rotations, which does not show how an elbow bends: its axis is the mean over
-// the clip.
+// A BVH rests with straight arms and no rotations, which does not show how an elbow bends: it bends to where
+// the forearm points in the clip's mean.
 swivel_binding bind_arm(const Clip& clip, const Arm& arm)
 {
     const Vector3d upper = clip.joints[arm.elbow].offset, fore = clip.joints[arm.wrist].offset;
-    Vector3d hinge = Vector3d::Zero();
+    Vector3d bend = Vector3d::Zero();
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
-        hinge += (clip.rotation[frame * clip.joints.size() + arm.elbow] * fore).cross(upper);
-    swivel_chain chain{};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+        bend += clip.rotation[frame * clip.joints.size() + arm.elbow] * fore;
+    swivel_chain chain = swivel_default_chain();
     store(upper, chain.elbow_offset);
     store(fore, chain.wrist_offset);
-    store(hinge.normalized(), chain.hinge);
+    store(bend.normalized(), chain.bend);
     return swivel::bind(chain);
 }
 
@@ -178,7 +177,7 @@ int replay(const char* path, std::size_t body_count)
         const Arm arm = find_arm(clip, kSides[side]);
         const swivel_binding limb = bind_arm(clip, arm);
         sources[side] = sources_of(clip, arm);
-        groups[side] = {static_cast<std::uint32_t>(body_count), limb};
+        groups[side] = swivel::group(static_cast<std::uint32_t>(body_count), limb);
         arms[side].resize(body_count);
         set_lengths(arms[side], bodies, limb.lengths);
     }

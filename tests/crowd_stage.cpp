@@ -77,12 +77,12 @@ nlohmann::json CrowdStage::json(const std::string& toml, std::vector<std::string
 
 ArmAxes CrowdStage::axes(std::size_t arm) const
 {
-    const nlohmann::json hinge = json("[crowd]\n").at("arms_bound").at(arm).at("hinge");
+    const nlohmann::json bend = json("[crowd]\n").at("arms_bound").at(arm).at("bend");
     const Vector3d z = clip.joint(arms[arm].elbow).offset.normalized();
-    const Vector3d given(hinge.at(0), hinge.at(1), hinge.at(2));
-    const Vector3d x = (given - given.dot(z) * z).normalized();
+    const Vector3d given(bend.at(0), bend.at(1), bend.at(2));
+    const Vector3d y = (given - given.dot(z) * z).normalized();
     Matrix3d m;
-    m << x, z.cross(x), z;
+    m << y.cross(z), y, z;
     return {m};
 }
 

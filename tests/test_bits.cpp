@@ -232,7 +232,7 @@ TEST_CASE("blocks outside the range are not even read")
     // away.
     constexpr std::size_t page = 4096;
     constexpr std::uint32_t blocks = 192, first = 64, count = 64;
-    const swivel_group_def group{blocks * SWIVEL_LANES, {}};
+    const swivel_group_def group = swivel::group(blocks * SWIVEL_LANES);
     swivel_crowd_def def = swivel_default_crowd_def();
     def.group_count = 1;
     def.groups = &group;

@@ -27,7 +27,7 @@ int main(void)
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
     const swivel_in target_in = {target, 0}, pole_in = {pole, 0}, lengths_in = {lengths, 0};
     swivel_frame frame;
-    swivel_group_def group;
+    const swivel_group_def group = swivel_default_group_def(1);
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
     double wrist[3] = {0, 0, 0}, distance = 1;
@@ -38,9 +38,7 @@ int main(void)
     float shoulder[4];
     int passed = 0, lines = 0, c;
 
-    memset(&group, 0, sizeof group);
     memset(&frame, 0, sizeof frame);
-    group.limb_count = 1;
     def.group_count = 1;
     def.groups = &group;
     check(def.size == sizeof def, "the default def knows its size");

@@ -217,7 +217,7 @@ TEST_CASE("command: solve --json")
     CHECK(left.at("elbow") == "LeftForeArm");
     CHECK(left.at("wrist") == "LeftHand");
     CHECK(left.at("lengths") == Json({5, 3}));
-    require_keys(left, {"hinge", "hinge_source"});
+    require_keys(left, {"bend", "bend_source"});
     CHECK(out.at("arms_bound").at(1).at("side") == "right");
     CHECK_FALSE(json_of(folder, {"solve", "clip.bvh", "--json"}).contains("out"));
 }
@@ -243,12 +243,10 @@ TEST_CASE("command: a clip that bends nothing has elbows that bend forwards and 
         const Json out = Json::parse(outcome.out);
         return out.at(option == "--arm" ? "arms_bound" : "legs_bound").at(0);
     };
-    // The bone runs along +x; flexion turns the lower one about -hinge: about -y towards +z. Or along -y: about +x
-    // towards -z.
-    CHECK(bound(straight, "--arm").at("hinge") == Json({0.0, 1.0, 0.0}));
+    CHECK(bound(straight, "--arm").at("bend") == Json({0.0, 0.0, 1.0}));
     const Json leg = bound(standing, "--leg");
-    CHECK(leg.at("hinge") == Json({-1.0, 0.0, 0.0}));
-    CHECK(leg.at("hinge_source").get<std::string>().starts_with("knees bend backwards, facing by "));
+    CHECK(leg.at("bend") == Json({0.0, 0.0, -1.0}));
+    CHECK(leg.at("bend_source").get<std::string>().starts_with("knees bend backwards, facing by "));
     require_keys(leg, {"side", "hip", "knee", "ankle", "lengths"});
 }
 

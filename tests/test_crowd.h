@@ -36,7 +36,9 @@ inline bool is_one_line(const std::string& text)
 // Limbs whose joints are the arm frame, with bones of length 1.
 inline swivel_group_def group_of(std::uint32_t limb_count)
 {
-    return {limb_count, {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {1, 1}}};
+    swivel_group_def group = swivel::group(limb_count);
+    group.binding.lengths[0] = group.binding.lengths[1] = 1;
+    return group;
 }
 
 inline swivel_crowd_def def_of(const swivel_group_def& group)

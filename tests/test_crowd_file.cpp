@@ -70,7 +70,7 @@ TEST_CASE("crowd file: values arrive where they belong")
 
     const LimbSettings left = settings_of(file, kLeftArm), right = settings_of(file, kRightArm);
     CHECK(left.joints->value == std::vector<std::string>{"LeftArm", "LeftForeArm", "LeftHand"});
-    CHECK(left.hinge->value.norm() == Approx(1));
+    CHECK(left.bend->value.norm() == Approx(1));
     CHECK(left.target_offset->value == Eigen::Vector3d(0, 0.5, 0));
     CHECK_FALSE(left.target_point);
     CHECK(left.hand->value);

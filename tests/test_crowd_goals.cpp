@@ -38,7 +38,7 @@ double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine
 
 }  // namespace
 
-TEST_CASE("a limb that bends against its hinge is told of, and an incoming pole keeps its twist")
+TEST_CASE("a limb that bends the other way is told of, and an incoming pole keeps its twist")
 {
     const TempFolder folder;
     std::string frames;
@@ -134,7 +134,7 @@ TEST_CASE("crowd file: size, stagger, spacing and targets beside the file")
             CHECK(placed[2 * c].joint[j].angularDistance(rows[c].joint[j]) < 1e-4);  // targets have 6 decimals
 }
 
-TEST_CASE("crowd file: joints and hinge")
+TEST_CASE("crowd file: joints and bend")
 {
     const CrowdStage stage;
     const std::string swapped =
@@ -146,11 +146,11 @@ TEST_CASE("crowd file: joints and hinge")
     stage.require_refused("[limb.left_arm]\njoints = [\"Left\", \"LeftForeArm\", \"LeftHand\"]\n",
                           "limb.left_arm.joints: no joint is called 'Left' in clip.bvh");
 
-    // The elbow's own rotation is about the hinge's opposite, whichever way that is.
-    for (const std::string hinge : {"[0, 1, 0]", "[0, -1, 0]"}) {
-        const double sign = hinge == "[0, 1, 0]" ? 1 : -1;
-        const std::string toml = "[limb.left_arm]\nhinge = " + hinge + "\n";
-        CHECK(stage.json(toml).at("arms_bound").at(0).at("hinge") == nlohmann::json({0.0, sign, 0.0}));
+    // The elbow's own rotation carries the forearm, which is along +x, there, whichever way that is.
+    for (const std::string bend : {"[0, 0, 1]", "[0, 0, -1]"}) {
+        const double sign = bend == "[0, 0, 1]" ? 1 : -1;
+        const std::string toml = "[limb.left_arm]\nbend = " + bend + "\n";
+        CHECK(stage.json(toml).at("arms_bound").at(0).at("bend") == nlohmann::json({0.0, 0.0, sign}));
         std::size_t bent = 0;
         for (const PoseLine& row : stage.rows(toml, "left_arm")) {
             if (row.joint[1].vec().norm() < 0.05) continue;
@@ -159,8 +159,12 @@ TEST_CASE("crowd file: joints and hinge")
         }
         CHECK(bent > 30);
     }
-    stage.require_refused("[limb.left_arm]\nhinge = [1, 0, 0]\n",
-                          "hinge, limb.left_arm.hinge of c.toml, is along its upper bone");
+    stage.require_refused("[limb.left_arm]\nbend = [1, 0, 0]\n",
+                          "bend, limb.left_arm.bend of c.toml, is along its upper bone");
+    // What crowd files had before: the line to write instead binds as it did.
+    stage.require_refused("[limb.left_arm]\nhinge = [0, 1, 0]\n",
+                          "limb.left_arm.hinge of c.toml is an axis, and a crowd file now says where the limb bends to; "
+                          "write bend = [0.000, 0.000, 1.000] instead");
 }
 
 TEST_CASE("crowd file: target.offset and target.point")

@@ -12,12 +12,14 @@ using namespace swivel::test;
 
 namespace {
 
-enum class Rest { straight, bent, bent_by_itself };  // the last: no hinge given, the rest pose shows it
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+enum class Rest { straight, bent, bent_by_itself };  // the last: no bend given, the rest pose shows it
 
 // A shoulder, elbow and wrist with random rest rotations and bone axes.
 swivel_chain random_chain(Random& random, Rest rest)
 {
-    swivel_chain chain{};
+    swivel_chain chain = swivel_default_chain();
     const auto put3 = [](float(&to)[3], const Vector3d& v) { std::ranges::copy(floats(v), to); };
     const auto put4 = [&random](float(&to)[4], const Quaterniond& q) {
         std::ranges::copy(floats(Quaterniond(random.spread(0.1, 10) * q.coeffs())), to);
@@ -26,20 +28,22 @@ swivel_chain random_chain(Random& random, Rest rest)
     put4(chain.elbow_rotation, random.rotation());
     put4(chain.wrist_rotation, random.rotation());
     const Vector3d upper = random.direction(), hinge = random.across(upper);
-    const double flexion = rest == Rest::straight ? 0 : random.between(0.1, 2.5);
-    const Vector3d fore = Eigen::AngleAxisd(-flexion, hinge) * upper;  // flexion turns about -hinge
+    const double flexion = rest == Rest::straight ? 0 : random.between(rest == Rest::bent ? 0.1 : 0.18, 2.5);
+    const Vector3d fore = Eigen::AngleAxisd(-flexion, hinge) * upper;  // the bend is upper x hinge
     put3(chain.elbow_offset, random.spread(0.5, 5) * upper);
     put3(chain.wrist_offset, random.spread(0.5, 5) * (quat(chain.elbow_rotation).normalized().conjugate() * fore));
-    if (rest != Rest::bent_by_itself) put3(chain.hinge, random.spread(0.1, 10) * hinge);
+    if (rest != Rest::bent_by_itself)
+        put3(chain.bend, random.spread(0.1, 10) * (upper.cross(hinge) + random.between(-1, 1) * upper));
     return chain;
 }
 
-// The hinge in the shoulder joint's frame, as the documentation of swivel_chain has it.
+// What the elbow turns about, in the shoulder joint's frame: flexion turns the forearm from the upper arm towards the
+// bend, about the opposite of this.
 Vector3d hinge_of(const swivel_chain& chain)
 {
-    if (vec(chain.hinge).norm() > 0) return vec(chain.hinge).normalized();
     const Vector3d fore = quat(chain.elbow_rotation).normalized() * vec(chain.wrist_offset);
-    return fore.cross(vec(chain.elbow_offset)).normalized();
+    const Vector3d bend = vec(chain.bend).norm() > 0 ? vec(chain.bend) : fore;
+    return bend.cross(vec(chain.elbow_offset)).normalized();
 }
 
 struct Joints {
@@ -96,7 +100,7 @@ TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as w
             for (std::uint32_t g = 0; g < kGroups; ++g) {
                 chains.push_back(random_chain(random, rest));
                 bound.push_back(bind(chains.back()));
-                groups.push_back({kLimbs, bound.back()});
+                groups.push_back(swivel::group(kLimbs, bound.back()));
                 CHECK(std::fabs(bound[g].lengths[0] - vec(chains[g].elbow_offset).norm()) <=
                       1e-6 * bound[g].lengths[0]);
                 CHECK(std::fabs(bound[g].lengths[1] - vec(chains[g].wrist_offset).norm()) <=
@@ -158,14 +162,14 @@ TEST_CASE("skeletons: the rest pose's own wrist and elbow give back the rest rot
         }
 }
 
-TEST_CASE("skeletons: a tilted hinge still turns about one axis of the upper arm")
+TEST_CASE("skeletons: with a bend off the rest pose's own the elbow still turns about one axis of the upper arm")
 {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         INFO("seed " << seed);
         Random random{seed};
         swivel_chain chain = random_chain(random, Rest::bent);
-        const Vector3d tilted = hinge_of(chain) + 0.5 * vec(chain.elbow_offset).normalized();
-        std::ranges::copy(floats(tilted), chain.hinge);
+        const Vector3d tilted = vec(chain.bend).normalized() + 0.5 * hinge_of(chain);
+        std::ranges::copy(floats(tilted), chain.bend);
         const swivel_binding bound = bind(chain);
         constexpr std::uint32_t count = 16, features = SWIVEL_JOINTS | SWIVEL_WORLD;
         Crowd crowd = crowd_of(features, count, bound);
@@ -175,8 +179,7 @@ TEST_CASE("skeletons: a tilted hinge still turns about one axis of the upper arm
             write_limb(crowd, 0, n, limbs.back());
         }
         crowd.solve();
-        const Vector3d upper = vec(chain.elbow_offset).normalized();
-        const Vector3d axis = (tilted - tilted.dot(upper) * upper).normalized();
+        const Vector3d axis = hinge_of(chain);
         const Quaterniond first = joints_of(crowd, 0, 0).elbow;
         for (std::uint32_t n = 0; n < count; ++n) {
             const Joints local = joints_of(crowd, 0, n);
@@ -187,7 +190,7 @@ TEST_CASE("skeletons: a tilted hinge still turns about one axis of the upper arm
     }
 }
 
-TEST_CASE("skeletons: the negated hinge bends the limb the other way")
+TEST_CASE("skeletons: the negated bend bends the limb the other way")
 {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         INFO("seed " << seed);
@@ -195,9 +198,9 @@ TEST_CASE("skeletons: the negated hinge bends the limb the other way")
         swivel_chain chain = random_chain(random, Rest::straight);
         constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD;
         const swivel_binding one = bind(chain);
-        for (float& x : chain.hinge) x = -x;
+        for (float& x : chain.bend) x = -x;
         const swivel_binding other = bind(chain);
-        const swivel_group_def groups[] = {{1, one}, {1, other}};
+        const swivel_group_def groups[] = {swivel::group(1, one), swivel::group(1, other)};
         Crowd crowd(features, groups);
         const Limb limb = random_limb(random, features, {one.lengths[0], one.lengths[1]});
         write_limb(crowd, 0, 0, limb);
@@ -231,11 +234,10 @@ TEST_CASE("skeletons: a mirrored limb with mirrored goals has mirrored rotations
             std::ranges::copy(mirror4(as4(left.wrist_rotation)), right.wrist_rotation);
             std::ranges::copy(mirror3(as3(left.elbow_offset)), right.elbow_offset);
             std::ranges::copy(mirror3(as3(left.wrist_offset)), right.wrist_offset);
-            const Float3 hinge = mirror3(as3(left.hinge));  // an axis of turning mirrors with the other sign
-            std::ranges::copy(Float3{-hinge[0], -hinge[1], -hinge[2]}, right.hinge);
+            std::ranges::copy(mirror3(as3(left.bend)), right.bend);
             const swivel_binding l = bind(left), r = bind(right);
             constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
-            const swivel_group_def groups[] = {{1, l}, {1, r}};
+            const swivel_group_def groups[] = {swivel::group(1, l), swivel::group(1, r)};
             Crowd crowd(features, groups);
             const Limb limb = random_limb(random, features, {l.lengths[0], l.lengths[1]});
             Limb other = limb;
@@ -269,6 +271,34 @@ TEST_CASE("skeletons: bad input leaves the skeleton's own rest rotations")
     CHECK(distance(joints_of(crowd, 0, 0).shoulder, rest.shoulder) > 1e-3);
 }
 
+TEST_CASE("a rest pose bent by more than 10 degrees shows where the limb bends to")
+{
+    Random random{12};
+    for (const double degrees : {10.01, 45.0, 170.0}) {
+        swivel_chain chain = random_chain(random, Rest::straight);
+        const Vector3d hinge = hinge_of(chain), upper = vec(chain.elbow_offset);
+        const Quaterniond elbow = quat(chain.elbow_rotation).normalized();
+        const Vector3d fore = elbow.conjugate() * (Eigen::AngleAxisd(-degrees * kDegree, hinge) * upper);
+        std::ranges::copy(floats(fore), chain.wrist_offset);
+        const swivel_binding given = bind(chain);
+        std::ranges::fill(chain.bend, 0.0f);
+        const swivel_binding shown = bind(chain);
+        CHECK(distance(quat(given.parent_from_arm), quat(shown.parent_from_arm)) <= 2e-6);
+        CHECK(distance(quat(given.fore_from_arm), quat(shown.fore_from_arm)) <= 2e-6);
+    }
+}
+
+TEST_CASE("a chain of an older header is read as far as it goes")
+{
+    Random random{13};
+    swivel_chain chain = random_chain(random, Rest::bent_by_itself);
+    const swivel_binding whole = bind(chain);
+    std::ranges::fill(chain.bend, kNan);
+    chain.size = offsetof(swivel_chain, bend);
+    const swivel_binding shorter = bind(chain);
+    CHECK(std::memcmp(&whole, &shorter, sizeof whole) == 0);
+}
+
 TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
 {
     Random random{9};
@@ -292,19 +322,32 @@ TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
         refuse("forearm", Rest::bent, [&](swivel_chain& c) { fill(c.wrist_offset, bad); });
     }
     for (const float bad : {kNan, kInf, 3e38f})
-        refuse("hinge", Rest::bent, [&](swivel_chain& c) { fill(c.hinge, bad); });
+        refuse("bend", Rest::bent, [&](swivel_chain& c) { fill(c.bend, bad); });
     for (const float one : {kNan, kInf}) {
         refuse("one number of a rotation", Rest::bent, [&](swivel_chain& c) { c.wrist_rotation[1] = one; });
         refuse("one number of an offset", Rest::bent, [&](swivel_chain& c) { c.wrist_offset[2] = one; });
     }
-    refuse("hinge along the upper arm", Rest::bent,
-           [](swivel_chain& c) { std::ranges::copy(c.elbow_offset, c.hinge); });
-    refuse("hinge against the upper arm", Rest::bent,
-           [](swivel_chain& c) { std::ranges::copy(floats(Vector3d(-vec(c.elbow_offset))), c.hinge); });
-    refuse("hinge along the forearm", Rest::bent, [](swivel_chain& c) {
-        std::ranges::copy(floats(Vector3d(quat(c.elbow_rotation).normalized() * vec(c.wrist_offset))), c.hinge);
+    refuse("bend along the upper arm", Rest::bent, [](swivel_chain& c) { std::ranges::copy(c.elbow_offset, c.bend); });
+    refuse("bend against the upper arm", Rest::bent,
+           [](swivel_chain& c) { std::ranges::copy(floats(Vector3d(-vec(c.elbow_offset))), c.bend); });
+    const auto set_forearm = [](swivel_chain& c, const Vector3d& in_upper_axes) {
+        const Quaterniond elbow = quat(c.elbow_rotation).normalized();
+        std::ranges::copy(floats(Vector3d(elbow.conjugate() * in_upper_axes)), c.wrist_offset);
+    };
+    refuse("forearm along the axis that it turns about", Rest::bent,
+           [&](swivel_chain& c) { set_forearm(c, hinge_of(c)); });
+    refuse("straight without a bend", Rest::straight, [&](swivel_chain& c) { fill(c.bend, 0); });
+    refuse("folded without a bend", Rest::straight, [&](swivel_chain& c) {
+        set_forearm(c, -vec(c.elbow_offset));
+        fill(c.bend, 0);
     });
-    refuse("straight without a hinge", Rest::straight, [](swivel_chain& c) { std::ranges::fill(c.hinge, 0.0f); });
+    for (const double degrees : {0.5, 9.99, -9.99})
+        refuse("nearly straight without a bend", Rest::straight, [&](swivel_chain& c) {
+            set_forearm(c, Eigen::AngleAxisd(degrees * kDegree, hinge_of(c)) * vec(c.elbow_offset));
+            fill(c.bend, 0);
+        });
+    refuse("of no size", Rest::bent, [](swivel_chain& c) { c.size = 0; });
+    refuse("of a later header", Rest::bent, [](swivel_chain& c) { c.size += 8; });
 
     swivel_chain chain = random_chain(random, Rest::bent);
     swivel_binding binding;

@@ -93,15 +93,15 @@ TEST_CASE("a limb that lacks its target, its shoulder's place or its lengths has
 TEST_CASE("limbs that were never solved have the bits of bad input, but for its flag")
 {
     const auto slant = [](float sign) {
-        swivel_chain chain{};
+        swivel_chain chain = swivel_default_chain();
         for (float(&q)[4] : {std::ref(chain.shoulder_rotation), std::ref(chain.elbow_rotation)})
             std::ranges::copy(Float4{0.2f * sign, 0.4f, -0.4f * sign, 0.8f}, q);
         std::ranges::copy(Float4{0.6f, 0, 0, -0.8f * sign}, chain.wrist_rotation);
         chain.elbow_offset[0] = chain.wrist_offset[0] = 0.3f * sign;
-        chain.hinge[1] = 1;
+        chain.bend[2] = 1;
         return bind(chain);
     };
-    const swivel_group_def groups[] = {{33, slant(1)}, {7, slant(-1)}};
+    const swivel_group_def groups[] = {swivel::group(33, slant(1)), swivel::group(7, slant(-1))};
     constexpr std::uint32_t plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
                             limb = SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | 3 * SWIVEL_TWIST_BONES |
                                    SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;

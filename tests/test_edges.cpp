@@ -244,7 +244,7 @@ constexpr std::uint32_t kCount = 37, kSecond = 6;  // limbs of the two groups: a
 
 swivel_binding some_binding(float side)
 {
-    swivel_chain chain{};
+    swivel_chain chain = swivel_default_chain();
     chain.shoulder_rotation[1] = 0.6f;
     chain.shoulder_rotation[3] = side * 0.8f;
     chain.elbow_rotation[0] = 0.28f;
@@ -260,7 +260,7 @@ swivel_binding some_binding(float side)
 
 Crowd good_crowd(std::uint32_t features)
 {
-    const swivel_group_def groups[] = {{kCount, some_binding(1)}, {kSecond, some_binding(-1)}};
+    const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1)), swivel::group(kSecond, some_binding(-1))};
     Crowd crowd(features, groups);
     Random random{features + 1};
     for (std::uint32_t group = 0; group < 2; ++group) {

@@ -23,7 +23,7 @@ void check(bool held, const char* what)
 
 swivel_crowd* one_arm()
 {
-    const swivel_group_def group{1, {}};
+    const swivel_group_def group = swivel::group(1);
     swivel_crowd_def def = swivel_default_crowd_def();
     def.group_count = 1;
     def.groups = &group;

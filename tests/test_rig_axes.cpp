@@ -72,8 +72,8 @@ std::string cone_of(const json& limb, double less)
 {
     const json& cone = limb.at("clip_range").at("shoulder_cone");
     return fmt::format(
-        "[limb.{0}]\nhinge = {1}\n[limb.{0}.limits]\nshoulder_cone = {{ axis = {2}, opening_deg = {3} }}\n",
-        limb.at("limb").get<std::string>(), limb.at("clip_range").at("hinge").dump(), cone.at("axis").dump(),
+        "[limb.{0}]\nbend = {1}\n[limb.{0}.limits]\nshoulder_cone = {{ axis = {2}, opening_deg = {3} }}\n",
+        limb.at("limb").get<std::string>(), limb.at("clip_range").at("bend").dump(), cone.at("axis").dump(),
         cone.at("opening_deg").get<double>() - less);
 }
 
@@ -86,7 +86,7 @@ std::string flexion_of(const json& limb, double less)
 
 }  // namespace
 
-TEST_CASE("rig axes: z runs along the resting limb, y where it bends to, x is the hinge, whatever the joints' axes")
+TEST_CASE("rig axes: z runs along the resting limb, y where it bends to, whatever the joints' axes")
 {
     const TempFolder folder;
     std::mt19937 random(11);
@@ -197,22 +197,22 @@ TEST_CASE("rig axes: the lines for people are a crowd file's, and say what JSON 
         const std::string lines = lines_of(out, limb.at("limb"));
         all += lines;
         INFO(lines << limb.dump());
-        double hinge[3], axis[3], opening, flexion[2];
+        double bend[3], axis[3], opening, flexion[2];
         char joints[3][80], word[80], limits[80];
         REQUIRE(
             std::sscanf(lines.c_str(),
-                        " [limb.%79[^]]] joints = [\"%79[^\"]\", \"%79[^\"]\", \"%79[^\"]\"] hinge = [%lf, %lf, %lf]"
+                        " [limb.%79[^]]] joints = [\"%79[^\"]\", \"%79[^\"]\", \"%79[^\"]\"] bend = [%lf, %lf, %lf]"
                         " [limb.%79[^]]] shoulder_cone = { axis = [%lf, %lf, %lf], opening_deg = %lf }"
                         " flexion_deg = [%lf, %lf]",
-                        word, joints[0], joints[1], joints[2], &hinge[0], &hinge[1], &hinge[2], limits, &axis[0],
+                        word, joints[0], joints[1], joints[2], &bend[0], &bend[1], &bend[2], limits, &axis[0],
                         &axis[1], &axis[2], &opening, &flexion[0], &flexion[1]) == 14);
         const json& range = limb.at("clip_range");
         CHECK(word == limb.at("limb").get<std::string>());
         CHECK(limits == limb.at("limb").get<std::string>() + ".limits");
         for (std::size_t n = 0; n < 3; ++n) {
             CHECK(joints[n] == limb.at("joints")[n].get<std::string>());
-            CHECK(hinge[n] == range.at("hinge")[n].get<double>());
-            CHECK(std::abs(hinge[n] - limb.at("hinge")[n].get<double>()) <= 0.5001e-3);
+            CHECK(bend[n] == range.at("bend")[n].get<double>());
+            CHECK(std::abs(bend[n] - limb.at("bend")[n].get<double>()) <= 0.5001e-3);
             CHECK(axis[n] == range.at("shoulder_cone").at("axis")[n].get<double>());
         }
         CHECK(opening == range.at("shoulder_cone").at("opening_deg").get<double>());
@@ -232,7 +232,7 @@ TEST_CASE("rig axes: the lines for people are a crowd file's, and say what JSON 
     CHECK(lines_of(run_command(folder.path, {"rig", "rig.glb"}).out, "left_arm").empty());
 }
 
-TEST_CASE("rig axes: the printed lines hold for another clip, which shows another hinge")
+TEST_CASE("rig axes: the printed lines hold for another clip, which shows another bend")
 {
     const TempFolder folder;
     GltfRig rig;
@@ -263,9 +263,9 @@ TEST_CASE("rig axes: the printed lines hold for another clip, which shows anothe
         return flags.at("limited by shoulder cone").get<int>() + flags.at("limited by flexion").get<int>();
     };
     CHECK(limited(arm_lines + leg_lines) == 0);
-    std::string own_hinge = arm_lines;
-    own_hinge.erase(own_hinge.find("hinge"), own_hinge.find('\n', own_hinge.find("hinge")) - own_hinge.find("hinge"));
-    CHECK(limited(own_hinge) > 0);
+    std::string own_bend = arm_lines;
+    own_bend.erase(own_bend.find("bend"), own_bend.find('\n', own_bend.find("bend")) - own_bend.find("bend"));
+    CHECK(limited(own_bend) > 0);
 }
 
 TEST_CASE("rig axes: limits are of the frames that --fps gives")
@@ -324,10 +324,10 @@ TEST_CASE("rig axes: solve's report has no sign of a zero either")
     int parent = -1;
     for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
     rig.write(folder / "rig.glb");
-    spill(folder / "crowd.toml", "[limb.left_arm]\nhinge = [-0.0001, 1, -0.0]\n");
+    spill(folder / "crowd.toml", "[limb.left_arm]\nbend = [-0.0001, 1, -0.0]\n");
     const Outcome outcome = run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml"});
     INFO(outcome.err << outcome.out);
-    CHECK(outcome.out.find("hinge (0.000 1.000 0.000), limb.left_arm.hinge of crowd.toml") != std::string::npos);
+    CHECK(outcome.out.find("bends towards (0.000 1.000 0.000), limb.left_arm.bend of crowd.toml") != std::string::npos);
 }
 
 TEST_CASE("rig axes: a limb's chain is what bind() takes")
@@ -344,18 +344,18 @@ TEST_CASE("rig axes: a limb's chain is what bind() takes")
             REQUIRE(from.at(key).size() == std::size(to));
             for (std::size_t n = 0; n < std::size(to); ++n) to[n] = from.at(key)[n].get<float>();
         };
-        swivel_chain chain{};
+        swivel_chain chain = swivel_default_chain();
         numbers("shoulder_rotation", chain.shoulder_rotation);
         numbers("elbow_rotation", chain.elbow_rotation);
         numbers("wrist_rotation", chain.wrist_rotation);
         numbers("elbow_offset", chain.elbow_offset);
         numbers("wrist_offset", chain.wrist_offset);
-        numbers("hinge", chain.hinge);
+        numbers("bend", chain.bend);
         const swivel_binding bound = swivel::bind(chain);
         const double scale = limb.at("scale");
         for (std::size_t n = 0; n < 2; ++n)
             CHECK(scale * static_cast<double>(bound.lengths[n]) ==
                   Approx(limb.at("lengths")[n].get<double>()).epsilon(1e-6));
-        CHECK(from.at("hinge")[0].get<double>() == Approx(limb.at("hinge")[0].get<double>()).margin(1e-6));
+        CHECK(from.at("bend")[0].get<double>() == Approx(limb.at("bend")[0].get<double>()).margin(1e-6));
     }
 }

@@ -20,11 +20,12 @@ TEST_CASE("rig bends: straight arms that point ahead, behind or overhead, and le
     // with the axis, then, which stays upright.
     for (const double degrees : {-55.0, -20.0, 0.0, 20.0, 55.0}) {
         for (const auto& [start, hinge] : {std::pair(Vector3d(-kY), kX), std::pair(kX, kY)}) {
-            const json limb = left_arm(point(degrees, start, kZ));
+            const Vector3d bone = point(degrees, start, kZ);
+            const json limb = left_arm(bone);
             INFO(limb.dump());
             REQUIRE(limb.at("bound").get<bool>());
-            CHECK(limb.at("hinge_source").get<std::string>().starts_with("elbows bend forwards"));
-            CHECK(degrees_between(vector_of(limb.at("hinge")), hinge) < 1);
+            CHECK(limb.at("bend_source").get<std::string>().starts_with("elbows bend forwards"));
+            CHECK(degrees_between(vector_of(limb.at("bend")), bone.cross(hinge)) < 1);
         }
     }
     for (const double degrees : {-115.0, -90.0, -65.0, 65.0, 90.0, 115.0})
@@ -55,7 +56,7 @@ TEST_CASE("rig bends: straight arms that point ahead, behind or overhead, and le
     };
     CHECK(leg(0).empty());
     CHECK(leg(59).empty());
-    CHECK(leg(61).ends_with("use a clip that bends it, or give limb.left_leg.hinge in a crowd file"));
+    CHECK(leg(61).ends_with("use a clip that bends it, or give limb.left_leg.bend in a crowd file"));
 }
 
 TEST_CASE("rig bends: a small bend at rest is believed where the figure tells as much, not beside the file's axes")
@@ -121,7 +122,7 @@ TEST_CASE("rig bends: a clip that leaves a limb as it rests does not say how it 
         return limb_of(rig_report(rig), "left_leg");
     };
     CHECK(knees(-12, 0).at("problem").get<std::string>().starts_with("at rest it bends by 12.0 degrees, 180 degrees"));
-    CHECK(knees(-3, 0).at("hinge_source").get<std::string>().starts_with("knees bend backwards"));
-    CHECK(knees(-3, 0.5).at("hinge_source").get<std::string>().starts_with("knees bend backwards"));
-    CHECK(knees(-12, 30).at("hinge_source") == "mean bend of the clip");
+    CHECK(knees(-3, 0).at("bend_source").get<std::string>().starts_with("knees bend backwards"));
+    CHECK(knees(-3, 0.5).at("bend_source").get<std::string>().starts_with("knees bend backwards"));
+    CHECK(knees(-12, 30).at("bend_source") == "mean bend of the clip");
 }

@@ -30,37 +30,36 @@ GltfRig legs(const Vector3d& axis, double at_rest, const std::vector<double>& cl
     return rig;
 }
 
-// A knee's hinge: flexion, which turns the shin about +x, turns it about minus this.
 json left_knee(const GltfRig& rig) { return limb_of(rig_report(rig), "left_leg"); }
-double off_knee(const json& limb) { return degrees_between(vector_of(limb.at("hinge")), -Vector3d::UnitX()); }
+double off_knee(const json& limb) { return degrees_between(vector_of(limb.at("bend")), -Vector3d::UnitZ()); }
 }  // namespace
 
-TEST_CASE("rigs: a clip that bends a limb more and otherwise than its rest pose says the hinge")
+TEST_CASE("rigs: a clip that bends a limb more and otherwise than its rest pose says the bend")
 {
     const Vector3d across = Vector3d::UnitZ(), along = Vector3d::UnitX();
     const std::vector<double> walk = {10, 40, 60, 40};
     for (const double valgus : {5.5, 8.0, 10.0}) {  // knock-knees
         const json knee = left_knee(legs(across, valgus, walk));
-        CHECK(knee.at("hinge_source") == "mean bend of the clip");
+        CHECK(knee.at("bend_source") == "mean bend of the clip");
         CHECK(off_knee(knee) < 1e-3);
     }
     // A rest pose that bends little is believed where the clip bends as it does, however little that is.
     for (const double little : {6.0, 12.0, 19.0})
         for (const std::vector<double>& idle : {std::vector<double>{3, 4, 6, 4}, {2, 2, 3}}) {
-            CHECK(left_knee(legs(along, -little, idle)).at("hinge_source") == "mean bend of the clip");
+            CHECK(left_knee(legs(along, -little, idle)).at("bend_source") == "mean bend of the clip");
             CHECK(off_knee(left_knee(legs(along, -little, idle))) < 1e-3);
             CHECK(
-                left_knee(legs(along, little, idle)).at("hinge_source").get<std::string>().starts_with("bend of the"));
-            CHECK(left_knee(legs(across, little, idle)).at("hinge_source") == "mean bend of the clip");
+                left_knee(legs(along, little, idle)).at("bend_source").get<std::string>().starts_with("bend of the"));
+            CHECK(left_knee(legs(across, little, idle)).at("bend_source") == "mean bend of the clip");
         }
     for (const double back : {-7.0, -25.0}) {  // pressed through
         const json knee = left_knee(legs(along, back, walk));
-        CHECK(knee.at("hinge_source") == "mean bend of the clip");
+        CHECK(knee.at("bend_source") == "mean bend of the clip");
         CHECK(off_knee(knee) < 1e-3);
     }
 
     const auto rests = [](const json& limb) {
-        return limb.at("hinge_source").get<std::string>().starts_with("bend of the rest pose");
+        return limb.at("bend_source").get<std::string>().starts_with("bend of the rest pose");
     };
     CHECK(rests(left_knee(legs(along, 10, walk))));                 // both agree
     CHECK(rests(left_knee(legs(across, 25, {5, 10, 15, 10}))));     // the clip bends less
@@ -77,14 +76,14 @@ TEST_CASE("rigs: a rest pose that bends little and otherwise than knees do is re
     const Vector3d across = Vector3d::UnitZ(), along = Vector3d::UnitX();
     CHECK(problem(along, -7, {}) ==
           "at rest it bends by 7.0 degrees, 180 degrees off the way that knees bend backwards, facing by the toes, and "
-          "no clip tells which holds; use a clip that bends it, or give limb.left_leg.hinge in a crowd file: "
-          "[1.000, 0.000, 0.000] as at rest, [-1.000, 0.000, 0.000] as knees bend backwards");
+          "no clip tells which holds; use a clip that bends it, or give limb.left_leg.bend in a crowd file: "
+          "[0.000, 0.000, 1.000] as at rest, [0.000, 0.000, -1.000] as knees bend backwards");
     for (const double valgus : {-19.0, -6.0, 6.0, 19.0}) {
         CHECK(problem(across, valgus, {}).find("90 degrees off the way that knees bend") != std::string::npos);
         CHECK(problem(across, valgus, {-60, 60, -60, 60}).find("no clip tells") != std::string::npos);
         CHECK(problem(across, valgus, {10, 60}).empty());
     }
-    CHECK(left_knee(legs(along, 165, {})).at("hinge_source") == "bend of the rest pose, 165.0 degrees");  // folded
+    CHECK(left_knee(legs(along, 165, {})).at("bend_source") == "bend of the rest pose, 165.0 degrees");  // folded
     CHECK(problem(across, 178, {}).starts_with("neither rest pose nor clip tells"));  // by more than tells an axis
     for (const auto& [turn, is_refused] : {std::pair(55.0, false), {65.0, true}, {-55.0, false}, {-65.0, true}})
         CHECK(problem(AngleAxisd(turn * kDegree, Vector3d::UnitY()) * along, 12, {}).empty() != is_refused);
@@ -93,7 +92,7 @@ TEST_CASE("rigs: a rest pose that bends little and otherwise than knees do is re
     const TempFolder folder;
     legs(along, -7, {}).write(folder / "rig.glb");
     spill(folder / "crowd.toml",
-          "[limb.left_leg]\nhinge = [-1.000, 0.000, 0.000]\n[limb.right_leg]\nhinge = [-1.000, 0.000, 0.000]\n");
+          "[limb.left_leg]\nbend = [0.000, 0.000, -1.000]\n[limb.right_leg]\nbend = [0.000, 0.000, -1.000]\n");
     const Outcome outcome = run_command(folder.path, {"solve", "rig.glb", "--limbs", "legs", "--crowd", "crowd.toml"});
     INFO(outcome.err);
     CHECK(outcome.exit_code == 0);
@@ -102,7 +101,7 @@ TEST_CASE("rigs: a rest pose that bends little and otherwise than knees do is re
 TEST_CASE("rigs: a slight bend at rest tells near the way that the limb bends, not across")
 {
     const auto is_slight = [](const json& limb) {
-        return limb.at("hinge_source").get<std::string>().starts_with("slight bend");
+        return limb.at("bend_source").get<std::string>().starts_with("slight bend");
     };
     for (const double turn : {-80.0, -50.0, 50.0, 80.0, 170.0}) {
         const json knee = left_knee(legs(AngleAxisd(turn * kDegree, Vector3d::UnitY()) * Vector3d::UnitX(), 3, {}));

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-// Arms are bent at rest, so that this tells their hinge.
+// Arms are bent at rest, so that this tells where they bend to.
 int add_bone(GltfRig& rig, const std::string& name, int parent, const Vector3d& step = {1, 0, 0})
 {
     const double bend = name.ends_with("ForeArm") ? 0.5 : 0;
@@ -218,20 +218,20 @@ TEST_CASE("rigs: rig and solve see the same figure, of which one limb alone is n
             at = rig.add(word + name, at, {at == root ? side : 0, at == root ? 0 : -1.0, 0});
     }
     rig.write(folder / "rig.glb");
-    const auto hinge = [&](const char* command, const char* limbs) {
+    const auto right_arm = [&](const char* command, const char* limbs) {
         const Outcome outcome =
             run_command(folder.path, {command, "rig.glb", "--json", "--arm", "right:" + joints_of("Left")});
         INFO(outcome.err);
         REQUIRE(outcome.exit_code == 0);
         const json report = json::parse(outcome.out);
         for (const json& limb : report.at(limbs))
-            if (limb.contains("hinge")) return limb;
+            if (limb.contains("bend")) return limb;
         return json();
     };
-    const json in_rig = hinge("rig", "limbs"), solved = hinge("solve", "arms_bound");
+    const json in_rig = right_arm("rig", "limbs"), solved = right_arm("solve", "arms_bound");
     CHECK(in_rig.at("limb") == "right_arm");
-    CHECK(in_rig.at("hinge") == solved.at("hinge"));
-    CHECK(solved.at("hinge_source") ==
+    CHECK(in_rig.at("bend") == solved.at("bend"));
+    CHECK(solved.at("bend_source") ==
           "elbows bend forwards, facing by left and right hip, as neither rest pose nor clip tells");
 }
 

@@ -250,7 +250,7 @@ TEST_CASE("rigs: lengths, habits and the way joints bend are what the figure was
             CHECK(limb.at("numbers").get<LimbNodes>() == figure.limbs[n]);
             CHECK(limb["lengths"][0].get<double>() == Approx(figure.upper[n]).epsilon(1e-5));
             CHECK(limb["lengths"][1].get<double>() == Approx(figure.lower[n]).epsilon(1e-5));
-            // Flexion takes the lower bone along upper x hinge: an elbow forwards, a knee backwards.
+            // An elbow bends forwards, a knee backwards.
             const int parent = plain.parent_of(figure.limbs[n][0]);
             const Eigen::Matrix3d to_world =
                 plain_world(plain, -1, parent, 0).linear() * plain_local(plain, -1, figure.limbs[n][0], 0).rotation();
@@ -258,8 +258,7 @@ TEST_CASE("rigs: lengths, habits and the way joints bend are what the figure was
             const bool own_mirror =
                 at.contains("scale") && (at["scale"][0] < 0 || at["scale"][1] < 0 || at["scale"][2] < 0);
             if (own_mirror) continue;  // the plain reading's axes are turned over there
-            const Vector3d flexion = vector_of(limb["upper_bone"]).cross(vector_of(limb["hinge"]));
-            const Vector3d flexion_w = (to_world * flexion).normalized();
+            const Vector3d flexion_w = (to_world * vector_of(limb["bend"])).normalized();
             CHECK(flexion_w.dot(n < 2 ? figure.front : Vector3d(-figure.front)) > 0.9);
         }
     }

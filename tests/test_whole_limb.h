@@ -15,10 +15,10 @@ inline constexpr std::uint32_t kLimits =
     SWIVEL_LIMIT_FLEXION | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_SHOULDER_BOX |
     SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
 
-// A skeleton's limb with nothing aligned: random rest rotations, bones and hinge.
+// A skeleton's limb with nothing aligned: random rest rotations, bones and bend.
 inline swivel_chain skewed_chain(Random& random)
 {
-    swivel_chain chain{};
+    swivel_chain chain = swivel_default_chain();
     const Vector3d upper = random.direction(), hinge = random.across(upper);
     const Quaterniond elbow = random.rotation();
     const Vector3d fore = elbow.conjugate() * (Eigen::AngleAxisd(-random.between(0, 1), hinge) * upper);
@@ -27,7 +27,7 @@ inline swivel_chain skewed_chain(Random& random)
     std::ranges::copy(floats(random.rotation()), chain.wrist_rotation);
     std::ranges::copy(floats(Vector3d(random.between(0.5, 1) * upper)), chain.elbow_offset);
     std::ranges::copy(floats(Vector3d(random.between(0.5, 1) * fore)), chain.wrist_offset);
-    std::ranges::copy(floats(hinge), chain.hinge);
+    std::ranges::copy(floats(Vector3d(upper.cross(hinge))), chain.bend);
     return chain;
 }
 

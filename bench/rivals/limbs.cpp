@@ -66,13 +66,12 @@ Limb random_limb(Random& random)
     return limb;
 }
 
-// Bones along +x that bend about +y, as many rigs have them.
+// Bones along +x that bend towards +z, as many rigs have them.
 swivel_binding binding()
 {
-    swivel_chain chain{};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[0] = chain.wrist_offset[0] = 1;
-    chain.hinge[1] = 1;
+    chain.bend[2] = 1;
     return swivel::bind(chain);
 }
 
@@ -123,7 +122,7 @@ std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs)
 
 swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::span<const Limb> limbs)
 {
-    const swivel_group_def group{static_cast<std::uint32_t>(arm_count), binding()};
+    const swivel_group_def group = swivel::group(static_cast<std::uint32_t>(arm_count), binding());
     swivel::Crowd crowd(features, {&group, 1});
 
     std::vector<Limb> given(limbs.begin(),
@@ -154,7 +153,7 @@ swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::spa
 
 std::size_t row_bytes(std::uint32_t features)
 {
-    const swivel_group_def group{1, binding()};
+    const swivel_group_def group = swivel::group(1, binding());
     const swivel::Crowd crowd(features, {&group, 1});
     return sizeof(float) * (swivel_input_rows(crowd.get()).row_count + swivel_result_rows(crowd.get()).row_count) +
            sizeof(std::uint16_t) * swivel_compact_rows(crowd.get()).row_count;

@@ -13,14 +13,13 @@ namespace {
 
 constexpr float kUpper = 0.30f, kFore = 0.26f;
 
-// Bones along +x on the left and -x on the right, hinges up or down, so that both bend forwards.
+// Bones along +x on the left and -x on the right; both bend forwards, towards +z.
 swivel_binding binding(float side)
 {
-    swivel_chain chain{};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[0] = side * kUpper;
     chain.wrist_offset[0] = side * kFore;
-    chain.hinge[1] = side;
+    chain.bend[2] = 1;
     return swivel::bind(chain);
 }
 Rig rig(float side)
@@ -36,7 +35,7 @@ Rig rig(float side)
 swivel::Crowd make_crowd(std::size_t character_count)
 {
     const auto count = static_cast<std::uint32_t>(character_count);
-    const swivel_group_def groups[kArms] = {{count, binding(1)}, {count, binding(-1)}};
+    const swivel_group_def groups[kArms] = {swivel::group(count, binding(1)), swivel::group(count, binding(-1))};
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, groups);
     for (std::uint32_t side = 0; side < kArms; ++side) crowd.write_all(SWIVEL_LENGTHS, side, std::array{kUpper, kFore});
     return crowd;

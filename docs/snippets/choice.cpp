@@ -3,7 +3,7 @@
 
 namespace {
 
-const swivel_group_def arms{.limb_count = 64, .binding = {}};
+const swivel_group_def arms = swivel::group(64);
 
 std::uint32_t solved(const swivel::Crowd& crowd)
 {

@@ -4,7 +4,7 @@
 TEST_CASE("docs: clavicle")
 {
     // [shown]
-    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    const swivel_group_def arms = swivel::group(1);
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, {&arms, 1});
     // The shoulder, as the clavicle's joint has it, and a third of the way.
     crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.15f, 0, 0, 0.33f});

@@ -13,11 +13,10 @@ struct Character {
 
 swivel_binding bound_arm()
 {
-    swivel_chain chain{};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[0] = 0.30f;
     chain.wrist_offset[0] = 0.26f;
-    chain.hinge[1] = 1;
+    chain.bend[2] = 1;
     return swivel::bind(chain);
 }
 
@@ -29,7 +28,7 @@ Eigen::Vector3d wrist_of(const Character& character)
                     quat(character.forearm) * Eigen::Vector3d(0.26, 0, 0));
 }
 
-// The upper arm's twist about its bone, in degrees, from -180 to 180: a hinge the wrong
+// The upper arm's twist about its bone, in degrees, from -180 to 180: a bend the wrong
 // way round, here and in start.cpp, adds half a turn.
 double twist_of(const Character& character)
 {
@@ -45,7 +44,7 @@ TEST_CASE("docs: frames in place")
     const swivel_binding arm = bound_arm();
     std::vector<Character> characters(
         40, {{0.3f, -0.2f, 0.3f}, {-0.2f, -0.5f, -0.3f}, {}, {}});
-    const swivel_group_def arms{40, arm};
+    const swivel_group_def arms = swivel::group(40, arm);
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&arms, 1});
     // [frame]
     swivel_frame frame{};  // what stays null keeps its rows, or is not written
@@ -64,7 +63,7 @@ TEST_CASE("docs: frames in place")
 
 TEST_CASE("docs: own threads")
 {
-    const swivel_group_def arms{.limb_count = 200, .binding = {}};
+    const swivel_group_def arms = swivel::group(200);
     swivel::Crowd crowd(0, {&arms, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 1});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
@@ -82,7 +81,7 @@ TEST_CASE("docs: own threads")
 
 TEST_CASE("docs: far from the origin")
 {
-    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    const swivel_group_def arms = swivel::group(1);
     // [far]
     swivel::Crowd crowd(SWIVEL_WORLD, {&arms, 1});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
@@ -104,7 +103,7 @@ TEST_CASE("docs: far from the origin")
 
 TEST_CASE("docs: own memory")
 {
-    const swivel_group_def arms{.limb_count = 100, .binding = {}};
+    const swivel_group_def arms = swivel::group(100);
     // [memory]
     swivel_crowd_def def = swivel_default_crowd_def();
     def.group_count = 1;
@@ -124,7 +123,7 @@ TEST_CASE("docs: own memory")
 TEST_CASE("docs: errors")
 {
     std::string text;
-    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    const swivel_group_def arms = swivel::group(1);
     // [errors]
     try {
         swivel::Crowd crowd(SWIVEL_WITH_EFFECTOR, {&arms, 1});

@@ -12,14 +12,13 @@ struct Pose {
 };
 
 swivel_chain chain(const Float3& elbow_offset, const Float3& wrist_offset,
-                   const Float3& hinge)
+                   const Float3& bend)
 {
-    swivel_chain made{};
-    made.shoulder_rotation[3] = made.elbow_rotation[3] = made.wrist_rotation[3] = 1;
+    swivel_chain made = swivel_default_chain();
     for (std::size_t i = 0; i < 3; ++i) {
         made.elbow_offset[i] = elbow_offset[i];
         made.wrist_offset[i] = wrist_offset[i];
-        made.hinge[i] = hinge[i];
+        made.bend[i] = bend[i];
     }
     return made;
 }
@@ -29,7 +28,7 @@ Pose solved(const Arm& arm)
 {
     // [solve]
     const swivel_binding bound = swivel::bind(arm.chain);
-    const swivel_group_def group{1, bound};
+    const swivel_group_def group = swivel::group(1, bound);
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&group, 1});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, arm.shoulder);
     crowd.write_all(SWIVEL_TARGET, 0, arm.target);
@@ -68,7 +67,7 @@ void check_pose(const Arm& arm, const Pose& pose, const Eigen::Vector3d& elbow)
 Arm unity()
 {
     // [unity]
-    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 1, 0}),  // bones along x
+    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 0, 1}),  // bones along x
                   {0.2f, 1.4f, 0},                               // shoulder
                   {0.2f, 1.4f, 0.5f},   // target: half a metre in front
                   {0.2f, 0.4f, 0.2f}};  // pole: below
@@ -79,7 +78,7 @@ Arm unity()
 Arm unreal()
 {
     // [unreal]
-    const Arm arm{chain({0, 30, 0}, {0, 40, 0}, {0, 0, 1}),  // bones along y
+    const Arm arm{chain({0, 30, 0}, {0, 40, 0}, {1, 0, 0}),  // bones along y
                   {0, 20, 140},                              // shoulder
                   {50, 20, 140},  // target: half a metre in front
                   {20, 20, 40}};  // pole: below
@@ -91,7 +90,7 @@ Arm unreal()
 Arm unreal_mesh()
 {
     // [unreal_mesh]
-    const Arm arm{chain({-30, 0, 0}, {-40, 0, 0}, {0, 0, 1}),  // bones along -x
+    const Arm arm{chain({-30, 0, 0}, {-40, 0, 0}, {0, 1, 0}),  // bones along -x
                   {-20, 0, 140},                               // shoulder
                   {-20, 50, 140},  // target: half a metre in front
                   {-20, 20, 40}};  // pole: below
@@ -102,7 +101,7 @@ Arm unreal_mesh()
 Arm godot()
 {
     // [godot]
-    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, -1, 0}),  // bones along x
+    const Arm arm{chain({0.3f, 0, 0}, {0.4f, 0, 0}, {0, 0, -1}),  // bones along x
                   {0.2f, 1.4f, 0},                                // shoulder
                   {0.2f, 1.4f, -0.5f},   // target: half a metre in front
                   {0.2f, 0.4f, -0.2f}};  // pole: below
@@ -112,7 +111,7 @@ Arm godot()
 
 Arm gltf()
 {
-    return {chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, -1, 0}),
+    return {chain({-0.3f, 0, 0}, {-0.4f, 0, 0}, {0, 0, 1}),
             {-0.2f, 1.4f, 0},
             {-0.2f, 1.4f, 0.5f},
             {-0.2f, 0.4f, 0.2f}};
@@ -121,7 +120,6 @@ Arm gltf()
 // [to_unity]
 Float3 point_to_unity(const Float3& p) { return {-p[0], p[1], p[2]}; }
 Float4 turn_to_unity(const Float4& q) { return {q[0], -q[1], -q[2], q[3]}; }
-Float3 hinge_to_unity(const Float3& a) { return {a[0], -a[1], -a[2]}; }
 // [end]
 
 // [to_unreal]
@@ -130,7 +128,6 @@ Float3 point_to_unreal(const Float3& p)
     return {100 * p[2], -100 * p[0], 100 * p[1]};
 }
 Float4 turn_to_unreal(const Float4& q) { return {-q[2], q[0], -q[1], q[3]}; }
-Float3 hinge_to_unreal(const Float3& a) { return {-a[2], a[0], -a[1]}; }
 // [end]
 
 // [to_unreal_mesh]
@@ -139,26 +136,24 @@ Float3 point_to_unreal_mesh(const Float3& p)
     return {100 * p[0], 100 * p[2], 100 * p[1]};
 }
 Float4 turn_to_unreal_mesh(const Float4& q) { return {-q[0], -q[2], -q[1], q[3]}; }
-Float3 hinge_to_unreal_mesh(const Float3& a) { return {-a[0], -a[2], -a[1]}; }
 // [end]
 
 // [to_godot]
 Float3 point_to_godot(const Float3& p) { return {-p[0], p[1], -p[2]}; }
 Float4 turn_to_godot(const Float4& q) { return {-q[0], q[1], -q[2], q[3]}; }
-Float3 hinge_to_godot(const Float3& a) { return {-a[0], a[1], -a[2]}; }
 // [end]
 
 // A glTF arm carried over is the engine's, and so is its pose.
-template <class Point, class Turn, class Hinge>
-void check_carried(const Arm& engine, Point point, Turn turn, Hinge hinge)
+template <class Point, class Turn>
+void check_carried(const Arm& engine, Point point, Turn turn)
 {
     const Arm source = gltf();
     const auto& from = source.chain;
     CHECK(distance(
               point({from.elbow_offset[0], from.elbow_offset[1], from.elbow_offset[2]}),
               engine.chain.elbow_offset) < 1e-5);
-    CHECK(distance(hinge({from.hinge[0], from.hinge[1], from.hinge[2]}),
-                   engine.chain.hinge) < 1e-6);
+    const Float3 bend = point({from.bend[0], from.bend[1], from.bend[2]});
+    CHECK((vec(bend).normalized() - vec(engine.chain.bend)).norm() < 1e-6);
     CHECK(distance(point(source.target), engine.target) < 1e-5);
     CHECK(distance(point(source.shoulder), engine.shoulder) < 1e-5);
     const Pose carried = solved(source), own = solved(engine);
@@ -184,7 +179,7 @@ TEST_CASE("docs: Unity")
     check_pose(unity(), solved(unity()), {0.2, 1.16, 0.18});
     check_rotations(solved(unity()), {-0.2236f, -0.2236f, -0.6708f, 0.6708f},
                     {0, -0.7071f, 0, 0.7071f});
-    check_carried(unity(), point_to_unity, turn_to_unity, hinge_to_unity);
+    check_carried(unity(), point_to_unity, turn_to_unity);
 }
 
 TEST_CASE("docs: Unreal")
@@ -192,14 +187,13 @@ TEST_CASE("docs: Unreal")
     check_pose(unreal(), solved(unreal()), {18, 20, 116});
     check_rotations(solved(unreal()), {-0.6708f, -0.2236f, -0.2236f, 0.6708f},
                     {0, 0, -0.7071f, 0.7071f});
-    check_carried(unreal(), point_to_unreal, turn_to_unreal, hinge_to_unreal);
+    check_carried(unreal(), point_to_unreal, turn_to_unreal);
 }
 
 TEST_CASE("docs: Unreal's skeletal meshes")
 {
     check_pose(unreal_mesh(), solved(unreal_mesh()), {-20, 18, 116});
-    check_carried(unreal_mesh(), point_to_unreal_mesh, turn_to_unreal_mesh,
-                  hinge_to_unreal_mesh);
+    check_carried(unreal_mesh(), point_to_unreal_mesh, turn_to_unreal_mesh);
 }
 
 TEST_CASE("docs: Godot")
@@ -207,7 +201,7 @@ TEST_CASE("docs: Godot")
     check_pose(godot(), solved(godot()), {0.2, 1.16, -0.18});
     check_rotations(solved(godot()), {0.2236f, 0.2236f, -0.6708f, 0.6708f},
                     {0, 0.7071f, 0, 0.7071f});
-    check_carried(godot(), point_to_godot, turn_to_godot, hinge_to_godot);
+    check_carried(godot(), point_to_godot, turn_to_godot);
 }
 
 TEST_CASE("docs: glTF") { check_pose(gltf(), solved(gltf()), {-0.2, 1.16, 0.18}); }

@@ -3,7 +3,7 @@
 
 namespace {
 
-const swivel_group_def arms{.limb_count = 1, .binding = {}};
+const swivel_group_def arms = swivel::group(1);
 
 // A pose to start from: what a plain crowd makes of another target.
 void pose_of(const Float3& target, Float4& shoulder, Float4& elbow)

@@ -5,14 +5,13 @@ TEST_CASE("docs: legs")
 {
     // [leg]
     // Thigh, shin and foot joints at rest: bones down -y, knees forward, +z.
-    swivel_chain leg{};
-    leg.shoulder_rotation[3] = leg.elbow_rotation[3] = leg.wrist_rotation[3] = 1;
+    swivel_chain leg = swivel_default_chain();
     leg.elbow_offset[1] = -0.45f;
     leg.wrist_offset[1] = -0.42f;
-    leg.hinge[0] = -1;  // flexion turns the shin about -hinge, +x: backwards
+    leg.bend[2] = -1;  // the knee bends backwards
     const swivel_binding left_leg = swivel::bind(leg);
     // [end]
-    const swivel_group_def legs{1, left_leg};
+    const swivel_group_def legs = swivel::group(1, left_leg);
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&legs, 1});
     // [leg_solve]
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.1f, 0.95f, 0});  // the hip
@@ -41,8 +40,8 @@ TEST_CASE("docs: mirrored limits")
     swivel::check(
         swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
     // [end]
-    const swivel_group_def arms[] = {{.limb_count = 1, .binding = {}},
-                                     {.limb_count = 1, .binding = {}}};
+    const swivel_group_def arms[] = {swivel::group(1),
+                                     swivel::group(1)};
     swivel::Crowd crowd(SWIVEL_LIMIT_HUMERAL_TWIST, arms);
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, left);
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 1, right);

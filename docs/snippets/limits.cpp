@@ -3,7 +3,7 @@
 
 namespace {
 
-const swivel_group_def arms{.limb_count = 1, .binding = {}};
+const swivel_group_def arms = swivel::group(1);
 
 void give_arm(swivel::Crowd& crowd)
 {

@@ -3,7 +3,7 @@
 
 namespace {
 
-const swivel_group_def arms{.limb_count = 1, .binding = {}};
+const swivel_group_def arms = swivel::group(1);
 const Float3 target{0.3f, 0.1f, 0.3f};
 
 void give_arm(swivel::Crowd& crowd)

@@ -4,7 +4,7 @@
 TEST_CASE("docs: soft reach and stretch")
 {
     // [shown]
-    const swivel_group_def arms{.limb_count = 3, .binding = {}};
+    const swivel_group_def arms = swivel::group(3);
     swivel::Crowd crowd(SWIVEL_WITH_REACH, {&arms, 1});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.5f, 0.5f});
     // Shares of both bones' length: eased 0.1 before the far end, not at the near one;

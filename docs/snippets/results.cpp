@@ -3,7 +3,7 @@
 
 namespace {
 
-const swivel_group_def arms{.limb_count = 2, .binding = {}};
+const swivel_group_def arms = swivel::group(2);
 
 void give_arms(swivel::Crowd& crowd)
 {

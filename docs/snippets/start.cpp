@@ -15,13 +15,12 @@ struct Character {  // your own, as your engine keeps it
 
 int main()
 {
-    // Bind: the rest pose. A left arm's bones lie along +x of their joints, not turned
-    // at rest; it bends forwards, towards +z, which is a turn about -y.
-    swivel_chain chain{};
-    chain.shoulder_rotation[3] = chain.elbow_rotation[3] = chain.wrist_rotation[3] = 1;
+    // Bind: the rest pose. A left arm's bones lie along +x of their joints, which are
+    // not turned at rest. The character faces +z.
+    swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[0] = 0.30f;  // the elbow, as the shoulder joint has it
     chain.wrist_offset[0] = 0.26f;  // the wrist, as the elbow joint has it
-    chain.hinge[1] = 1;             // flexion turns the forearm about -hinge
+    chain.bend[2] = 1;              // forwards: where flexion carries the forearm
     const swivel_binding arm = swivel::bind(chain);
 
     // A crowd: how many, what goes in and what comes out.
@@ -32,8 +31,8 @@ int main()
                           {},
                           {}};
     std::vector<Character> characters(1000, first);
-    const swivel_group_def left_arms{static_cast<std::uint32_t>(characters.size()),
-                                     arm};
+    const swivel_group_def left_arms =
+        swivel::group(static_cast<std::uint32_t>(characters.size()), arm);
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&left_arms, 1});
 
     // Each frame: from your structures, to your structures.

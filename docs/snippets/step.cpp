@@ -3,7 +3,7 @@
 
 TEST_CASE("docs: step limit")
 {
-    const swivel_group_def arms{.limb_count = 1, .binding = {}};
+    const swivel_group_def arms = swivel::group(1);
     const Float3 target{0, 0.3f, 1.5f};
     std::array<Double3, 1> before, after;
     // [shown]

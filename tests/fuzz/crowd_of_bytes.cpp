@@ -114,10 +114,10 @@ float& input_at(const swivel_rows& rows, std::uint32_t limb, std::uint32_t row)
 
 swivel_binding binding_of(Random random)
 {
-    swivel_chain chain;
+    swivel_chain chain = swivel_default_chain();
     for (auto* q : {&chain.shoulder_rotation, &chain.elbow_rotation, &chain.wrist_rotation})
         for (float& x : *q) x = random.share();
-    for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.hinge})
+    for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.bend})
         for (float& x : *v) x = random.share();
     const float one[4] = {0, 0, 0, 1};
     swivel_binding binding{};
@@ -158,8 +158,10 @@ std::uint32_t features_of(Bytes& bytes)
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
 {
     std::vector<swivel_group_def> groups(1 + bytes.take<std::uint8_t>() % 3);
-    for (swivel_group_def& group : groups)
-        group = {1 + bytes.take<std::uint8_t>() % most_limbs, binding_of({bytes.take<std::uint16_t>()})};
+    for (swivel_group_def& group : groups) {
+        const std::uint32_t limb_count = 1 + bytes.take<std::uint8_t>() % most_limbs;
+        group = swivel::group(limb_count, binding_of({bytes.take<std::uint16_t>()}));
+    }
     return groups;
 }
 

@@ -66,6 +66,7 @@ void check_limits(const LimbSettings& s)
 void check_settings(const LimbSettings& s)
 {
     check_value(s.joints, [](const std::vector<std::string>& names) { return names.size() == 3; });
+    check_value(s.bend, is_axis);
     check_value(s.hinge, is_axis);
     for (const auto* point : {&s.target_point, &s.target_offset, &s.effector, &s.pole_fixed})
         check_value(*point, is_point);

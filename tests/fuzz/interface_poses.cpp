@@ -70,9 +70,11 @@ void call_bind(Bytes& bytes)
     std::array<float, 21> numbers;
     const bool any_bits = bytes.one_in(3);
     for (float& x : numbers) x = any_bits ? bytes.any_float() : bytes.share();
-    swivel_chain chain;
-    static_assert(sizeof chain == sizeof numbers);
-    std::memcpy(&chain, numbers.data(), sizeof chain);
+    swivel_chain chain = swivel_default_chain();
+    constexpr std::size_t first = offsetof(swivel_chain, shoulder_rotation);
+    static_assert(offsetof(swivel_chain, bend) + sizeof chain.bend == first + sizeof numbers);
+    std::memcpy(reinterpret_cast<char*>(&chain) + first, numbers.data(), sizeof numbers);
+    if (bytes.one_in(4)) chain.size = bytes.take<std::uint8_t>();
     std::array<float, 26> binding;
     static_assert(sizeof binding == sizeof(swivel_binding));
     binding.fill(7);

@@ -34,7 +34,7 @@ std::uint64_t digest(std::span<const std::byte> bytes)
 
 int solve_and_print()
 {
-    const swivel_group_def arms[] = {{.limb_count = kArmCount, .binding = {}}};
+    const swivel_group_def arms[] = {swivel::group(kArmCount)};
     swivel::Crowd crowd(0, arms);
     crowd.write(SWIVEL_TARGET, 0, make_targets());
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.25f, -1.0f, 0.125f});

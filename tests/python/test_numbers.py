@@ -53,12 +53,12 @@ class Poses(unittest.TestCase):
         sample, random = Sample(N), np.random.default_rng(3)
         rest = quaternions(random, 3)
         upper, fore = np.array([0.3, 0.1, 0.0]), np.array([0.25, 0.0, 0.05])
-        limb = swivel.bind(upper, fore, (0, 0, 1), *rest)
+        limb = swivel.bind(upper, fore, np.cross(upper, (0, 0, 1)), *rest)
         np.testing.assert_allclose(limb.lengths, [np.linalg.norm(upper), np.linalg.norm(fore)], rtol=1e-6)
-        kept = swivel.Binding(**{name: getattr(limb.binding, name) for name in dir(swivel.Binding) if name[0] != "_"})
-        for binding in (limb, limb.binding, kept):
+        kept = swivel.Binding(**{name: getattr(limb, name) for name in dir(swivel.Binding) if name[0] != "_"})
+        for binding in (limb, kept):
             crowd = swivel.Crowd([(N, binding)], Feature.JOINTS | Feature.WORLD)
-            for field, values in ((Field.TARGET, sample.targets), (Field.POLE, sample.poles), (Field.LENGTHS, limb.lengths)):
+            for field, values in ((Field.TARGET, sample.targets), (Field.POLE, sample.poles), (Field.SHOULDER_POSITION, (0, 0, 0))):
                 crowd.write(field, values)
             crowd.solve()
             shoulder, elbow = crowd.read(Field.SHOULDER), crowd.read(Field.ELBOW)

@@ -151,7 +151,7 @@ std::uint32_t library_features(const Recipe& recipe)
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
 {
     swivel_group_def groups[kGroupCount];
-    for (std::uint32_t g = 0; g < kGroupCount; ++g) groups[g] = {limb_counts[g], library_binding(kBindings[g])};
+    for (std::uint32_t g = 0; g < kGroupCount; ++g) groups[g] = group(limb_counts[g], library_binding(kBindings[g]));
     swivel_crowd_def def = swivel_default_crowd_def();
     def.features = library_features(recipe);
     def.groups = groups;

@@ -48,14 +48,14 @@ swivel_binding make_binding(const py::object& parent_from_arm, const py::object&
     return binding;
 }
 
-swivel_binding bind_chain(const py::object& elbow_offset, const py::object& wrist_offset, const py::object& hinge,
+swivel_binding bind_chain(const py::object& elbow_offset, const py::object& wrist_offset, const py::object& bend,
                           const py::object& shoulder_rotation, const py::object& elbow_rotation,
                           const py::object& wrist_rotation)
 {
-    swivel_chain chain;
+    swivel_chain chain = swivel_default_chain();
     copy("elbow_offset", elbow_offset, chain.elbow_offset);
     copy("wrist_offset", wrist_offset, chain.wrist_offset);
-    copy("hinge", hinge, chain.hinge);
+    copy("bend", bend, chain.bend);
     copy("shoulder_rotation", shoulder_rotation, chain.shoulder_rotation);
     copy("elbow_rotation", elbow_rotation, chain.elbow_rotation);
     copy("wrist_rotation", wrist_rotation, chain.wrist_rotation);
@@ -84,16 +84,15 @@ void add_bindings(py::module_& module)
         "lengths", [](const swivel_binding& b) { return py::array_t<float>(2, b.lengths); },
         "Upper arm and forearm, in the chain's unit, with which limbs start: (2,) float32.");
     const py::tuple identity = py::make_tuple(0, 0, 0, 1), none = py::make_tuple(0, 0, 0);
-    module.def("bind", &bind_chain, py::arg("elbow_offset"), py::arg("wrist_offset"), py::arg("hinge") = none,
+    module.def("bind", &bind_chain, py::arg("elbow_offset"), py::arg("wrist_offset"), py::arg("bend") = none,
                py::arg("shoulder_rotation") = identity, py::arg("elbow_rotation") = identity,
                py::arg("wrist_rotation") = identity,
                "The binding of a limb from its rest pose, as a skeleton stores it.\n\n"
                "elbow_offset (3,): the elbow's place in the shoulder joint's frame; wrist_offset (3,): the wrist's\n"
-               "in the elbow joint's; hinge (3,): the elbow's axis in the shoulder joint's frame, about whose\n"
-               "negative flexion turns the forearm, or zeros: from the rest pose, which then must be bent. Rotations\n"
-               "(4,) are x, y, z, w: each joint's at rest, relative to its parent joint. ValueError for a straight\n"
-               "rest pose without a hinge, a hinge along a bone, bones of no length and quaternions without a\n"
-               "direction.");
+               "in the elbow joint's; bend (3,): where flexion carries the forearm, in the shoulder joint's frame, of\n"
+               "any length, or zeros: as the rest pose is bent, by more than 10 degrees. Rotations (4,) are\n"
+               "x, y, z, w: each joint's at rest, relative to its parent joint. ValueError for a straight rest pose\n"
+               "without a bend, a bend along the upper arm, bones of no length and quaternions without a direction.");
 }
 
 }  // namespace swivel::python

@@ -14,7 +14,7 @@ constexpr std::array<float, 4> kIdentity{0, 0, 0, 1};
 
 swivel_group_def one_limb()
 {
-    swivel_group_def group{1, {}};
+    swivel_group_def group = swivel_default_group_def(1);
     swivel_binding& b = group.binding;
     for (auto* q :
          {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest})

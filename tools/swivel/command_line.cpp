@@ -174,7 +174,7 @@ void add_solve(CLI::App& app)
 void add_rig(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
-        "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, hinges, and what is missing");
+        "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, bends, and what is missing");
     auto options = std::make_shared<RigOptions>();
     command
         ->add_option("file", options->file,
@@ -187,7 +187,7 @@ void add_rig(CLI::App& app)
         ->check(CLI::IsMember({"arms", "legs", "all"}));
     add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
     add_motion(*command, options->motion,
-               "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, hinges "
+               "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, bends "
                "and axes");
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
     add_json(*command, options->json);

@@ -190,9 +190,14 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
         if (joints)
             (is_arm ? choice.arms : choice.legs)
                 .push_back({joints->value, name->side, {joints->key, file.path, joints->line}});
-        if (const auto& hinge = section.settings.hinge)
-            choice.hinges.push_back({*name, hinge->value,
-                                     fmt::format("{} of {}", hinge->key, formats::printable(file.path.string(), 400))});
+        const auto take = [&](const formats::Maybe<Eigen::Vector3d>& given, bool is_hinge) {
+            if (given)
+                choice.bends.push_back(
+                    {*name, given->value,
+                     fmt::format("{} of {}", given->key, formats::printable(file.path.string(), 400)), is_hinge});
+        };
+        take(section.settings.hinge, true);
+        take(section.settings.bend, false);
     }
 }
 

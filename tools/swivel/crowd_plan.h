@@ -50,7 +50,7 @@ struct CrowdPlan {
     std::vector<LimbPlan> limbs;                 // one for each limb solved
 };
 
-// What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and hinges to
+// What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and bends to
 // the choice, and its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
 // kind that is left out.
 void add_choice(const formats::CrowdFile& file, LimbChoice& choice);

@@ -119,9 +119,7 @@ private:
     static float side(std::uint32_t group) { return group == 0 ? 1.0f : -1.0f; }
     static std::vector<swivel_group_def> groups(std::uint32_t characters)
     {
-        swivel_group_def arms{};
-        arms.limb_count = characters;
-        return {arms, arms};
+        return {2, group(characters)};
     }
     void write(swivel_field field, std::uint32_t group, const float* first)
     {

@@ -54,8 +54,8 @@ std::optional<LimbRange> range_of(const formats::Clip& clip, const Limb& limb)
 {
     if (clip.frame_count < 2) return std::nullopt;
     LimbRange range{};
-    range.hinge = to_three_decimals(limb.hinge);
-    const swivel_binding bound = bind(rest_chain(clip, limb.chain, range.hinge.stableNormalized()));
+    range.bend = to_three_decimals(limb.bend);
+    const swivel_binding bound = bind(rest_chain(clip, limb.chain, range.bend.stableNormalized()));
     const Quaterniond arm_from_parent = quaternion(bound.parent_from_arm).conjugate();
     std::vector<Vector3d> upper;
     Vector3d sum = Vector3d::Zero();

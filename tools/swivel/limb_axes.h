@@ -20,10 +20,10 @@ struct AngleRange {
 };
 
 // Where all of a clip lies, as a crowd file's limits say it. All frames fit into them, if the limb is bound with this
-// hinge: the frame's x and y turn with it.
+// bend: the frame's x and y turn with it.
 struct LimbRange {
-    Eigen::Vector3d hinge;  // the limb's to three decimals, in the upper joint's axes; near 1 long
-    Eigen::Vector3d axis;   // the upper bone's mean direction in the frame of that hinge, to three decimals
+    Eigen::Vector3d bend;  // the limb's to three decimals, in the upper joint's axes; near 1 long
+    Eigen::Vector3d axis;   // the upper bone's mean direction in the frame of that bend, to three decimals
     double opening_deg;     // the upper bone's largest angle to it, up to the next tenth
     AngleRange from_z;      // the upper bone's angle to the frame's z, where it lies at rest
     AngleRange flexion;     // the angle between both bones, outwards to the next tenth

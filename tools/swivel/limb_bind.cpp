@@ -84,22 +84,22 @@ void store(const Eigen::Matrix<double, size, 1>& v, float (&to)[size])
     for (int n = 0; n < size; ++n) to[n] = static_cast<float>(v[n]);
 }
 
-swivel_chain chain_at(const ChainPose& rest, const Vector3d& hinge)
+swivel_chain chain_at(const ChainPose& rest, const Vector3d& bend)
 {
-    swivel_chain chain{};
+    swivel_chain chain = swivel_default_chain();
     store<4>(rest.turn[0].coeffs(), chain.shoulder_rotation);
     store<4>((rest.turn[0].conjugate() * rest.turn[1]).coeffs(), chain.elbow_rotation);
     store<4>((rest.turn[1].conjugate() * rest.turn[2]).coeffs(), chain.wrist_rotation);
     store<3>(rest.upper_bone(), chain.elbow_offset);
     store<3>(rest.lower_bone(), chain.wrist_offset);
-    store<3>(hinge, chain.hinge);
+    store<3>(bend, chain.bend);
     return chain;
 }
 
-swivel_binding bind_rest(const ChainPose& rest, const Vector3d& hinge)
+swivel_binding bind_rest(const ChainPose& rest, const Vector3d& bend)
 {
     try {
-        return bind(chain_at(rest, hinge));
+        return bind(chain_at(rest, bend));
     } catch (const Error& error) {
         throw CannotBind(error.what(), "");
     }
@@ -116,19 +116,22 @@ Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w
     return axes_w;
 }
 
-// The hinge that the user gave the limb.
-std::optional<Hinge> given_hinge(std::span<const GivenHinge> hinges, const Limb& limb)
+// The bend that the user gave the limb.
+const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
 {
-    const auto is_its = [&](const GivenHinge& each) { return each.limb == limb.name; };
-    const auto given = std::find_if(hinges.begin(), hinges.end(), is_its);
-    if (given == hinges.end()) return std::nullopt;
+    const auto is_its = [&](const GivenBend& each) { return each.limb == limb.name; };
+    const auto given = std::find_if(bends.begin(), bends.end(), is_its);
+    if (given == bends.end()) return nullptr;
     const Vector3d& upper = limb.upper_bone;
-    if (given->axis.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
-        throw CannotBind(fmt::format("its hinge, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not "
-                                     "bend that way",
-                                     given->where, upper.x(), upper.y(), upper.z()),
-                         "give an axis across it");
-    return Hinge{given->axis, given->where};
+    if (given->direction.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
+        throw CannotBind(fmt::format("its {}, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend "
+                                     "that way",
+                                     given->is_hinge ? "hinge" : "bend", given->where, upper.x(), upper.y(), upper.z()),
+                         "give a direction across it");
+    if (given->is_hinge)
+        throw CannotBind(fmt::format("{} is an axis, and a crowd file now says where the limb bends to", given->where),
+                         fmt::format("write bend = {} instead", toml_row(bend_of_hinge(upper, given->direction))));
+    return &*given;
 }
 
 std::vector<int> side_twists(const Clip& clip, const LimbChain& chain)
@@ -244,13 +247,13 @@ void require_parts_on(const ChainBone& bone)
 
 }  // namespace
 
-swivel_chain rest_chain(const Clip& clip, const LimbChain& chain, const Vector3d& hinge)
+swivel_chain rest_chain(const Clip& clip, const LimbChain& chain, const Vector3d& bend)
 {
-    return chain_at(rest_pose(clip, chain), hinge);
+    return chain_at(rest_pose(clip, chain), bend);
 }
 
 Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
-               std::span<const GivenHinge> hinges)
+               std::span<const GivenBend> bends)
 {
     Limb limb;
     limb.name = name;
@@ -265,11 +268,15 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     limb.mirrored = parent_w.mirrored;
     limb.upper_bone = rest.upper_bone().normalized();
     limb.lower_bone = rest.lower_bone().normalized();
-    const std::optional<Hinge> given = given_hinge(hinges, limb);
-    const Hinge hinge = given ? *given : choose_hinge(clip, name, limb.chain, rest, parent_w, front);
-    limb.hinge = hinge.axis;
-    limb.hinge_source = hinge.source;
-    limb.bound = bind_rest(rest, limb.hinge);
+    if (const GivenBend* const given = given_bend(bends, limb)) {
+        limb.bend = given->direction;
+        limb.bend_source = given->where;
+    } else {
+        const Hinge hinge = choose_hinge(clip, name, limb.chain, rest, parent_w, front);
+        limb.bend = bend_of_hinge(limb.upper_bone, hinge.axis);
+        limb.bend_source = hinge.source;
+    }
+    limb.bound = bind_rest(rest, limb.bend);
     for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));
     limb.axes_w = axes_of(limb.bound, parent_w);
     limb.side_twists = side_twists(clip, limb.chain);

@@ -57,7 +57,7 @@ LimbCrowds::LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const
         while (d < drafts.size() && !drafts[d].takes(limb)) ++d;
         if (d == drafts.size()) drafts.push_back({limb.features, limb.shoulder_order, limb.wrist_order, {}});
         places_.push_back({d, static_cast<std::uint32_t>(drafts[d].groups.size())});
-        drafts[d].add(limb, {plan.characters, limbs[n].bound});
+        drafts[d].add(limb, group(plan.characters, limbs[n].bound));
         priorities_.push_back(limb.priority);
     }
     if (budget_blocks_ > 0 && drafts.size() > 1)

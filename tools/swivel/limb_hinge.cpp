@@ -110,7 +110,7 @@ std::optional<TableBend> bend_by_table(LimbName limb, const ChainPose& rest, con
 // What to do where nothing tells a limb's hinge.
 std::string advice_for(LimbName limb)
 {
-    return fmt::format("use a clip that bends it, or give limb.{}.hinge in a crowd file", limb_word(limb));
+    return fmt::format("use a clip that bends it, or give limb.{}.bend in a crowd file", limb_word(limb));
 }
 
 // Why the table is silent.
@@ -118,13 +118,6 @@ std::string points_anywhere(LimbName limb)
 {
     return limb.kind == LimbKind::arm ? "the arm points ahead, behind or overhead, where straight ones bend either way"
                                       : "the leg does not hang, so that its knee may bend any way";
-}
-
-// As a crowd file has it.
-std::string row(const Vector3d& v)
-{
-    const Vector3d shown = to_three_decimals(v);
-    return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", shown.x(), shown.y(), shown.z());
 }
 
 // What a limb tells itself, whatever the figure faces.
@@ -143,6 +136,14 @@ std::optional<Hinge> own_hinge(const Clip& clip, const LimbChain& chain, const C
 }
 
 }  // namespace
+
+Vector3d bend_of_hinge(const Vector3d& upper_bone, const Vector3d& axis) { return upper_bone.cross(axis).normalized(); }
+
+std::string toml_row(const Vector3d& v)
+{
+    const Vector3d shown = to_three_decimals(v);
+    return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", shown.x(), shown.y(), shown.z());
+}
 
 std::string doubt_by_bends(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints, const Front& front)
 {
@@ -191,13 +192,14 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
                  : "neither rest pose nor clip tells which way it bends") +
                 ", and " + (is_doubted ? front.doubt : points_anywhere(limb)),
             advice_for(limb));
+    const auto row = [&](const Vector3d& axis) { return toml_row(bend_of_hinge(rest.upper_bone(), axis)); };
     if (bend_deg > kBent && off > 60)
         throw CannotBind(
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
                         "{}, and no clip tells which holds",
                         bend_deg, off, table->words, front.source),
             advice_for(limb) +
-                fmt::format(": {} as at rest, {} as {}", row(bend.normalized()), row(table->axis), table->words));
+                fmt::format(": {} as at rest, {} as {}", row(bend), row(table->axis), table->words));
     if (bend_deg > kBent) return rest_hinge(rest);
     if (bend_deg > kBarelyBent && off < 45)
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};

@@ -21,6 +21,13 @@ struct Hinge {
     std::string source;    // for people
 };
 
+// Where flexion carries the lower bone that turns about such an axis, both in the upper joint's axes: across the bone,
+// unit.
+Eigen::Vector3d bend_of_hinge(const Eigen::Vector3d& upper_bone, const Eigen::Vector3d& axis);
+
+// A direction as a crowd file has it, to three decimals.
+std::string toml_row(const Eigen::Vector3d& v);
+
 // Why a front may be wrong: a limb that tells its hinge itself, as choose_hinge() has it, and has an elbow more than
 // 120, a knee more than 90 degrees off the way that elbows and knees bend in a figure that faces so. Where none is
 // within 60 degrees of that and shoulders or hips tell the front, left and right may be exchanged: then also, of the

@@ -230,7 +230,7 @@ LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Front& 
         return finding;
     }
     try {
-        Limb limb = bind_limb(clip, candidate.name, *candidate.found.joints, front, choice.hinges);
+        Limb limb = bind_limb(clip, candidate.name, *candidate.found.joints, front, choice.bends);
         limb.habit = candidate.found.habit;
         if (!candidate.source) require_parts_between(clip, limb);
         finding.limb = std::move(limb);

@@ -39,7 +39,7 @@ struct LimbChoice {
                           // empty: those named alone, or the arms by the names in use if none is
     Source kinds_source;  // where kinds was given
     std::vector<NamedLimb> arms, legs;  // a file's after the options', and each only for a side that no option names
-    std::vector<GivenHinge> hinges;
+    std::vector<GivenBend> bends;
 };
 
 // Where the kinds were chosen, within a sentence: "--limbs legs", "crowd.limbs = "legs" in line 2 of crowd.toml".

@@ -124,9 +124,8 @@ void print_statistics(const Statistics& statistics)
         if (s->turned_over > 0) {
             const LimbWords& w = words_of(kind);
             fmt::print(
-                "note     the {} turns over against the clip in {} of {} poses: there the clip bends the {} to the "
-                "other "
-                "side of its hinge; limb.{}.pole.kind = \"incoming\" in a crowd file keeps the twist, and the {} goes "
+                "note     the {} turns over against the clip in {} of {} poses: there the clip bends the {} the other "
+                "way; limb.{}.pole.kind = \"incoming\" in a crowd file keeps the twist, and the {} goes "
                 "where it may\n",
                 w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs, w.lower_joint);
         }

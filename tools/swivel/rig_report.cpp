@@ -75,7 +75,7 @@ void print_range(const Clip& clip, const Limb& limb)
     fmt::print("           [limb.{}]\n", word);
     fmt::print("           joints = [{}, {}, {}]\n", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
                toml_name(clip, limb.end()));
-    fmt::print("           hinge = {}\n", row(range->hinge));
+    fmt::print("           bend = {}\n", row(range->bend));
     fmt::print("           [limb.{}.limits]\n", word);
     fmt::print("           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", row(range->axis),
                range->opening_deg);
@@ -91,7 +91,7 @@ void print_limb(const Clip& clip, const Limb& limb, const Front& front)
                limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
     fmt::print("           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
                vector_text(limb.lower_bone));
-    fmt::print("           hinge {}: {}\n", vector_text(limb.hinge), limb.hinge_source);
+    fmt::print("           bends towards {}: {}\n", vector_text(limb.bend), limb.bend_source);
     print_axes(limb, front);
     if (const auto inner = between(limb); !inner.empty())
         fmt::print("           twist bones in between, which keep their own motion: {}\n", list(clip, inner));
@@ -122,7 +122,7 @@ nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const F
             {"world", vector_of(axis_w)}, {"points", direction_words(axis_w, front)}};
     }
     if (const std::optional<LimbRange> range = range_of(clip, limb))
-        out["clip_range"] = {{"hinge", vector_of(range->hinge)},
+        out["clip_range"] = {{"bend", vector_of(range->bend)},
                              {"upper_from_z_deg", json_of(range->from_z)},
                              {"shoulder_cone", {{"axis", vector_of(range->axis)}, {"opening_deg", range->opening_deg}}},
                              {"flexion_deg", json_of(range->flexion)}};
@@ -134,7 +134,7 @@ nlohmann::ordered_json json_of_chain(const swivel_chain& chain)
 {
     return {{"elbow_offset", chain.elbow_offset},           {"wrist_offset", chain.wrist_offset},
             {"shoulder_rotation", chain.shoulder_rotation}, {"elbow_rotation", chain.elbow_rotation},
-            {"wrist_rotation", chain.wrist_rotation},       {"hinge", chain.hinge}};
+            {"wrist_rotation", chain.wrist_rotation},       {"bend", chain.bend}};
 }
 
 nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, const Front& front)
@@ -158,9 +158,9 @@ nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, con
     out["mirrored"] = limb.mirrored;
     out["upper_bone"] = vector_of(limb.upper_bone);
     out["lower_bone"] = vector_of(limb.lower_bone);
-    out["hinge"] = vector_of(limb.hinge);
-    out["hinge_source"] = limb.hinge_source;
-    out["chain"] = json_of_chain(rest_chain(clip, limb.chain, limb.hinge));
+    out["bend"] = vector_of(limb.bend);
+    out["bend_source"] = limb.bend_source;
+    out["chain"] = json_of_chain(rest_chain(clip, limb.chain, limb.bend));
     out.update(json_of_frame(clip, limb, front));
     out["twist_bones_between"] = names(between(limb));
     out["twist_bones_beside"] = names(limb.side_twists);

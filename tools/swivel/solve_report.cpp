@@ -18,14 +18,14 @@ void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<co
                clip.joints.size(), clip.frame_count, clip.frame_count == 1 ? "" : "s", 1 / clip.frame_time);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
-        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, hinge {}, {}\n", kind_name(limb.name.kind),
+        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, bends towards {}, {}\n", kind_name(limb.name.kind),
                    side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
-                   limb.bound.lengths[0], limb.bound.lengths[1], vector_text(limb.hinge), limb.hinge_source);
+                   limb.bound.lengths[0], limb.bound.lengths[1], vector_text(limb.bend), limb.bend_source);
     for (const LimbFinding& finding : facts.missing)
         fmt::print("{:<8} {:<5} missing: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
                    finding.problem);
     if (!facts.doubt.empty())
-        fmt::print("note     the figure's front is in doubt: {}; a hinge in a crowd file turns a limb over\n",
+        fmt::print("note     the figure's front is in doubt: {}; a bend in a crowd file turns a limb over\n",
                    facts.doubt);
     std::string counts;
     for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
@@ -55,8 +55,8 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
              {words.lower_joint, joint_at(clip, limb.lower()).name},
              {words.end_joint, joint_at(clip, limb.end()).name},
              {"lengths", {limb.bound.lengths[0], limb.bound.lengths[1]}},
-             {"hinge", {limb.hinge.x(), limb.hinge.y(), limb.hinge.z()}},
-             {"hinge_source", limb.hinge_source}});
+             {"bend", {limb.bend.x(), limb.bend.y(), limb.bend.z()}},
+             {"bend_source", limb.bend_source}});
     }
     if (!facts.doubt.empty()) out["faces_in_doubt"] = facts.doubt;
     for (const LimbFinding& finding : facts.missing)

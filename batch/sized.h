@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// Structures that say their own size, so that a library reads those of an older header, which are shorter.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "batch/status.h"
+
+namespace swivel {
+
+// A structure's size, which is its first member; 0 beside null.
+inline std::size_t size_of(const void* given)
+{
+    std::size_t size = 0;
+    if (given) std::memcpy(&size, given, sizeof size);
+    return size;
+}
+
+// A size that this library knows. name: of the structure, in the line that a wrong one leaves.
+template <class Struct>
+swivel_status check_size(const char* name, std::size_t size)
+{
+    if (size == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s has size 0; start from its default, or set the size", name);
+    if (size > sizeof(Struct))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "%s has size %zu, this library's has %zu; build with the header of the library that you link", name,
+                    size, sizeof(Struct));
+    return SWIVEL_OK;
+}
+
+// Element n of an array whose first element's size is the step; what it is too short for is as in `otherwise`.
+template <class Struct>
+Struct element(const Struct* array, std::size_t n, Struct otherwise)
+{
+    const std::size_t size = size_of(array);
+    std::memcpy(&otherwise, reinterpret_cast<const char*>(array) + n * size, std::min(size, sizeof otherwise));
+    otherwise.size = sizeof otherwise;
+    return otherwise;
+}
+
+}  // namespace swivel
