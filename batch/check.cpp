@@ -102,8 +102,7 @@ swivel_status check(const swivel_crowd_def* given)
     std::uint64_t limb_count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def group = group_at(def, g);
-        if (group.limb_count == 0)
-            return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+        if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
         if ((def.features & SWIVEL_JOINTS) && !is_binding(group.binding))
             return fail(SWIVEL_INVALID_ARGUMENT,
                         "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", g);

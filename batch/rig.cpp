@@ -64,7 +64,7 @@ swivel_status bind(const swivel_chain& chain, swivel_binding& binding)
     const bool is_given = len2(given) >= kTiny2;
     if (!is_given && scalar_product(upper, fore_s) >= kBent * std::sqrt(len2(upper) * len2(fore_s)))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_bind: the rest pose is bent by 10 degrees or less, too little to show where the limb "
+                    "swivel_bind: the rest pose is straight within 10 degrees, so it does not show where the limb "
                     "bends to; give the bend");
     const Vector<double> bend = is_given ? given : fore_s;
     if (is_along(bend, upper))

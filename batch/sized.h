@@ -23,8 +23,7 @@ inline std::size_t size_of(const void* given)
 template <class Struct>
 swivel_status check_size(const char* name, std::size_t size)
 {
-    if (size == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s has size 0; start from its default, or set the size", name);
+    if (size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "%s has size 0; start from its default, or set the size", name);
     if (size > sizeof(Struct))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "%s has size %zu, this library's has %zu; build with the header of the library that you link", name,

@@ -163,9 +163,9 @@
 // it const while nothing else runs on it.
 #pragma once
 
-#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #if defined(SWIVEL_SHARED) && defined(__GNUC__)
 #define SWIVEL_API __attribute__((visibility("default")))
@@ -331,18 +331,13 @@ typedef struct swivel_group_def {
     swivel_binding binding;  // with SWIVEL_JOINTS: of all limbs, which start with its lengths; otherwise ignored
 } swivel_group_def;
 
-// Limbs whose joints have the arm frame's axes at rest, and of lengths that are not known.
+// Limbs without a binding: in the arm frame.
 static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
 {
-    const swivel_group_def group = {sizeof(swivel_group_def),
-                                    limb_count,
-                                    {{0, 0, 0, 1},
-                                     {0, 0, 0, 1},
-                                     {0, 0, 0, 1},
-                                     {0, 0, 0, 1},
-                                     {0, 0, 0, 1},
-                                     {0, 0, 0, 1},
-                                     {NAN, NAN}}};
+    swivel_group_def group;
+    memset(&group, 0, sizeof group);
+    group.size = sizeof group;
+    group.limb_count = limb_count;
     return group;
 }
 

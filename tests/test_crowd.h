@@ -36,9 +36,8 @@ inline bool is_one_line(const std::string& text)
 // Limbs whose joints are the arm frame, with bones of length 1.
 inline swivel_group_def group_of(std::uint32_t limb_count)
 {
-    swivel_group_def group = swivel::group(limb_count);
-    group.binding.lengths[0] = group.binding.lengths[1] = 1;
-    return group;
+    return group(limb_count,
+                 {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {1, 1}});
 }
 
 inline swivel_crowd_def def_of(const swivel_group_def& group)

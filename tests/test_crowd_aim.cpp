@@ -207,6 +207,7 @@ TEST_CASE("an aim that is none is bad input, and features it cannot go with are 
     Crowd crowd = crowd_of(SWIVEL_WITH_AIM, 4);
     const std::array<float, 5> values[] = {{0, 0, 1, 1, 0}, {0, 0, 2, 1, 0}, {0, 0, 1, 1, 1}, {0, 0, 1, -1, 0}};
     crowd.write(SWIVEL_AIM, 0, values);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 2});
     crowd.solve();
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
     CHECK(flags[0] == SWIVEL_REACHED);

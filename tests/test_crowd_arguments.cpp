@@ -33,8 +33,16 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     swivel_crowd_def def = good;
     def.size = 0;
     refuse(&def);
-    def.size = sizeof def - 1;
+    def.size = sizeof def + 1;
     refuse(&def);
+    def.size = ~std::size_t{0};
+    refuse(&def);
+    for (const std::size_t size : {std::size_t{0}, sizeof groups[0] + 8}) {
+        def = good;
+        groups[0].size = size;
+        refuse(&def);
+        groups[0].size = sizeof groups[0];
+    }
     for (std::uint32_t bit = 26; bit < 32; ++bit) {
         if (1u << bit == SWIVEL_BUDGET) continue;
         def = good;
@@ -316,6 +324,29 @@ TEST_CASE("write_all checks the group and the value's size")
     CHECK(swivel_group_limb_count(crowd.get(), 7) == 0);
 }
 
+TEST_CASE("a definition of an older header is read as far as it goes")
+{
+    // As a first release's header might have had them: without a group's binding, and without memory and orders.
+    constexpr std::size_t step = offsetof(swivel_group_def, binding), length = offsetof(swivel_crowd_def, memory);
+    alignas(swivel_group_def) std::array<unsigned char, 2 * step> groups;
+    for (const std::uint32_t n : {0u, 1u}) {
+        swivel_group_def group = swivel_default_group_def(3 + n);
+        group.size = n == 0 ? step : 0;  // the first one's counts for all
+        std::memcpy(groups.data() + n * step, &group, step);
+    }
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.group_count = 2;
+    def.groups = reinterpret_cast<const swivel_group_def*>(groups.data());
+    def.memory = groups.data();                               // never read
+    def.shoulder_order = static_cast<swivel_euler_order>(7);  // never read, either
+    def.size = length;
+    swivel_crowd* crowd = nullptr;
+    REQUIRE(swivel_crowd_create(&def, &crowd) == SWIVEL_OK);
+    CHECK(swivel_group_limb_count(crowd, 0) == 3);
+    CHECK(swivel_group_limb_count(crowd, 1) == 4);
+    swivel_crowd_destroy(crowd);
+}
+
 TEST_CASE("a crowd that is null has nothing")
 {
     CHECK(swivel_block_count(nullptr) == 0);
@@ -335,6 +366,7 @@ TEST_CASE("find gives the limbs with a flag one after the other, and no other")
     for (const std::uint32_t count : counts) groups.push_back(group_of(count));
     for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_COMPACT}}) {
         Crowd crowd(features, groups);
+        for (std::uint32_t g = 0; g < groups.size(); ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
         CHECK(!crowd.find(~0u));  // never solved
         Random random{3};
         for (std::uint32_t g = 0; g < groups.size(); ++g) {

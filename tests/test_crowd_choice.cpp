@@ -185,6 +185,8 @@ TEST_CASE("blocks without a chosen limb are neither read nor written")
     def.memory = pages + 2 * page - (bytes - rows_bytes);  // so that the input rows start a page
     def.memory_bytes = bytes;
     Crowd crowd(def);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 2});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
     const auto lock_outside = [&](const swivel_rows& rows, int rights) {
         char* const base = reinterpret_cast<char*>(rows.base);

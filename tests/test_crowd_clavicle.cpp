@@ -186,6 +186,8 @@ TEST_CASE("bones and shares out of range are bad input; without a world there is
     const Float4 values[] = {
         {0.2f, 0, 0, 0.2f}, {0.2f, 0, 0, -0.1f}, {0.2f, 0, 0, 1.1f}, {2e15f, 0, 0, 0.2f}, {0.2f, 0, kNan, 0.2f}};
     crowd.write(SWIVEL_CLAVICLE, 0, values);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 2});
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     crowd.solve();
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
     const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);

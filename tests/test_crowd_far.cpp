@@ -264,6 +264,7 @@ TEST_CASE("doubles that no float holds are bad input of their own limb")
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Double3 targets[] = {{0, 0, 1}, {1e300, 0, 0}, {0, nan, 0}, {0, 1, 1}};
     crowd.write_doubles(SWIVEL_TARGET, 0, targets);
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     crowd.solve();
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
     CHECK(flags == std::vector<std::uint32_t>{SWIVEL_REACHED, SWIVEL_BAD_INPUT, SWIVEL_BAD_INPUT, SWIVEL_REACHED});

@@ -270,6 +270,7 @@ TEST_CASE("crowd file: documentation, examples and reader know the same keys")
         const auto is_within = [&](const std::string& other) { return other.starts_with(key + "."); };
         if (std::none_of(keys.begin(), keys.end(), is_within)) known.insert(key);  // a value, no table
     }
+    known.erase("limb.SELECTOR.hinge");  // of files of 0.1, refused by name
     CHECK(documented == known);
 
     std::set<std::string> shown;

@@ -321,8 +321,7 @@ TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
         refuse("upper arm", Rest::bent, [&](swivel_chain& c) { fill(c.elbow_offset, bad); });
         refuse("forearm", Rest::bent, [&](swivel_chain& c) { fill(c.wrist_offset, bad); });
     }
-    for (const float bad : {kNan, kInf, 3e38f})
-        refuse("bend", Rest::bent, [&](swivel_chain& c) { fill(c.bend, bad); });
+    for (const float bad : {kNan, kInf, 3e38f}) refuse("bend", Rest::bent, [&](swivel_chain& c) { fill(c.bend, bad); });
     for (const float one : {kNan, kInf}) {
         refuse("one number of a rotation", Rest::bent, [&](swivel_chain& c) { c.wrist_rotation[1] = one; });
         refuse("one number of an offset", Rest::bent, [&](swivel_chain& c) { c.wrist_offset[2] = one; });

@@ -20,8 +20,7 @@ TEST_CASE("whole limbs at rest are the plain arms")
              {std::uint32_t{SWIVEL_WITH_ANGLE}, features & SWIVEL_WITH_HAND ? at_rest : 0u}) {
             Random random{features + more};
             const Chained limb = chained(random);
-            Crowd plain = crowd_of(features, count, limb.bound),
-                  whole = crowd_of(features | more, count, limb.bound);
+            Crowd plain = crowd_of(features, count, limb.bound), whole = crowd_of(features | more, count, limb.bound);
             for (std::uint32_t n = 0; n < count; ++n) {
                 const Limb each = random_limb(random, features, {limb.bound.lengths[0], limb.bound.lengths[1]});
                 write_limb(plain, 0, n, each);

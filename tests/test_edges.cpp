@@ -254,13 +254,15 @@ swivel_binding some_binding(float side)
     chain.elbow_offset[0] = side * 3;
     chain.elbow_offset[1] = 1;
     chain.wrist_offset[0] = side * 2;
-    chain.hinge[2] = side;
+    chain.bend[0] = side;
+    chain.bend[1] = -3;
     return bind(chain);
 }
 
 Crowd good_crowd(std::uint32_t features)
 {
-    const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1)), swivel::group(kSecond, some_binding(-1))};
+    const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1)),
+                                       swivel::group(kSecond, some_binding(-1))};
     Crowd crowd(features, groups);
     Random random{features + 1};
     for (std::uint32_t group = 0; group < 2; ++group) {
@@ -412,6 +414,7 @@ TEST_CASE("a target or pole that is too long in the arm frame is bad")
     for (const std::uint32_t more : {0u, std::uint32_t{SWIVEL_POLE_DIRECTION}}) {
         const std::uint32_t features = SWIVEL_WORLD | more;
         Crowd crowd = crowd_of(features, 4);
+        crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
         crowd.write(SWIVEL_PARENT_SCALE, 0, std::vector<Float1>{{0.01f}, {0.01f}, {1}, {0.01f}});
         crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{1e14f, 0, 0}, {1, 0, 0}, {1e14f, 0, 0}, {1e12f, 0, 0}});
         crowd.write(SWIVEL_POLE, 0, std::vector<Float3>{{0, 1, 0}, {0, 1e14f, 0}, {0, 1e14f, 0}, {0, 1e12f, 0}});

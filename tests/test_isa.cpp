@@ -67,6 +67,7 @@ TEST_CASE("each one that runs can be used, each other says so")
             CHECK(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
             CHECK(swivel_isa_name() == isa);
             Crowd crowd = crowd_of(0, 20);
+            crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
             crowd.solve();
             CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[19] == SWIVEL_REACHED);
         } else {

@@ -199,13 +199,12 @@ TEST_CASE("rig axes: the lines for people are a crowd file's, and say what JSON 
         INFO(lines << limb.dump());
         double bend[3], axis[3], opening, flexion[2];
         char joints[3][80], word[80], limits[80];
-        REQUIRE(
-            std::sscanf(lines.c_str(),
-                        " [limb.%79[^]]] joints = [\"%79[^\"]\", \"%79[^\"]\", \"%79[^\"]\"] bend = [%lf, %lf, %lf]"
-                        " [limb.%79[^]]] shoulder_cone = { axis = [%lf, %lf, %lf], opening_deg = %lf }"
-                        " flexion_deg = [%lf, %lf]",
-                        word, joints[0], joints[1], joints[2], &bend[0], &bend[1], &bend[2], limits, &axis[0],
-                        &axis[1], &axis[2], &opening, &flexion[0], &flexion[1]) == 14);
+        REQUIRE(std::sscanf(lines.c_str(),
+                            " [limb.%79[^]]] joints = [\"%79[^\"]\", \"%79[^\"]\", \"%79[^\"]\"] bend = [%lf, %lf, %lf]"
+                            " [limb.%79[^]]] shoulder_cone = { axis = [%lf, %lf, %lf], opening_deg = %lf }"
+                            " flexion_deg = [%lf, %lf]",
+                            word, joints[0], joints[1], joints[2], &bend[0], &bend[1], &bend[2], limits, &axis[0],
+                            &axis[1], &axis[2], &opening, &flexion[0], &flexion[1]) == 14);
         const json& range = limb.at("clip_range");
         CHECK(word == limb.at("limb").get<std::string>());
         CHECK(limits == limb.at("limb").get<std::string>() + ".limits");

@@ -48,8 +48,7 @@ TEST_CASE("rigs: a clip that bends a limb more and otherwise than its rest pose 
         for (const std::vector<double>& idle : {std::vector<double>{3, 4, 6, 4}, {2, 2, 3}}) {
             CHECK(left_knee(legs(along, -little, idle)).at("bend_source") == "mean bend of the clip");
             CHECK(off_knee(left_knee(legs(along, -little, idle))) < 1e-3);
-            CHECK(
-                left_knee(legs(along, little, idle)).at("bend_source").get<std::string>().starts_with("bend of the"));
+            CHECK(left_knee(legs(along, little, idle)).at("bend_source").get<std::string>().starts_with("bend of the"));
             CHECK(left_knee(legs(across, little, idle)).at("bend_source") == "mean bend of the clip");
         }
     for (const double back : {-7.0, -25.0}) {  // pressed through

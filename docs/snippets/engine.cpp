@@ -46,6 +46,7 @@ TEST_CASE("docs: frames in place")
         40, {{0.3f, -0.2f, 0.3f}, {-0.2f, -0.5f, -0.3f}, {}, {}});
     const swivel_group_def arms = swivel::group(40, arm);
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&arms, 1});
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     // [frame]
     swivel_frame frame{};  // what stays null keeps its rows, or is not written
     frame.target = {&characters[0].grip, sizeof(Character)};
@@ -65,6 +66,7 @@ TEST_CASE("docs: own threads")
 {
     const swivel_group_def arms = swivel::group(200);
     swivel::Crowd crowd(0, {&arms, 1});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 1});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // [threads]

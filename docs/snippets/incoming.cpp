@@ -9,6 +9,7 @@ const swivel_group_def arms = swivel::group(1);
 void pose_of(const Float3& target, Float4& shoulder, Float4& elbow)
 {
     swivel::Crowd crowd(0, {&arms, 1});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, target);
     crowd.write_all(SWIVEL_POLE, 0, Float3{-1, -1, 0});
     crowd.solve();
@@ -30,6 +31,7 @@ TEST_CASE("docs: incoming pose and weights")
     swivel::Crowd crowd(
         SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, {&arms, 1});
     // The clip's pose: whole quaternions, x, y, z, w.
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_INCOMING_SHOULDER, 0, shoulder);
     crowd.write_all(SWIVEL_INCOMING_ELBOW, 0, elbow);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.9f, 0.5f, 1.1f});

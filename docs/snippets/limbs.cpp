@@ -40,9 +40,10 @@ TEST_CASE("docs: mirrored limits")
     swivel::check(
         swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
     // [end]
-    const swivel_group_def arms[] = {swivel::group(1),
-                                     swivel::group(1)};
+    const swivel_group_def arms[] = {swivel::group(1), swivel::group(1)};
     swivel::Crowd crowd(SWIVEL_LIMIT_HUMERAL_TWIST, arms);
+    for (const std::uint32_t side : {0u, 1u})
+        crowd.write_all(SWIVEL_LENGTHS, side, Float2{1, 1});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, left);
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 1, right);
     std::array<Double3, 1> elbow[2];

@@ -37,6 +37,7 @@ TEST_CASE("docs: pole directions")
     // Downwards, wherever the character stands.
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // [end]
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     give_arm(crowd);
     crowd.solve();
     check_side(elbow_of(crowd), {0, -1, 0});

@@ -8,6 +8,7 @@ TEST_CASE("docs: step limit")
     std::array<Double3, 1> before, after;
     // [shown]
     swivel::Crowd crowd(SWIVEL_WITH_STEP, {&arms, 1});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, target);
     // Radians for each solve: 0.1 at 60 a second is 6 a second.
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, swivel::turn(0.1));

@@ -6,6 +6,7 @@ TEST_CASE("docs: twist bones")
     // [shown]
     const swivel_group_def arms = swivel::group(1);
     swivel::Crowd crowd(SWIVEL_WITH_HAND | 3 * SWIVEL_TWIST_BONES, {&arms, 1});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.1f, 1.6f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0, 0.6f, 0.8f});

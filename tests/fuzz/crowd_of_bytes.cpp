@@ -160,7 +160,8 @@ std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
     std::vector<swivel_group_def> groups(1 + bytes.take<std::uint8_t>() % 3);
     for (swivel_group_def& group : groups) {
         const std::uint32_t limb_count = 1 + bytes.take<std::uint8_t>() % most_limbs;
-        group = swivel::group(limb_count, binding_of({bytes.take<std::uint16_t>()}));
+        group = swivel_default_group_def(limb_count);
+        group.binding = binding_of({bytes.take<std::uint16_t>()});
     }
     return groups;
 }

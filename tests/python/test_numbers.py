@@ -91,6 +91,7 @@ class Poses(unittest.TestCase):
         crowd = swivel.Crowd([5, 40])
         for group in (0, 1):
             crowd.write(Field.TARGET, (0.3, 0.2, 0.4), group)
+            crowd.write(Field.LENGTHS, (1, 1), group)
         crowd.write(Field.TARGET, (0, 0, 9), 1, first=33, count=1)
         crowd.write(Field.POLE, (np.nan, 0, 0), 0, first=4, count=1)
         self.assertIsNone(crowd.find(~0 & 0xffffffff))

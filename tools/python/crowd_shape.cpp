@@ -42,7 +42,8 @@ swivel_group_def group_of(py::handle entry)
     if (py::isinstance<py::tuple>(entry) && py::len(entry) == 2) {
         const auto pair = py::reinterpret_borrow<py::tuple>(entry);
         const auto limb_count = limb_count_of(pair[0]);
-        if (limb_count && py::isinstance<swivel_binding>(pair[1])) return group(*limb_count, pair[1].cast<swivel_binding>());
+        if (limb_count && py::isinstance<swivel_binding>(pair[1]))
+            return group(*limb_count, pair[1].cast<swivel_binding>());
     }
     throw py::type_error("groups: expected a number of limbs or (number of limbs, binding), got " +
                          std::string(py::repr(entry)));

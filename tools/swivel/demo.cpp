@@ -117,10 +117,7 @@ public:
 
 private:
     static float side(std::uint32_t group) { return group == 0 ? 1.0f : -1.0f; }
-    static std::vector<swivel_group_def> groups(std::uint32_t characters)
-    {
-        return {2, group(characters)};
-    }
+    static std::vector<swivel_group_def> groups(std::uint32_t characters) { return {2, group(characters)}; }
     void write(swivel_field field, std::uint32_t group, const float* first)
     {
         check(swivel_write(crowd_.get(), field, group, 0, static_cast<std::uint32_t>(limbs_[group].size()),

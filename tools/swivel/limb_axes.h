@@ -23,10 +23,10 @@ struct AngleRange {
 // bend: the frame's x and y turn with it.
 struct LimbRange {
     Eigen::Vector3d bend;  // the limb's to three decimals, in the upper joint's axes; near 1 long
-    Eigen::Vector3d axis;   // the upper bone's mean direction in the frame of that bend, to three decimals
-    double opening_deg;     // the upper bone's largest angle to it, up to the next tenth
-    AngleRange from_z;      // the upper bone's angle to the frame's z, where it lies at rest
-    AngleRange flexion;     // the angle between both bones, outwards to the next tenth
+    Eigen::Vector3d axis;  // the upper bone's mean direction in the frame of that bend, to three decimals
+    double opening_deg;    // the upper bone's largest angle to it, up to the next tenth
+    AngleRange from_z;     // the upper bone's angle to the frame's z, where it lies at rest
+    AngleRange flexion;    // the angle between both bones, outwards to the next tenth
 };
 
 // Nothing for a clip of one frame, which is no motion. Takes every frame's pose of the limb: what lies between frames

@@ -58,8 +58,8 @@ swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const
 
 // The limb of these joints, bound. joints: as is_chain() says; front: see figure_front(). Throws CannotBind for a bone
 // of no length, a scale that is uneven or nothing (at rest or in any frame) at, between or above the joints, a mirror
-// there that a frame has and the rest pose has not, or the other way round, a bend that is given along the upper bone or
-// as a hinge, or one that is not given and that choose_hinge() cannot tell.
+// there that a frame has and the rest pose has not, or the other way round, a bend that is given along the upper bone
+// or as a hinge, or one that is not given and that choose_hinge() cannot tell.
 Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Front& front,
                std::span<const GivenBend> bends);
 

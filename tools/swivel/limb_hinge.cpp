@@ -198,8 +198,7 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
                         "{}, and no clip tells which holds",
                         bend_deg, off, table->words, front.source),
-            advice_for(limb) +
-                fmt::format(": {} as at rest, {} as {}", row(bend), row(table->axis), table->words));
+            advice_for(limb) + fmt::format(": {} as at rest, {} as {}", row(bend), row(table->axis), table->words));
     if (bend_deg > kBent) return rest_hinge(rest);
     if (bend_deg > kBarelyBent && off < 45)
         return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
