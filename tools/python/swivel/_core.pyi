@@ -106,7 +106,8 @@ class EulerOrder(enum.IntEnum):
 
 class Binding:
     def __init__(self, *, parent_from_arm: npt.ArrayLike, upper_from_arm: npt.ArrayLike, fore_from_arm: npt.ArrayLike,
-                 shoulder_rest: npt.ArrayLike, elbow_rest: npt.ArrayLike, wrist_rest: npt.ArrayLike) -> None: ...
+                 shoulder_rest: npt.ArrayLike, elbow_rest: npt.ArrayLike, wrist_rest: npt.ArrayLike,
+                 lengths: npt.ArrayLike) -> None: ...
     @property
     def parent_from_arm(self) -> _Floats: ...
     @property
