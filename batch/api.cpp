@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "batch/check.h"
-#include "batch/frame.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/solve.h"
@@ -37,44 +36,6 @@ static_assert(flag::reached == SWIVEL_REACHED && flag::softened == SWIVEL_SOFTEN
 namespace {
 
 constexpr std::size_t kArenaAlignment = 64;
-
-// The caller's values of a field, to be read if they are input: components of component_bytes each.
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
-                           std::size_t stride, bool input, std::size_t component_bytes = sizeof(float))
-{
-    if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
-    return check_stride(group, field_name(field), data, stride,
-                        field_component_count(crowd.features, field) * component_bytes, input);
-}
-
-// A range of blocks, and the frames of the groups it touches: those of other groups are not looked at.
-swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, std::uint32_t first_block,
-                           std::uint32_t block_count)
-{
-    if (!frames)
-        return fail(SWIVEL_INVALID_ARGUMENT, "frames are missing; give one for each of this crowd's %u groups",
-                    crowd.group_count);
-    swivel_status status = SWIVEL_OK;
-    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
-        const swivel_in& origin = frames[g].origin;
-        const auto check_member = [&](swivel_field field, const auto& values) {
-            if (!values.data || status != SWIVEL_OK) return;
-            if (is_packed(crowd, field))
-                status = fail(SWIVEL_INVALID_ARGUMENT,
-                              "group %u, %s: a frame does not take results out of a crowd with SWIVEL_COMPACT; use "
-                              "swivel_read() or swivel_compact_rows()",
-                              g, field_name(field));
-            else
-                status = check_values(crowd, g, field, values.data, values.stride, is_input(field),
-                                      origin.data && is_position(field) ? sizeof(double) : sizeof(float));
-        };
-        if (origin.data && status == SWIVEL_OK)
-            status = check_stride(g, "origin", origin.data, origin.stride, 3 * sizeof(double), true);
-        for (const FrameInput& input : kFrameInputs) check_member(input.field, frames[g].*input.member);
-        for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frames[g].*output.member);
-    });
-    return status;
-}
 
 }  // namespace
 
@@ -148,6 +109,23 @@ swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
     if (const swivel_status status = check_size<swivel_chain>("chain", size_of(chain)); status != SWIVEL_OK)
         return status;
     return bind(element(chain, 0, swivel_default_chain()), *binding);
+}
+
+swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_rotation[4], const double direction[3],
+                              double axis[3])
+{
+    if (!binding || !parent_rotation || !direction || !axis)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: %s is null",
+                    !binding           ? "binding"
+                    : !parent_rotation ? "parent_rotation"
+                    : !direction       ? "direction"
+                                       : "axis");
+    const float parent[4] = {parent_rotation[0], parent_rotation[1], parent_rotation[2], parent_rotation[3]};
+    const double wanted[3] = {direction[0], direction[1], direction[2]};
+    double found[3];
+    const swivel_status status = arm_axis(*binding, parent, wanted, found);
+    if (status == SWIVEL_OK) std::copy(found, found + 3, axis);
+    return status;
 }
 
 uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd ? crowd->block_count : 0; }
@@ -235,49 +213,6 @@ swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_
         unpack_out(*crowd, crowd->groups[group], field, first, limb_count, values);
     else
         copy_out(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_solve(swivel_crowd* crowd)
-{
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve: crowd is null");
-    swivel_status status = SWIVEL_OK;
-    const Isa* isa = usable_isa(status);
-    if (!isa) return status;
-    solve_all(*crowd, isa->kernels);
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count)
-{
-    swivel_status status = check_blocks(crowd, first_block, block_count);
-    if (status != SWIVEL_OK) return status;
-    const Isa* isa = usable_isa(status);
-    if (!isa) return status;
-    solve_blocks(*crowd, isa->kernels, first_block, block_count);
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames)
-{
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve_frame: crowd is null");
-    swivel_status status = check_frames(*crowd, frames, 0, crowd->block_count);
-    if (status != SWIVEL_OK) return status;
-    const Isa* isa = usable_isa(status);
-    if (!isa) return status;
-    solve_frame_all(*crowd, isa->kernels, frames);
-    return SWIVEL_OK;
-}
-
-swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames, uint32_t first_block,
-                                        uint32_t block_count)
-{
-    swivel_status status = check_blocks(crowd, first_block, block_count);
-    if (status == SWIVEL_OK) status = check_frames(*crowd, frames, first_block, block_count);
-    if (status != SWIVEL_OK) return status;
-    const Isa* isa = usable_isa(status);
-    if (!isa) return status;
-    solve_frame_blocks(*crowd, isa->kernels, frames, first_block, block_count);
     return SWIVEL_OK;
 }
 

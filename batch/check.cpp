@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/status.h"
 #include "core/conformal.h"
@@ -61,16 +62,6 @@ constexpr FeatureRule kFeatureRules[] = {
     {SWIVEL_COMPACT, SWIVEL_WITH_STEP, false, "SWIVEL_COMPACT and SWIVEL_WITH_STEP exclude each other; leave one out"},
 };
 constexpr std::uint64_t kMostLimbs = 1u << 31;
-
-bool is_binding(const swivel_binding& b)
-{
-    for (const auto* q :
-         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest}) {
-        const Rotor<double> unit = rotor<double>((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
-        if (!(std::fabs(len2(unit) - 1) <= 1e-5)) return false;  // ten times what rounding to floats leaves
-    }
-    return true;
-}
 
 }  // namespace
 
@@ -147,12 +138,19 @@ swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel
     return SWIVEL_OK;
 }
 
-swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count)
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
+                           std::size_t stride, bool input, std::size_t component_bytes)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
-    if (first_block > crowd->block_count || block_count > crowd->block_count - first_block)
+    if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
+    return check_stride(group, field_name(field), data, stride,
+                        field_component_count(crowd.features, field) * component_bytes, input);
+}
+
+swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks)
+{
+    if (blocks.first > crowd.block_count || blocks.count > crowd.block_count - blocks.first)
         return fail(SWIVEL_INVALID_ARGUMENT, "%u blocks from block %u on do not all exist; this crowd has %u",
-                    block_count, first_block, crowd->block_count);
+                    blocks.count, blocks.first, crowd.block_count);
     return SWIVEL_OK;
 }
 

@@ -24,8 +24,12 @@ swivel_status check_stride(std::uint32_t group, const char* name, const void* da
 // A field that the crowd has and, if input, that goes into it.
 swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);
 
+// The caller's values of a field, to be read if they are input: components of component_bytes each.
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
+                           std::size_t stride, bool input, std::size_t component_bytes = sizeof(float));
+
 // A range of blocks.
-swivel_status check_blocks(const swivel_crowd* crowd, std::uint32_t first_block, std::uint32_t block_count);
+swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks);
 
 // The kernels to solve with; or null, with the reason in status and last_error().
 const Isa* usable_isa(swivel_status& status);

@@ -10,7 +10,6 @@
 
 #include "batch/lane_mask.h"
 #include "batch/solve.h"
-#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -188,18 +187,20 @@ struct Limbs : Aside {
     }
 };
 
+}  // namespace
+
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
-                        const std::uint32_t* words, std::uint32_t first_block, std::uint32_t block_count)
+                        const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count)
 {
     Blocks blocks(crowd, kernels, group);
     Limbs limbs(crowd, kernels, group);
     const std::uint32_t end = first_block + block_count;
     const auto is_whole = [&](std::uint32_t block) {
         const LaneMask all = lanes_of_limbs(group, block);
-        return (lanes_of(words, block) & all) == all;
+        return (lanes_of(mask, block) & all) == all;
     };
     for (std::uint32_t block = first_block; block < end;) {
-        if (words[block / 2] == 0) {
+        if (mask[block / 2] == 0) {
             block += 2 - block % 2;  // all blocks of the word
             continue;
         }
@@ -211,7 +212,7 @@ void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const
             continue;
         }
         // A block at a time: those behind are looked at again, at most kRunBlocks times.
-        const LaneMask chosen = lanes_of(words, block) & lanes_of_limbs(group, block);
+        const LaneMask chosen = lanes_of(mask, block) & lanes_of_limbs(group, block);
         if (std::popcount(chosen) > kFewLimbs)
             blocks.add(block, chosen);
         else
@@ -220,17 +221,6 @@ void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const
     }
     blocks.flush();
     limbs.flush();
-}
-
-}  // namespace
-
-void solve_chosen_blocks(const swivel_crowd& crowd, const Kernels& kernels, const std::uint32_t* words,
-                         std::uint32_t first_block, std::uint32_t block_count)
-{
-    const FloatEnv env;
-    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
-        solve_chosen_group(crowd, kernels, crowd.groups[g], words, first, count);
-    });
 }
 
 }  // namespace swivel

@@ -25,6 +25,16 @@ inline constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_INCOMING_ELBOW, &swivel_frame::incoming_elbow},
     {SWIVEL_INCOMING_WRIST, &swivel_frame::incoming_wrist},
     {SWIVEL_WEIGHTS, &swivel_frame::weights},
+    {SWIVEL_REACH, &swivel_frame::reach},
+    {SWIVEL_MOST_SWIVEL, &swivel_frame::most_swivel},
+    {SWIVEL_FLEXION_LIMIT, &swivel_frame::flexion_limit},
+    {SWIVEL_SHOULDER_CONE, &swivel_frame::shoulder_cone},
+    {SWIVEL_HUMERAL_TWIST, &swivel_frame::humeral_twist},
+    {SWIVEL_SHOULDER_BOX, &swivel_frame::shoulder_box},
+    {SWIVEL_HAND_CONE, &swivel_frame::hand_cone},
+    {SWIVEL_FOREARM_TWIST, &swivel_frame::forearm_twist},
+    {SWIVEL_HAND_TWIST, &swivel_frame::hand_twist},
+    {SWIVEL_WRIST_BOX, &swivel_frame::wrist_box},
     {SWIVEL_AIM, &swivel_frame::aim},
     {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
@@ -34,13 +44,10 @@ struct FrameOutput {
     swivel_out swivel_frame::*member;
 };
 inline constexpr FrameOutput kFrameOutputs[] = {
-    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
-    {SWIVEL_ELBOW, &swivel_frame::elbow},
-    {SWIVEL_WRIST, &swivel_frame::wrist},
-    {SWIVEL_FLAGS, &swivel_frame::flags},
-    {SWIVEL_STRETCH, &swivel_frame::stretch},
-    {SWIVEL_TWIST, &swivel_frame::twist},
-    {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
+    {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
 
 }  // namespace swivel

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "batch/rig.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "batch/status.h"
 #include "core/frame_rotor.h"
@@ -89,6 +91,36 @@ swivel_status bind(const swivel_chain& chain, swivel_binding& binding)
     store(wrist, binding.wrist_rest);
     binding.lengths[0] = static_cast<float>(std::sqrt(len2(upper)));
     binding.lengths[1] = static_cast<float>(std::sqrt(len2(fore)));
+    return SWIVEL_OK;
+}
+
+bool is_binding(const swivel_binding& b)
+{
+    for (const auto* q :
+         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest}) {
+        const Rotor<double> unit = rotor<double>((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+        if (!(std::fabs(len2(unit) - 1) <= 1e-5)) return false;  // ten times what rounding to floats leaves
+    }
+    return true;
+}
+
+swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
+                       double (&axis)[3])
+{
+    const Rotor<double> parent = rotor_of(parent_rotation);
+    const Vector<double> wanted = vector<double>(direction[0], direction[1], direction[2]);
+    if (!is_binding(binding))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with swivel_bind()");
+    if (!is_usable(parent))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");
+    if (!is_usable_bone(wanted))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: direction (%g, %g, %g) has no direction", direction[0],
+                    direction[1], direction[2]);
+    const Rotor<double> world_from_arm = normalise(parent) * normalise(rotor_of(binding.parent_from_arm));
+    const Vector<double> in_arm = normalise(sandwich(~world_from_arm, wanted));
+    std::copy(std::begin(in_arm.c), std::end(in_arm.c), axis);
     return SWIVEL_OK;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "batch/sized.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -94,12 +95,18 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
     return scalar.limbs.allowed_arcs(limb_run(crowd, group, input, results, group.block_count), limb, arcs, capacity);
 }
 
-void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
-                  std::uint32_t block_count)
+void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)
 {
     const FloatEnv env;
-    for_each_group(crowd, first_block, block_count, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
-        solve_group(crowd, kernels, crowd.groups[g], first, count);
+    for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
+        const Group& group = crowd.groups[g];
+        if (work.frames)
+            solve_frame_group(crowd, kernels, group, element(work.frames, g, swivel_default_frame()), work.mask, first,
+                              count);
+        else if (work.mask)
+            solve_chosen_group(crowd, kernels, group, work.mask, first, count);
+        else
+            solve_group(crowd, kernels, group, first, count);
     });
 }
 

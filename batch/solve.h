@@ -12,9 +12,9 @@ namespace swivel {
 
 // Calls run(g, first_block, block_count) for each group's share of a range of blocks.
 template <class Run>
-void for_each_group(const swivel_crowd& crowd, std::uint32_t first_block, std::uint32_t block_count, const Run& run)
+void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& run)
 {
-    const std::uint32_t end_block = first_block + block_count;
+    const std::uint32_t first_block = blocks.first, end_block = blocks.first + blocks.count;
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const Group& group = crowd.groups[g];
         const std::uint32_t from = std::max(first_block, group.first_block);
@@ -23,9 +23,15 @@ void for_each_group(const swivel_crowd& crowd, std::uint32_t first_block, std::u
     }
 }
 
-// Solves blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv).
+// Solves blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv):
+// every limb; those whose bits are set in mask, one bit for each lane of the crowd, padding lanes ignored, while others
+// keep their results; and either, mask null for every limb, with the caller's values copied in before and out after.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count);
+void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
+                        const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count);
+void solve_frame_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const swivel_frame& frame,
+                       const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count);
 
 // The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
 // build's kernels.
@@ -39,23 +45,15 @@ void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& 
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
                std::uint32_t block_count, bool prefetch);
 
-// Solves blocks first_block ... first_block + block_count - 1 on this thread.
-void solve_blocks(const swivel_crowd& crowd, const Kernels& kernels, std::uint32_t first_block,
-                  std::uint32_t block_count);
+// Which limbs are solved, null for every one, and from where, null for rows: checked members of a swivel_job.
+struct Work {
+    const std::uint32_t* mask = nullptr;
+    const swivel_frame* frames = nullptr;
+};
 
-// Solves all blocks, in chunks on the caller's oneTBB arena, or on this thread in a build without oneTBB.
-void solve_all(swivel_crowd& crowd, const Kernels& kernels);
-
-// The same, with the caller's values copied in before and out after, a frame for each group. Frames are checked.
-void solve_frame_blocks(const swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames,
-                        std::uint32_t first_block, std::uint32_t block_count);
-void solve_frame_all(swivel_crowd& crowd, const Kernels& kernels, const swivel_frame* frames);
-
-// Solves the limbs whose bits are set in words, one bit for each lane of the crowd, in a range of blocks on this
-// thread, or in all blocks; others keep their results. Bits of padding lanes are ignored.
-void solve_chosen_blocks(const swivel_crowd& crowd, const Kernels& kernels, const std::uint32_t* words,
-                         std::uint32_t first_block, std::uint32_t block_count);
-void solve_chosen_all(swivel_crowd& crowd, const Kernels& kernels, const std::uint32_t* words);
+// Solves blocks on this thread, or in chunks on the caller's oneTBB arena where that is worth it.
+void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
+void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
 
 // A crowd's memory of which thread solved which chunk: from its creation to its end.
 void begin_schedule(swivel_crowd& crowd);

@@ -11,8 +11,8 @@
 // carries the forearm towards +y (e2). The elbow lies on the pole's side of the line from shoulder to wrist.
 //
 // LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
-// results, or swivel_solve_frame() for all three -> swivel_crowd_destroy(). After creation swivel allocates nothing;
-// oneTBB, inside the calls that solve on it, may.
+// results, or swivel_solve() with frames for all three -> swivel_crowd_destroy(). After creation swivel allocates
+// nothing; oneTBB, inside the solves that use it, may.
 //
 // LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
 // to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
@@ -158,9 +158,8 @@
 // SIZES. Structures that may grow in later releases start with their size, as the caller's header has it; a function
 // for each gives the defaults. A library accepts those of its own header and of older ones, which are shorter.
 //
-// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for swivel_solve_blocks(),
-// swivel_solve_active_blocks() and swivel_solve_frame_blocks() on ranges that do not overlap, and for calls that take
-// it const while nothing else runs on it.
+// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for jobs with
+// on_this_thread on blocks that do not overlap, and for calls that take it const while nothing else runs on it.
 #pragma once
 
 #include <stddef.h>
@@ -244,7 +243,7 @@ typedef enum swivel_feature {
     SWIVEL_TWIST_BONES = 1u << 21,    // times the number of twist bones, 1 to 7
     SWIVEL_WITH_AIM = 1u << 24,       // the flexion is given, and the hand points at the target
     SWIVEL_WITH_CLAVICLE = 1u << 25,  // the shoulder's parent joint takes a share of the reach. Needs WORLD
-    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), swivel_solve_budget()
+    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), jobs with priorities
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -437,7 +436,7 @@ SWIVEL_API float swivel_unpack_half(uint16_t word);
 // Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data: consecutive floats for
 // each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any.
 // Values must not overlap the crowd's own memory. All fields together cost up to about a solve, less while the values
-// are in cache; rows cost nothing, and swivel_solve_frame() does not fetch them twice. Results of a crowd
+// are in cache; rows cost nothing, and a solve with frames does not fetch them twice. Results of a crowd
 // with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb after the other.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
@@ -454,100 +453,131 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
-// Solves every limb, on the calling thread's oneTBB arena if built with it.
-SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd);
-// Solves a range of blocks on the calling thread; blocks outside are neither read nor written. Never allocates, never
-// uses oneTBB; ranges that do not overlap may be solved by several threads at once. The floating-point environment of
-// the caller is restored.
-SWIVEL_API swivel_status swivel_solve_blocks(swivel_crowd* crowd, uint32_t first_block, uint32_t block_count);
-
-// CHOICE. Not every limb need be solved each frame. The calls below solve those chosen: they get the bits that
-// swivel_solve() would give them, every other limb keeps its results bit for bit. Blocks without a chosen limb are not
-// read; lanes past a group's end mean nothing, as always.
-//
-// Cost goes with blocks rather than limbs: a block chosen whole takes as long as in swivel_solve(), one chosen in part
-// 1.2 to 3 times as long, and one or two limbs of a block up to that of the block. Limbs picked one by one at random
-// cost, beside swivel_solve(): half of a crowd more than all of it; one in ten 0.5 times as much to all of it, and up
-// to 2.5 times where few rows come from memory; one in a hundred 0.1 to 0.4. Neighbours take their share, or little
-// more. On the calling thread's oneTBB arena if built with it and there is enough to do; swivel allocates nothing.
-//
-// Chosen by bits: limb i of LAYOUT is bit i % 32 of active_words[i / 32], word_count of them, which must be
-// (swivel_block_count() + 1) / 2. Bits of padding lanes, and past the last block, are ignored.
-SWIVEL_API swivel_status swivel_solve_active(swivel_crowd* crowd, const uint32_t* active_words, uint32_t word_count);
-// The same for the limbs of a range of blocks, on the calling thread; words are still those of the whole crowd, of
-// which the range's are read. Never allocates, never uses oneTBB; ranges that do not overlap may run on several threads
-// at once, with the same words. The floating-point environment is restored.
-SWIVEL_API swivel_status swivel_solve_active_blocks(swivel_crowd* crowd, const uint32_t* active_words,
-                                                    uint32_t word_count, uint32_t first_block, uint32_t block_count);
-// Chosen by a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
-// once. limbs may be null if limb_count is 0. Fails for an index that is out of range or a padding lane, before
-// anything is solved. Some nanoseconds an entry more than by bits, if in no order.
-SWIVEL_API swivel_status swivel_solve_list(swivel_crowd* crowd, const uint32_t* limbs, uint32_t limb_count);
-
-// Chosen by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb costs
-// about as much as its block: at most most_blocks of them, SWIVEL_LANES limbs each, fewer at a group's end. Each call
-// adds the largest priority among a block's limbs to the block's urgency, 0 at creation, and picks the most urgent
-// blocks, of equals the lower; the urgency of those picked is 0 again. So over time a block is picked about as often as
-// its priority says, blocks of equal priority take turns, and none starves: urgency only grows until it is the largest.
-// Limbs of characters that matter together belong side by side. A block whose limbs all have priority 0 is not picked
-// in this call and keeps its urgency. Other ways to solve change no urgency.
-//
-// priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
-// one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
-// and NaN as 0. Not kept; must not overlap the crowd's own memory.
-//
-// Sets the bits of the picked blocks' limbs in active_words, laid out as above, and clears all others, for
-// swivel_solve_active() or the caller's own threads. *chosen_count, unless null, becomes how many limbs these are. Who
-// is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the calling
-// thread, which takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails without
-// SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
-SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
-                                       uint32_t* active_words, uint32_t word_count, uint32_t* chosen_count);
-// swivel_choose() and swivel_solve_active() in one; *solved_count, unless null, becomes how many limbs were solved.
-SWIVEL_API swivel_status swivel_solve_budget(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
-                                             uint32_t* solved_count);
-
 // One group's values in the caller's own arrays, as engines keep them: one limb's value `stride` bytes after the one
 // before, from the group's first limb at `data`; consecutive floats in each (uint32_t for flags), of any alignment.
 // Units and meanings are the fields'. A stride beside null data is ignored.
 typedef struct swivel_frame {
-    // Null data: the rows keep what they hold. Stride 0: one value for the whole group.
-    swivel_in target, pole, lengths, shoulder_position, parent_rotation, parent_scale, hand;
-    swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights, aim, clavicle;
-    // Null data: not written.
-    swivel_out shoulder, elbow, wrist, flags, stretch, twist, clavicle_turn;
+    size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
     // With data: target, pole and shoulder_position hold 3 doubles each and are taken from this origin, 3 doubles as
     // well, as by swivel_write_doubles(); a pole that is a direction is doubles, too, but has no origin. A position
     // left out keeps its rows, which must be from the same origin. May be shoulder_position itself: then all is from
     // the shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
     swivel_in origin;
+    // Inputs, in the order of the fields. Null data: the rows keep what they hold. Stride 0: one value for the group.
+    swivel_in target, pole, lengths, shoulder_position, parent_rotation, parent_scale, hand;
+    swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, most_swivel;
+    swivel_in flexion_limit, shoulder_cone, humeral_twist, shoulder_box;
+    swivel_in hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle;
+    // Results, in the order of the fields. Null data: not written.
+    swivel_out shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_turn;
 } swivel_frame;
 
-// A whole frame in one pass: swivel_write() of every input given, swivel_solve(), swivel_read() of every output given,
-// with the same bits, a few blocks at a time, so that their rows stay in the nearest cache from copy to copy. Rows hold
-// inputs and results afterwards. frames has one frame for each group, in the crowd's order, and is not kept.
+// Nothing in and nothing out.
+static inline swivel_frame swivel_default_frame(void)
+{
+    swivel_frame frame;
+    memset(&frame, 0, sizeof frame);
+    frame.size = sizeof frame;
+    return frame;
+}
+
+// Some of a crowd's blocks.
+typedef struct swivel_blocks {
+    uint32_t first, count;
+} swivel_blocks;
+
+// What a call of swivel_solve() does. Null means all, or nothing to do; a job of null pointers solves every limb.
+typedef struct swivel_job {
+    size_t size;  // sizeof(swivel_job), set by swivel_default_job()
+
+    // Which blocks; null for all. Others are neither read nor written, and frames of groups without a block among them
+    // are not looked at.
+    const swivel_blocks* blocks;
+
+    // Which limbs, by at most one of the three; by none, all of these blocks. They get the bits that they would get
+    // with all others, which keep their results bit for bit; frames of limbs that are not chosen are neither read nor
+    // written. Lists and budgets are for the whole crowd, so they exclude blocks and on_this_thread.
+    //
+    // By bits: limb i of LAYOUT is bit i % 32 of mask[i / 32]. mask_word_count must be (swivel_block_count() + 1) / 2.
+    // Bits of padding lanes, and past the last block, are ignored.
+    const uint32_t* mask;
+    uint32_t mask_word_count;
+    // By a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
+    // once. Fails for an index that is out of range or a padding lane, before anything is solved. Some nanoseconds an
+    // entry more than by bits, if in no order. Not null with limb_count 0: none.
+    const uint32_t* limbs;
+    uint32_t limb_count;
+    // By urgency, as swivel_choose() has it: at most so many blocks.
+    const swivel_in* priorities;
+    uint32_t most_blocks;
+
+    // The caller's own arrays: one frame for each group, in the crowd's order, as far apart as the first one's size.
+    // Null: values are in the crowd's rows.
+    const swivel_frame* frames;
+
+    // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Such calls may run on several threads
+    // at once, for blocks that do not overlap, with the same mask and frames. 0: on the calling thread's oneTBB arena,
+    // if built with it and there is enough to do; oneTBB may allocate.
+    int on_this_thread;
+
+    // Unless null, becomes how many limbs were solved.
+    uint32_t* solved_count;
+} swivel_job;
+
+// Every limb, from and to rows.
+static inline swivel_job swivel_default_job(void)
+{
+    swivel_job job;
+    memset(&job, 0, sizeof job);
+    job.size = sizeof job;
+    return job;
+}
+
+// Solves limbs; job may be null, for every limb from and to rows. The caller's floating-point environment is restored.
 //
-// No byte beside the values is read or written. Inputs may overlap each other. A limb's inputs are read before its
-// outputs are written, so its outputs may overlap its own inputs: a pose may be read and written in place. Another
-// limb's inputs may be read later, on any thread, so no limb's output may overlap another's input (an input of stride 0
-// is every limb's), nor any output another output, nor any value the crowd's own memory.
-//
-// Fails for missing frames, for a field given that this crowd does not have, for a stride smaller than a value, and for
-// outputs of a crowd with SWIVEL_COMPACT, whose results are read with swivel_read() or where they lie. On the calling
-// thread's oneTBB arena if built with it. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of
-// one group:
-//     swivel_frame frame = {0};
+// With frames it is a whole frame in one pass: swivel_write() of every input given, the solve, swivel_read() of every
+// result given, with the same bits, a few blocks at a time, so that their rows stay in the nearest cache from copy to
+// copy. Rows hold inputs and results afterwards. No byte beside the values is read or written. Inputs may overlap each
+// other. A limb's inputs are read before its results are written, so its results may overlap its own inputs: a pose may
+// be read and written in place. Another limb's inputs may be read later, on any thread, so no limb's result may overlap
+// another's input (an input of stride 0 is every limb's), nor any result another result, nor any value the crowd's own
+// memory. Fails for a field given that this crowd does not have, for a stride smaller than a value, and for results of
+// a crowd with SWIVEL_COMPACT, which are read with swivel_read() or where they lie. For arms of characters kept as
+// structures, with SWIVEL_JOINTS, in a crowd of one group:
+//     swivel_frame frame = swivel_default_frame();
 //     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
 //     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
 //     frame.shoulder = (swivel_out){&characters[0].joints[UPPER_ARM].rotation, sizeof characters[0]};
 //     frame.elbow = (swivel_out){&characters[0].joints[FOREARM].rotation, sizeof characters[0]};
-//     status = swivel_solve_frame(crowd, &frame);
-SWIVEL_API swivel_status swivel_solve_frame(swivel_crowd* crowd, const swivel_frame* frames);
-// The same for the limbs of a range of blocks, on the calling thread; nothing of other limbs is read or written, and
-// frames of groups without a block in the range are not looked at. Never allocates, never uses oneTBB; ranges that do
-// not overlap may run on several threads at once, with the same frames. The floating-point environment is restored.
-SWIVEL_API swivel_status swivel_solve_frame_blocks(swivel_crowd* crowd, const swivel_frame* frames,
-                                                   uint32_t first_block, uint32_t block_count);
+//     swivel_job job = swivel_default_job();
+//     job.frames = &frame;
+//     status = swivel_solve(crowd, &job);
+//
+// The cost of some limbs goes with their blocks: a block chosen whole takes as long as in a solve of all, one chosen in
+// part 1.2 to 3 times as long, and one or two limbs of a block up to that of the block. Limbs picked one by one at
+// random cost, beside all: half of a crowd more than all of it; one in ten 0.5 times as much to all of it, and up to
+// 2.5 times where few rows come from memory; one in a hundred 0.1 to 0.4. Neighbours take their share, or little more.
+SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
+
+// Chooses limbs by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb
+// costs about as much as its block: at most most_blocks of them, SWIVEL_LANES limbs each, fewer at a group's end. Each
+// call adds the largest priority among a block's limbs to the block's urgency, 0 at creation, and picks the most urgent
+// blocks, of equals the lower; the urgency of those picked is 0 again. So over time a block is picked about as often as
+// its priority says, blocks of equal priority take turns, and none starves: urgency only grows until it is the largest.
+// Limbs of characters that matter together belong side by side. A block whose limbs all have priority 0 is not picked
+// in this call and keeps its urgency. Solves without priorities change no urgency.
+//
+// priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
+// one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
+// and NaN as 0. Not kept; must not overlap the crowd's own memory.
+//
+// Sets the bits of the picked blocks' limbs in mask, which is a job's, and clears all others: for the caller's own
+// threads; a job with priorities chooses and solves in one. *chosen_count, unless null, becomes how many limbs these
+// are. Who is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the
+// calling thread, which takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails
+// without SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
+SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
+                                       uint32_t* mask, uint32_t mask_word_count, uint32_t* chosen_count);
 
 // Forgets the swivel carried from solve to solve, of limbs of a group: the next one is not limited by
 // SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_STEP.
@@ -587,6 +617,17 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
 SWIVEL_API swivel_status swivel_range(double least, double most, float range[4]);
 // An axis of any length but zero and the largest angle to it, 0 to pi.
 SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
+// A direction of the character as the axes of limits and aims take it, which are the arm frame's: "forwards and down"
+// becomes the axis of a cone. direction: in the world of the rest pose, of any length but zero. parent_rotation: of the
+// shoulder's parent joint there, x, y, z, w. axis becomes unit, and may be direction itself. Fails for a binding that
+// is none. A cone within 80 degrees of forwards and down, for a character that faces +z with y up:
+//     const double down_ahead[3] = {0, -1, 1};
+//     double axis[3];
+//     float cone[4];
+//     if (swivel_arm_axis(&binding, parent_rotation, down_ahead, axis) == SWIVEL_OK)
+//         swivel_cone(axis, 80 * 3.14159265358979 / 180, cone);
+SWIVEL_API swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_rotation[4],
+                                         const double direction[3], double axis[3]);
 // The elbow's least and largest flexion, 0 <= least <= most <= pi.
 SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion[2]);
 // For SWIVEL_AIM: an axis of the hand, of any length but zero, and the elbow's flexion, 0 to pi.

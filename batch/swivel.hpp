@@ -15,6 +15,7 @@
 #include <ranges>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -23,9 +24,10 @@
 
 namespace swivel {
 
-// A failed call: its status, and swivel_last_error() as the text.
+// A failed call: its status, and one line of text, which is swivel_last_error() where the library refused it.
 struct Error : std::runtime_error {
-    explicit Error(swivel_status failed) : std::runtime_error(swivel_last_error()), status(failed) {}
+    explicit Error(swivel_status failed) : Error(failed, swivel_last_error()) {}
+    Error(swivel_status failed, const std::string& text) : std::runtime_error(text), status(failed) {}
     swivel_status status;
 };
 
@@ -49,6 +51,15 @@ inline swivel_binding bind(const swivel_chain& chain)
     swivel_binding binding;
     check(swivel_bind(&chain, &binding));
     return binding;
+}
+
+// A direction of the character at rest in the arm frame: swivel_arm_axis().
+inline std::array<double, 3> arm_axis(const swivel_binding& binding, const std::array<float, 4>& parent_rotation,
+                                      const std::array<double, 3>& direction)
+{
+    std::array<double, 3> axis;
+    check(swivel_arm_axis(&binding, parent_rotation.data(), direction.data(), axis.data()));
+    return axis;
 }
 
 // Values of limit fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
@@ -84,45 +95,88 @@ inline std::array<float, 2> turn(double angle)
     return value;
 }
 
-// A limb's value: a struct or array of plain floats, a float, or a uint32_t (flags). Doubles, and arrays of them, would
-// be taken for floats and do not compile.
-template <class Value>
-constexpr bool holds_words()
+// An angle in radians, as all of swivel takes them.
+constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
+
+// Stands for a Number where an aggregate is made of its members: what it makes starts with a Number.
+template <class Number>
+struct Only {
+    template <std::same_as<Number> Same>
+    operator Same() const;
+};
+
+// Whether a limb's value is made of such numbers: one of them, an array of them, a container that says so by its
+// value_type, or a plain structure that starts with one. A class with constructors is taken at its word.
+template <class Value, class... Numbers>
+constexpr bool holds()
 {
-    if constexpr (std::is_arithmetic_v<Value>)
-        return std::same_as<Value, float> || std::same_as<Value, std::uint32_t>;
-    else if constexpr (std::is_array_v<Value>)
-        return holds_words<std::remove_cv_t<std::remove_extent_t<Value>>>();
-    else if constexpr (requires { typename Value::value_type; })
-        return std::is_trivially_copyable_v<Value> && holds_words<std::remove_cv_t<typename Value::value_type>>();
+    using Each = std::remove_cv_t<Value>;
+    if constexpr (std::is_arithmetic_v<Each>)
+        return (std::same_as<Each, Numbers> || ...);
+    else if constexpr (std::is_array_v<Each>)
+        return holds<std::remove_extent_t<Each>, Numbers...>();
+    else if constexpr (requires { typename Each::value_type; })
+        return std::is_trivially_copyable_v<Each> && holds<typename Each::value_type, Numbers...>();
+    else if constexpr (std::is_aggregate_v<Each>)
+        return std::is_trivially_copyable_v<Each> && (requires { Each{Only<Numbers>()}; } || ...);
     else
-        return std::is_trivially_copyable_v<Value>;
+        return std::is_trivially_copyable_v<Each>;
 }
+
+// A field's value: floats, or a uint32_t (flags). And what is in double: positions and forward kinematics.
 template <class Value>
-concept FieldValue = holds_words<std::remove_cv_t<Value>>();
+concept FieldValue = holds<Value, float, std::uint32_t>();
+template <class Value>
+concept DoubleValue = holds<Value, double>();
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
-
-// The same for what is in double, positions and forward kinematics: a double, or a struct or array of plain doubles.
-template <class Value>
-constexpr bool holds_doubles()
-{
-    if constexpr (std::is_arithmetic_v<Value>)
-        return std::same_as<Value, double>;
-    else if constexpr (std::is_array_v<Value>)
-        return holds_doubles<std::remove_cv_t<std::remove_extent_t<Value>>>();
-    else if constexpr (requires { typename Value::value_type; })
-        return std::is_trivially_copyable_v<Value> && holds_doubles<std::remove_cv_t<typename Value::value_type>>();
-    else
-        return std::is_trivially_copyable_v<Value>;
-}
 template <class Range>
-concept DoubleRange = std::ranges::contiguous_range<Range> &&
-    holds_doubles<std::remove_cv_t<std::ranges::range_value_t<Range>>>();
+concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
-// Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb from `first` of the group
-// on, each value starting with the field's floats (doubles for forward kinematics); larger values are stepped over by
-// size.
+// A member of the caller's structures as a frame takes it: swivel_in, or swivel_out unless it is const.
+template <class Byte>
+struct Stream {
+    Byte* data;
+    std::size_t stride;
+
+    operator swivel_in() const { return {data, stride}; }
+    operator swivel_out() const requires(!std::is_const_v<Byte>) { return {data, stride}; }
+};
+template <std::ranges::contiguous_range Range, class Struct, class Value>
+auto stream_of(Range&& values, Value Struct::*member)
+{
+    using Element = std::remove_reference_t<std::ranges::range_reference_t<Range>>;
+    using Byte = std::conditional_t<std::is_const_v<Element> || std::is_const_v<Value>, const void, void>;
+    const auto data = std::ranges::data(values);
+    return Stream<Byte>{std::ranges::empty(values) ? nullptr : &(data->*member), sizeof(Element)};
+}
+// frame.target = swivel::stream(characters, &Character::grip): where the first one's member is, and the stride.
+template <std::ranges::contiguous_range Range, class Struct, FieldValue Value>
+auto stream(Range&& values, Value Struct::*member)
+{
+    return stream_of(values, member);
+}
+// The same for positions in double, beside a frame's origin.
+template <std::ranges::contiguous_range Range, class Struct, DoubleValue Value>
+auto stream_doubles(Range&& values, Value Struct::*member)
+{
+    return stream_of(values, member);
+}
+
+// What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB.
+struct Job {
+    std::optional<swivel_blocks> blocks = {};
+    std::span<const std::uint32_t> mask = {};  // of mask, limbs and priorities at most one
+    std::optional<std::span<const std::uint32_t>> limbs = {};
+    std::span<const swivel_in> priorities = {};  // one for each group
+    std::uint32_t most_blocks = 0;               // with priorities
+    std::span<const swivel_frame> frames = {};   // one for each group
+    bool on_this_thread = false;
+};
+
+// Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb of the group; or, with
+// `first`, for some limbs from that one on. Each value starts with the field's floats (doubles for forward kinematics);
+// larger values are stepped over by size.
 class Crowd {
 public:
     Crowd(std::uint32_t features, std::span<const swivel_group_def> groups)
@@ -145,9 +199,9 @@ public:
     swivel_crowd* get() const { return crowd_; }
 
     template <FieldRange R>
-    void write(swivel_field field, std::uint32_t group, const R& values, std::uint32_t first = 0)
+    void write(swivel_field field, std::uint32_t group, const R& values, std::optional<std::uint32_t> first = {})
     {
-        check(swivel_write(crowd_, field, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
+        check(swivel_write(crowd_, field, group, from(first), checked(group, count(values), first), in(values)));
     }
     // The same value for every limb of the group.
     template <FieldValue Value>
@@ -159,54 +213,43 @@ public:
     // Positions in double, from origins as in swivel.h: {&origin, 0} is one for all.
     template <DoubleRange R>
     void write_doubles(swivel_field field, std::uint32_t group, const R& values, swivel_in origins = {},
-                       std::uint32_t first = 0)
+                       std::optional<std::uint32_t> first = {})
     {
-        const swivel_in in{std::ranges::data(values), value_bytes<R>};
-        check(swivel_write_doubles(crowd_, field, group, first, count(values), in, origins));
+        check(swivel_write_doubles(crowd_, field, group, from(first), checked(group, count(values), first), in(values),
+                                   origins));
     }
     template <FieldRange R>
-    void read(swivel_field field, std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    void read(swivel_field field, std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_read(crowd_, field, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
+        check(swivel_read(crowd_, field, group, from(first), checked(group, count(values), first), out(values)));
     }
 
-    void solve() { check(swivel_solve(crowd_)); }
-    void solve_blocks(std::uint32_t first, std::uint32_t count) { check(swivel_solve_blocks(crowd_, first, count)); }
-    // One bit for each limb, 32 in a word.
-    void solve_active(std::span<const std::uint32_t> words)
+    // swivel_solve(): crowd.solve(), or crowd.solve({.frames = {&frame, 1}}). Returns how many limbs were solved.
+    std::uint32_t solve(const Job& wanted = {})
     {
-        check(swivel_solve_active(crowd_, words.data(), count(words)));
-    }
-    void solve_active_blocks(std::span<const std::uint32_t> words, std::uint32_t first, std::uint32_t block_count)
-    {
-        check(swivel_solve_active_blocks(crowd_, words.data(), count(words), first, block_count));
-    }
-    void solve_list(std::span<const std::uint32_t> limbs)
-    {
-        check(swivel_solve_list(crowd_, limbs.data(), count(limbs)));
-    }
-    // One entry of priorities for each group. Both return how many limbs were chosen.
-    std::uint32_t choose(std::span<const swivel_in> priorities, std::uint32_t most_blocks,
-                         std::span<std::uint32_t> words)
-    {
-        std::uint32_t chosen = 0;
-        check(swivel_choose(crowd_, for_all_groups(priorities), most_blocks, words.data(), count(words), &chosen));
-        return chosen;
-    }
-    std::uint32_t solve_budget(std::span<const swivel_in> priorities, std::uint32_t most_blocks)
-    {
+        swivel_job job = swivel_default_job();
+        const std::uint32_t none = 0;  // an empty list may have null data, which would mean every limb
+        if (wanted.blocks) job.blocks = &*wanted.blocks;
+        if (!wanted.mask.empty()) job.mask = wanted.mask.data(), job.mask_word_count = count(wanted.mask);
+        if (wanted.limbs)
+            job.limbs = wanted.limbs->empty() ? &none : wanted.limbs->data(), job.limb_count = count(*wanted.limbs);
+        if (!wanted.priorities.empty()) job.priorities = for_all_groups("priorities", wanted.priorities);
+        job.most_blocks = wanted.most_blocks;
+        if (!wanted.frames.empty()) job.frames = for_all_groups("frames", wanted.frames);
+        job.on_this_thread = wanted.on_this_thread;
         std::uint32_t solved = 0;
-        check(swivel_solve_budget(crowd_, for_all_groups(priorities), most_blocks, &solved));
+        job.solved_count = &solved;
+        check(swivel_solve(crowd_, &job));
         return solved;
     }
-    // One frame for each group.
-    void solve_frame(std::span<const swivel_frame> frames)
+    // swivel_choose(): marks limbs in a mask and returns how many.
+    std::uint32_t choose(std::span<const swivel_in> priorities, std::uint32_t most_blocks,
+                         std::span<std::uint32_t> mask)
     {
-        check(swivel_solve_frame(crowd_, for_all_groups(frames)));
-    }
-    void solve_frame_blocks(std::span<const swivel_frame> frames, std::uint32_t first, std::uint32_t count)
-    {
-        check(swivel_solve_frame_blocks(crowd_, for_all_groups(frames), first, count));
+        std::uint32_t chosen = 0;
+        check(swivel_choose(crowd_, for_all_groups("priorities", priorities), most_blocks, mask.data(), count(mask),
+                            &chosen));
+        return chosen;
     }
 
     // swivel_find(): the next limb with any of these flags, from a place on.
@@ -230,47 +273,74 @@ public:
     }
 
     template <DoubleRange R>
-    void elbows(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    void elbows(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_forward(crowd_, group, first, count(values), {std::ranges::data(values), value_bytes<R>}, {}, {}));
+        check(swivel_forward(crowd_, group, from(first), checked(group, count(values), first), out(values), {}, {}));
     }
     template <DoubleRange R>
-    void wrists(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    void wrists(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_forward(crowd_, group, first, count(values), {}, {std::ranges::data(values), value_bytes<R>}, {}));
+        check(swivel_forward(crowd_, group, from(first), checked(group, count(values), first), {}, out(values), {}));
     }
     template <DoubleRange R>
-    void hands(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    void hands(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_forward(crowd_, group, first, count(values), {}, {}, {std::ranges::data(values), value_bytes<R>}));
+        check(swivel_forward(crowd_, group, from(first), checked(group, count(values), first), {}, {}, out(values)));
     }
     template <DoubleRange R>
     void joint_angles(std::uint32_t group, swivel_euler_order shoulder, swivel_euler_order wrist, int family,
-                      R&& values, std::uint32_t first = 0) const
+                      R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_joint_angles(crowd_, group, first, count(values), shoulder, wrist, family,
-                                  {std::ranges::data(values), value_bytes<R>}));
+        check(swivel_joint_angles(crowd_, group, from(first), checked(group, count(values), first), shoulder, wrist,
+                                  family, out(values)));
     }
     template <DoubleRange R>
-    void residuals(std::uint32_t group, R&& values, std::uint32_t first = 0) const
+    void residuals(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_residuals(crowd_, group, first, count(values), {std::ranges::data(values), value_bytes<R>}));
+        check(swivel_residuals(crowd_, group, from(first), checked(group, count(values), first), out(values)));
     }
 
 private:
+    static std::uint32_t from(std::optional<std::uint32_t> first) { return first.value_or(0); }
+    std::uint32_t checked(std::uint32_t group, std::uint32_t given, std::optional<std::uint32_t> first) const
+    {
+        const std::uint32_t has = swivel_group_limb_count(crowd_, group);
+        if (!first && given != has)
+            throw Error(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " values for the " + std::to_string(has) +
+                                                     " limbs of group " + std::to_string(group) +
+                                                     "; give one for each, or say from which limb on");
+        return given;
+    }
+    // None for none: an empty range may have no data, which calls refuse.
     template <class R>
-    static constexpr std::size_t value_bytes = sizeof(std::ranges::range_value_t<R>);
+    static swivel_in in(const R& values)
+    {
+        static constexpr char nothing = 0;
+        return {std::ranges::empty(values) ? &nothing : static_cast<const void*>(std::ranges::data(values)),
+                sizeof(std::ranges::range_value_t<R>)};
+    }
+    template <class R>
+    static swivel_out out(R& values)
+    {
+        static char nothing = 0;
+        return {std::ranges::empty(values) ? &nothing : static_cast<void*>(std::ranges::data(values)),
+                sizeof(std::ranges::range_value_t<R>)};
+    }
     template <class R>
     static std::uint32_t count(const R& values)
     {
         return static_cast<std::uint32_t>(std::ranges::size(values));
     }
 
-    // Null, which the call refuses, if they are too few: then there are limbs in a group past the last one's.
+    // One entry for each group: there are limbs in the last one's group, and none in the next.
     template <class Each>
-    const Each* for_all_groups(std::span<const Each> each) const
+    const Each* for_all_groups(const char* what, std::span<const Each> each) const
     {
-        return swivel_group_limb_count(crowd_, count(each)) == 0 ? each.data() : nullptr;
+        const std::uint32_t given = count(each);
+        if (given == 0 || swivel_group_limb_count(crowd_, given - 1) == 0 || swivel_group_limb_count(crowd_, given) > 0)
+            throw Error(SWIVEL_INVALID_ARGUMENT,
+                        std::to_string(given) + " " + what + " are not one for each of this crowd's groups");
+        return each.data();
     }
 
     swivel_crowd* crowd_ = nullptr;

@@ -37,7 +37,7 @@ void add_choice(Suite& suite)
                 swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
                 const std::uint32_t blocks = swivel_block_count(crowd.get());
                 return [&crowd, blocks, words = random_words((blocks + 1) / 2, one_in, neighbours)] {
-                    crowd.solve_active_blocks(words, 0, blocks);
+                    crowd.solve({.blocks = swivel_blocks{0, blocks}, .mask = words, .on_this_thread = true});
                 };
             });
         };
@@ -52,7 +52,7 @@ void add_choice(Suite& suite)
             return [&crowd, blocks, priorities, words = std::vector<std::uint32_t>((blocks + 1) / 2)]() mutable {
                 const swivel_in in{priorities.data(), sizeof(float)};
                 crowd.choose({&in, 1}, blocks / 10, words);
-                crowd.solve_active_blocks(words, 0, blocks);
+                crowd.solve({.blocks = swivel_blocks{0, blocks}, .mask = words, .on_this_thread = true});
             };
         });
     }

@@ -40,7 +40,7 @@ void add_solve(Suite& suite, const std::string& name, const std::string& isa, st
         swivel::check(swivel_use_isa(isa.c_str()));
         swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
         const std::uint32_t blocks = swivel_block_count(crowd.get());
-        return [&crowd, blocks] { crowd.solve_blocks(0, blocks); };
+        return [&crowd, blocks] { crowd.solve({.blocks = swivel_blocks{0, blocks}, .on_this_thread = true}); };
     };
     add(name, arm_count, Clock::cpu, prepare, crowd_bytes);
 }

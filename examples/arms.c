@@ -56,7 +56,7 @@ int main(void)
             swivel_write(crowd, SWIVEL_SHOULDER_POSITION, group, 0, 1, place) != SWIVEL_OK)
             return failed("swivel_write");
     }
-    if (swivel_solve(crowd) != SWIVEL_OK) return failed("swivel_solve");
+    if (swivel_solve(crowd, NULL) != SWIVEL_OK) return failed("swivel_solve");
 
     for (side = LEFT; side < SIDE_COUNT; ++side) {
         const uint32_t group = (uint32_t)side;

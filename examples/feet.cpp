@@ -113,7 +113,7 @@ double place_character(Leg* legs, double x, double z, double heading)
 void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs, const swivel_binding& leg)
 {
     const Floats ankle_to_sole = {0, -static_cast<float>(kAnkleHeight), 0};  // in the ankle joint's frame
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.target = {&legs[0].sole, sizeof(Leg)};
     frame.effector = {&ankle_to_sole, 0};  // so targets are for soles, not for ankles
     frame.hand = {&legs[0].foot, sizeof(Leg)};
@@ -124,7 +124,7 @@ void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs, const swivel_bindi
     frame.elbow = {&legs[0].knee_local, sizeof(Leg)};
     frame.wrist = {&legs[0].ankle_local, sizeof(Leg)};
     frame.flags = {&legs[0].flags, sizeof(Leg)};
-    crowd.solve_frame({&frame, 1});
+    crowd.solve({.frames = {&frame, 1}});
 }
 
 struct Gap {  // between points of a foot and the ground

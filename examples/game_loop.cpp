@@ -96,7 +96,7 @@ void solve_hands(swivel::Crowd& crowd, std::span<const Character> characters, Ha
     const swivel_in target{&characters[0].target, sizeof characters[0]};
     swivel::check(swivel_write(crowd.get(), SWIVEL_TARGET, 0, 0, kHandCount, target));
     const swivel_in priorities[] = {{&characters[0].priority, sizeof characters[0]}};
-    totals.hands += crowd.solve_budget(priorities, budget.blocks());
+    totals.hands += crowd.solve({.priorities = priorities, .most_blocks = budget.blocks()});
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     budget.took(seconds);
     totals.seconds.push_back(seconds);

@@ -119,7 +119,7 @@ std::vector<Character> make_characters()
 
 swivel_frame frame_of(std::span<Character> characters)
 {
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.target = {&characters[0].grip, sizeof characters[0]};
     frame.shoulder = {&characters[0].shoulder, sizeof characters[0]};
     frame.elbow = {&characters[0].elbow, sizeof characters[0]};
@@ -146,8 +146,11 @@ int compare()
         std::vector<std::array<float, 3>> grips;
         for (const Character& character : characters) grips.push_back(character.grip);
         crowd->write(SWIVEL_TARGET, 0, grips);
+        crowd->write_all(SWIVEL_LENGTHS, 0, std::array{0.5f, 0.5f});
     }
-    on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) { ours.solve_blocks(first, count); });
+    on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) {
+        ours.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true});
+    });
     theirs.solve();
     const bool rows_equal = equal_results(ours, theirs);
     std::printf("%u arms on %zu threads of our own: %s bits as swivel_solve\n", kArmCount, jobs.thread_count(),
@@ -155,11 +158,12 @@ int compare()
 
     // The host's own structures in and out, in the same way: each job copies in, solves and copies out its own blocks.
     const swivel_frame frame[] = {frame_of(characters)}, other_frame[] = {frame_of(as_well)};
-    on_all_blocks(jobs, ours,
-                  [&](std::uint32_t first, std::uint32_t count) { ours.solve_frame_blocks(frame, first, count); });
-    theirs.solve_frame(other_frame);
+    on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) {
+        ours.solve({.blocks = swivel_blocks{first, count}, .frames = frame, .on_this_thread = true});
+    });
+    theirs.solve({.frames = other_frame});
     const bool frames_equal = characters == as_well;
-    std::printf("whole frames: %s bits as swivel_solve_frame\n", frames_equal ? "the same" : "OTHER");
+    std::printf("whole frames: %s bits as swivel_solve\n", frames_equal ? "the same" : "OTHER");
     return rows_equal && frames_equal ? 0 : 1;
 }
 

@@ -132,7 +132,7 @@ void set_lengths(std::vector<BodyArm>& arms, const std::vector<Body>& bodies, co
 swivel_frame frame_of(std::vector<BodyArm>& arms)
 {
     constexpr std::size_t stride = sizeof(BodyArm);
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.target = {&arms[0].target, stride};
     frame.pole = {&arms[0].pole, stride};
     frame.shoulder_position = {&arms[0].shoulder_place, stride};
@@ -191,7 +191,7 @@ int replay(const char* path, std::size_t body_count)
     for (std::size_t frame = 0; frame < clip.frame_count; frame += step, ++played) {
         for (std::size_t side = 0; side < 2; ++side) set_frame(arms[side], bodies, sources[side], frame);
         const auto start = std::chrono::steady_clock::now();
-        crowd.solve_frame(frames);
+        crowd.solve({.frames = frames});
         seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         measure(crowd, arms, errors);
     }

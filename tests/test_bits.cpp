@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/solve_jobs.h"
 #include "tests/test_isa_scope.h"
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/golden.h"
@@ -43,7 +44,7 @@ void solve_in_ranges(Crowd& crowd, std::uint32_t size)
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     for (std::uint32_t first = 0; first < blocks; first += size)
-        crowd.solve_blocks(first, std::min(size, blocks - first));
+        crowd.solve({.blocks = swivel_blocks{first, std::min(size, blocks - first)}, .on_this_thread = true});
 }
 
 std::size_t word_count(const swivel_rows& rows)
@@ -210,7 +211,7 @@ TEST_CASE("blocks outside the range are not written, and what lies in them does 
             for (std::size_t n = 0; n < word_count(in); ++n)
                 if (n < first * block_in || n >= (first + count) * block_in) poison(in.base + n);
             const std::vector<std::uint32_t> before = words_of(in);
-            crowd.solve_blocks(first, count);
+            crowd.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true});
 
             const std::size_t block_out = std::size_t{out.row_count} * SWIVEL_LANES;
             const std::vector<std::uint32_t> results = words_of(out);
@@ -262,7 +263,7 @@ TEST_CASE("blocks outside the range are not even read")
     poison(out);
     lock_outside(in, PROT_NONE);
     lock_outside(out, PROT_NONE);
-    CHECK(swivel_solve_blocks(crowd, first, count) == SWIVEL_OK);
+    CHECK(solve_blocks(crowd, first, count) == SWIVEL_OK);
     lock_outside(in, PROT_READ | PROT_WRITE);
     lock_outside(out, PROT_READ | PROT_WRITE);
     const std::vector<std::uint32_t> results = words_of(out);
@@ -324,7 +325,7 @@ TEST_CASE("the caller's floating-point environment changes no bit and is put bac
         for (const auto& [name, flags] : environments)
             for (const bool whole : {true, false}) {
                 const unsigned environment = flags;  // clang 14 captures no structured binding
-                INFO(full_name(*recipe) << ", " << name << (whole ? ", swivel_solve" : ", swivel_solve_blocks"));
+                INFO(full_name(*recipe) << ", " << name << (whole ? ", swivel_solve" : ", blocks on this thread"));
                 unsigned found = environment;
                 const auto solve_there = [&](Crowd& crowd) {
                     swivel_crowd* const handle = crowd.get();
@@ -332,9 +333,9 @@ TEST_CASE("the caller's floating-point environment changes no bit and is put bac
                     const unsigned before = _mm_getcsr();
                     _mm_setcsr(environment);
                     if (whole)
-                        swivel_solve(handle);
+                        swivel_solve(handle, nullptr);
                     else
-                        swivel_solve_blocks(handle, 0, blocks);
+                        solve_blocks(handle, 0, blocks);
                     const unsigned after = _mm_getcsr();
                     _mm_setcsr(before);
                     if (after != environment) found = after;
@@ -359,7 +360,7 @@ TEST_CASE("worker threads that took over the caller's environment give the same 
         const auto solve_there = [&](Crowd& crowd) {
             arena.execute([&] {
                 _mm_setcsr(0x1f80 | 0x8000 | 0x0040 | 0x4000);
-                swivel_solve(crowd.get());
+                swivel_solve(crowd.get(), nullptr);
                 _mm_setcsr(before);
             });
         };

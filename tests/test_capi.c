@@ -26,7 +26,9 @@ int main(void)
 {
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
     const swivel_in target_in = {target, 0}, pole_in = {pole, 0}, lengths_in = {lengths, 0};
-    swivel_frame frame;
+    swivel_frame frame = swivel_default_frame();
+    swivel_job job = swivel_default_job();
+    const swivel_blocks first_block = {0, 1};
     const swivel_group_def group = swivel_default_group_def(1);
     swivel_crowd_def def = swivel_default_crowd_def();
     swivel_crowd* crowd = NULL;
@@ -38,7 +40,6 @@ int main(void)
     float shoulder[4];
     int passed = 0, lines = 0, c;
 
-    memset(&frame, 0, sizeof frame);
     def.group_count = 1;
     def.groups = &group;
     check(def.size == sizeof def, "the default def knows its size");
@@ -48,7 +49,7 @@ int main(void)
     check(swivel_write(crowd, SWIVEL_TARGET, 0, 0, 1, target_in) == SWIVEL_OK, "write targets");
     check(swivel_write(crowd, SWIVEL_POLE, 0, 0, 1, pole_in) == SWIVEL_OK, "write poles");
     check(swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, 1, lengths_in) == SWIVEL_OK, "write lengths");
-    check(swivel_solve(crowd) == SWIVEL_OK, "solve");
+    check(swivel_solve(crowd, NULL) == SWIVEL_OK, "solve");
     check(swivel_forward(crowd, 0, 0, 1, none, wrist_out, none) == SWIVEL_OK, "forward kinematics");
     for (c = 0; c < 3; ++c) check(fabs(wrist[c] - (double)target[c]) < 1e-6, "the wrist is on its target");
     check(swivel_residuals(crowd, 0, 0, 1, distance_out) == SWIVEL_OK && distance < 1e-6, "residual");
@@ -56,8 +57,11 @@ int main(void)
     frame.target = target_in;
     frame.flags = flags_out;
     flags = 0;
-    check(swivel_solve_frame(crowd, &frame) == SWIVEL_OK && flags == SWIVEL_REACHED, "a whole frame");
-    check(swivel_solve_frame_blocks(crowd, &frame, 0, 1) == SWIVEL_OK, "a block of it");
+    job.frames = &frame;
+    check(swivel_solve(crowd, &job) == SWIVEL_OK && flags == SWIVEL_REACHED, "a whole frame");
+    job.blocks = &first_block;
+    job.on_this_thread = 1;
+    check(swivel_solve(crowd, &job) == SWIVEL_OK, "a block of it");
     swivel_crowd_destroy(crowd);
 
     def.features = SWIVEL_COMPACT;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_isa_scope.h"
@@ -320,7 +321,7 @@ TEST_CASE("the words are the scalar build's, in every block range, and no other 
             INFO("blocks " << first << " + " << count);
             const swivel_words rows = swivel_compact_rows(crowd.get());
             std::fill_n(rows.base, expected.size(), std::uint16_t{0xa5c3});
-            crowd.solve_blocks(first, count);
+            crowd.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true});
             const Words words = words_of(crowd);
             std::size_t wrong = 0;
             for (std::size_t n = 0; n < words.size(); ++n) {
@@ -335,7 +336,7 @@ TEST_CASE("the words are the scalar build's, in every block range, and no other 
               by_blocks = make_crowd(compacted(hard("arms")), limb_count);
         crowd.solve();
         for (std::uint32_t block = 0, end = swivel_block_count(crowd.get()); block < end; block += 777)
-            by_blocks.solve_blocks(block, std::min(777u, end - block));
+            by_blocks.solve({.blocks = swivel_blocks{block, std::min(777u, end - block)}, .on_this_thread = true});
         CHECK(words_of(crowd) == words_of(by_blocks));
     }
 }
@@ -534,7 +535,7 @@ TEST_CASE("frames take inputs, and refuse to take results out")
     std::vector<Float3> targets(50);
     Random random{3};
     for (Float3& target : targets) target = floats(random.direction());
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.target = {targets.data(), sizeof targets[0]};
     expected.write(SWIVEL_TARGET, 0, targets);
     expected.solve();
@@ -546,16 +547,17 @@ TEST_CASE("frames take inputs, and refuse to take results out")
         swivel_frame refused = frame;
         refused.*output = {values.data(), sizeof values[0]};
         const auto before = all_words(crowd);
-        CHECK_REFUSED(swivel_solve_frame(crowd.get(), &refused), SWIVEL_INVALID_ARGUMENT);
-        CHECK_REFUSED(swivel_solve_frame_blocks(crowd.get(), &refused, 0, 1), SWIVEL_INVALID_ARGUMENT);
+        CHECK_REFUSED(solve_frame(crowd.get(), &refused), SWIVEL_INVALID_ARGUMENT);
+        CHECK_REFUSED(solve_frame_blocks(crowd.get(), &refused, 0, 1), SWIVEL_INVALID_ARGUMENT);
         CHECK(std::string(swivel_last_error()).find("SWIVEL_COMPACT") != std::string::npos);
         CHECK(all_words(crowd) == before);
         CHECK(words_of(crowd) == fresh);
     }
     CHECK(values == std::vector<Float4>(50, Float4{9, 9, 9, 9}));
-    crowd.solve_frame({&frame, 1});
+    crowd.solve({.frames = {&frame, 1}});
     CHECK(words_of(crowd) == words_of(expected));
     Crowd by_blocks = crowd_of(SWIVEL_COMPACT, 50);
-    for (const std::uint32_t block : {1u, 0u, 3u, 2u}) by_blocks.solve_frame_blocks({&frame, 1}, block, 1);
+    for (const std::uint32_t block : {1u, 0u, 3u, 2u})
+        by_blocks.solve({.blocks = swivel_blocks{block, 1}, .frames = {&frame, 1}, .on_this_thread = true});
     CHECK(words_of(by_blocks) == words_of(expected));
 }

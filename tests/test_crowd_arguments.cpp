@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: wrong arguments are refused with one line and change nothing.
+#include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 
@@ -141,14 +142,14 @@ TEST_CASE("wrong arguments are refused and change nothing")
     for (const swivel_field field : {SWIVEL_WRIST, SWIVEL_HAND, SWIVEL_PARENT_SCALE, SWIVEL_FIELD_COUNT})
         CHECK_REFUSED(swivel_read(c, field, 0, 0, 1, {out, 16}), bad);
 
-    CHECK_REFUSED(swivel_solve(nullptr), bad);
-    CHECK_REFUSED(swivel_solve_blocks(nullptr, 0, 1), bad);
+    CHECK_REFUSED(swivel_solve(nullptr, nullptr), bad);
+    CHECK_REFUSED(solve_blocks(nullptr, 0, 1), bad);
     REQUIRE(swivel_block_count(c) == 3);
-    CHECK_REFUSED(swivel_solve_blocks(c, 0, 4), bad);
-    CHECK_REFUSED(swivel_solve_blocks(c, 3, 1), bad);
-    CHECK_REFUSED(swivel_solve_blocks(c, 4, 0), bad);
-    CHECK_REFUSED(swivel_solve_blocks(c, 1, ~0u), bad);
-    CHECK(swivel_solve_blocks(c, 3, 0) == SWIVEL_OK);
+    CHECK_REFUSED(solve_blocks(c, 0, 4), bad);
+    CHECK_REFUSED(solve_blocks(c, 3, 1), bad);
+    CHECK_REFUSED(solve_blocks(c, 4, 0), bad);
+    CHECK_REFUSED(solve_blocks(c, 1, ~0u), bad);
+    CHECK(solve_blocks(c, 3, 0) == SWIVEL_OK);
 
     const swivel_out none{}, three{out3, 24};
     CHECK_REFUSED(swivel_forward(nullptr, 0, 0, 1, three, none, none), bad);
@@ -221,7 +222,7 @@ TEST_CASE("statuses and errors have their texts, errors belong to their thread")
         CHECK((text == "unknown status") == (status == 77));
     }
     CHECK(swivel_version() == SWIVEL_VERSION);
-    swivel_solve(nullptr);
+    swivel_solve(nullptr, nullptr);
     const std::string here = swivel_last_error();
     std::string before, after;
     std::thread([&] {
@@ -404,4 +405,82 @@ TEST_CASE("find changes nothing where there is nothing to find")
         CHECK(swivel_find(crowd.get(), ~0u, &group, &limb) == 0);
         CHECK((group == g && limb == n));
     }
+}
+
+// ---- C++
+
+namespace {
+
+struct Floats {
+    float x, y, z;
+};
+struct Doubles {
+    double x, y, z;
+};
+struct IntFirst {
+    int a;
+    float b;
+};
+struct FloatsFirst {
+    Floats v;
+    float w;
+};
+static_assert(FieldValue<Floats> && FieldValue<FloatsFirst> && FieldValue<Float3> && FieldValue<float[4]>);
+static_assert(FieldValue<std::uint32_t> && FieldValue<const float>);
+static_assert(!FieldValue<Doubles> && !FieldValue<double> && !FieldValue<std::array<double, 3>> &&
+              !FieldValue<IntFirst>);
+static_assert(!FieldValue<int> && !FieldValue<Eigen::Vector3d> && !FieldValue<std::vector<float>>);
+static_assert(DoubleValue<Doubles> && DoubleValue<std::array<double, 3>> && !DoubleValue<Floats> &&
+              !DoubleValue<float>);
+
+struct Person {
+    Doubles place;
+    Floats grip;
+    Float4 pose;
+};
+template <class Range, class Member>
+concept CanStream = requires(Range& range, Member member)
+{
+    stream(range, member);
+};
+static_assert(CanStream<std::vector<Person>, Floats Person::*>);
+static_assert(!CanStream<std::vector<Person>, Doubles Person::*>);
+static_assert(std::is_convertible_v<decltype(stream(std::declval<std::vector<Person>&>(), &Person::pose)), swivel_out>);
+static_assert(
+    !std::is_convertible_v<decltype(stream(std::declval<const std::vector<Person>&>(), &Person::pose)), swivel_out>);
+
+}  // namespace
+
+TEST_CASE("C++: a stream is the first one's member and the way to the next")
+{
+    std::vector<Person> characters(20);
+    const swivel_in grip = stream(characters, &Person::grip), far = stream_doubles(characters, &Person::place);
+    const swivel_out pose = stream(characters, &Person::pose);
+    CHECK((grip.data == &characters[0].grip && grip.stride == sizeof(Person)));
+    CHECK((far.data == &characters[0].place && far.stride == sizeof(Person)));
+    CHECK((pose.data == &characters[0].pose && pose.stride == sizeof(Person)));
+    characters.clear();
+    CHECK(swivel_in(stream(characters, &Person::grip)).data == nullptr);
+    CHECK(degrees(180) == Approx(3.14159265358979));
+}
+
+TEST_CASE("C++: ranges have a value for each limb, or say from which limb on; frames one for each group")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    Crowd crowd(0, groups);
+    const std::vector<Float3> targets(20);
+    CHECK_NOTHROW(crowd.write(SWIVEL_TARGET, 0, targets));
+    CHECK_THROWS_AS(crowd.write(SWIVEL_TARGET, 1, targets), Error);
+    CHECK_THROWS_AS(crowd.write(SWIVEL_TARGET, 0, std::span(targets).first(19)), Error);
+    CHECK_NOTHROW(crowd.write(SWIVEL_TARGET, 0, std::span(targets).first(19), 0));
+    CHECK_NOTHROW(crowd.write(SWIVEL_TARGET, 0, std::span(targets).first(19), 1));
+    CHECK_THROWS_AS(crowd.write(SWIVEL_TARGET, 0, std::span(targets).first(19), 2), Error);
+    CHECK_NOTHROW(crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>(), 20));
+    std::vector<double> residuals(6);
+    CHECK_THROWS_AS(crowd.residuals(1, residuals), Error);
+    const std::vector<swivel_frame> frames(3, swivel_default_frame());
+    CHECK_NOTHROW(crowd.solve({.frames = std::span(frames).first(2)}));
+    for (const std::size_t count : {std::size_t{1}, std::size_t{3}})
+        CHECK_THROWS_WITH(crowd.solve({.frames = std::span(frames).first(count)}),
+                          std::to_string(count) + " frames are not one for each of this crowd's groups");
 }

@@ -2,6 +2,7 @@
 //
 // The promise: within a budget the most urgent blocks are solved, as a plain list sorted by urgency says; none starves;
 // who is solved depends on priorities and history alone; what is off costs nothing.
+#include "tests/solve_jobs.h"
 #include "tests/test_choice.h"
 #include "tests/test_isa_scope.h"
 
@@ -139,7 +140,9 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
                     const Priorities priorities(whole, 3, random);
                     const std::uint32_t most = random.below(500), step = 1 + random.below(40);
                     std::uint32_t solved = 0;
-                    const auto solve = [&] { solved = whole.solve_budget(priorities.streams, most); };
+                    const auto solve = [&] {
+                        solved = whole.solve({.priorities = priorities.streams, .most_blocks = most});
+                    };
 #ifdef SWIVEL_WITH_TBB
                     oneapi::tbb::task_arena(threads).execute(solve);
 #else
@@ -149,7 +152,9 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
                     REQUIRE(parts.choose(priorities.streams, most, words) == solved);
                     const std::uint32_t block_count = swivel_block_count(parts.get());
                     for (std::uint32_t first = 0; first < block_count; first += step)
-                        parts.solve_active_blocks(words, first, std::min(step, block_count - first));
+                        parts.solve({.blocks = swivel_blocks{first, std::min(step, block_count - first)},
+                                     .mask = words,
+                                     .on_this_thread = true});
                     const std::vector<std::uint32_t> results = limb_words(whole, 3);
                     REQUIRE((results == limb_words(parts, 3)));
                     if (history.size() <= call) history.push_back(results);
@@ -235,11 +240,11 @@ TEST_CASE("a list after a budget is solved alone")
     Crowd crowd(SWIVEL_BUDGET, {&group, 1});
     const float priority = 1;
     const swivel_in priorities{&priority, 0};
-    CHECK(crowd.solve_budget({&priorities, 1}, 3) == 48);
+    CHECK(crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 3}) == 48);
     poison_results(crowd);
     const Results before(crowd);
     const std::uint32_t limb = 7;
-    crowd.solve_list({&limb, 1});
+    crowd.solve({.limbs = std::span(&limb, 1)});
     const Results after(crowd);
     for (std::uint32_t n = 0; n < 100; ++n) CHECK(after.same(before, n) == (n != limb));
 }
@@ -263,8 +268,8 @@ TEST_CASE("a crowd without the feature has no budget, with it no other bits")
     const swivel_in good{&priority, 0}, null{nullptr, 4}, narrow{&priority, 3};
     std::uint32_t words[4] = {7, 7, 7, 7}, count = 7;
     const auto bad = SWIVEL_INVALID_ARGUMENT;
-    CHECK_REFUSED(swivel_solve_budget(nullptr, &good, 1, &count), bad);
-    CHECK_REFUSED(swivel_solve_budget(plain.get(), &good, 1, &count), bad);
+    CHECK_REFUSED(solve_budget(nullptr, &good, 1, &count), bad);
+    CHECK_REFUSED(solve_budget(plain.get(), &good, 1, &count), bad);
     CHECK(std::string(swivel_last_error()) == "this crowd remembers no urgency; create it with SWIVEL_BUDGET");
     CHECK_REFUSED(swivel_choose(plain.get(), &good, 1, words, 4, &count), bad);
     CHECK_REFUSED(swivel_choose(nullptr, &good, 1, words, 4, &count), bad);
@@ -272,17 +277,17 @@ TEST_CASE("a crowd without the feature has no budget, with it no other bits")
     for (const std::uint32_t wrong : {0u, 3u, 5u})
         CHECK_REFUSED(swivel_choose(with.get(), &good, 1, words, wrong, &count), bad);
     for (const swivel_in& each : {null, narrow}) {
-        CHECK_REFUSED(swivel_solve_budget(with.get(), &each, 1, &count), bad);
+        CHECK_REFUSED(solve_budget(with.get(), &each, 1, &count), bad);
         CHECK_REFUSED(swivel_choose(with.get(), &each, 1, words, 4, &count), bad);
     }
     CHECK(std::string(swivel_last_error()) == "group 0, priority: stride 3 is smaller than a value, 4 bytes");
-    CHECK_REFUSED(swivel_solve_budget(with.get(), nullptr, 1, &count), bad);
-    CHECK_THROWS_AS(with.solve_budget({}, 1), Error);
+    CHECK_REFUSED(solve_budget(with.get(), nullptr, 1, &count), bad);
+    CHECK_THROWS_AS(with.solve({.priorities = {}, .most_blocks = 1}), Error);
     CHECK(count == 7);
     for (const std::uint32_t word : words) CHECK(word == 7);
 
     // No call above counted as one: all are as urgent still, the first goes first.
     CHECK(swivel_choose(with.get(), &good, 1, words, 4, nullptr) == SWIVEL_OK);
     CHECK(words[0] == 0xffff);
-    CHECK(swivel_solve_budget(with.get(), &good, 100, nullptr) == SWIVEL_OK);
+    CHECK(solve_budget(with.get(), &good, 100, nullptr) == SWIVEL_OK);
 }

@@ -3,6 +3,7 @@
 // The promise: limbs that are chosen, by bits or by a list, get the bits that solving all would give them; all others
 // keep theirs; blocks without one are not touched, nothing allocates, and wrong choices change nothing.
 #include "tests/allocation_count.h"
+#include "tests/solve_jobs.h"
 #include "tests/test_choice.h"
 #include "tests/test_isa_scope.h"
 
@@ -86,13 +87,15 @@ TEST_CASE("limbs chosen by bits or by a list get the bits of a full solve, other
         for (int round = 0; round < 3; ++round) {
             const std::vector<std::uint32_t> mask = random_mask(scene.crowd, random);
             poison_results(scene.crowd);
-            scene.crowd.solve_active(mask);
+            scene.crowd.solve({.mask = mask});
             RC_ASSERT(scene.is_right(mask));
 
             poison_results(scene.crowd);
             const std::uint32_t block_count = swivel_block_count(scene.crowd.get()), step = 1 + random.below(12);
             for (std::uint32_t first = 0; first < block_count; first += step)
-                scene.crowd.solve_active_blocks(mask, first, std::min(step, block_count - first));
+                scene.crowd.solve({.blocks = swivel_blocks{first, std::min(step, block_count - first)},
+                                   .mask = mask,
+                                   .on_this_thread = true});
             RC_ASSERT(scene.is_right(mask));
 
             std::vector<std::uint32_t> list;
@@ -101,7 +104,7 @@ TEST_CASE("limbs chosen by bits or by a list get the bits of a full solve, other
             for (std::size_t n = list.size(); n > 1; --n)
                 std::swap(list[n - 1], list[random.below(static_cast<std::uint32_t>(n))]);
             poison_results(scene.crowd);
-            scene.crowd.solve_list(list);
+            scene.crowd.solve({.limbs = list});
             RC_ASSERT(scene.is_right(mask));
         }
     });
@@ -121,14 +124,14 @@ TEST_CASE("every share of a block, for each single lane and on every instruction
                 for (std::uint32_t limb = 0; limb < lane_count(scene.crowd); ++limb)
                     if ((limb * 7 + limb / 16) % 16 < share) set(mask, limb);
                 poison_results(scene.crowd);
-                scene.crowd.solve_active(mask);
+                scene.crowd.solve({.mask = mask});
                 CHECK(scene.is_right(mask));
             }
             for (const std::uint32_t limb : scene.limbs) {
                 std::vector<std::uint32_t> mask(mask_words(scene.crowd));
                 set(mask, limb);
                 poison_results(scene.crowd);
-                scene.crowd.solve_list({&limb, 1});
+                scene.crowd.solve({.limbs = std::span(&limb, 1)});
                 REQUIRE(scene.is_right(mask));
             }
         }
@@ -150,9 +153,9 @@ TEST_CASE("crowds of many chunks, on any number of threads and in any ranges")
             poison_results(scene.crowd);
 #ifdef SWIVEL_WITH_TBB
             oneapi::tbb::task_arena arena(1 + round % 4);
-            arena.execute([&] { scene.crowd.solve_active(mask); });
+            arena.execute([&] { scene.crowd.solve({.mask = mask}); });
 #else
-            scene.crowd.solve_active(mask);
+            scene.crowd.solve({.mask = mask});
 #endif
             CHECK(scene.is_right(mask));
 
@@ -162,8 +165,8 @@ TEST_CASE("crowds of many chunks, on any number of threads and in any ranges")
             for (std::uint32_t part = 0; part < parts; ++part)
                 threads.emplace_back([&, part] {
                     for (std::uint32_t first = part * 7; first < block_count; first += parts * 7)
-                        swivel_solve_active_blocks(scene.crowd.get(), mask.data(), mask_words(scene.crowd), first,
-                                                   std::min(7u, block_count - first));
+                        solve_active_blocks(scene.crowd.get(), mask.data(), mask_words(scene.crowd), first,
+                                            std::min(7u, block_count - first));
                 });
             for (std::thread& thread : threads) thread.join();
             CHECK(scene.is_right(mask));
@@ -203,8 +206,8 @@ TEST_CASE("blocks without a chosen limb are neither read nor written")
         for (const std::uint32_t limb : list) set(mask, limb);
         lock_outside(in, PROT_NONE);
         lock_outside(out, PROT_NONE);
-        crowd.solve_active(mask);
-        crowd.solve_list(list);
+        crowd.solve({.mask = mask});
+        crowd.solve({.limbs = list});
         lock_outside(in, PROT_READ | PROT_WRITE);
         lock_outside(out, PROT_READ | PROT_WRITE);
         for (const std::uint32_t limb : list) REQUIRE(result_words(crowd, limb).back() == SWIVEL_REACHED);
@@ -226,11 +229,11 @@ TEST_CASE("choosing allocates nothing")
         const swivel_in priorities{&priority, 0};
         const auto use = [&] {
             const auto all = [&] {
-                crowd.solve_active(mask);
-                crowd.solve_list(list);
-                crowd.solve_budget({&priorities, 1}, 300);
+                crowd.solve({.mask = mask});
+                crowd.solve({.limbs = list});
+                crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 300});
             };
-            crowd.solve_active_blocks(mask, 3, 200);
+            crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .on_this_thread = true});
             crowd.choose({&priorities, 1}, 300, words);
 #ifdef SWIVEL_WITH_TBB
             static oneapi::tbb::task_arena arena(1);
@@ -255,40 +258,98 @@ TEST_CASE("wrong choices are refused with one line and change nothing")
     const auto bad = SWIVEL_INVALID_ARGUMENT;
     const std::vector<std::uint32_t> none(3);
 
-    CHECK_REFUSED(swivel_solve_active(nullptr, words, 3), bad);
-    CHECK_REFUSED(swivel_solve_active(c, nullptr, 3), bad);
-    for (const std::uint32_t count : {0u, 2u, 4u, ~0u}) CHECK_REFUSED(swivel_solve_active(c, words, count), bad);
-    CHECK_REFUSED(swivel_solve_active_blocks(nullptr, words, 3, 0, 1), bad);
-    CHECK_REFUSED(swivel_solve_active_blocks(c, nullptr, 3, 0, 1), bad);
-    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 2, 0, 1), bad);
-    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 3, 0, 7), bad);
-    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 3, 6, 1), bad);
-    CHECK_REFUSED(swivel_solve_active_blocks(c, words, 3, 1, ~0u), bad);
-    CHECK_REFUSED(swivel_solve_list(nullptr, words, 0), bad);
-    CHECK_REFUSED(swivel_solve_list(c, nullptr, 1), bad);
+    CHECK_REFUSED(solve_active(nullptr, words, 3), bad);
+    CHECK_REFUSED(solve_active(c, nullptr, 3), bad);
+    for (const std::uint32_t count : {0u, 2u, 4u, ~0u}) CHECK_REFUSED(solve_active(c, words, count), bad);
+    CHECK_REFUSED(solve_active_blocks(nullptr, words, 3, 0, 1), bad);
+    CHECK_REFUSED(solve_active_blocks(c, nullptr, 3, 0, 1), bad);
+    CHECK_REFUSED(solve_active_blocks(c, words, 2, 0, 1), bad);
+    CHECK_REFUSED(solve_active_blocks(c, words, 3, 0, 7), bad);
+    CHECK_REFUSED(solve_active_blocks(c, words, 3, 6, 1), bad);
+    CHECK_REFUSED(solve_active_blocks(c, words, 3, 1, ~0u), bad);
+    CHECK_REFUSED(solve_list(nullptr, words, 0), bad);
+    CHECK_REFUSED(solve_list(c, nullptr, 1), bad);
     // Padding lies at 20 to 31, 37 to 47 and 88 to 95; the crowd ends at 96.
     for (const std::uint32_t wrong : {20u, 31u, 37u, 47u, 88u, 95u, 96u, 97u, 1u << 31, ~0u}) {
         const std::uint32_t list[] = {3, 40 + 8, 87, 36, 32, 19, wrong, 0};
-        CHECK_REFUSED(swivel_solve_list(c, list, 8), bad);
+        CHECK_REFUSED(solve_list(c, list, 8), bad);
     }
     const std::uint32_t padding[] = {2, 20}, past[] = {96};
-    swivel_solve_list(c, padding, 2);
+    solve_list(c, padding, 2);
     CHECK(std::string(swivel_last_error()) == "entry 1 of the list: 20 is no limb of this crowd, but padding");
-    swivel_solve_list(c, past, 1);
+    solve_list(c, past, 1);
     CHECK(std::string(swivel_last_error()) == "entry 0 of the list: 96 is no limb of this crowd, but past its end");
-    swivel_solve_active(c, words, 2);
-    CHECK(std::string(swivel_last_error()) == "2 active words; this crowd of 6 blocks has 3, a bit for each lane");
+    solve_active(c, words, 2);
+    CHECK(std::string(swivel_last_error()) == "a mask of 2 words; this crowd of 6 blocks has 3, a bit for each lane");
     CHECK(Results(scene.crowd).words == scene.states[0].words);
 
-    CHECK(swivel_solve_list(c, nullptr, 0) == SWIVEL_OK);
-    CHECK(swivel_solve_active_blocks(c, words, 3, 6, 0) == SWIVEL_OK);
-    CHECK(swivel_solve_active(c, none.data(), 3) == SWIVEL_OK);
+    CHECK(solve_list(c, words, 0) == SWIVEL_OK);
+    CHECK(solve_active_blocks(c, words, 3, 6, 0) == SWIVEL_OK);
+    CHECK(solve_active(c, none.data(), 3) == SWIVEL_OK);
     CHECK(Results(scene.crowd).words == scene.states[0].words);
     const std::uint32_t all_of_them[] = {19, 36, 87};  // and nothing is left of the lists refused
-    CHECK(swivel_solve_list(c, all_of_them, 3) == SWIVEL_OK);
+    CHECK(solve_list(c, all_of_them, 3) == SWIVEL_OK);
     std::vector<std::uint32_t> mask(3);
     for (const std::uint32_t limb : all_of_them) set(mask, limb);
     CHECK(scene.is_right(mask));
-    CHECK_THROWS_AS(scene.crowd.solve_active(std::vector<std::uint32_t>(2)), Error);
-    CHECK_THROWS_AS(scene.crowd.solve_list(std::vector<std::uint32_t>{20}), Error);
+    CHECK_THROWS_AS(scene.crowd.solve({.mask = std::vector<std::uint32_t>(2)}), Error);
+    CHECK_THROWS_AS(scene.crowd.solve({.limbs = std::vector<std::uint32_t>{20}}), Error);
+}
+
+TEST_CASE("a job chooses in one way, and lists and priorities are for the whole crowd")
+{
+    const swivel_group_def group = group_of(40);
+    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    const std::uint32_t mask[] = {~0u, ~0u}, limb = 3;
+    const float priority = 1;
+    const swivel_in priorities{&priority, 0};
+    const swivel_blocks all{0, 3};
+    const auto before = all_words(crowd);
+    const auto refuse = [&](const auto& edit, const std::string& line) {
+        swivel_job job = swivel_default_job();
+        edit(job);
+        CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::string(swivel_last_error()).find(line) != std::string::npos);
+        CHECK((all_words(crowd) == before));
+    };
+    const auto give_mask = [&](swivel_job& job) { job.mask = mask, job.mask_word_count = 2; };
+    const auto give_list = [&](swivel_job& job) { job.limbs = &limb, job.limb_count = 1; };
+    const auto give_priorities = [&](swivel_job& job) { job.priorities = &priorities, job.most_blocks = 1; };
+    refuse([&](swivel_job& job) { give_mask(job), give_list(job); }, "give one of them");
+    refuse([&](swivel_job& job) { give_list(job), give_priorities(job); }, "give one of them");
+    refuse([&](swivel_job& job) { give_mask(job), give_priorities(job); }, "give one of them");
+    refuse([&](swivel_job& job) { give_list(job), job.blocks = &all; },
+           "a job with a list of limbs is for the whole crowd");
+    refuse([&](swivel_job& job) { give_list(job), job.on_this_thread = 1; }, "leave on_this_thread out");
+    refuse([&](swivel_job& job) { give_priorities(job), job.blocks = &all; }, "leave blocks out");
+    refuse([&](swivel_job& job) { give_priorities(job), job.on_this_thread = 1; },
+           "a job with priorities is for the whole");
+    refuse([&](swivel_job& job) { job.mask_word_count = 2; }, "the mask is null");
+    refuse([&](swivel_job& job) { job.most_blocks = 2; }, "priorities are missing");
+    refuse([](swivel_job& job) { job.size = 0; }, "job has size 0");
+    refuse([](swivel_job& job) { job.size += 1; }, "build with the header");
+
+    // One of an older header is read as far as it goes: there, to the blocks alone.
+    swivel_job job = swivel_default_job();
+    const swivel_blocks none{3, 0};
+    job.blocks = &none;
+    job.size = offsetof(swivel_job, mask);
+    give_list(job);
+    CHECK(swivel_solve(crowd.get(), &job) == SWIVEL_OK);
+    CHECK((all_words(crowd) == before));
+}
+
+TEST_CASE("a solve says how many limbs it solved")
+{
+    const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
+    Crowd crowd(SWIVEL_BUDGET, groups);
+    CHECK(crowd.solve() == 65);
+    CHECK(crowd.solve({.blocks = swivel_blocks{1, 2}}) == 9);
+    CHECK(crowd.solve({.blocks = swivel_blocks{1, 2}, .mask = std::vector<std::uint32_t>(3, ~0u)}) == 9);
+    CHECK(crowd.solve({.mask = std::vector<std::uint32_t>{0xf0000003u, 0, 1u << 24}}) == 2);  // others are padding
+    CHECK(crowd.solve({.limbs = std::vector<std::uint32_t>{3, 48, 3}}) == 2);
+    CHECK(crowd.solve({.limbs = std::vector<std::uint32_t>()}) == 0);
+    const float priority = 1;
+    const std::vector<swivel_in> priorities(3, {&priority, 0});
+    CHECK(crowd.solve({.priorities = priorities, .most_blocks = 2}) == 20);
 }

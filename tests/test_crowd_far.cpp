@@ -2,6 +2,7 @@
 //
 // The promise: positions in double, taken from an origin before they are rounded, make a crowd far out as exact as one
 // at home, through writes and through frames; plain floats there are not.
+#include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_limb.h"
@@ -111,12 +112,12 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
             CHECK(all_words(far) == all_words(home));
             CHECK(results(far) == results(home));
 
-            swivel_frame frame{};
+            swivel_frame frame = swivel_default_frame();
             frame.target = {&limbs[0].target, sizeof limbs[0]};
             frame.pole = {&limbs[0].pole, sizeof limbs[0]};
             frame.shoulder_position = {&limbs[0].position, sizeof limbs[0]};
             frame.origin = {&limbs[0].origin, one_for_all ? 0 : sizeof limbs[0]};
-            framed.solve_frame({&frame, 1});
+            framed.solve({.frames = {&frame, 1}});
             CHECK(all_words(framed) == all_words(home));
             CHECK(results(framed) == results(home));
         }
@@ -300,15 +301,15 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
     CHECK(swivel_write_doubles(directions.get(), SWIVEL_POLE, 0, 0, 1, good, none) == SWIVEL_OK);
     CHECK(read<Float3>(directions, SWIVEL_POLE)[0] == Float3{5, 6, 7});
 
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.origin = narrow;
-    CHECK_REFUSED(swivel_solve_frame(c, &frame), bad);
+    CHECK_REFUSED(solve_frame(c, &frame), bad);
     frame.origin = good;
     frame.target = {values, 12};  // enough for floats
-    CHECK_REFUSED(swivel_solve_frame(c, &frame), bad);
+    CHECK_REFUSED(solve_frame(c, &frame), bad);
     CHECK(std::string(swivel_last_error()) == "group 0, target: stride 12 is smaller than a value, 24 bytes");
     CHECK(all_words(points) == before);
     frame.target = {values, 0};
-    CHECK(swivel_solve_frame(c, &frame) == SWIVEL_OK);
+    CHECK(solve_frame(c, &frame) == SWIVEL_OK);
     CHECK(read<Float3>(points, SWIVEL_TARGET)[4] == Float3{0, 0, 0});
 }

@@ -385,3 +385,59 @@ TEST_CASE("angles that make no limit are refused")
     CHECK(value[0] == 1);
     CHECK(value[1] == 0);
 }
+
+TEST_CASE("a cone said in the character's axes holds in the character's axes")
+{
+    constexpr std::uint32_t count = 200;
+    std::size_t kept = 0;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Random random{seed + 50};
+        const Chained limb = chained(random);
+        Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_SHOULDER_CONE, count, limb.bound);
+        const Quaterniond parent = random.rotation();  // at rest, and in every pose here
+        const Vector3d direction = random.direction();
+        const Vector3d scaled = random.spread(1e-3, 1e3) * direction;
+        const Float4 q = floats(Quaterniond(random.spread(0.1, 10) * parent.coeffs()));
+        const auto axis = arm_axis(limb.bound, q, {scaled.x(), scaled.y(), scaled.z()});
+        const double most = random.between(0.4, 2.5);
+        crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone(axis, most));
+        for (std::uint32_t n = 0; n < count; ++n) {
+            Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
+            each.rotation = q;
+            write_limb(crowd, 0, n, each);
+        }
+        crowd.solve();
+        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+        for (std::uint32_t n = 0; n < count; ++n) {
+            if (flags[n] & SWIVEL_INFEASIBLE) continue;
+            const Vector3d upper = parent * (local_pose(crowd, n).shoulder * vec(limb.chain.elbow_offset));
+            CHECK(upper.normalized().dot(direction) >= std::cos(most) - 2e-6);
+            ++kept;
+        }
+    }
+    CHECK(kept > 300);
+}
+
+TEST_CASE("swivel_arm_axis refuses what has no direction, and takes its own output")
+{
+    Random random{9};
+    const swivel_binding binding = chained(random).bound;
+    const Float4 turned = floats(random.rotation()), none{};
+    const double up[3] = {0, 1, 0}, nothing[3] = {}, bad[3] = {0, std::nan(""), 0};
+    double axis[3] = {7, 7, 7};
+    const auto wrong = SWIVEL_INVALID_ARGUMENT;
+    CHECK_REFUSED(swivel_arm_axis(nullptr, turned.data(), up, axis), wrong);
+    CHECK_REFUSED(swivel_arm_axis(&binding, nullptr, up, axis), wrong);
+    CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), nullptr, axis), wrong);
+    CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), up, nullptr), wrong);
+    CHECK_REFUSED(swivel_arm_axis(&binding, none.data(), up, axis), wrong);
+    for (const double* direction : {nothing, bad})
+        CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), direction, axis), wrong);
+    const swivel_binding zeros{};
+    CHECK_REFUSED(swivel_arm_axis(&zeros, turned.data(), up, axis), wrong);
+    CHECK((axis[0] == 7 && axis[1] == 7 && axis[2] == 7));
+    REQUIRE(swivel_arm_axis(&binding, turned.data(), up, axis) == SWIVEL_OK);
+    double in_place[3] = {0, 1, 0};
+    REQUIRE(swivel_arm_axis(&binding, turned.data(), in_place, in_place) == SWIVEL_OK);
+    CHECK(std::equal(axis, axis + 3, in_place));
+}

@@ -104,11 +104,11 @@ TEST_CASE("nothing allocates after creation")
         static std::vector<double> residuals(5000);
         crowd.write(SWIVEL_TARGET, 0, targets);
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
-        crowd.solve_blocks(0, 200);
+        crowd.solve({.blocks = swivel_blocks{0, 200}, .on_this_thread = true});
         crowd.read(SWIVEL_SHOULDER, 0, shoulders);
         crowd.wrists(0, wrists);
         crowd.residuals(0, residuals);
-        (void)swivel_solve(nullptr);
+        (void)swivel_solve(nullptr, nullptr);
     };
     for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
         Crowd crowd = crowd_of(features, 5000);

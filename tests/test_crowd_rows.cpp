@@ -74,7 +74,7 @@ TEST_CASE("a limb that lacks its target, its shoulder's place or its lengths has
         Crowd crowd(SWIVEL_WORLD, std::span<const swivel_group_def>({group_of(20)}));
         const auto give = [&](swivel_field field, auto value) {
             const std::vector values(field == missing ? 19 : 20, value);
-            crowd.write(field, 0, values);
+            crowd.write(field, 0, values, 0);
         };
         give(SWIVEL_TARGET, Float3{0, 0.5f, 1});
         give(SWIVEL_SHOULDER_POSITION, Float3{0, 0, 0.2f});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: different crowds, and ranges of one crowd that do not overlap, may be solved by several threads at once.
+#include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"
@@ -40,7 +41,7 @@ TEST_CASE("two crowds on two threads do not meet")
         for (int n = 0; n < 40; ++n) {
             const swivel_rows out = swivel_result_rows(crowd.get());
             std::memset(out.base, 0, sizeof(float) * out.block_count * out.row_count * SWIVEL_LANES);
-            ok = swivel_solve(crowd.get()) == SWIVEL_OK && all_words(crowd) == expected && ok;
+            ok = swivel_solve(crowd.get(), nullptr) == SWIVEL_OK && all_words(crowd) == expected && ok;
         }
     };
     std::thread other([&] { run(two, two_alone, same[1]); });
@@ -62,7 +63,7 @@ TEST_CASE("several threads solve ranges of one crowd that do not overlap")
         std::vector<std::thread> threads;
         for (std::uint32_t t = 0; t < 3; ++t)
             threads.emplace_back([&crowd, t] {
-                for (std::uint32_t block = t; block < 90; block += 3) swivel_solve_blocks(crowd.get(), block, 1);
+                for (std::uint32_t block = t; block < 90; block += 3) solve_blocks(crowd.get(), block, 1);
             });
         for (std::thread& thread : threads) thread.join();
         REQUIRE(all_words(crowd) == expected);

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "swivel/swivel.h"
+#include "tests/solve_jobs.h"
+
+using namespace swivel::test;
 
 namespace {
 
@@ -44,17 +47,18 @@ void check_refused(const std::string& forced)
     };
     check(swivel_isa_name() == nullptr, "swivel_isa_name() is null");
     check(says_so(), "swivel_isa_name() leaves a line with the name");
-    (void)swivel_solve_blocks(nullptr, 0, 0);
+    (void)solve_blocks(nullptr, 0, 0);
     bool built = false;
     for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n) built = built || forced == name;
-    check(swivel_solve(crowd) == (built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA), "swivel_solve says why");
+    check(swivel_solve(crowd, nullptr) == (built ? SWIVEL_ISA_UNAVAILABLE : SWIVEL_UNKNOWN_ISA),
+          "swivel_solve says why");
     check(says_so(), "swivel_solve leaves a line with the name");
-    (void)swivel_solve_blocks(nullptr, 0, 0);
-    check(swivel_solve_blocks(crowd, 0, 1) != SWIVEL_OK, "swivel_solve_blocks fails");
-    check(says_so(), "swivel_solve_blocks leaves a line with the name");
+    (void)solve_blocks(nullptr, 0, 0);
+    check(solve_blocks(crowd, 0, 1) != SWIVEL_OK, "a job fails");
+    check(says_so(), "a job leaves a line with the name");
     check(std::memcmp(before.data(), rows.base, before.size() * sizeof(float)) == 0, "failed solves write nothing");
     check(swivel_use_isa("scalar") == SWIVEL_OK, "a name from the program helps");
-    check(swivel_solve(crowd) == SWIVEL_OK, "then solving works");
+    check(swivel_solve(crowd, nullptr) == SWIVEL_OK, "then solving works");
     check(swivel_isa_name() && std::string(swivel_isa_name()) == "scalar", "with that instruction set");
     swivel_crowd_destroy(crowd);
 }
@@ -62,7 +66,7 @@ void check_refused(const std::string& forced)
 void check_used(const std::string& name)
 {
     swivel_crowd* const crowd = one_arm();
-    check(swivel_solve(crowd) == SWIVEL_OK, "swivel_solve works");
+    check(swivel_solve(crowd, nullptr) == SWIVEL_OK, "swivel_solve works");
     check(swivel_isa_name() && swivel_isa_name() == name, "the expected one is in use");
     swivel_crowd_destroy(crowd);
 }

@@ -3,6 +3,7 @@
 // The promise: a whole frame through the caller's arrays gives the bits of writing, solving and reading, for any stride
 // and alignment, touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
 #include "tests/allocation_count.h"
+#include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"
@@ -123,7 +124,7 @@ using Arrays = std::array<Array, kMembers>;  // of one group
 
 swivel_frame frame_of(Arrays& arrays)
 {
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     for (std::uint32_t f = 0; f < kMembers; ++f) {
         if (arrays[f].size == 0) continue;
         if (f < kInputs)
@@ -239,8 +240,10 @@ TEST_CASE("a whole frame gives the bits of writing, solving and reading, in rows
         Crowd words = problem.crowd(), steps = problem.crowd(), frame = problem.crowd(), blocks = problem.crowd();
         solve_by_words(words, by_words);
         solve_by_steps(steps, by_steps);
-        frame.solve_frame(frames_of(whole));
-        blocks.solve_frame_blocks(frames_of(in_blocks), 0, swivel_block_count(blocks.get()));
+        frame.solve({.frames = frames_of(whole)});
+        blocks.solve({.blocks = swivel_blocks{0, swivel_block_count(blocks.get())},
+                      .frames = frames_of(in_blocks),
+                      .on_this_thread = true});
         RC_ASSERT(same_words(steps, words));
         RC_ASSERT(same_words(frame, words));
         RC_ASSERT(same_words(blocks, words));
@@ -259,7 +262,7 @@ TEST_CASE("large crowds, in chunks on threads, give the bits of one thread")
     std::vector<Arrays> by_words = problem.arrays, whole = problem.arrays;
     Crowd words = problem.crowd(), frame = problem.crowd();
     solve_by_words(words, by_words);
-    frame.solve_frame(frames_of(whole));
+    frame.solve({.frames = frames_of(whole)});
     CHECK(same_words(frame, words));
     CHECK(same_bytes(whole, by_words));
 }
@@ -278,7 +281,7 @@ TEST_CASE("a range of blocks copies and solves its limbs alone, ranges in any or
 
         const std::uint32_t block_count = swivel_block_count(crowd.get()), first = random.below(block_count);
         const Range range{first, random.below(block_count - first + 1)};
-        crowd.solve_frame_blocks(frames, range.first, range.count);
+        crowd.solve({.blocks = swivel_blocks{range.first, range.count}, .frames = frames, .on_this_thread = true});
         const std::vector<std::uint32_t> words_now = all_words(crowd);
         const std::size_t in_size = std::size_t{swivel_input_rows(crowd.get()).row_count} * SWIVEL_LANES,
                           out_size = std::size_t{swivel_result_rows(crowd.get()).row_count} * SWIVEL_LANES;
@@ -300,7 +303,8 @@ TEST_CASE("a range of blocks copies and solves its limbs alone, ranges in any or
 
         std::vector<std::uint32_t> order(block_count);
         for (std::uint32_t b = 0; b < block_count; ++b) std::swap(order[b] = b, order[random.below(b + 1)]);
-        for (const std::uint32_t block : order) crowd.solve_frame_blocks(frames, block, 1);
+        for (const std::uint32_t block : order)
+            crowd.solve({.blocks = swivel_blocks{block, 1}, .frames = frames, .on_this_thread = true});
         RC_ASSERT(same_words(crowd, words));
         RC_ASSERT(same_bytes(got, expected));
     });
@@ -312,14 +316,14 @@ TEST_CASE("one value for a whole group, and null members leave the rows alone")
     const Float3 target = {0.5f, -1, 0.25f};
     const Float4 turned = {0, 0.6f, 0, 0.8f};
     crowd.write_all(SWIVEL_PARENT_ROTATION, 0, turned);
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.target = {&target, 0};
-    crowd.solve_frame({&frame, 1});
+    crowd.solve({.frames = {&frame, 1}});
     CHECK(read<Float3>(crowd, SWIVEL_TARGET) == std::vector<Float3>(50, target));
     CHECK(read<Float4>(crowd, SWIVEL_PARENT_ROTATION) == std::vector<Float4>(50, turned));
     const auto solved = all_words(crowd);
-    const swivel_frame none{};
-    crowd.solve_frame({&none, 1});
+    const swivel_frame none = swivel_default_frame();
+    crowd.solve({.frames = {&none, 1}});
     CHECK((all_words(crowd) == solved));
 }
 
@@ -350,7 +354,7 @@ TEST_CASE("a pose may be read and written in place")
         std::vector<Character> in_place = pose;
         const auto frame_in = [](std::vector<Character>& all) {
             const std::size_t stride = sizeof(Character);
-            swivel_frame frame{};
+            swivel_frame frame = swivel_default_frame();
             frame.target = {&all[0].target, stride};
             frame.pole = {&all[0].pole, stride};
             frame.shoulder_position = {&all[0].joints[2].position, stride};
@@ -368,7 +372,7 @@ TEST_CASE("a pose may be read and written in place")
         for (std::uint32_t f = 0; f < kOutputs; ++f)
             if ((there.*kOut[f]).data)
                 check(swivel_read(separate.get(), field_at(kInputs + f), 0, 0, count, there.*kOut[f]));
-        whole.solve_frame({&here, 1});
+        whole.solve({.frames = {&here, 1}});
         CHECK(same_words(whole, separate));
         CHECK(std::memcmp(pose.data(), in_place.data(), count * sizeof(Character)) == 0);
         CHECK(read<std::uint32_t>(whole, SWIVEL_FLAGS) == read<std::uint32_t>(separate, SWIVEL_FLAGS));
@@ -427,18 +431,18 @@ TEST_CASE("values that start or end at a page nobody may touch, the array or eac
                 const std::size_t bytes = value_bytes(crowd, f);
                 INFO(kMember[f].name << ", " << count << " limbs, stride " << stride);
                 pages.fill();
-                swivel_frame frame{};
+                swivel_frame frame = swivel_default_frame();
                 if (f < kInputs) {
                     CHECK(swivel_write(c, field_at(f), 0, 0, count, {data, stride}) == SWIVEL_OK);
                     frame.*kIn[f] = {data, stride};
-                    CHECK(swivel_solve_frame(c, &frame) == SWIVEL_OK);
+                    CHECK(solve_frame(c, &frame) == SWIVEL_OK);
                     CHECK(std::memcmp(place(crowd, f, 0, count - 1, bytes / 4 - 1), "AAAA", 4) == 0);
                 } else {
                     CHECK(swivel_read(c, field_at(f), 0, 0, count, {data, stride}) == SWIVEL_OK);
                     CHECK(pages.is_filled_beside(data, stride, bytes, count));
                     pages.fill();
                     frame.*kOut[f - kInputs] = {data, stride};
-                    CHECK(swivel_solve_frame(c, &frame) == SWIVEL_OK);
+                    CHECK(solve_frame(c, &frame) == SWIVEL_OK);
                     CHECK(pages.is_filled_beside(data, stride, bytes, count));
                 }
             };
@@ -462,10 +466,13 @@ TEST_CASE("a frame of blocks allocates nothing")
     Crowd crowd = problem.crowd();
     const std::vector<swivel_frame> frames = frames_of(problem.arrays);
     const std::uint32_t block_count = swivel_block_count(crowd.get());
-    crowd.solve_frame_blocks(frames, 0, block_count);  // once before counting: the instruction set is chosen
+    crowd.solve({.blocks = swivel_blocks{0, block_count},
+                 .frames = frames,
+                 .on_this_thread = true});  // once before counting: the instruction set is chosen
     const std::size_t before = allocation_count();
-    for (int n = 0; n < 20; ++n) crowd.solve_frame_blocks(frames, 0, block_count);
-    (void)swivel_solve_frame(crowd.get(), nullptr);
+    for (int n = 0; n < 20; ++n)
+        crowd.solve({.blocks = swivel_blocks{0, block_count}, .frames = frames, .on_this_thread = true});
+    (void)solve_frame(crowd.get(), nullptr);
     CHECK(allocation_count() == before);
     void* volatile by_new = ::operator new(1);
     ::operator delete(by_new);
@@ -486,12 +493,55 @@ TEST_CASE("several threads run ranges of one frame that do not overlap")
     std::vector<std::thread> threads;
     for (std::uint32_t t = 0; t < 3; ++t)
         threads.emplace_back([&, t] {
-            for (std::uint32_t b = t; b < block_count; b += 3)
-                swivel_solve_frame_blocks(crowd.get(), frames.data(), b, 1);
+            for (std::uint32_t b = t; b < block_count; b += 3) solve_frame_blocks(crowd.get(), frames.data(), b, 1);
         });
     for (std::thread& thread : threads) thread.join();
     CHECK(same_words(crowd, alone));
     CHECK(same_bytes(problem.arrays, expected));
+}
+
+TEST_CASE("frames of limbs that are not chosen are neither read nor written")
+{
+    constexpr std::uint32_t counts[] = {100, 1500};
+    const swivel_group_def groups[] = {group_of(counts[0]), group_of(counts[1])};
+    Random random{8};
+    for (const std::uint32_t one_in : {1u, 2u, 16u, 200u}) {
+        Crowd framed(SWIVEL_JOINTS, groups), rows(SWIVEL_JOINTS, groups);
+        std::vector<std::uint32_t> mask((swivel_block_count(rows.get()) + 1) / 2);
+        std::vector<Float3> targets[2];
+        std::vector<Float4> shoulders[2];
+        std::array<swivel_frame, 2> frames = {swivel_default_frame(), swivel_default_frame()};
+        for (std::uint32_t g = 0; g < 2; ++g) {
+            rows.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});  // what unchosen limbs have and keep
+            framed.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});
+            targets[g].assign(counts[g], Float3{kNan, 7, 7});
+            shoulders[g].assign(counts[g], Float4{7, 7, 7, 7});
+            for (std::uint32_t n = 0; n < counts[g]; ++n) {
+                if (random.below(one_in) != 0) continue;
+                const std::uint32_t limb = swivel_group_first_limb(rows.get(), g) + n;
+                mask[limb / 32] |= 1u << limb % 32;
+                targets[g][n] = floats(Vector3d(random.between(0.2, 2.2) * random.direction()));
+                rows.write(SWIVEL_TARGET, g, std::span(&targets[g][n], 1), n);
+            }
+            frames[g].target = {targets[g].data(), sizeof(Float3)};
+            frames[g].shoulder = {shoulders[g].data(), sizeof(Float4)};
+        }
+        rows.solve({.mask = mask});
+        const std::uint32_t blocks = swivel_block_count(rows.get()), part = 1 + random.below(blocks);
+        framed.solve({.blocks = swivel_blocks{0, part}, .mask = mask, .frames = frames});
+        framed.solve(
+            {.blocks = swivel_blocks{part, blocks - part}, .mask = mask, .frames = frames, .on_this_thread = true});
+        INFO("one in " << one_in << ", cut at block " << part);
+        CHECK((all_words(framed) == all_words(rows)));
+        for (std::uint32_t g = 0; g < 2; ++g) {
+            const std::vector<Float4> wanted = read<Float4>(rows, SWIVEL_SHOULDER, g);
+            for (std::uint32_t n = 0; n < counts[g]; ++n) {
+                const std::uint32_t limb = swivel_group_first_limb(rows.get(), g) + n;
+                const bool chosen = mask[limb / 32] >> limb % 32 & 1;
+                REQUIRE(shoulders[g][n] == (chosen ? wanted[n] : Float4{7, 7, 7, 7}));
+            }
+        }
+    }
 }
 
 // ---- errors
@@ -501,7 +551,7 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
     const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
     float values[200] = {};
     const auto fill = [&](std::uint32_t features) {
-        std::vector<swivel_frame> frames(3);
+        std::vector<swivel_frame> frames(3, swivel_default_frame());
         for (swivel_frame& frame : frames)
             for (std::uint32_t f = 0; f < kInputs; ++f)
                 if (const std::string feature = kMember[f].feature;
@@ -532,13 +582,13 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
                 else
                     line += std::string("not part of this crowd; create it with ") +
                             (missing_hand ? "SWIVEL_WITH_HAND" : kMember[f].feature);
-                CHECK(swivel_solve_frame(crowd.get(), frames.data()) == SWIVEL_INVALID_ARGUMENT);
+                CHECK(solve_frame(crowd.get(), frames.data()) == SWIVEL_INVALID_ARGUMENT);
                 CHECK(swivel_last_error() == line);
-                CHECK_REFUSED(swivel_solve_frame_blocks(crowd.get(), frames.data(), 0, 6), SWIVEL_INVALID_ARGUMENT);
+                CHECK_REFUSED(solve_frame_blocks(crowd.get(), frames.data(), 0, 6), SWIVEL_INVALID_ARGUMENT);
                 CHECK(swivel_last_error() == line);
                 if (f >= kInputs && bytes != 0) {
                     frames[g].*kOut[f - kInputs] = {values, 0};  // one place for all: outputs cannot
-                    CHECK_REFUSED(swivel_solve_frame(crowd.get(), frames.data()), SWIVEL_INVALID_ARGUMENT);
+                    CHECK_REFUSED(solve_frame(crowd.get(), frames.data()), SWIVEL_INVALID_ARGUMENT);
                 }
             }
         CHECK((all_words(crowd) == before));
@@ -553,23 +603,25 @@ TEST_CASE("missing frames, crowds and blocks are refused; frames outside the ran
     swivel_crowd* const c = crowd.get();
     const auto bad = SWIVEL_INVALID_ARGUMENT;
     float value[4] = {};
-    swivel_frame frames[2] = {};
-    CHECK_REFUSED(swivel_solve_frame(nullptr, frames), bad);
-    CHECK_REFUSED(swivel_solve_frame(c, nullptr), bad);
-    CHECK(std::string(swivel_last_error()) == "frames are missing; give one for each of this crowd's 2 groups");
-    CHECK_REFUSED(swivel_solve_frame_blocks(nullptr, frames, 0, 1), bad);
-    CHECK_REFUSED(swivel_solve_frame_blocks(c, nullptr, 0, 1), bad);
-    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 0, 4), bad);
-    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 4, 0), bad);
-    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 1, ~0u), bad);
-    CHECK(swivel_solve_frame_blocks(c, frames, 3, 0) == SWIVEL_OK);
+    swivel_frame frames[2] = {swivel_default_frame(), swivel_default_frame()};
+    CHECK_REFUSED(solve_frame(nullptr, frames), bad);
+    frames[0].size = 0;
+    CHECK_REFUSED(solve_frame(c, frames), bad);
+    frames[0].size = sizeof frames[0] + 8;
+    CHECK_REFUSED(solve_frame(c, frames), bad);
+    frames[0].size = sizeof frames[0];
+    frames[1].size = 0;  // the first one's counts for all
+    CHECK_REFUSED(solve_frame_blocks(nullptr, frames, 0, 1), bad);
+    CHECK_REFUSED(solve_frame_blocks(c, frames, 0, 4), bad);
+    CHECK_REFUSED(solve_frame_blocks(c, frames, 4, 0), bad);
+    CHECK_REFUSED(solve_frame_blocks(c, frames, 1, ~0u), bad);
+    CHECK(solve_frame_blocks(c, frames, 3, 0) == SWIVEL_OK);
     frames[1].target = {value, 4};
-    CHECK_REFUSED(swivel_solve_frame_blocks(c, frames, 1, 2), bad);
-    CHECK(swivel_solve_frame_blocks(c, frames, 0, 2) == SWIVEL_OK);  // blocks of group 0 alone
-    frames[1].target = {nullptr, 4};                                 // not given: its stride is ignored
-    CHECK(swivel_solve_frame(c, frames) == SWIVEL_OK);
-    CHECK_NOTHROW(crowd.solve_frame(frames));
-    CHECK_THROWS_AS(crowd.solve_frame({frames, 1}), Error);
-    CHECK_THROWS_AS(crowd.solve_frame({}), Error);
-    CHECK_THROWS_AS(crowd.solve_frame_blocks({frames, 1}, 0, 1), Error);
+    CHECK_REFUSED(solve_frame_blocks(c, frames, 1, 2), bad);
+    CHECK(solve_frame_blocks(c, frames, 0, 2) == SWIVEL_OK);  // blocks of group 0 alone
+    frames[1].target = {nullptr, 4};                          // not given: its stride is ignored
+    CHECK(solve_frame(c, frames) == SWIVEL_OK);
+    CHECK_NOTHROW(crowd.solve({.frames = frames}));
+    CHECK_THROWS_AS(crowd.solve({.frames = {frames, 1}}), Error);
+    CHECK_THROWS_AS(crowd.solve({.blocks = swivel_blocks{0, 1}, .frames = {frames, 1}, .on_this_thread = true}), Error);
 }

@@ -178,7 +178,7 @@ Poses poses_of(const swivel::Crowd& crowd)
 void solve_all(swivel::Crowd& crowd, const std::string& isa)
 {
     swivel::check(swivel_use_isa(isa.c_str()));
-    crowd.solve_blocks(0, swivel_block_count(crowd.get()));
+    crowd.solve({.blocks = swivel_blocks{0, swivel_block_count(crowd.get())}, .on_this_thread = true});
 }
 
 std::vector<std::string> runnable_isas()

@@ -76,7 +76,7 @@ WholeFrame::WholeFrame(std::size_t character_count)
     }
     constexpr std::size_t pose = sizeof(CharacterPose), goal = sizeof(CharacterGoal);
     for (std::size_t side = 0; side < kArms; ++side) {
-        swivel_frame frame{};
+        swivel_frame frame = swivel_default_frame();
         frame.target = {goals_[0].arm[side].wrist, goal};
         frame.pole = {goals_[0].arm[side].pole, goal};
         frame.shoulder_position = {world_[0].arm[side].shoulder.position, pose};

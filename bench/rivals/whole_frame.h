@@ -22,11 +22,18 @@ public:
 
     // On this thread:
     void write();  // positions of wrists and poles, parents' frames; lengths are in the rows since the beginning
-    void solve() { crowd_.solve_blocks(0, swivel_block_count(crowd_.get())); }
+    void solve()
+    {
+        crowd_.solve({.blocks = swivel_blocks{0, swivel_block_count(crowd_.get())}, .on_this_thread = true});
+    }
     void read();  // rotations of shoulders and elbows
-    void solve_in_one() { crowd_.solve_frame_blocks(frames_, 0, swivel_block_count(crowd_.get())); }
+    void solve_in_one()
+    {
+        crowd_.solve(
+            {.blocks = swivel_blocks{0, swivel_block_count(crowd_.get())}, .frames = frames_, .on_this_thread = true});
+    }
     // The last on the arena's threads.
-    void solve_on_threads() { crowd_.solve_frame(frames_); }
+    void solve_on_threads() { crowd_.solve({.frames = frames_}); }
 
     // By forward kinematics from the pose buffer: the worst error of the wrists well within reach, in arm lengths;
     // infinite for a NaN.

@@ -23,7 +23,7 @@ TEST_CASE("docs: active limbs")
     std::vector<std::uint32_t> active((swivel_block_count(crowd.get()) + 1) / 2);
     for (std::uint32_t limb = 0; limb < 20; ++limb)
         active[limb / 32] |= 1u << (limb % 32);  // the nearest twenty
-    crowd.solve_active(active);
+    crowd.solve({.mask = active});
     // [end]
     CHECK(solved(crowd) == 20);
 }
@@ -33,7 +33,7 @@ TEST_CASE("docs: lists")
     swivel::Crowd crowd(0, {&arms, 1});
     // [list]
     const std::uint32_t first = swivel_group_first_limb(crowd.get(), 0);
-    crowd.solve_list(std::array{first + 3, first + 4, first + 40});
+    crowd.solve({.limbs = std::array{first + 3, first + 4, first + 40}});
     // [end]
     CHECK(solved(crowd) == 3);
 }
@@ -45,10 +45,11 @@ TEST_CASE("docs: budget")
     std::vector<float> priority(64, 1.0f);  // for each arm; size on screen, say
     const swivel_in priorities{priority.data(), sizeof(float)};
     // At most two blocks of 16 in this frame.
-    const std::uint32_t count = crowd.solve_budget({&priorities, 1}, 2);
+    const std::uint32_t count =
+        crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 2});
     // [end]
     CHECK(count == 32);
     CHECK(solved(crowd) == 32);
-    crowd.solve_budget({&priorities, 1}, 2);
+    crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 2});
     CHECK(solved(crowd) == 64);
 }

@@ -48,13 +48,14 @@ TEST_CASE("docs: frames in place")
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&arms, 1});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     // [frame]
-    swivel_frame frame{};  // what stays null keeps its rows, or is not written
+    swivel_frame frame =
+        swivel_default_frame();  // what stays null keeps its rows, or is not written
     frame.target = {&characters[0].grip, sizeof(Character)};
     frame.pole = {&characters[0].elbow_hint, sizeof(Character)};
     // May be the very pose that was read.
     frame.shoulder = {&characters[0].upper_arm, sizeof(Character)};
     frame.elbow = {&characters[0].forearm, sizeof(Character)};
-    crowd.solve_frame({&frame, 1});  // one for each group
+    crowd.solve({.frames = {&frame, 1}});  // one for each group
     // [end]
     for (const Character& character : characters) {
         CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);
@@ -72,8 +73,10 @@ TEST_CASE("docs: own threads")
     // [threads]
     const std::uint32_t blocks = swivel_block_count(crowd.get()), half = blocks / 2;
     // Your job system, in ranges that do not overlap.
-    std::thread job([&] { crowd.solve_blocks(0, half); });
-    crowd.solve_blocks(half, blocks - half);
+    std::thread job([&] {
+        crowd.solve({.blocks = swivel_blocks{0, half}, .on_this_thread = true});
+    });
+    crowd.solve({.blocks = swivel_blocks{half, blocks - half}, .on_this_thread = true});
     job.join();
     // [end]
     std::vector<double> off(200);

@@ -131,3 +131,33 @@ TEST_CASE("docs: allowed arcs")
     REQUIRE(shown.size() == 1);
     CHECK(shown[0][0] != shown[0][1]);
 }
+
+TEST_CASE("docs: limits in the character's axes")
+{
+    swivel_chain chain = swivel_default_chain();
+    chain.elbow_offset[0] = 0.30f;
+    chain.wrist_offset[0] = 0.26f;
+    chain.bend[2] = 1;
+    const swivel_binding left = swivel::bind(chain);
+    const swivel_group_def group = swivel::group(1, left);
+    swivel::Crowd crowd(SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_LIMIT_SHOULDER_CONE,
+                        {&group, 1});
+    // [character]
+    // Within 80 degrees of forwards and down: the character faces +z, with y up.
+    const std::array<float, 4> clavicle{0, 0, 0, 1};  // its rotation in the rest pose
+    const std::array<double, 3> axis = swivel::arm_axis(left, clavicle, {0, -1, 1});
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone(axis, swivel::degrees(80)));
+    // [end]
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.1f, -0.1f, -0.3f});  // behind
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, 0, -1});
+    crowd.solve();
+    std::array<Double3, 1> elbow;
+    crowd.elbows(0, elbow);
+    const double cosine =
+        vec(elbow[0]).normalized().dot(Eigen::Vector3d(0, -1, 1).normalized());
+    CHECK(std::acos(cosine) < swivel::degrees(80) + 1e-3);
+    std::array<std::uint32_t, 1> flags;
+    crowd.read(SWIVEL_FLAGS, 0, flags);
+    CHECK(flags[0] == (SWIVEL_REACHED | SWIVEL_LIMITED_SHOULDER_CONE));
+}

@@ -36,14 +36,14 @@ int main()
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&left_arms, 1});
 
     // Each frame: from your structures, to your structures.
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     frame.target = {characters[0].grip, sizeof(Character)};
     frame.pole = {characters[0].elbow_hint, sizeof(Character)};
     frame.shoulder_position = {characters[0].shoulder_position, sizeof(Character)};
     frame.parent_rotation = {characters[0].clavicle_rotation, sizeof(Character)};
     frame.shoulder = {characters[0].upper_arm_rotation, sizeof(Character)};
     frame.elbow = {characters[0].forearm_rotation, sizeof(Character)};
-    crowd.solve_frame({&frame, 1});
+    crowd.solve({.frames = {&frame, 1}});
 
     std::vector<double> off(characters.size());  // from target to wrist, in arm lengths
     crowd.residuals(0, off);

@@ -73,19 +73,24 @@ std::vector<std::uint32_t> results_of(swivel_crowd& crowd, const Shape& shape)
 
 using Solve = void (*)(swivel_crowd& crowd);
 
-void solve_whole(swivel_crowd& crowd) { SWIVEL_REQUIRE(swivel_solve(&crowd) == SWIVEL_OK); }
+void solve_whole(swivel_crowd& crowd) { SWIVEL_REQUIRE(swivel_solve(&crowd, nullptr) == SWIVEL_OK); }
 void solve_blocks(swivel_crowd& crowd)
 {
-    for (std::uint32_t block = swivel_block_count(&crowd); block-- > 0;)
-        SWIVEL_REQUIRE(swivel_solve_blocks(&crowd, block, 1) == SWIVEL_OK);
+    swivel_job job = swivel_default_job();
+    swivel_blocks one{swivel_block_count(&crowd), 1};
+    job.blocks = &one;
+    job.on_this_thread = 1;
+    while (one.first-- > 0) SWIVEL_REQUIRE(swivel_solve(&crowd, &job) == SWIVEL_OK);
 }
 void solve_some_then_others(swivel_crowd& crowd)
 {
     std::vector<std::uint32_t> words((swivel_block_count(&crowd) + 1) / 2, 0xa5c31f02u);
-    const auto count = static_cast<std::uint32_t>(words.size());
-    SWIVEL_REQUIRE(swivel_solve_active(&crowd, words.data(), count) == SWIVEL_OK);
+    swivel_job job = swivel_default_job();
+    job.mask = words.data();
+    job.mask_word_count = static_cast<std::uint32_t>(words.size());
+    SWIVEL_REQUIRE(swivel_solve(&crowd, &job) == SWIVEL_OK);
     for (std::uint32_t& word : words) word = ~word;
-    SWIVEL_REQUIRE(swivel_solve_active(&crowd, words.data(), count) == SWIVEL_OK);
+    SWIVEL_REQUIRE(swivel_solve(&crowd, &job) == SWIVEL_OK);
 }
 
 // The results after each set of inputs, one after the other.

@@ -79,10 +79,10 @@ void call_fill(Session& session)
 
 void call_one(Session& session)
 {
-    constexpr std::array calls = {call_fill,         call_write,        call_write_doubles, call_read,
-                                  call_solve,        call_solve_blocks, call_solve_frame,   call_solve_active,
-                                  call_solve_list,   call_choose,       call_reset,         call_allowed_arcs,
-                                  call_joint_angles, call_forward,      call_residuals,     call_helper};
+    constexpr std::array calls = {call_fill,    call_write,        call_write_doubles, call_read,
+                                  call_solve,   call_solve,        call_solve,         call_solve,
+                                  call_solve,   call_choose,       call_reset,         call_allowed_arcs,
+                                  call_forward, call_joint_angles, call_residuals,     call_helper};
     session.arena_before.assign(session.arena.begin(), session.arena.end());
     session.results_before = result_bytes(*session.crowd);
     calls[session.bytes.take<std::uint8_t>() % calls.size()](session);

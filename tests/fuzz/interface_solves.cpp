@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Calls of the C interface that solve: all, some, the most urgent.
+// Calls of the C interface that solve, with jobs of all kinds, and that choose the most urgent.
 #include <algorithm>
 #include <bit>
 
+#include "tests/fuzz/interface_frame.h"
 #include "tests/fuzz/interface_session.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/strided.h"
@@ -93,70 +94,142 @@ void check_choice(const Session& session, const std::vector<std::uint32_t>& word
     SWIVEL_REQUIRE(blocks <= most_blocks && bits == count);
 }
 
+// A job from bytes, what it points to, and which lanes it solves.
+struct TakenJob {
+    Session& session;
+    swivel_job job = swivel_default_job();
+    swivel_blocks blocks{0, 0};
+    std::vector<std::uint32_t> words = {}, list = {};
+    std::vector<Priorities> priorities = {};
+    std::vector<Frame> frames = {};
+    std::vector<swivel_frame> frame_array = {};
+    std::vector<bool> lanes;
+    bool is_valid = true;
+    std::uint32_t solved_count = ~0u;
+
+    explicit TakenJob(Session& in) : session(in), lanes(in.lane_count(), true)
+    {
+        Bytes& bytes = session.bytes;
+        if (bytes.one_in(2)) take_range();
+        job.on_this_thread = bytes.one_in(2);
+        switch (bytes.below(5)) {
+            case 2:
+                take_mask();
+                break;
+            case 3:
+                take_list();
+                break;
+            case 4:
+                take_priorities();
+                break;
+        }
+        if (bytes.one_in(64) && !job.mask) take_mask();  // beside another choice, it may be
+        if (bytes.one_in(2)) take_frames();
+        if (bytes.one_in(2)) job.solved_count = &solved_count;
+        const bool is_part = job.blocks || job.on_this_thread;
+        if ((job.limbs || job.priorities) && (is_part || job.mask)) is_valid = false;
+        if (bytes.one_in(64)) {
+            job.size = bytes.one_in(2) ? 0 : sizeof job + 1 + bytes.take<std::uint8_t>();
+            is_valid = false;
+        }
+    }
+
+    // Lanes of a null job, or of one whose urgent blocks are not known here.
+    bool is_known() const { return !job.priorities; }
+
+private:
+    void keep(const std::vector<bool>& some)
+    {
+        for (std::size_t lane = 0; lane < lanes.size(); ++lane) lanes[lane] = lanes[lane] && some[lane];
+    }
+    void take_range()
+    {
+        const Blocks taken = take_blocks(session);
+        blocks = {taken.first, taken.count};
+        job.blocks = &blocks;
+        is_valid = is_valid && taken.is_valid;
+        if (taken.is_valid) keep(lanes_of(session, taken));
+    }
+    void take_mask()
+    {
+        words = take_words(session);
+        words.reserve(1);  // never null
+        job.mask = words.data();
+        job.mask_word_count = static_cast<std::uint32_t>(words.size());
+        if (!are_enough(session, words)) return void(is_valid = false);
+        std::vector<bool> some(lanes.size());
+        for (std::size_t lane = 0; lane < some.size(); ++lane) some[lane] = has(words, lane);
+        keep(some);
+    }
+    void take_list()
+    {
+        const std::vector<bool> limbs = limbs_of(session);
+        const bool any_lane = session.bytes.one_in(8);
+        std::vector<bool> some(limbs.size());
+        for (std::uint32_t n = session.bytes.below(20); n > 0; --n) {
+            std::uint32_t lane = session.bytes.below(session.lane_count() + (any_lane ? 20 : 0));
+            while (!any_lane && !limbs[lane]) --lane;  // a group's padding comes after a limb
+            list.push_back(lane);
+            is_valid = is_valid && lane < limbs.size() && limbs[lane];
+            if (lane < some.size()) some[lane] = true;
+        }
+        list.reserve(1);  // never null
+        job.limbs = list.data();
+        job.limb_count = static_cast<std::uint32_t>(list.size());
+        keep(some);
+    }
+    void take_priorities()
+    {
+        const Priorities& taken = priorities.emplace_back(session);
+        job.priorities = taken.in.data();
+        job.most_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
+        is_valid = is_valid && (session.features & SWIVEL_BUDGET) && taken.are_valid;
+    }
+    void take_frames()
+    {
+        for (std::uint32_t group = 0; group < session.group_count; ++group) {
+            frame_array.push_back(frames.emplace_back(session, group).frame);
+            const std::uint32_t from = swivel_group_first_limb(session.crowd, group) / SWIVEL_LANES,
+                                to = from + (swivel_group_limb_count(session.crowd, group) - 1) / SWIVEL_LANES;
+            const bool is_touched =
+                !job.blocks || (blocks.count > 0 && from < blocks.first + blocks.count && to >= blocks.first);
+            if (is_touched && !frames.back().is_valid) is_valid = false;  // others are not looked at
+        }
+        job.frames = frame_array.data();
+    }
+};
+
 }  // namespace
 
 void call_solve(Session& session)
 {
-    check_status(session, swivel_solve(session.crowd), true);
-    check_solved(session, std::vector<bool>(session.lane_count(), true));
-}
-
-void call_solve_blocks(Session& session)
-{
-    const Blocks blocks = take_blocks(session);
-    const swivel_status status = swivel_solve_blocks(session.crowd, blocks.first, blocks.count);
-    check_status(session, status, blocks.is_valid);
-    if (status == SWIVEL_OK) check_solved(session, lanes_of(session, blocks));
-}
-
-void call_solve_active(Session& session)
-{
-    const bool whole = session.bytes.one_in(2);
-    const Blocks blocks = whole ? Blocks{0, swivel_block_count(session.crowd), true} : take_blocks(session);
-    const std::vector<std::uint32_t> words = take_words(session);
-    const auto count = static_cast<std::uint32_t>(words.size());
-    const swivel_status status =
-        whole ? swivel_solve_active(session.crowd, words.data(), count)
-              : swivel_solve_active_blocks(session.crowd, words.data(), count, blocks.first, blocks.count);
-    check_status(session, status, blocks.is_valid && are_enough(session, words));
-    if (status != SWIVEL_OK) return;
-    std::vector<bool> chosen = lanes_of(session, blocks);
-    for (std::size_t lane = 0; lane < chosen.size(); ++lane) chosen[lane] = chosen[lane] && has(words, lane);
-    check_solved(session, chosen);
-}
-
-void call_solve_list(Session& session)
-{
-    const std::vector<bool> limbs = limbs_of(session);
-    const bool any_lane = session.bytes.one_in(8);
-    std::vector<std::uint32_t> list;
-    std::vector<bool> chosen(limbs.size());
-    bool is_valid = true;
-    for (std::uint32_t n = session.bytes.below(20); n > 0; --n) {
-        std::uint32_t lane = session.bytes.below(session.lane_count() + (any_lane ? 20 : 0));
-        while (!any_lane && !limbs[lane]) --lane;  // a group's padding comes after a limb
-        list.push_back(lane);
-        is_valid = is_valid && lane < limbs.size() && limbs[lane];
-        if (lane < chosen.size()) chosen[lane] = true;
+    if (session.bytes.one_in(8)) {
+        check_status(session, swivel_solve(session.crowd, nullptr), true);
+        return check_solved(session, std::vector<bool>(session.lane_count(), true));
     }
-    const swivel_status status = swivel_solve_list(session.crowd, list.data(), static_cast<std::uint32_t>(list.size()));
-    check_status(session, status, is_valid);
-    if (status == SWIVEL_OK) check_solved(session, chosen);
+    TakenJob taken(session);
+    const swivel_status status = swivel_solve(session.crowd, &taken.job);
+    check_status(session, status, taken.is_valid);
+    const bool is_solved = status == SWIVEL_OK;
+    if (taken.job.solved_count) SWIVEL_REQUIRE(is_solved == (taken.solved_count != ~0u));
+    if (!is_solved) taken.lanes.assign(taken.lanes.size(), false);
+    if (!taken.is_known() && is_solved) return;
+    for (std::uint32_t group = 0; group < taken.frames.size(); ++group)
+        taken.frames[group].check(session, group, taken.lanes);
+    if (!is_solved) return;
+    check_solved(session, taken.lanes);
+    if (!taken.job.solved_count) return;
+    const std::vector<bool> limbs = limbs_of(session);
+    std::uint32_t count = 0;
+    for (std::size_t lane = 0; lane < limbs.size(); ++lane) count += limbs[lane] && taken.lanes[lane];
+    SWIVEL_REQUIRE(count == taken.solved_count);
 }
 
 void call_choose(Session& session)
 {
-    const bool solves = session.bytes.one_in(2), has_count = session.bytes.one_in(2);
     const std::uint32_t most_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
     const Priorities priorities(session);
     std::uint32_t count = ~0u;
-    if (solves) {
-        const swivel_status status =
-            swivel_solve_budget(session.crowd, priorities.in.data(), most_blocks, has_count ? &count : nullptr);
-        check_status(session, status, (session.features & SWIVEL_BUDGET) && priorities.are_valid);
-        SWIVEL_REQUIRE(!has_count || (status == SWIVEL_OK) == (count != ~0u));
-        return;
-    }
     std::vector<std::uint32_t> words = take_words(session);
     const std::vector<std::uint32_t> words_before = words;
     const swivel_status status = swivel_choose(session.crowd, priorities.in.data(), most_blocks, words.data(),

@@ -73,13 +73,13 @@ public:
         for (std::size_t n = 0; n < start_ + size_; ++n) {
             while (value_index < count_ && n >= value_at + value_bytes_) value_at += stride_, ++value_index;
             const bool in_value = !untouched && value_index < count_ && n >= value_at;
-            SWIVEL_REQUIRE(in_value || memory_[n] == static_cast<char>(kPattern));
+            SWIVEL_REQUIRE(in_value || memory_[n] == kPattern);
         }
     }
 
-private:
-    static constexpr int kPattern = 0x5a;
+    static constexpr char kPattern = 0x5a;  // what every byte starts as
 
+private:
     std::size_t count_, value_bytes_, stride_ = 0, start_ = 0, size_ = 0;
     bool is_valid_ = false, is_null_ = false;
     std::unique_ptr<char[]> memory_;

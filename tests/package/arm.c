@@ -51,7 +51,7 @@ int main(void)
     if (swivel_write(crowd, SWIVEL_TARGET, 0, 0, ARM_COUNT, target_in)) return failed("targets");
     if (swivel_write(crowd, SWIVEL_POLE, 0, 0, ARM_COUNT, pole_in)) return failed("poles");
     if (swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, ARM_COUNT, lengths_in)) return failed("lengths");
-    if (swivel_solve(crowd)) return failed("solve");
+    if (swivel_solve(crowd, NULL)) return failed("solve");
     if (swivel_read(crowd, SWIVEL_SHOULDER, 0, 0, ARM_COUNT, shoulder_out)) return failed("shoulders");
     if (swivel_residuals(crowd, 0, 0, ARM_COUNT, distance_out)) return failed("residuals");
     swivel_crowd_destroy(crowd);

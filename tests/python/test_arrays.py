@@ -80,13 +80,13 @@ class Copies(unittest.TestCase):
         pose = np.zeros(N, [("shoulder", "f4", 4), ("pad", "u1"), ("elbow", "f4", 2), ("flags", "u4"), ("goal", "f8", 3)])
         pose["goal"] = self.values + 1e6
         crowd = swivel.Crowd(N)
-        crowd.solve_frame({"target": pose["goal"], "origin": (1e6, 1e6, 1e6), "shoulder": pose["shoulder"], "elbow": pose["elbow"],
+        crowd.solve(frames={"target": pose["goal"], "origin": (1e6, 1e6, 1e6), "shoulder": pose["shoulder"], "elbow": pose["elbow"],
                            "flags": pose["flags"]})
         for field in ("shoulder", "elbow", "flags"):
             np.testing.assert_array_equal(pose[field], crowd.read(Field[field.upper()]))
         self.assertTrue(np.any(pose["shoulder"] != 0) and not np.any(pose["pad"]))
         split = np.zeros((4, N), np.float32)
-        crowd.solve_frame([{"shoulder": split.T}])
+        crowd.solve(frames=[{"shoulder": split.T}])
         np.testing.assert_array_equal(split.T, pose["shoulder"])
 
 
@@ -165,10 +165,10 @@ class Mistakes(unittest.TestCase):
         self.fails(ValueError, "out: expected shape (100, 3), got (3,)", crowd.wrists, out=np.zeros(3))
         self.fails(ValueError, "origins: expected shape (100, 3), or (3,) for all limbs, got (2,)", crowd.write_doubles,
                    Field.TARGET, np.zeros(3), (1, 2))
-        self.fails(ValueError, "active: expected shape (112,), one for each lane, got (100,)", crowd.solve_active, np.ones(N, bool))
-        self.fails(TypeError, "active: expected an array of bool", crowd.solve_active, np.ones(112))
-        self.fails(TypeError, "lanes: expected whole numbers", crowd.solve_list, [0.5])
-        self.fails(ValueError, "lane is -1", crowd.solve_list, [-1])
+        self.fails(ValueError, "mask: expected shape (112,), one for each lane, got (100,)", crowd.solve, mask=np.ones(N, bool))
+        self.fails(TypeError, "mask: expected an array of bool", crowd.solve, mask=np.ones(112))
+        self.fails(TypeError, "limbs: expected whole numbers", crowd.solve, limbs=[0.5])
+        self.fails(ValueError, "limb is -1", crowd.solve, limbs=[-1])
         self.fails(ValueError, "pole: expected shape (5, 3)", swivel.solve, np.zeros((5, 3)), np.zeros((4, 3)), (1, 1))
 
     def test_the_librarys_own_words(self):
@@ -178,7 +178,7 @@ class Mistakes(unittest.TestCase):
         self.fails(ValueError, "hand: not part of this crowd", crowd.rows, Field.HAND)
         self.fails(ValueError, "group 1 does not exist; this crowd has 1", crowd.read, Field.TARGET, 1)
         self.fails(ValueError, "2 limbs from limb 99 on are not all in group 0, which has 100", crowd.read, Field.TARGET, 0, 99, 2)
-        self.fails(ValueError, "8 blocks from block 0 on do not all exist; this crowd has 7", crowd.solve_blocks, 0, 8)
+        self.fails(ValueError, "8 blocks from block 0 on do not all exist; this crowd has 7", crowd.solve, blocks=(0, 8))
         self.fails(ValueError, "create it with SWIVEL_BUDGET", crowd.choose, [1], 1)
         self.fails(ValueError, "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD", swivel.Crowd, 1, Feature.POLE_DIRECTION)
         self.fails(ValueError, "make it with swivel_bind()", swivel.Crowd, 1, Feature.JOINTS)
@@ -197,10 +197,14 @@ class Mistakes(unittest.TestCase):
         self.fails(ValueError, "there is no order of axes 6", swivel.Crowd, 1, 0, 6)
         self.fails(ValueError, "group is -1", crowd.read, Field.TARGET, -1)
         self.fails(TypeError, "expected a number of limbs or (number of limbs, binding), got 'x'", swivel.Crowd, ["x"])
-        self.fails(ValueError, "frame of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve_frame,
-                   {"tagret": 0})
-        self.fails(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve_frame, [{}, {}])
-        self.fails(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve_budget, [1, 1], 1)
+        self.fails(ValueError, "frame of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
+                   frames={"tagret": 0})
+        self.fails(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve, frames=[{}, {}])
+        self.fails(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
+                   most_blocks=1)
+        self.fails(TypeError, "takes priorities and most_blocks together", crowd.solve, most_blocks=1)
+        self.fails(ValueError, "numbers of a value side by side", crowd.solve, blocks=(0, 1),
+                   frames={"shoulder": np.zeros((4, N), np.float32).T})
         self.fails(TypeError, "unexpected keyword argument 'hond'", swivel.solve, (0, 0, 1), None, (1, 1), hond=1)
 
     def test_memory(self):

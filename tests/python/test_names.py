@@ -72,9 +72,9 @@ class Names(unittest.TestCase):
             self.assertEqual(type(enum(1)), enum)
 
     def test_every_member_of_a_frame(self):
-        members = set(re.findall(r"\b(\w+)\s*[,;]", body_of("struct", "swivel_frame")))
+        members = set(re.findall(r"\b(\w+)\s*[,;]", body_of("struct", "swivel_frame"))) - {"size"}
         with self.assertRaises(ValueError) as caught:
-            swivel.Crowd(1).solve_frame({"?": 0})
+            swivel.Crowd(1).solve(frames={"?": 0})
         self.assertEqual(set(str(caught.exception).partition("there are ")[2].split(", ")), members)
 
     def test_every_function_of_the_header_has_its_like(self):
@@ -83,7 +83,7 @@ class Names(unittest.TestCase):
                   "unpack_rotation", "unpack_half", "field_row_count", "field_first_row", "group_first_limb", "group_limb_count",
                   "isa_at", "isa_runs"}
         functions = set(re.findall(r"SWIVEL_API[^(;]*?\bswivel_(\w+)\(", HEADER))
-        self.assertGreater(len(functions), 40)
+        self.assertGreater(len(functions), 35)
         has = set(dir(swivel)) | set(dir(swivel.Crowd))
         self.assertEqual(functions - has, others)
 
@@ -129,7 +129,7 @@ class Stub(unittest.TestCase):
                 if isinstance(each, ast.FunctionDef) and not is_property(each):
                     self.check_signature(each, getattr(getattr(swivel, node.name), each.name))
                     count += 1
-        self.assertGreater(count, 20)
+        self.assertGreater(count, 15)
 
     def test_types_of_package_example_and_documentation(self):
         """mypy finds nothing, and does find a mistake."""

@@ -179,32 +179,44 @@ class Bits(unittest.TestCase):
 
         def blocks(crowd):
             for block in range(crowd.block_count):
-                crowd.solve_blocks(block, 1)
+                self.assertEqual(crowd.solve(blocks=(block, 1), on_this_thread=True), min(16, N - 16 * block))
 
         def active(crowd):
             lanes = np.zeros(crowd.lane_count, bool)
             lanes[crowd.limbs()] = np.arange(N) % 2 == 0
-            crowd.solve_active(lanes)
-            crowd.solve_active_blocks(~lanes, 0, crowd.block_count)
+            self.assertEqual(crowd.solve(mask=lanes), (N + 1) // 2)
+            crowd.solve(blocks=(0, crowd.block_count), mask=~lanes, on_this_thread=True)
 
         def chosen(crowd):
             for _ in range(4):
-                crowd.solve_active(crowd.choose([np.ones(N)], crowd.block_count // 4 + 1))
+                crowd.solve(mask=crowd.choose([np.ones(N)], crowd.block_count // 4 + 1))
 
         def budget(crowd):
-            self.assertEqual(sum(crowd.solve_budget([1.0], 20) for _ in range(4)), N + 17 * 16)
+            self.assertEqual(sum(crowd.solve(priorities=[1.0], most_blocks=20) for _ in range(4)), N + 17 * 16)
 
         def frame(crowd):
             out = {"shoulder": np.zeros((N, 4), np.float32), "flags": np.zeros(N, np.uint32)}
-            crowd.solve_frame({"target": sample.targets, "pole": sample.poles, **out})
+            crowd.solve(frames={"target": sample.targets, "pole": sample.poles, **out})
             np.testing.assert_array_equal(out["shoulder"], whole.read(Field.SHOULDER))
             np.testing.assert_array_equal(out["flags"], whole.read(Field.FLAGS))
 
         def frame_blocks(crowd):
             for first in range(0, crowd.block_count, 9):
-                crowd.solve_frame_blocks([{"target": sample.targets}], first, min(9, crowd.block_count - first))
+                crowd.solve(frames=[{"target": sample.targets}], blocks=(first, min(9, crowd.block_count - first)), on_this_thread=True)
 
-        ways = [blocks, active, lambda crowd: crowd.solve_list(np.random.default_rng(4).permutation(N)), frame, frame_blocks]
+        def limbs(crowd):
+            self.assertEqual(crowd.solve(limbs=[]), 0)
+            self.assertEqual(crowd.solve(limbs=np.random.default_rng(4).permutation(N)), N)
+
+        def chosen_frame(crowd):
+            out = np.full((N, 4), 7, np.float32)
+            odd = crowd.limbs()[1::2]
+            crowd.solve(limbs=odd, frames={"target": sample.targets, "shoulder": out})
+            np.testing.assert_array_equal(out[1::2], whole.read(Field.SHOULDER)[1::2])
+            np.testing.assert_array_equal(out[::2], 7)
+            crowd.solve(limbs=crowd.limbs()[::2])
+
+        ways = [blocks, active, limbs, frame, frame_blocks, chosen_frame]
         for way in ways:
             crowd = crowd_of(sample)
             way(crowd)

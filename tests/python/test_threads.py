@@ -53,11 +53,12 @@ class Threads(unittest.TestCase):
         lanes, active = np.arange(N), np.ones(self.crowd.lane_count, bool)
         out, target = np.zeros((N, 4), np.float32), self.sample.targets
         place = np.zeros((N, 3))
-        for call in (crowd.solve, lambda: crowd.solve_blocks(0, crowd.block_count), lambda: crowd.solve_active(active),
-                     lambda: crowd.solve_active_blocks(active, 0, crowd.block_count), lambda: crowd.solve_list(lanes),
-                     lambda: crowd.choose([ones], 1000), lambda: crowd.solve_budget([ones], 1000), crowd.reset,
-                     lambda: crowd.solve_frame({"target": target, "shoulder": out}),
-                     lambda: crowd.solve_frame_blocks({"target": target}, 0, crowd.block_count),
+        blocks = (0, crowd.block_count)
+        for call in (crowd.solve, lambda: crowd.solve(blocks=blocks, on_this_thread=True), lambda: crowd.solve(mask=active),
+                     lambda: crowd.solve(limbs=lanes), lambda: crowd.solve(priorities=[ones], most_blocks=1000),
+                     lambda: crowd.choose([ones], 1000), crowd.reset,
+                     lambda: crowd.solve(frames={"target": target, "shoulder": out}),
+                     lambda: crowd.solve(frames={"target": target}, blocks=blocks, on_this_thread=True),
                      lambda: crowd.write(Field.TARGET, target), lambda: crowd.write_doubles(Field.TARGET, place),
                      lambda: crowd.read(Field.SHOULDER, out=out), lambda: crowd.wrists(out=place),
                      lambda: crowd.residuals(), lambda: crowd.joint_angles(), lambda: swivel.verify(2000)):
@@ -77,9 +78,10 @@ class Threads(unittest.TestCase):
         alone, together = swivel.Crowd(N), swivel.Crowd(N)
         for crowd in (alone, together):
             crowd.write(Field.TARGET, self.sample.targets)
-        alone.solve_blocks(0, alone.block_count)
+            crowd.write(Field.LENGTHS, self.sample.lengths)
+        alone.solve(blocks=(0, alone.block_count), on_this_thread=True)
         share = -(-together.block_count // 4)
-        threads = [threading.Thread(target=together.solve_blocks, args=(first, min(share, together.block_count - first)))
+        threads = [threading.Thread(target=together.solve, kwargs={"blocks": (first, min(share, together.block_count - first)), "on_this_thread": True})
                    for first in range(0, together.block_count, share)]
         for thread in threads:
             thread.start()

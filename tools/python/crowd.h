@@ -71,8 +71,7 @@ auto run(HeldCrowd& held, Way way, Call call)
 using CrowdClass = pybind11::class_<HeldCrowd>;
 void add_shape(CrowdClass& crowd);    // creation, counts, rows
 void add_copies(CrowdClass& crowd);   // write, read
-void add_frames(CrowdClass& crowd);   // whole frames
-void add_solving(CrowdClass& crowd);  // solve and its kin, choice, reset
+void add_solving(CrowdClass& crowd);  // solve, choose, reset
 void add_answers(CrowdClass& crowd);  // positions, residuals, angles, arcs
 
 }  // namespace swivel::python

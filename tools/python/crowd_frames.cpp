@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-//
-// Whole frames, from and to the caller's own arrays.
+#include "tools/python/frames.h"
+
 #include <pybind11/numpy.h>
 
 #include <algorithm>
 #include <string>
 
-#include "tools/python/crowd.h"
 #include "tools/python/names.h"
 
 namespace py = pybind11;
@@ -34,6 +33,16 @@ constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_INCOMING_ELBOW, &swivel_frame::incoming_elbow},
     {SWIVEL_INCOMING_WRIST, &swivel_frame::incoming_wrist},
     {SWIVEL_WEIGHTS, &swivel_frame::weights},
+    {SWIVEL_REACH, &swivel_frame::reach},
+    {SWIVEL_MOST_SWIVEL, &swivel_frame::most_swivel},
+    {SWIVEL_FLEXION_LIMIT, &swivel_frame::flexion_limit},
+    {SWIVEL_SHOULDER_CONE, &swivel_frame::shoulder_cone},
+    {SWIVEL_HUMERAL_TWIST, &swivel_frame::humeral_twist},
+    {SWIVEL_SHOULDER_BOX, &swivel_frame::shoulder_box},
+    {SWIVEL_HAND_CONE, &swivel_frame::hand_cone},
+    {SWIVEL_FOREARM_TWIST, &swivel_frame::forearm_twist},
+    {SWIVEL_HAND_TWIST, &swivel_frame::hand_twist},
+    {SWIVEL_WRIST_BOX, &swivel_frame::wrist_box},
     {SWIVEL_AIM, &swivel_frame::aim},
     {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
@@ -42,20 +51,10 @@ struct FrameOutput {
     swivel_out swivel_frame::*member;
 };
 constexpr FrameOutput kFrameOutputs[] = {
-    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
-    {SWIVEL_ELBOW, &swivel_frame::elbow},
-    {SWIVEL_WRIST, &swivel_frame::wrist},
-    {SWIVEL_FLAGS, &swivel_frame::flags},
-    {SWIVEL_STRETCH, &swivel_frame::stretch},
-    {SWIVEL_TWIST, &swivel_frame::twist},
-    {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
-};
-
-// The frames of a call, and the arrays behind them.
-struct Frames {
-    std::vector<swivel_frame> frames;
-    std::vector<Input> inputs;
-    std::vector<Output> outputs;
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
+    {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
 
 // ValueError for a key that no frame has.
@@ -76,7 +75,7 @@ void check_keys(std::uint32_t group, const py::dict& given)
 void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given, Frames& into)
 {
     check_keys(limbs.group, given);
-    swivel_frame frame{};
+    swivel_frame frame = swivel_default_frame();
     const bool doubles = given.contains("origin");
     const auto take = [&](const std::string& key, const Values& values, swivel_in& member, bool as_doubles) {
         const auto type = as_doubles ? py::dtype::of<double>() : py::dtype::of<float>();
@@ -99,6 +98,8 @@ void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given,
     into.frames.push_back(frame);
 }
 
+}  // namespace
+
 Frames frames_of(const HeldCrowd& held, const py::object& given)
 {
     std::vector<py::dict> dicts;
@@ -116,43 +117,6 @@ Frames frames_of(const HeldCrowd& held, const py::object& given)
     for (std::size_t group = 0; group < dicts.size(); ++group)
         add_frame(held, limbs_of(held, static_cast<std::int64_t>(group), 0, {}), dicts[group], frames);
     return frames;
-}
-
-void solve_frame(HeldCrowd& held, const py::object& given)
-{
-    const Frames all = frames_of(held, given);
-    run(held, Way::kAlone, [&] { held.crowd.solve_frame(all.frames); });
-    for (const Output& each : all.outputs) each.finish();
-}
-
-void solve_frame_blocks(HeldCrowd& held, const py::object& given, std::int64_t first, std::int64_t count)
-{
-    const Frames all = frames_of(held, given);
-    for (const Output& each : all.outputs)
-        if (!each.given.is(each.direct))
-            throw py::value_error("outputs of solve_frame_blocks() need the numbers of a value side by side");
-    const std::uint32_t begin = count_of("first", first), blocks = count_of("count", count);
-    run(held, Way::kSolvingBlocks, [&] { held.crowd.solve_frame_blocks(all.frames, begin, blocks); });
-}
-
-}  // namespace
-
-void add_frames(CrowdClass& crowd)
-{
-    crowd.def("solve_frame", &solve_frame, py::arg("frames"),
-              "Writes, solves and reads a whole frame a few blocks at a time, from and to your own arrays.\n\n"
-              "frames is a dict for each group, or one dict if there is one group. Keys are lower-case names of\n"
-              "fields, values arrays of the whole group as write() takes them and as out of read(); a field of a\n"
-              "structured array is one. Inputs: target, pole, lengths, shoulder_position, parent_rotation,\n"
-              "parent_scale, hand, effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights,\n"
-              "aim, clavicle. Outputs, which are filled: shoulder, elbow, wrist, flags, stretch, twist,\n"
-              "clavicle_turn. With the key origin, (n, 3) or (3,), the positions are float64 from there, as in\n"
-              "write_doubles(). What is left out keeps its rows, or is not written. A limb's outputs may be its own\n"
-              "inputs; no other arrays may overlap outputs.");
-    crowd.def("solve_frame_blocks", &solve_frame_blocks, py::arg("frames"), py::arg("first"), py::arg("count"),
-              "solve_frame() for `count` blocks from block `first` on, on the calling thread. Ranges that do not\n"
-              "overlap may run on several threads at once, with the same arrays, whose outputs need each value's\n"
-              "numbers side by side.");
 }
 
 }  // namespace swivel::python

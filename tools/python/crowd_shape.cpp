@@ -27,7 +27,7 @@ constexpr const char* kCrowdText =
     "Arrays have one row for each limb of a group: (n, 3) positions in your unit of length, (n, 4)\n"
     "quaternions x, y, z, w, (n,) single numbers, float32. Different crowds may be used by different\n"
     "threads at once; one crowd may not (RuntimeError), but for readers beside readers, and\n"
-    "solve_blocks() and its kin on ranges apart.";
+    "solve(on_this_thread=True) on blocks that do not overlap.";
 
 // Python's and NumPy's whole numbers; an array is none.
 std::optional<std::uint32_t> limb_count_of(py::handle object)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Solving all limbs, some blocks, those chosen.
+// Solving: all limbs, some blocks, those chosen, from and to rows or the caller's own arrays.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <string>
 
 #include "tools/python/crowd.h"
+#include "tools/python/frames.h"
 
 namespace py = pybind11;
 
@@ -25,13 +26,12 @@ std::vector<std::uint32_t> no_words(const HeldCrowd& held)
 }
 
 // The library's bits from a bool for each lane.
-std::vector<std::uint32_t> words_of(const HeldCrowd& held, const py::object& active)
+std::vector<std::uint32_t> words_of(const HeldCrowd& held, const py::object& mask)
 {
-    const auto flags = py::array::ensure(active);
-    if (!flags || !flags.dtype().equal(py::dtype::of<bool>()))
-        throw py::type_error("active: expected an array of bool");
+    const auto flags = py::array::ensure(mask);
+    if (!flags || !flags.dtype().equal(py::dtype::of<bool>())) throw py::type_error("mask: expected an array of bool");
     if (flags.ndim() != 1 || static_cast<std::size_t>(flags.size()) != lane_count(held))
-        throw py::value_error("active: expected shape (" + std::to_string(lane_count(held)) +
+        throw py::value_error("mask: expected shape (" + std::to_string(lane_count(held)) +
                               ",), one for each lane, got " + shape_text(flags));
     const auto lanes = py::array_t<bool>(flags).unchecked<1>();
     std::vector<std::uint32_t> words = no_words(held);
@@ -49,16 +49,16 @@ py::array lanes_of(const HeldCrowd& held, const std::vector<std::uint32_t>& word
     return flags;
 }
 
-std::vector<std::uint32_t> indices_of(const py::object& lanes)
+std::vector<std::uint32_t> indices_of(const py::object& limbs)
 {
-    py::array given = py::array::ensure(lanes);
+    py::array given = py::array::ensure(limbs);
     if (!given || (given.dtype().kind() != 'i' && given.dtype().kind() != 'u' && given.size() > 0))
-        throw py::type_error("lanes: expected whole numbers, such as Crowd.limbs() gives");
-    if (given.ndim() != 1) throw py::value_error("lanes: expected shape (count,), got " + shape_text(given));
+        throw py::type_error("limbs: expected whole numbers, such as Crowd.limbs() gives");
+    if (given.ndim() != 1) throw py::value_error("limbs: expected shape (count,), got " + shape_text(given));
     const auto numbers = py::array_t<std::int64_t, py::array::forcecast>(given).unchecked<1>();
     std::vector<std::uint32_t> indices;
     indices.reserve(static_cast<std::size_t>(numbers.shape(0)));
-    for (py::ssize_t n = 0; n < numbers.shape(0); ++n) indices.push_back(count_of("lane", numbers(n)));
+    for (py::ssize_t n = 0; n < numbers.shape(0); ++n) indices.push_back(count_of("limb", numbers(n)));
     return indices;
 }
 
@@ -84,29 +84,41 @@ std::vector<swivel_in> pointers_of(const std::vector<Input>& inputs)
     return pointers;
 }
 
-void solve_blocks(HeldCrowd& held, std::int64_t first, std::int64_t count)
+using Blocks = std::optional<std::pair<std::int64_t, std::int64_t>>;
+
+// Results go straight into the caller's arrays, or through copies of them that hold nothing of limbs not solved.
+void require_direct(const Frames& frames)
 {
-    const std::uint32_t begin = count_of("first", first), blocks = count_of("count", count);
-    run(held, Way::kSolvingBlocks, [&] { held.crowd.solve_blocks(begin, blocks); });
+    for (const Output& each : frames.outputs)
+        if (!each.given.is(each.direct))
+            throw py::value_error(
+                "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
-void solve_active(HeldCrowd& held, const py::object& active)
+std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const py::object& mask, const py::object& limbs,
+                    const py::object& priorities, std::optional<std::int64_t> most_blocks, const py::object& frames,
+                    bool on_this_thread)
 {
-    const std::vector<std::uint32_t> words = words_of(held, active);
-    run(held, Way::kAlone, [&] { held.crowd.solve_active(words); });
-}
-
-void solve_active_blocks(HeldCrowd& held, const py::object& active, std::int64_t first, std::int64_t count)
-{
-    const std::vector<std::uint32_t> words = words_of(held, active);
-    const std::uint32_t begin = count_of("first", first), blocks = count_of("count", count);
-    run(held, Way::kSolvingBlocks, [&] { held.crowd.solve_active_blocks(words, begin, blocks); });
-}
-
-void solve_list(HeldCrowd& held, const py::object& lanes)
-{
-    const std::vector<std::uint32_t> indices = indices_of(lanes);
-    run(held, Way::kAlone, [&] { held.crowd.solve_list(indices); });
+    Job job;
+    if (blocks) job.blocks = {count_of("first block", blocks->first), count_of("block count", blocks->second)};
+    const auto words = mask.is_none() ? std::vector<std::uint32_t>() : words_of(held, mask);
+    job.mask = words;
+    const auto indices = limbs.is_none() ? std::vector<std::uint32_t>() : indices_of(limbs);
+    if (!limbs.is_none()) job.limbs = indices;
+    const auto inputs = priorities.is_none() ? std::vector<Input>() : priorities_of(held, priorities);
+    const std::vector<swivel_in> pointers = pointers_of(inputs);
+    job.priorities = pointers;
+    if (most_blocks.has_value() == priorities.is_none())
+        throw py::type_error("solve() takes priorities and most_blocks together");
+    if (most_blocks) job.most_blocks = count_of("most_blocks", *most_blocks);
+    const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames);
+    if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
+    job.frames = arrays.frames;
+    job.on_this_thread = on_this_thread;
+    const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
+    const std::uint32_t solved = run(held, way, [&] { return held.crowd.solve(job); });
+    for (const Output& each : arrays.outputs) each.finish();
+    return solved;
 }
 
 py::array choose(HeldCrowd& held, const py::object& priorities, std::int64_t most_blocks)
@@ -116,13 +128,6 @@ py::array choose(HeldCrowd& held, const py::object& priorities, std::int64_t mos
     std::vector<std::uint32_t> words = no_words(held);
     run(held, Way::kAlone, [&] { held.crowd.choose(pointers_of(given), most, words); });
     return lanes_of(held, words);
-}
-
-std::uint32_t solve_budget(HeldCrowd& held, const py::object& priorities, std::int64_t most_blocks)
-{
-    const std::vector<Input> given = priorities_of(held, priorities);
-    const std::uint32_t most = count_of("most_blocks", most_blocks);
-    return run(held, Way::kAlone, [&] { return held.crowd.solve_budget(pointers_of(given), most); });
 }
 
 void reset(HeldCrowd& held, std::int64_t group, std::int64_t first, std::optional<std::int64_t> count)
@@ -136,30 +141,30 @@ void reset(HeldCrowd& held, std::int64_t group, std::int64_t first, std::optiona
 void add_solving(CrowdClass& crowd)
 {
     crowd.def(
-        "solve", [](HeldCrowd& held) { run(held, Way::kAlone, [&] { held.crowd.solve(); }); },
-        "Solves every limb, on all cores if the library was built with oneTBB. Equal inputs give equal bits on every "
-        "CPU.");
-    crowd.def("solve_blocks", &solve_blocks, py::arg("first"), py::arg("count"),
-              "Solves `count` blocks of LANES limbs from block `first` on, on the calling thread. Ranges that do\n"
-              "not overlap may be solved by several threads at once.");
-    crowd.def("solve_active", &solve_active, py::arg("active"),
-              "Solves the limbs whose lane is True in active, a bool array of shape (lane_count,); lanes of padding\n"
-              "mean nothing. All other limbs keep their results bit for bit.");
-    crowd.def("solve_active_blocks", &solve_active_blocks, py::arg("active"), py::arg("first"), py::arg("count"),
-              "The same for the limbs of `count` blocks from block `first` on, on the calling thread; active is\n"
-              "still that of the whole crowd. Ranges that do not overlap may run on several threads at once.");
-    crowd.def("solve_list", &solve_list, py::arg("lanes"),
-              "Solves the limbs of these lanes, whole numbers of shape (count,) in any order: limbs(group)[n] is\n"
-              "limb n of a group. All other limbs keep their results. ValueError for lanes that do not exist or\n"
-              "are padding.");
+        "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("mask") = py::none(),
+        py::arg("limbs") = py::none(), py::arg("priorities") = py::none(), py::arg("most_blocks") = py::none(),
+        py::arg("frames") = py::none(), py::arg("on_this_thread") = false,
+        "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
+        "CPU.\n\n"
+        "blocks is (first, count), of LANES limbs each. Of mask, limbs and priorities at most one is given. mask:\n"
+        "bool of shape (lane_count,), True for limbs to solve; lanes of padding mean nothing. limbs: whole numbers\n"
+        "of shape (count,) in any order, as limbs(group) gives them. priorities and most_blocks: as choose() has\n"
+        "them, with Feature.BUDGET. Limbs that are not chosen keep their results bit for bit.\n\n"
+        "frames solves from and to your own arrays, a few blocks at a time: a dict for each group, or one dict if\n"
+        "there is one group. Keys are lower-case names of fields, values arrays of the whole group as write() takes\n"
+        "them and as out of read(); a field of a structured array is one. Inputs are read, results are filled. With\n"
+        "the key origin, (n, 3) or (3,), the positions are float64 from there, as in write_doubles(). What is left\n"
+        "out keeps its rows, or is not written. A limb's results may be its own inputs; no other arrays may overlap\n"
+        "results. Where not all limbs are solved, results need each value's numbers side by side.\n\n"
+        "On all cores if the library was built with oneTBB; on_this_thread on one, and then several threads may\n"
+        "solve blocks that do not overlap at once, with the same mask and frames. Lists and priorities are for the\n"
+        "whole crowd and exclude both. ValueError for limbs that do not exist or are padding.");
     crowd.def("choose", &choose, py::arg("priorities"), py::arg("most_blocks"),
               "Picks at most most_blocks blocks by urgency, with Feature.BUDGET; solves nothing.\n\n"
               "priorities has one entry for each group: (n,) float32, one number for each limb, or () for the\n"
               "whole group, in any unit. Each call adds a block's largest priority to its urgency, which is 0\n"
-              "again for those picked, so none starves. Gives a bool array of shape (lane_count,) for\n"
-              "solve_active() and solve_active_blocks().");
-    crowd.def("solve_budget", &solve_budget, py::arg("priorities"), py::arg("most_blocks"),
-              "choose() and solve_active() in one; gives the number of limbs solved.");
+              "again for those picked, so none starves. Gives a mask for solve(), which chooses and solves in\n"
+              "one if it gets the priorities.");
     crowd.def("reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
               "Forgets the swivel carried from solve to solve with Feature.WITH_STEP, after a teleport.");
 }

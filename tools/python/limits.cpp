@@ -66,6 +66,19 @@ py::array mirror(std::int64_t number, const py::object& values, std::int64_t ord
     return out;
 }
 
+py::array arm_axis_array(const swivel_binding& binding, const py::object& parent_rotation, const py::object& direction)
+{
+    const Input parent = input({"parent_rotation", 1, 4}, parent_rotation, py::dtype::of<float>(), true);
+    const Input wanted = input({"direction", 1, 3}, direction, py::dtype::of<double>(), true);
+    float rotation[4];
+    double towards[3];
+    std::memcpy(rotation, parent.values.data, sizeof rotation);  // of any alignment
+    std::memcpy(towards, wanted.values.data, sizeof towards);
+    py::array_t<double> axis(3);
+    check(swivel_arm_axis(&binding, rotation, towards, axis.mutable_data()));
+    return axis;
+}
+
 }  // namespace
 
 void add_limits(py::module_& module)
@@ -76,6 +89,11 @@ void add_limits(py::module_& module)
         "A range of angles in radians, least <= most, no wider than 2 pi: (4,) float32, cos and sin of its\n"
         "middle, cos and sin of half its width. A twist's, or one of the three that np.concatenate makes a\n"
         "box of.");
+    module.def("arm_axis", &arm_axis_array, py::arg("binding"), py::arg("parent_rotation"), py::arg("direction"),
+               "A direction of the character as the axes of limits take it: (3,) float64, unit.\n\n"
+               "direction (3,): in the world of the rest pose, of any length. parent_rotation (4,): of the shoulder's\n"
+               "parent joint there, x, y, z, w. cone(arm_axis(binding, rotation, (0, -1, 1)), math.radians(80)) keeps\n"
+               "an arm within 80 degrees of forwards and down.");
     module.def("cone", &cone_array, py::arg("axis"), py::arg("most"),
                "A cone about an axis (3,) of any length, open by `most` radians from it, 0 to pi: (4,) float32.");
     module.def(

@@ -25,7 +25,6 @@ PYBIND11_MODULE(_core, module)
     crowd.attr("__module__") = "swivel";  // what the package shows is the package's, also in help() and errors
     add_shape(crowd);
     add_copies(crowd);
-    add_frames(crowd);
     add_solving(crowd);
     add_answers(crowd);
     add_limits(module);

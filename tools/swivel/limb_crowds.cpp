@@ -115,7 +115,7 @@ void LimbCrowds::solve()
     std::vector<swivel_in> priorities;
     for (const float& priority : priorities_) priorities.push_back({&priority, 0});
     crowd.choose(priorities, budget_blocks_, active_);
-    crowd.solve_active(active_);
+    crowd.solve({.mask = active_});
 }
 
 bool LimbCrowds::solved(std::size_t limb, std::uint32_t character) const

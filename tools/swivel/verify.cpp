@@ -68,7 +68,7 @@ void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     for (std::uint32_t first = 0; first < blocks; first += chunk)
-        crowd.solve_blocks(first, std::min(chunk, blocks - first));
+        crowd.solve({.blocks = swivel_blocks{first, std::min(chunk, blocks - first)}, .on_this_thread = true});
 }
 
 // The corpus on one instruction set, every way there is to run it.

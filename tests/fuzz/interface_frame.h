@@ -1,0 +1,33 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// Frames of a job, made from bytes, one for each group; and what must be in them after a solve.
+
+#include <vector>
+
+#include "swivel/swivel.h"
+#include "tests/fuzz/interface_session.h"
+#include "tests/fuzz/strided.h"
+
+namespace swivel::fuzz {
+
+// One group's frame and the arrays that it points to.
+struct Frame {
+    swivel_frame frame = swivel_default_frame();
+    std::vector<Strided> inputs = {}, outputs = {};
+    std::vector<swivel_field> output_fields = {};
+    bool is_valid = true;
+
+    Frame(Session& session, std::uint32_t group);
+
+    // Results of chosen limbs are the crowd's; values of others, and all of them if nothing is chosen, are as they
+    // were.
+    void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const;
+
+private:
+    void take_input(Session& session, swivel_field field, swivel_in swivel_frame::*member, std::uint32_t limb_count);
+    void take_origin(Session& session, std::uint32_t limb_count);
+    void take_output(Session& session, swivel_field field, swivel_out swivel_frame::*member, std::uint32_t limb_count);
+    void judge(const Session& session, swivel_field field, const Strided& values);
+};
+
+}  // namespace swivel::fuzz
