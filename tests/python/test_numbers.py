@@ -87,6 +87,20 @@ class Poses(unittest.TestCase):
         self.assertEqual(ends.shape[1:], (2, 2))
         np.testing.assert_allclose(np.linalg.norm(ends, axis=2), 1, atol=1e-5)
 
+    def test_no_arms_give_no_arms(self):
+        none = swivel.solve(np.empty((0, 3)), None, (0.3, 0.26), hand=np.empty((0, 4)))
+        for name, shape in (("shoulder", (0, 4)), ("elbow", (0, 2)), ("wrist", (0, 4)), ("flags", (0,)), ("wrist_position", (0, 3)),
+                            ("residual", (0,))):
+            self.assertEqual(getattr(none, name).shape, shape)
+
+    def test_things_say_what_they_are(self):
+        binding = swivel.bind((0.5, 0, 0), (0.25, 0, 0), (0, 0, 1))
+        np.testing.assert_array_equal(eval(repr(binding), {"Binding": swivel.Binding}).upper_from_arm, binding.upper_from_arm)
+        self.assertIn("lengths=[0.5, 0.25]", repr(binding))
+        self.assertIn("<Crowd of [5, 40] limbs", repr(swivel.Crowd([5, 40], Feature.WORLD)))
+        self.assertIn("WORLD", repr(swivel.Crowd([5, 40], Feature.WORLD)))
+        self.assertIn("<Check float wrist, ", "".join(map(repr, swivel.verify(50)[1])))
+
     def test_find_goes_from_flag_to_flag(self):
         crowd = swivel.Crowd([5, 40])
         for group in (0, 1):

@@ -80,6 +80,13 @@ void add_bindings(py::module_& module)
             member.name,
             [quaternion = member.quaternion](const swivel_binding& b) { return py::array_t<float>(4, b.*quaternion); },
             member.text);
+    binding.def("__repr__", [](const py::object& self) {
+        std::string text = "Binding(";
+        for (const Member& member : kQuaternions)
+            text +=
+                std::string(member.name) + "=" + std::string(py::str(self.attr(member.name).attr("tolist")())) + ", ";
+        return text + "lengths=" + std::string(py::str(self.attr("lengths").attr("tolist")())) + ")";
+    });
     binding.def_property_readonly(
         "lengths", [](const swivel_binding& b) { return py::array_t<float>(2, b.lengths); },
         "Upper arm and forearm, in the chain's unit, with which limbs start: (2,) float32.");

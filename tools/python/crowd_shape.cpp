@@ -124,6 +124,13 @@ void add_shape(CrowdClass& crowd)
     crowd.def_property_readonly(
         "features", [](const HeldCrowd& held) { return py::module_::import("swivel").attr("Feature")(held.features); },
         "What the crowd was made with, as Feature.");
+    crowd.def("__repr__", [](const HeldCrowd& held) {
+        std::string limbs;
+        for (std::uint32_t group = 0; group < group_count(held); ++group)
+            limbs += (group > 0 ? ", " : "") + std::to_string(swivel_group_limb_count(held.crowd.get(), group));
+        const py::object features = py::module_::import("swivel").attr("Feature")(held.features);
+        return "<Crowd of [" + limbs + "] limbs, " + std::string(py::repr(features)) + ">";
+    });
     crowd.def_property_readonly("group_count", &group_count, "Number of groups.");
     crowd.def_property_readonly(
         "block_count", [](const HeldCrowd& held) { return swivel_block_count(held.crowd.get()); },
@@ -136,7 +143,7 @@ void add_shape(CrowdClass& crowd)
         "limb_count", [](const HeldCrowd& held, std::int64_t group) { return limbs_of(held, group, 0, {}).count; },
         py::arg("group") = 0, "Number of limbs in a group. ValueError if there is no such group.");
     crowd.def("limbs", &limb_range, py::arg("group") = 0,
-              "The lanes of a group's limbs as a range: indices for solve_list(), solve_active(), choose().");
+              "The lanes of a group's limbs as a range: indices for solve(limbs=...) and into a mask.");
     crowd.def(
         "component_count",
         [](const HeldCrowd& held, std::int64_t field) { return held.component_counts[field_of(field)]; },

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "swivel/swivel.hpp"
+#include "tools/python/names.h"
 
 namespace swivel::python {
 
@@ -32,7 +33,7 @@ void translate_errors()
         try {
             if (thrown) std::rethrow_exception(thrown);
         } catch (const Error& error) {
-            PyErr_SetString(exception_for(error.status), error.what());
+            PyErr_SetString(exception_for(error.status), in_python(error.what()).c_str());
         }
     });
 }

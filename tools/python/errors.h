@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The library's failures as Python's exceptions, with the library's own text.
+// The library's failures as Python's exceptions, with the library's own text in Python's names.
 #pragma once
 
 namespace swivel::python {

@@ -71,6 +71,11 @@ void add_check(py::module_& module)
 {
     py::class_<Check> one(module, "Check", "One line of verify(): an error measured over many arms against its limit.");
     one.attr("__module__") = "swivel";
+    one.def("__repr__", [](const Check& check) {
+        const auto number = [](double value) { return std::string(py::repr(py::float_(value))); };
+        return "<Check " + check.name + ", " + check.set + ": max " + number(check.max) + " of " +
+               number(check.max_limit) + ">";
+    });
     one.def_readonly("name", &Check::name, "What is compared.")
         .def_readonly("set", &Check::set, "Over which arms.")
         .def_readonly("arm_count", &Check::arm_count, "How many arms.")

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tools/python/names.h"
 
+#include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <regex>
+#include <utility>
 
 namespace py = pybind11;
 
@@ -119,9 +122,33 @@ void add_enum(py::module_& module, const char* kind, const char* name, std::span
     module.attr(name) = made;
 }
 
+// A constant of the header, without its SWIVEL_, as Python has it; empty for a name that is none.
+std::string member_called(const std::string& name)
+{
+    const std::pair<const char*, std::span<const Named>> enums[] = {
+        {"Feature.", kFeatures}, {"Field.", kFields}, {"Flag.", kFlags}, {"EulerOrder.", kEulerOrders}};
+    for (const auto& [prefix, table] : enums)
+        if (std::any_of(table.begin(), table.end(), [&](const Named& each) { return each.name == name; }))
+            return prefix + name;
+    return {};
+}
+
 }  // namespace
 
 std::span<const Named> features() { return kFeatures; }
+
+std::string in_python(const std::string& line)
+{
+    static const std::regex names("SWIVEL_([A-Z_]+)|swivel_([a-z_]+)");
+    std::string said;
+    auto rest = line.begin();
+    for (std::sregex_iterator at(line.begin(), line.end(), names), end; at != end; ++at) {
+        const std::string member = (*at)[1].matched ? member_called((*at)[1]) : (*at)[2].str();
+        said.append(rest, (*at)[0].first).append(member.empty() ? at->str() : member);
+        rest = (*at)[0].second;
+    }
+    return said.append(rest, line.end());
+}
 
 std::string field_name(swivel_field field)
 {

@@ -20,6 +20,10 @@ struct Named {
 };
 std::span<const Named> features();
 
+// A line of the library with Python's names: "create it with SWIVEL_BUDGET" has Feature.BUDGET, and no function has the
+// prefix of C.
+std::string in_python(const std::string& line);
+
 // What messages and keywords call a field: "shoulder_position".
 std::string field_name(swivel_field field);
 // The field of a number that came from Python; ValueError if there is none.

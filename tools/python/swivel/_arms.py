@@ -71,7 +71,7 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): target,
     pole and shoulder_position are taken from there in double precision.
 
-    ValueError for shapes that do not go together and for lengths that nobody gave, TypeError for a keyword that is no input field.
+    No arms, arrays of length 0, give none. ValueError for shapes that do not go together and for lengths that nobody gave, TypeError for a keyword that is no input field.
     """
     given = {"target": target, **{name: value for name, value in (("pole", pole), ("lengths", lengths)) if value is not None},
              **fields}
@@ -82,8 +82,9 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     for field in values:
         wanted |= needed_features(field)
     n = _limb_count(wanted, binding, values)
-    crowd = Crowd([(n, binding) if binding else n], wanted, shoulder_order, wrist_order)
-    for field, array in values.items():
+    limb_count = max(n, 1)  # a group has limbs; of no arms, the one's results are left out
+    crowd = Crowd([(limb_count, binding) if binding else limb_count], wanted, shoulder_order, wrist_order)
+    for field, array in values.items() if n > 0 else ():
         if origin is not None and field in _POSITIONS:
             crowd.write_doubles(field, array, origin)
         else:
@@ -91,4 +92,5 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     crowd.solve()
     results = {field.name.lower(): crowd.read(field)
                for field in Field if field >= Field.SHOULDER and crowd.component_count(field) > 0}
-    return Arms(elbow_position=crowd.elbows(), wrist_position=crowd.wrists(), residual=crowd.residuals(), **results)
+    results.update(elbow_position=crowd.elbows(), wrist_position=crowd.wrists(), residual=crowd.residuals())
+    return Arms(**{name: values[:n] for name, values in results.items()})
