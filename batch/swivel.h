@@ -177,7 +177,7 @@ extern "C" {
 #endif
 
 #define SWIVEL_VERSION_MAJOR 0
-#define SWIVEL_VERSION_MINOR 1
+#define SWIVEL_VERSION_MINOR 2
 #define SWIVEL_VERSION_PATCH 0
 #define SWIVEL_VERSION (SWIVEL_VERSION_MAJOR * 10000 + SWIVEL_VERSION_MINOR * 100 + SWIVEL_VERSION_PATCH)
 
@@ -665,7 +665,7 @@ SWIVEL_API int swivel_isa_runs(const char* name);
 
 // One line of a self-check: an error measured over many arms against its limit.
 typedef struct swivel_check {
-    const char* name;  // what is compared, e.g. "float wrist"
+    const char* name;  // what is compared, e.g. "production<float>, wrist to target"
     const char* set;   // over which arms, e.g. "reach 5-98 %"
     uint64_t arm_count;
     double max, rms;              // in arm lengths, or as the name says

@@ -50,11 +50,11 @@ TEST_CASE("docs: frames in place")
     // [frame]
     swivel_frame frame =
         swivel_default_frame();  // what stays null keeps its rows, or is not written
-    frame.target = {&characters[0].grip, sizeof(Character)};
-    frame.pole = {&characters[0].elbow_hint, sizeof(Character)};
+    frame.target = swivel::stream(characters, &Character::grip);
+    frame.pole = swivel::stream(characters, &Character::elbow_hint);
     // May be the very pose that was read.
-    frame.shoulder = {&characters[0].upper_arm, sizeof(Character)};
-    frame.elbow = {&characters[0].forearm, sizeof(Character)};
+    frame.shoulder = swivel::stream(characters, &Character::upper_arm);
+    frame.elbow = swivel::stream(characters, &Character::forearm);
     crowd.solve({.frames = {&frame, 1}});  // one for each group
     // [end]
     for (const Character& character : characters) {

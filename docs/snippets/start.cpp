@@ -37,12 +37,12 @@ int main()
 
     // Each frame: from your structures, to your structures.
     swivel_frame frame = swivel_default_frame();
-    frame.target = {characters[0].grip, sizeof(Character)};
-    frame.pole = {characters[0].elbow_hint, sizeof(Character)};
-    frame.shoulder_position = {characters[0].shoulder_position, sizeof(Character)};
-    frame.parent_rotation = {characters[0].clavicle_rotation, sizeof(Character)};
-    frame.shoulder = {characters[0].upper_arm_rotation, sizeof(Character)};
-    frame.elbow = {characters[0].forearm_rotation, sizeof(Character)};
+    frame.target = swivel::stream(characters, &Character::grip);
+    frame.pole = swivel::stream(characters, &Character::elbow_hint);
+    frame.shoulder_position = swivel::stream(characters, &Character::shoulder_position);
+    frame.parent_rotation = swivel::stream(characters, &Character::clavicle_rotation);
+    frame.shoulder = swivel::stream(characters, &Character::upper_arm_rotation);
+    frame.elbow = swivel::stream(characters, &Character::forearm_rotation);
     crowd.solve({.frames = {&frame, 1}});
 
     std::vector<double> off(characters.size());  // from target to wrist, in arm lengths

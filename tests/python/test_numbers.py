@@ -99,7 +99,7 @@ class Poses(unittest.TestCase):
         self.assertIn("lengths=[0.5, 0.25]", repr(binding))
         self.assertIn("<Crowd of [5, 40] limbs", repr(swivel.Crowd([5, 40], Feature.WORLD)))
         self.assertIn("WORLD", repr(swivel.Crowd([5, 40], Feature.WORLD)))
-        self.assertIn("<Check float wrist, ", "".join(map(repr, swivel.verify(50)[1])))
+        self.assertIn("<Check production<float>, wrist to target, ", "".join(map(repr, swivel.verify(50)[1])))
 
     def test_find_goes_from_flag_to_flag(self):
         crowd = swivel.Crowd([5, 40])
