@@ -66,6 +66,7 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
 {
     swivel_status status = check_size<swivel_frame>("the first frame", size_of(frames));
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
+        if (status == SWIVEL_OK) status = check_element("frame", frames, g);
         if (status == SWIVEL_OK) status = check_frame(crowd, g, element(frames, g, swivel_default_frame()));
     });
     return status;
@@ -73,6 +74,9 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
 
 swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
 {
+    if (job.most_blocks > 0 && !job.priorities)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "most_blocks goes with priorities; give one for each of this crowd's %u groups", crowd.group_count);
     if ((job.mask != nullptr) + (job.limbs != nullptr) + (job.priorities != nullptr) > 1)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a job chooses limbs by a mask, by a list or by priorities; give one of them");
@@ -80,10 +84,10 @@ swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a job with %s is for the whole crowd and cannot be one of several; leave %s out, or give a mask",
                     job.limbs ? "a list of limbs" : "priorities", job.blocks ? "blocks" : "on_this_thread");
-    if (!job.limbs && job.limb_count > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "a list of %u limbs is null", job.limb_count);
+    if (job.limbs && !job.limbs->indices && job.limbs->count > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "a list of %u limbs is null", job.limbs->count);
     if (job.mask || job.mask_word_count > 0) return check_mask(crowd, job.mask, job.mask_word_count);
-    return job.priorities || job.most_blocks > 0 ? check_priorities(crowd, job.priorities) : SWIVEL_OK;
+    return job.priorities ? check_priorities(crowd, job.priorities) : SWIVEL_OK;
 }
 
 // Which of a crowd's groups a limb index is in; lists often stay in one.
@@ -127,10 +131,15 @@ std::uint32_t count_limbs(const swivel_crowd& crowd, const std::uint32_t* mask, 
 {
     std::uint32_t limb_count = 0;
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t block = first; block < first + count; ++block) {
-            const LaneMask lanes = lanes_of_limbs(crowd.groups[g], block);
-            limb_count += static_cast<std::uint32_t>(std::popcount(mask ? lanes & lanes_of(mask, block) : lanes));
+        const Group& group = crowd.groups[g];
+        const std::uint32_t last = first + count - 1;
+        if (!mask) {
+            limb_count += (count - 1) * SWIVEL_LANES + limb_count_of(group, last);
+            return;
         }
+        for (std::uint32_t block = first; block <= last; ++block)
+            limb_count +=
+                static_cast<std::uint32_t>(std::popcount(lanes_of_limbs(group, block) & lanes_of(mask, block)));
     });
     return limb_count;
 }
@@ -155,7 +164,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     const Isa* const isa = usable_isa(status);
     if (!isa) return status;
-    if (job.limbs) status = mark(*crowd, job.limbs, job.limb_count);
+    if (job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.most_blocks, crowd->chosen);
 
@@ -165,7 +174,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     else
         solve_in_chunks(*crowd, isa->kernels, work, blocks);
     if (job.solved_count) *job.solved_count = count_limbs(*crowd, work.mask, blocks);
-    if (job.limbs) clear(crowd->chosen, job.limbs, job.limb_count);
+    if (job.limbs) clear(crowd->chosen, job.limbs->indices, job.limbs->count);
     if (job.priorities) std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
     return SWIVEL_OK;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "batch/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <utility>
 
 #include "batch/rig.h"
@@ -63,6 +65,24 @@ constexpr FeatureRule kFeatureRules[] = {
 };
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 
+bool is_zero(float x) { return x == 0; }
+
+swivel_status check_binding(std::uint32_t group, const swivel_binding& binding)
+{
+    if (std::all_of(std::begin(binding.parent_from_arm), std::end(binding.parent_from_arm), is_zero))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no binding; make it with swivel_bind()", group);
+    if (!is_binding(binding))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", group);
+    if (std::all_of(std::begin(binding.lengths), std::end(binding.lengths), is_zero))
+        return fail(
+            SWIVEL_INVALID_ARGUMENT,
+            "group %u's binding has bones of length 0; make it with swivel_bind(), or give NaN for lengths that "
+            "are written later",
+            group);
+    return SWIVEL_OK;
+}
+
 }  // namespace
 
 swivel_crowd_def full_def(const swivel_crowd_def* def) { return element(def, 0, swivel_default_crowd_def()); }
@@ -92,11 +112,11 @@ swivel_status check(const swivel_crowd_def* given)
         return status;
     std::uint64_t limb_count = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        if (const swivel_status status = check_element("group def", def.groups, g); status != SWIVEL_OK) return status;
         const swivel_group_def group = group_at(def, g);
         if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
-        if ((def.features & SWIVEL_JOINTS) && !is_binding(group.binding))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", g);
+        if (def.features & SWIVEL_JOINTS)
+            if (const swivel_status status = check_binding(g, group.binding); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
     if (limb_count > kMostLimbs)

@@ -31,7 +31,7 @@ struct swivel_crowd {
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
     void* user;
     alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
-    std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (chosen.cpp)
+    std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (api_solve.cpp)
     float* urgency;                          // of each block; null without SWIVEL_BUDGET (budget.cpp)
 };
 

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "batch/unpack.h"
 #include "core/solve_arm.h"
@@ -97,7 +98,8 @@ ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t 
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
     const Reader read{crowd, limb};
-    if (std::bit_cast<std::uint32_t>(read.lane(SWIVEL_FLAGS, 0)) & SWIVEL_BAD_INPUT) return 0;
+    if (std::bit_cast<std::uint32_t>(read.lane(SWIVEL_FLAGS, 0)) & SWIVEL_BAD_INPUT)
+        return std::numeric_limits<double>::quiet_NaN();
     const double scale = crowd.features & SWIVEL_WORLD ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
     const double length = scale * (read(SWIVEL_LENGTHS, 0) + read(SWIVEL_LENGTHS, 1));
     if (!(length > 0)) return 0;

@@ -21,7 +21,8 @@ struct ArmRotors {
 };
 ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
-// |wrist - target| / (scale * (upper + fore)), or the effector's distance; 0 for a limb of no length or with bad input.
+// |wrist - target| / (scale * (upper + fore)), or the effector's distance; 0 for a limb of no length, NaN for one
+// with bad input.
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
 }  // namespace swivel

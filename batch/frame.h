@@ -3,6 +3,8 @@
 // The members of a swivel_frame and the fields they stand for.
 #pragma once
 
+#include <iterator>
+
 #include "batch/swivel.h"
 
 namespace swivel {
@@ -39,6 +41,8 @@ inline constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
 
+static_assert(std::size(kFrameInputs) == SWIVEL_SHOULDER, "every input");
+
 struct FrameOutput {
     swivel_field field;
     swivel_out swivel_frame::*member;
@@ -49,5 +53,6 @@ inline constexpr FrameOutput kFrameOutputs[] = {
     {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
     {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
+static_assert(std::size(kFrameOutputs) == SWIVEL_FIELD_COUNT - SWIVEL_SHOULDER, "every result");
 
 }  // namespace swivel

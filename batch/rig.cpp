@@ -62,7 +62,8 @@ swivel_status bind(const swivel_chain& chain, swivel_binding& binding)
     const Vector<double> fore_s = sandwich(elbow_unit, fore);  // in the shoulder joint's frame
     const Vector<double> given = vector_of(chain.bend);
     if (!(len2(given) <= kHuge2))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: the bend is not finite; give a direction or zeros");
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "swivel_bind: the bend is not finite or longer than 1e15; give a direction or zeros");
     const bool is_given = len2(given) >= kTiny2;
     if (!is_given && scalar_product(upper, fore_s) >= kBent * std::sqrt(len2(upper) * len2(fore_s)))
         return fail(SWIVEL_INVALID_ARGUMENT,
@@ -116,8 +117,8 @@ swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotat
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");
     if (!is_usable_bone(wanted))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: direction (%g, %g, %g) has no direction", direction[0],
-                    direction[1], direction[2]);
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: direction (%g, %g, %g) is not 1e-15..1e15 long",
+                    direction[0], direction[1], direction[2]);
     const Rotor<double> world_from_arm = normalise(parent) * normalise(rotor_of(binding.parent_from_arm));
     const Vector<double> in_arm = normalise(sandwich(~world_from_arm, wanted));
     std::copy(std::begin(in_arm.c), std::end(in_arm.c), axis);

@@ -19,16 +19,28 @@ inline std::size_t size_of(const void* given)
     return size;
 }
 
-// A size that this library knows. name: of the structure, in the line that a wrong one leaves.
+// A size that some header gave the structure: one that cuts no member in two. name: in the line that a wrong one
+// leaves.
 template <class Struct>
 swivel_status check_size(const char* name, std::size_t size)
 {
-    if (size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "%s has size 0; start from its default, or set the size", name);
+    if (size == 0 || size % alignof(Struct) != 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s has size %zu; start from its default, or set the size", name, size);
     if (size > sizeof(Struct))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "%s has size %zu, this library's has %zu; build with the header of the library that you link", name,
                     size, sizeof(Struct));
     return SWIVEL_OK;
+}
+
+// Element n of an array has the size of the first.
+template <class Struct>
+swivel_status check_element(const char* name, const Struct* array, std::size_t n)
+{
+    const std::size_t step = size_of(array), size = size_of(reinterpret_cast<const char*>(array) + n * step);
+    if (size == step) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s %zu has size %zu, the first has %zu; start each from its default", name, n,
+                size, step);
 }
 
 // Element n of an array whose first element's size is the step; what it is too short for is as in `otherwise`.

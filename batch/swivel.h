@@ -136,7 +136,8 @@
 //
 // VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
 // length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
-// A limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit.
+// A limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit. So does a limb
+// that was never given its target, with WORLD its shoulder's place, or, without JOINTS, its bone lengths.
 //
 // Lengths below 1e-15 are not resolved: a target that near to the shoulder counts as on it. No wrist comes nearer to
 // the shoulder than 1e-9 arm lengths; it is reached all the same. A bone under 1e-7 of the other is taken as straight
@@ -155,8 +156,9 @@
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 //
-// SIZES. Structures that may grow in later releases start with their size, as the caller's header has it; a function
-// for each gives the defaults. A library accepts those of its own header and of older ones, which are shorter.
+// SIZES. Structures that may grow in later releases start with their size, as the caller's header has it. Start from
+// the function that gives the defaults. A library accepts those of its own header and of older ones, which are shorter.
+// In arrays all elements have the size of the first.
 //
 // THREADS. Different crowds may be used by different threads at once; one crowd may not, but for jobs with
 // on_this_thread on blocks that do not overlap, and for calls that take it const while nothing else runs on it.
@@ -211,7 +213,7 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last one
     SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
-    SWIVEL_BAD_INPUT = 1u << 30,     // see VALID INPUT; the limb has its rest pose
+    SWIVEL_BAD_INPUT = 1u << 30,     // see VALID INPUT, or an input was never given; the limb has its rest pose
     // bits 17 to 29 are kept for later releases and are 0
 } swivel_flag;
 
@@ -302,14 +304,16 @@ typedef struct swivel_chain {
     float elbow_offset[3];       // elbow's place in the shoulder joint's frame
     float wrist_offset[3];       // wrist's place in the elbow joint's frame
     // Where flexion carries the forearm, in the shoulder joint's frame: mostly forwards for an arm, backwards for a
-    // leg. Any length; it need not be across the bones. Zero: as the rest pose is bent, by more than 10 degrees.
+    // leg. Of the joint's world rotation q at rest and forwards f it is ~q f q. It is 1e-15..1e15 long and need not be
+    // across the bones. Shorter than that, such as zero: as the rest pose is bent, by more than 10 degrees.
     float bend[3];
+    float reserved;  // 0
 } swivel_chain;
 
 // Joints that are not turned at rest; bones and bend are still to be given.
 static inline swivel_chain swivel_default_chain(void)
 {
-    const swivel_chain chain = {sizeof(swivel_chain), {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0}, {0}, {0}};
+    const swivel_chain chain = {sizeof(swivel_chain), {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0}, {0}, {0}, 0};
     return chain;
 }
 
@@ -327,7 +331,8 @@ typedef enum swivel_euler_order {
 typedef struct swivel_group_def {
     size_t size;             // sizeof(swivel_group_def), set by swivel_default_group_def()
     uint32_t limb_count;     // 1 or more
-    swivel_binding binding;  // with SWIVEL_JOINTS: of all limbs, which start with its lengths; otherwise ignored
+    uint32_t reserved;       // 0
+    swivel_binding binding;  // with SWIVEL_JOINTS every limb uses it, and starts with its lengths; ignored without
 } swivel_group_def;
 
 // Limbs without a binding: in the arm frame.
@@ -486,12 +491,18 @@ typedef struct swivel_blocks {
     uint32_t first, count;
 } swivel_blocks;
 
+// Some of a crowd's limbs. indices may be null if count is 0.
+typedef struct swivel_limbs {
+    const uint32_t* indices;
+    uint32_t count;
+} swivel_limbs;
+
 // What a call of swivel_solve() does. Null means all, or nothing to do; a job of null pointers solves every limb.
 typedef struct swivel_job {
     size_t size;  // sizeof(swivel_job), set by swivel_default_job()
 
-    // Which blocks; null for all. Others are neither read nor written, and frames of groups without a block among them
-    // are not looked at.
+    // Which blocks; null for all. Others are neither read nor written. Frames of groups without a block among them are
+    // not looked at, but for the first one's size.
     const swivel_blocks* blocks;
 
     // Which limbs, by at most one of the three; by none, all of these blocks. They get the bits that they would get
@@ -503,10 +514,9 @@ typedef struct swivel_job {
     const uint32_t* mask;
     uint32_t mask_word_count;
     // By a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
-    // once. Fails for an index that is out of range or a padding lane, before anything is solved. Some nanoseconds an
-    // entry more than by bits, if in no order. Not null with limb_count 0: none.
-    const uint32_t* limbs;
-    uint32_t limb_count;
+    // once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before anything is
+    // solved. A list in no order costs some nanoseconds an entry more than bits.
+    const swivel_limbs* limbs;
     // By urgency, as swivel_choose() has it: at most so many blocks.
     const swivel_in* priorities;
     uint32_t most_blocks;
@@ -539,11 +549,11 @@ static inline swivel_job swivel_default_job(void)
 // result given, with the same bits, a few blocks at a time, so that their rows stay in the nearest cache from copy to
 // copy. Rows hold inputs and results afterwards. No byte beside the values is read or written. Inputs may overlap each
 // other. A limb's inputs are read before its results are written, so its results may overlap its own inputs: a pose may
-// be read and written in place. Another limb's inputs may be read later, on any thread, so no limb's result may overlap
-// another's input (an input of stride 0 is every limb's), nor any result another result, nor any value the crowd's own
-// memory. Fails for a field given that this crowd does not have, for a stride smaller than a value, and for results of
-// a crowd with SWIVEL_COMPACT, which are read with swivel_read() or where they lie. For arms of characters kept as
-// structures, with SWIVEL_JOINTS, in a crowd of one group:
+// be read and written in place. Another limb's inputs may be read later, on any thread. So no limb's result may overlap
+// another's input; an input of stride 0 is every limb's. Nor may a result overlap another result, or any value the
+// crowd's own memory. It fails for a field that this crowd does not have and for a stride smaller than a value. It also
+// fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or where they lie. For arms of
+// characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
 //     swivel_frame frame = swivel_default_frame();
 //     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
 //     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
@@ -617,10 +627,12 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
 SWIVEL_API swivel_status swivel_range(double least, double most, float range[4]);
 // An axis of any length but zero and the largest angle to it, 0 to pi.
 SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
-// A direction of the character as the axes of limits and aims take it, which are the arm frame's: "forwards and down"
-// becomes the axis of a cone. direction: in the world of the rest pose, of any length but zero. parent_rotation: of the
-// shoulder's parent joint there, x, y, z, w. axis becomes unit, and may be direction itself. Fails for a binding that
-// is none. A cone within 80 degrees of forwards and down, for a character that faces +z with y up:
+// A direction of the character as the axes of limits take it, which are the arm frame's: "forwards and down" becomes
+// the axis of a cone. direction: in the world of the rest pose, 1e-15..1e15 long. parent_rotation: of the shoulder's
+// parent joint in that world, x, y, z, w. axis becomes unit, and may be direction itself. Fails for a binding that is
+// none. The limit then turns with the parent joint. To keep it fixed to the character, call this with the parent's
+// rotation of each frame, in the character's axes. A cone within 80 degrees of forwards and down, for one that faces
+// +z:
 //     const double down_ahead[3] = {0, -1, 1};
 //     double axis[3];
 //     float cone[4];
@@ -647,8 +659,8 @@ SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order or
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far the wrist, or the effector, of each limb is from its target, or with WITH_AIM the target from the hand's ray:
-// one double, in arm lengths (upper + fore, scaled). 0 for a limb of no length or with bad
-// input. Means nothing before the first solve.
+// one double, in arm lengths (upper + fore, scaled). 0 for a limb of no length, NaN for one with bad input. Means
+// nothing before the first solve.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 

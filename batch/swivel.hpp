@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // C++ on top of swivel.h: a crowd that frees itself, ranges instead of pointers and strides, exceptions instead of
-// statuses. Header only; adds no behaviour. Contracts, units and layouts are swivel.h's.
+// statuses, and checks of how many values a range has. Header only. Contracts, units and layouts are swivel.h's.
 #pragma once
 
 #if __cplusplus <= 201703L
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <ranges>
@@ -98,15 +99,20 @@ inline std::array<float, 2> turn(double angle)
 // An angle in radians, as all of swivel takes them.
 constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
 
-// Stands for a Number where an aggregate is made of its members: what it makes starts with a Number.
-template <class Number>
+// Converts to such numbers and to nothing else.
+template <class... Numbers>
 struct Only {
-    template <std::same_as<Number> Same>
-    operator Same() const;
+    template <class Number>
+    requires(std::same_as<Number, Numbers> || ...) operator Number() const;
+};
+struct AnyNumber {
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    operator Number() const;
 };
 
-// Whether a limb's value is made of such numbers: one of them, an array of them, a container that says so by its
-// value_type, or a plain structure that starts with one. A class with constructors is taken at its word.
+// Whether a limb's value is made of such numbers: one of them, an array of them, or a container that says so by its
+// value_type. A plain structure must not start with another number; classes with constructors are taken at their word.
 template <class Value, class... Numbers>
 constexpr bool holds()
 {
@@ -117,8 +123,8 @@ constexpr bool holds()
         return holds<std::remove_extent_t<Each>, Numbers...>();
     else if constexpr (requires { typename Each::value_type; })
         return std::is_trivially_copyable_v<Each> && holds<typename Each::value_type, Numbers...>();
-    else if constexpr (std::is_aggregate_v<Each>)
-        return std::is_trivially_copyable_v<Each> && (requires { Each{Only<Numbers>()}; } || ...);
+    else if constexpr (std::is_aggregate_v<Each> && requires { Each{AnyNumber()}; })
+        return std::is_trivially_copyable_v<Each> && requires { Each{Only<Numbers...>()}; };
     else
         return std::is_trivially_copyable_v<Each>;
 }
@@ -150,27 +156,41 @@ auto stream_of(Range&& values, Value Struct::*member)
     const auto data = std::ranges::data(values);
     return Stream<Byte>{std::ranges::empty(values) ? nullptr : &(data->*member), sizeof(Element)};
 }
-// frame.target = swivel::stream(characters, &Character::grip): where the first one's member is, and the stride.
-template <std::ranges::contiguous_range Range, class Struct, FieldValue Value>
-auto stream(Range&& values, Value Struct::*member)
-{
-    return stream_of(values, member);
-}
+// frame.target = swivel::stream(characters, &Character::grip): where the first one's member is, and the stride. Of no
+// characters it is null, which leaves the field out.
+template <class Range, class Struct, FieldValue Value>
+requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
+auto stream(Range&& values, Value Struct::*member) { return stream_of(values, member); }
 // The same for positions in double, beside a frame's origin.
-template <std::ranges::contiguous_range Range, class Struct, DoubleValue Value>
-auto stream_doubles(Range&& values, Value Struct::*member)
-{
-    return stream_of(values, member);
-}
+template <class Range, class Struct, DoubleValue Value>
+requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
+auto stream_doubles(Range&& values, Value Struct::*member) { return stream_of(values, member); }
 
-// What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB.
+// A range that was given, empty or not; or none.
+template <class Each>
+class Given {
+public:
+    Given() = default;
+    Given(const Each* first, std::size_t count) : values_(std::span(first, count)) {}
+    template <std::convertible_to<std::span<const Each>> Range>
+    Given(const Range& range) : values_(range)
+    {
+    }
+    explicit operator bool() const { return values_.has_value(); }
+    std::span<const Each> operator*() const { return *values_; }
+
+private:
+    std::optional<std::span<const Each>> values_;
+};
+
+// What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB. Of mask, limbs and
+// priorities at most one is given.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
-    std::span<const std::uint32_t> mask = {};  // of mask, limbs and priorities at most one
-    std::optional<std::span<const std::uint32_t>> limbs = {};
-    std::span<const swivel_in> priorities = {};  // one for each group
-    std::uint32_t most_blocks = 0;               // with priorities
-    std::span<const swivel_frame> frames = {};   // one for each group
+    Given<std::uint32_t> mask = {}, limbs = {};
+    Given<swivel_in> priorities = {};  // one for each group
+    std::uint32_t most_blocks = 0;     // with priorities
+    Given<swivel_frame> frames = {};   // one for each group
     bool on_this_thread = false;
 };
 
@@ -201,7 +221,7 @@ public:
     template <FieldRange R>
     void write(swivel_field field, std::uint32_t group, const R& values, std::optional<std::uint32_t> first = {})
     {
-        check(swivel_write(crowd_, field, group, from(first), checked(group, count(values), first), in(values)));
+        check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, count(values), first), in(values)));
     }
     // The same value for every limb of the group.
     template <FieldValue Value>
@@ -215,27 +235,30 @@ public:
     void write_doubles(swivel_field field, std::uint32_t group, const R& values, swivel_in origins = {},
                        std::optional<std::uint32_t> first = {})
     {
-        check(swivel_write_doubles(crowd_, field, group, from(first), checked(group, count(values), first), in(values),
-                                   origins));
+        check(swivel_write_doubles(crowd_, field, group, first.value_or(0), checked(group, count(values), first),
+                                   in(values), origins));
     }
     template <FieldRange R>
     void read(swivel_field field, std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_read(crowd_, field, group, from(first), checked(group, count(values), first), out(values)));
+        check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, count(values), first), out(values)));
     }
 
     // swivel_solve(): crowd.solve(), or crowd.solve({.frames = {&frame, 1}}). Returns how many limbs were solved.
     std::uint32_t solve(const Job& wanted = {})
     {
         swivel_job job = swivel_default_job();
-        const std::uint32_t none = 0;  // an empty list may have null data, which would mean every limb
+        const swivel_limbs limbs =
+            wanted.limbs ? swivel_limbs{(*wanted.limbs).data(), count(*wanted.limbs)} : swivel_limbs{};
         if (wanted.blocks) job.blocks = &*wanted.blocks;
-        if (!wanted.mask.empty()) job.mask = wanted.mask.data(), job.mask_word_count = count(wanted.mask);
-        if (wanted.limbs)
-            job.limbs = wanted.limbs->empty() ? &none : wanted.limbs->data(), job.limb_count = count(*wanted.limbs);
-        if (!wanted.priorities.empty()) job.priorities = for_all_groups("priorities", wanted.priorities);
+        if (wanted.mask) {
+            job.mask = data(*wanted.mask);
+            job.mask_word_count = count(*wanted.mask);
+        }
+        if (wanted.limbs) job.limbs = &limbs;
+        if (wanted.priorities) job.priorities = for_all_groups("priorities", *wanted.priorities);
         job.most_blocks = wanted.most_blocks;
-        if (!wanted.frames.empty()) job.frames = for_all_groups("frames", wanted.frames);
+        if (wanted.frames) job.frames = for_all_groups("frames", *wanted.frames);
         job.on_this_thread = wanted.on_this_thread;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
@@ -275,56 +298,62 @@ public:
     template <DoubleRange R>
     void elbows(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_forward(crowd_, group, from(first), checked(group, count(values), first), out(values), {}, {}));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, count(values), first), out(values), {},
+                             {}));
     }
     template <DoubleRange R>
     void wrists(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_forward(crowd_, group, from(first), checked(group, count(values), first), {}, out(values), {}));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, count(values), first), {}, out(values),
+                             {}));
     }
     template <DoubleRange R>
     void hands(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_forward(crowd_, group, from(first), checked(group, count(values), first), {}, {}, out(values)));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, count(values), first), {}, {},
+                             out(values)));
     }
     template <DoubleRange R>
     void joint_angles(std::uint32_t group, swivel_euler_order shoulder, swivel_euler_order wrist, int family,
                       R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_joint_angles(crowd_, group, from(first), checked(group, count(values), first), shoulder, wrist,
-                                  family, out(values)));
+        check(swivel_joint_angles(crowd_, group, first.value_or(0), checked(group, count(values), first), shoulder,
+                                  wrist, family, out(values)));
     }
     template <DoubleRange R>
     void residuals(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
     {
-        check(swivel_residuals(crowd_, group, from(first), checked(group, count(values), first), out(values)));
+        check(swivel_residuals(crowd_, group, first.value_or(0), checked(group, count(values), first), out(values)));
     }
 
 private:
-    static std::uint32_t from(std::optional<std::uint32_t> first) { return first.value_or(0); }
+    // How many values there are for limbs from `first` on: without it one for each limb of the group.
     std::uint32_t checked(std::uint32_t group, std::uint32_t given, std::optional<std::uint32_t> first) const
     {
-        const std::uint32_t has = swivel_group_limb_count(crowd_, group);
-        if (!first && given != has)
+        const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
+        if (!first && given != has && has > 0)
             throw Error(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " values for the " + std::to_string(has) +
                                                      " limbs of group " + std::to_string(group) +
                                                      "; give one for each, or say from which limb on");
         return given;
     }
-    // None for none: an empty range may have no data, which calls refuse.
+    // Where values lie. An empty range may have null data, which calls refuse.
+    template <class R>
+    static auto data(R&& values) -> decltype(std::ranges::data(values))
+    {
+        static std::max_align_t nothing;
+        using Data = decltype(std::ranges::data(values));
+        return std::ranges::empty(values) ? reinterpret_cast<Data>(&nothing) : std::ranges::data(values);
+    }
     template <class R>
     static swivel_in in(const R& values)
     {
-        static constexpr char nothing = 0;
-        return {std::ranges::empty(values) ? &nothing : static_cast<const void*>(std::ranges::data(values)),
-                sizeof(std::ranges::range_value_t<R>)};
+        return {data(values), sizeof(std::ranges::range_value_t<R>)};
     }
     template <class R>
     static swivel_out out(R& values)
     {
-        static char nothing = 0;
-        return {std::ranges::empty(values) ? &nothing : static_cast<void*>(std::ranges::data(values)),
-                sizeof(std::ranges::range_value_t<R>)};
+        return {data(values), sizeof(std::ranges::range_value_t<R>)};
     }
     template <class R>
     static std::uint32_t count(const R& values)
@@ -332,14 +361,16 @@ private:
         return static_cast<std::uint32_t>(std::ranges::size(values));
     }
 
-    // One entry for each group: there are limbs in the last one's group, and none in the next.
+    // One entry for each group of the crowd. A group that does not exist has no limbs.
     template <class Each>
     const Each* for_all_groups(const char* what, std::span<const Each> each) const
     {
         const std::uint32_t given = count(each);
-        if (given == 0 || swivel_group_limb_count(crowd_, given - 1) == 0 || swivel_group_limb_count(crowd_, given) > 0)
-            throw Error(SWIVEL_INVALID_ARGUMENT,
-                        std::to_string(given) + " " + what + " are not one for each of this crowd's groups");
+        std::uint32_t groups = 0;
+        while (swivel_group_limb_count(crowd_, groups) > 0) ++groups;
+        if (given != groups)
+            throw Error(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " " + what + " for " + std::to_string(groups) +
+                                                     " groups; give one for each");
         return each.data();
     }
 

@@ -49,9 +49,9 @@ inline swivel_status solve_active_blocks(swivel_crowd* crowd, const std::uint32_
 }
 inline swivel_status solve_list(swivel_crowd* crowd, const std::uint32_t* limbs, std::uint32_t limb_count)
 {
+    const swivel_limbs list{limbs, limb_count};
     swivel_job job = swivel_default_job();
-    job.limbs = limbs;
-    job.limb_count = limb_count;
+    job.limbs = &list;
     return swivel_solve(crowd, &job);
 }
 inline swivel_status solve_budget(swivel_crowd* crowd, const swivel_in* priorities, std::uint32_t most_blocks,

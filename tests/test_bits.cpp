@@ -253,6 +253,9 @@ TEST_CASE("blocks outside the range are not even read")
     REQUIRE(reinterpret_cast<char*>(in.base) == pages + 2 * page);
     REQUIRE(reinterpret_cast<char*>(out.base) == pages + 2 * page + word_count(in) * sizeof(float));
 
+    const float target[] = {0, 1, 1}, lengths[] = {1, 1};
+    REQUIRE(swivel_write(crowd, SWIVEL_TARGET, 0, 0, blocks * SWIVEL_LANES, {target, 0}) == SWIVEL_OK);
+    REQUIRE(swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, blocks * SWIVEL_LANES, {lengths, 0}) == SWIVEL_OK);
     const auto lock_outside = [&](const swivel_rows& rows, int rights) {
         const std::size_t part = word_count(rows) * sizeof(float) / 3;
         REQUIRE(part % page == 0);

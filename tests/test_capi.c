@@ -73,6 +73,8 @@ int main(void)
     check(shoulder[0] == 0 && shoulder[1] == 0 && shoulder[2] == 0 && shoulder[3] == 1, "its shoulder");
     check(swivel_unpack_half(words.base[3 * SWIVEL_LANES]) == 1, "its elbow");
     check(words.base[5 * SWIVEL_LANES] == 0 && words.base[6 * SWIVEL_LANES] == 0, "its flags, before any solve");
+    check(swivel_solve(crowd, NULL) == SWIVEL_OK && words.base[6 * SWIVEL_LANES] == SWIVEL_BAD_INPUT >> 16,
+          "its flags, solved without a target");
     swivel_crowd_destroy(crowd);
 
     check(swivel_verify(200, 1, count_line, &lines, &passed) == SWIVEL_OK && passed && lines > 0, "verify");

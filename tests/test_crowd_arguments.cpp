@@ -38,7 +38,7 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     refuse(&def);
     def.size = ~std::size_t{0};
     refuse(&def);
-    for (const std::size_t size : {std::size_t{0}, sizeof groups[0] + 8}) {
+    for (const std::size_t size : {std::size_t{0}, sizeof groups[0] - 4, sizeof groups[0] + 8}) {
         def = good;
         groups[0].size = size;
         refuse(&def);
@@ -262,7 +262,9 @@ TEST_CASE("results as joints need bindings of unit rotations")
                            group.binding.shoulder_rest, group.binding.elbow_rest, group.binding.wrist_rest}) {
         for (const float w : {0.0f, 1.001f, std::numeric_limits<float>::quiet_NaN()}) {
             q[3] = w;
-            CHECK_THROWS_WITH(Crowd(SWIVEL_JOINTS, {&group, 1}), Catch::Contains("group 0") && Catch::Contains("unit"));
+            const bool is_none = w == 0 && q == group.binding.parent_from_arm;
+            CHECK_THROWS_WITH(Crowd(SWIVEL_JOINTS, {&group, 1}),
+                              Catch::Contains("group 0") && Catch::Contains(is_none ? "has no binding" : "unit"));
             CHECK_NOTHROW(Crowd(0, {&group, 1}));
         }
         q[3] = 1;
@@ -332,7 +334,7 @@ TEST_CASE("a definition of an older header is read as far as it goes")
     alignas(swivel_group_def) std::array<unsigned char, 2 * step> groups;
     for (const std::uint32_t n : {0u, 1u}) {
         swivel_group_def group = swivel_default_group_def(3 + n);
-        group.size = n == 0 ? step : 0;  // the first one's counts for all
+        group.size = step;
         std::memcpy(groups.data() + n * step, &group, step);
     }
     swivel_crowd_def def = swivel_default_crowd_def();
@@ -346,6 +348,22 @@ TEST_CASE("a definition of an older header is read as far as it goes")
     CHECK(swivel_group_limb_count(crowd, 0) == 3);
     CHECK(swivel_group_limb_count(crowd, 1) == 4);
     swivel_crowd_destroy(crowd);
+}
+
+TEST_CASE("a binding that is none, or without lengths, is refused with JOINTS")
+{
+    swivel_group_def group = swivel_default_group_def(3);
+    swivel_crowd_def def = def_of(group);
+    def.features = SWIVEL_JOINTS;
+    CHECK_REFUSED(swivel_crowd_bytes(&def), 0u);
+    CHECK(std::string(swivel_last_error()) == "group 0 has no binding; make it with swivel_bind()");
+    group = group_of(3);
+    std::ranges::fill(group.binding.lengths, 0.0f);
+    CHECK_REFUSED(swivel_crowd_bytes(&def), 0u);
+    for (const Float2& lengths : {Float2{kNan, kNan}, Float2{0, 1}, Float2{1, 0}}) {
+        std::ranges::copy(lengths, group.binding.lengths);
+        CHECK(swivel_crowd_bytes(&def) > 0);
+    }
 }
 
 TEST_CASE("a crowd that is null has nothing")
@@ -429,6 +447,15 @@ static_assert(FieldValue<Floats> && FieldValue<FloatsFirst> && FieldValue<Float3
 static_assert(FieldValue<std::uint32_t> && FieldValue<const float>);
 static_assert(!FieldValue<Doubles> && !FieldValue<double> && !FieldValue<std::array<double, 3>> &&
               !FieldValue<IntFirst>);
+struct Made {
+    explicit Made(float) {}
+    float x = 0;
+};
+struct MadeFirst {
+    Made made;
+    float w;
+};
+static_assert(FieldValue<Made> && FieldValue<MadeFirst>);  // classes are taken at their word
 static_assert(!FieldValue<int> && !FieldValue<Eigen::Vector3d> && !FieldValue<std::vector<float>>);
 static_assert(DoubleValue<Doubles> && DoubleValue<std::array<double, 3>> && !DoubleValue<Floats> &&
               !DoubleValue<float>);
@@ -482,5 +509,5 @@ TEST_CASE("C++: ranges have a value for each limb, or say from which limb on; fr
     CHECK_NOTHROW(crowd.solve({.frames = std::span(frames).first(2)}));
     for (const std::size_t count : {std::size_t{1}, std::size_t{3}})
         CHECK_THROWS_WITH(crowd.solve({.frames = std::span(frames).first(count)}),
-                          std::to_string(count) + " frames are not one for each of this crowd's groups");
+                          std::to_string(count) + " frames for 2 groups; give one for each");
 }

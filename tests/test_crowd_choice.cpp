@@ -283,7 +283,7 @@ TEST_CASE("wrong choices are refused with one line and change nothing")
     CHECK(std::string(swivel_last_error()) == "a mask of 2 words; this crowd of 6 blocks has 3, a bit for each lane");
     CHECK(Results(scene.crowd).words == scene.states[0].words);
 
-    CHECK(solve_list(c, words, 0) == SWIVEL_OK);
+    CHECK(solve_list(c, nullptr, 0) == SWIVEL_OK);
     CHECK(solve_active_blocks(c, words, 3, 6, 0) == SWIVEL_OK);
     CHECK(solve_active(c, none.data(), 3) == SWIVEL_OK);
     CHECK(Results(scene.crowd).words == scene.states[0].words);
@@ -301,6 +301,7 @@ TEST_CASE("a job chooses in one way, and lists and priorities are for the whole 
     const swivel_group_def group = group_of(40);
     Crowd crowd(SWIVEL_BUDGET, {&group, 1});
     const std::uint32_t mask[] = {~0u, ~0u}, limb = 3;
+    const swivel_limbs list{&limb, 1};
     const float priority = 1;
     const swivel_in priorities{&priority, 0};
     const swivel_blocks all{0, 3};
@@ -313,7 +314,7 @@ TEST_CASE("a job chooses in one way, and lists and priorities are for the whole 
         CHECK((all_words(crowd) == before));
     };
     const auto give_mask = [&](swivel_job& job) { job.mask = mask, job.mask_word_count = 2; };
-    const auto give_list = [&](swivel_job& job) { job.limbs = &limb, job.limb_count = 1; };
+    const auto give_list = [&](swivel_job& job) { job.limbs = &list; };
     const auto give_priorities = [&](swivel_job& job) { job.priorities = &priorities, job.most_blocks = 1; };
     refuse([&](swivel_job& job) { give_mask(job), give_list(job); }, "give one of them");
     refuse([&](swivel_job& job) { give_list(job), give_priorities(job); }, "give one of them");
@@ -325,9 +326,11 @@ TEST_CASE("a job chooses in one way, and lists and priorities are for the whole 
     refuse([&](swivel_job& job) { give_priorities(job), job.on_this_thread = 1; },
            "a job with priorities is for the whole");
     refuse([&](swivel_job& job) { job.mask_word_count = 2; }, "the mask is null");
-    refuse([&](swivel_job& job) { job.most_blocks = 2; }, "priorities are missing");
+    refuse([&](swivel_job& job) { job.most_blocks = 2; }, "most_blocks goes with priorities");
+    refuse([&](swivel_job& job) { give_mask(job), job.most_blocks = 2; }, "most_blocks goes with priorities");
     refuse([](swivel_job& job) { job.size = 0; }, "job has size 0");
-    refuse([](swivel_job& job) { job.size += 1; }, "build with the header");
+    refuse([](swivel_job& job) { job.size += 8; }, "build with the header");
+    refuse([](swivel_job& job) { job.size -= 4; }, "start from its default");  // half a member
 
     // One of an older header is read as far as it goes: there, to the blocks alone.
     swivel_job job = swivel_default_job();

@@ -138,6 +138,7 @@ TEST_CASE("the turn is continuous all around, and fades behind")
 TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothly past behind")
 {
     Crowd tiny = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 3);
+    tiny.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     tiny.write_all(SWIVEL_TARGET, 0, Float3{0.6f, 0.5f, 0.9f});
     const Float4 bones[] = {{1e-36f, 0, 0, 0.5f}, {3e-37f, 0, 0, 0.5f}, {1e-26f, 0, 0, 0.5f}};
     tiny.write(SWIVEL_CLAVICLE, 0, bones);

@@ -112,6 +112,7 @@ TEST_CASE("nothing allocates after creation")
     };
     for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
         Crowd crowd = crowd_of(features, 5000);
+        if (features & SWIVEL_WORLD) crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
         use(crowd);
         const std::size_t before = allocation_count();
         for (int n = 0; n < 20; ++n) use(crowd);

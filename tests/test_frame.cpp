@@ -316,6 +316,7 @@ TEST_CASE("one value for a whole group, and null members leave the rows alone")
     const Float3 target = {0.5f, -1, 0.25f};
     const Float4 turned = {0, 0.6f, 0, 0.8f};
     crowd.write_all(SWIVEL_PARENT_ROTATION, 0, turned);
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     swivel_frame frame = swivel_default_frame();
     frame.target = {&target, 0};
     crowd.solve({.frames = {&frame, 1}});
@@ -500,6 +501,27 @@ TEST_CASE("several threads run ranges of one frame that do not overlap")
     CHECK(same_bytes(problem.arrays, expected));
 }
 
+TEST_CASE("frames of an older header are read as far as they go, as far apart as the first says")
+{
+    // As if a first release had ended before the shoulder: targets go in, flags are not known.
+    constexpr std::size_t step = offsetof(swivel_frame, shoulder);
+    const swivel_group_def groups[] = {group_of(20), group_of(5)};
+    Crowd framed(0, groups), rows(0, groups);
+    alignas(swivel_frame) std::array<unsigned char, 2 * step> frames;
+    std::vector<Float3> targets[] = {std::vector<Float3>(20, Float3{0, 1, 1}), std::vector<Float3>(5, Float3{1, 0, 1})};
+    for (std::uint32_t g = 0; g < 2; ++g) {
+        swivel_frame frame = swivel_default_frame();
+        frame.size = step;
+        frame.target = {targets[g].data(), sizeof(Float3)};
+        std::memcpy(frames.data() + g * step, &frame, step);
+        for (Crowd* crowd : {&framed, &rows}) crowd->write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
+        rows.write(SWIVEL_TARGET, g, targets[g]);
+    }
+    rows.solve();
+    REQUIRE(solve_frame(framed.get(), reinterpret_cast<const swivel_frame*>(frames.data())) == SWIVEL_OK);
+    CHECK((all_words(framed) == all_words(rows)));
+}
+
 TEST_CASE("frames of limbs that are not chosen are neither read nor written")
 {
     constexpr std::uint32_t counts[] = {100, 1500};
@@ -610,7 +632,9 @@ TEST_CASE("missing frames, crowds and blocks are refused; frames outside the ran
     frames[0].size = sizeof frames[0] + 8;
     CHECK_REFUSED(solve_frame(c, frames), bad);
     frames[0].size = sizeof frames[0];
-    frames[1].size = 0;  // the first one's counts for all
+    frames[1].size = 0;
+    CHECK_REFUSED(solve_frame(c, frames), bad);
+    frames[1].size = sizeof frames[1];
     CHECK_REFUSED(solve_frame_blocks(nullptr, frames, 0, 1), bad);
     CHECK_REFUSED(solve_frame_blocks(c, frames, 0, 4), bad);
     CHECK_REFUSED(solve_frame_blocks(c, frames, 4, 0), bad);

@@ -30,8 +30,8 @@ TEST_CASE("docs: incoming pose and weights")
     // [shown]
     swivel::Crowd crowd(
         SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, {&arms, 1});
-    // The clip's pose: whole quaternions, x, y, z, w.
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    // The clip's pose: whole quaternions, x, y, z, w.
     crowd.write_all(SWIVEL_INCOMING_SHOULDER, 0, shoulder);
     crowd.write_all(SWIVEL_INCOMING_ELBOW, 0, elbow);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.9f, 0.5f, 1.1f});

@@ -144,7 +144,8 @@ TEST_CASE("docs: limits in the character's axes")
                         {&group, 1});
     // [character]
     // Within 80 degrees of forwards and down: the character faces +z, with y up.
-    const std::array<float, 4> clavicle{0, 0, 0, 1};  // its rotation in the rest pose
+    const std::array<float, 4> clavicle{0, 0, 0,
+                                        1};  // its world rotation in the rest pose
     const std::array<double, 3> axis = swivel::arm_axis(left, clavicle, {0, -1, 1});
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone(axis, swivel::degrees(80)));
     // [end]

@@ -1,6 +1,7 @@
-#pragma once
 // SPDX-License-Identifier: MIT
+//
 // Frames of a job, made from bytes, one for each group; and what must be in them after a solve.
+#pragma once
 
 #include <vector>
 

@@ -99,6 +99,7 @@ struct TakenJob {
     Session& session;
     swivel_job job = swivel_default_job();
     swivel_blocks blocks{0, 0};
+    swivel_limbs limbs_given{nullptr, 0};
     std::vector<std::uint32_t> words = {}, list = {};
     std::vector<Priorities> priorities = {};
     std::vector<Frame> frames = {};
@@ -173,9 +174,8 @@ private:
             is_valid = is_valid && lane < limbs.size() && limbs[lane];
             if (lane < some.size()) some[lane] = true;
         }
-        list.reserve(1);  // never null
-        job.limbs = list.data();
-        job.limb_count = static_cast<std::uint32_t>(list.size());
+        limbs_given = {list.data(), static_cast<std::uint32_t>(list.size())};
+        job.limbs = &limbs_given;
         keep(some);
     }
     void take_priorities()
@@ -213,7 +213,12 @@ void call_solve(Session& session)
     const bool is_solved = status == SWIVEL_OK;
     if (taken.job.solved_count) SWIVEL_REQUIRE(is_solved == (taken.solved_count != ~0u));
     if (!is_solved) taken.lanes.assign(taken.lanes.size(), false);
-    if (!taken.is_known() && is_solved) return;
+    if (!taken.is_known() && is_solved) {
+        for (const Frame& frame : taken.frames)
+            for (const Strided& output : frame.outputs) output.check_gaps(false);
+        SWIVEL_REQUIRE(!taken.job.solved_count || taken.solved_count <= session.lane_count());
+        return;
+    }
     for (std::uint32_t group = 0; group < taken.frames.size(); ++group)
         taken.frames[group].check(session, group, taken.lanes);
     if (!is_solved) return;

@@ -181,7 +181,7 @@ class Mistakes(unittest.TestCase):
         self.fails(ValueError, "8 blocks from block 0 on do not all exist; this crowd has 7", crowd.solve, blocks=(0, 8))
         self.fails(ValueError, "create it with Feature.BUDGET", crowd.choose, [1], 1)
         self.fails(ValueError, "Feature.POLE_DIRECTION needs Feature.WORLD", swivel.Crowd, 1, Feature.POLE_DIRECTION)
-        self.fails(ValueError, "make it with bind()", swivel.Crowd, 1, Feature.JOINTS)
+        self.fails(ValueError, "group 0 has no binding; make it with bind()", swivel.Crowd, 1, Feature.JOINTS)
         self.fails(ValueError, "no instruction set 'mmx'", swivel.use_isa, "mmx")
         self.fails(ValueError, "the rest pose is straight", swivel.bind, (0, 0, 1), (0, 0, 1))
         self.fails(ValueError, "least 2 is above most 1", swivel.range, 2, 1)
@@ -205,6 +205,8 @@ class Mistakes(unittest.TestCase):
         self.fails(TypeError, "takes priorities and most_blocks together", crowd.solve, most_blocks=1)
         self.fails(ValueError, "numbers of a value side by side", crowd.solve, blocks=(0, 1),
                    frames={"shoulder": np.zeros((4, N), np.float32).T})
+        self.fails(ValueError, "give shoulder_position=", swivel.solve, (0, 0, 1), None, (1, 1), parent_rotation=(0, 0, 0, 1))
+        self.fails(ValueError, "give lengths= or binding=", swivel.solve, (0, 0, 1), None)
         self.fails(TypeError, "unexpected keyword argument 'hond'", swivel.solve, (0, 0, 1), None, (1, 1), hond=1)
 
     def test_memory(self):

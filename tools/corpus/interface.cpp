@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tools/corpus/interface.h"
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -135,6 +138,8 @@ swivel_binding library_binding(const Binding& own)
     copy(own.shoulder_rest, binding.shoulder_rest);
     copy(own.elbow_rest, binding.elbow_rest);
     copy(own.wrist_rest, binding.wrist_rest);
+    std::fill(std::begin(binding.lengths), std::end(binding.lengths),
+              std::numeric_limits<float>::quiet_NaN());  // written
     return binding;
 }
 

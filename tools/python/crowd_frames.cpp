@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "tools/python/names.h"
@@ -46,6 +47,7 @@ constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_AIM, &swivel_frame::aim},
     {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
+static_assert(std::size(kFrameInputs) == SWIVEL_SHOULDER);
 struct FrameOutput {
     swivel_field field;
     swivel_out swivel_frame::*member;
@@ -56,6 +58,7 @@ constexpr FrameOutput kFrameOutputs[] = {
     {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
     {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
+static_assert(std::size(kFrameOutputs) == SWIVEL_FIELD_COUNT - SWIVEL_SHOULDER);
 
 // ValueError for a key that no frame has.
 void check_keys(std::uint32_t group, const py::dict& given)

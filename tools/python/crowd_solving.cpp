@@ -102,18 +102,18 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const py::object& mas
     Job job;
     if (blocks) job.blocks = {count_of("first block", blocks->first), count_of("block count", blocks->second)};
     const auto words = mask.is_none() ? std::vector<std::uint32_t>() : words_of(held, mask);
-    job.mask = words;
+    if (!mask.is_none()) job.mask = words;
     const auto indices = limbs.is_none() ? std::vector<std::uint32_t>() : indices_of(limbs);
     if (!limbs.is_none()) job.limbs = indices;
     const auto inputs = priorities.is_none() ? std::vector<Input>() : priorities_of(held, priorities);
     const std::vector<swivel_in> pointers = pointers_of(inputs);
-    job.priorities = pointers;
+    if (!priorities.is_none()) job.priorities = pointers;
     if (most_blocks.has_value() == priorities.is_none())
         throw py::type_error("solve() takes priorities and most_blocks together");
     if (most_blocks) job.most_blocks = count_of("most_blocks", *most_blocks);
     const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames);
     if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
-    job.frames = arrays.frames;
+    if (!frames.is_none()) job.frames = arrays.frames;
     job.on_this_thread = on_this_thread;
     const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
     const std::uint32_t solved = run(held, way, [&] { return held.crowd.solve(job); });

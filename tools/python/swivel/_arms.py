@@ -71,7 +71,8 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): target,
     pole and shoulder_position are taken from there in double precision.
 
-    No arms, arrays of length 0, give none. ValueError for shapes that do not go together and for lengths that nobody gave, TypeError for a keyword that is no input field.
+    No arms, arrays of length 0, give none. ValueError for shapes that do not go together, for lengths that nobody gave and for a
+    world without shoulder_position=, TypeError for a keyword that is no input field.
     """
     given = {"target": target, **{name: value for name, value in (("pole", pole), ("lengths", lengths)) if value is not None},
              **fields}
@@ -81,6 +82,8 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
     wanted = Feature(features) | (Feature.JOINTS if binding else Feature(0))
     for field in values:
         wanted |= needed_features(field)
+    if Feature.WORLD in wanted and Field.SHOULDER_POSITION not in values:
+        raise ValueError("solve() needs to know where the shoulders are in the world; give shoulder_position=")
     n = _limb_count(wanted, binding, values)
     limb_count = max(n, 1)  # a group has limbs; of no arms, the one's results are left out
     crowd = Crowd([(limb_count, binding) if binding else limb_count], wanted, shoulder_order, wrist_order)
