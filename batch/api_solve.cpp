@@ -144,19 +144,19 @@ std::uint32_t count_limbs(const swivel_crowd& crowd, const std::uint32_t* mask, 
     return limb_count;
 }
 
-swivel_job full_job(const swivel_job* job)
-{
-    return job ? element(job, 0, swivel_default_job()) : swivel_default_job();
-}
-
 }  // namespace
 
 swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve: crowd is null");
-    swivel_status status = given ? check_size<swivel_job>("job", size_of(given)) : SWIVEL_OK;
+    if (!given) {
+        const swivel_job everything = swivel_default_job();
+        return swivel_solve(crowd, &everything);
+    }
+    swivel_status status = check_size<swivel_job>("job", size_of(given));
     if (status != SWIVEL_OK) return status;
-    const swivel_job job = full_job(given);
+    swivel_job filled;
+    const swivel_job& job = whole(given, swivel_default_job, filled);
     if (job.blocks) status = check_blocks(*crowd, *job.blocks);
     const swivel_blocks blocks = job.blocks ? *job.blocks : swivel_blocks{0, crowd->block_count};
     if (status == SWIVEL_OK) status = check_choice(*crowd, job);

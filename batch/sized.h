@@ -53,4 +53,13 @@ Struct element(const Struct* array, std::size_t n, Struct otherwise)
     return otherwise;
 }
 
+// The structure itself; or a copy in `filled`, if it is shorter. otherwise: makes the defaults.
+template <class Struct>
+const Struct& whole(const Struct* given, Struct (*otherwise)(), Struct& filled)
+{
+    if (size_of(given) == sizeof(Struct)) return *given;
+    filled = element(given, 0, otherwise());
+    return filled;
+}
+
 }  // namespace swivel
