@@ -65,49 +65,60 @@
 //   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
 //   SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation * this
 //
-// Effector: in the wrist joint's own frame with JOINTS, else in the arm frame's axes as the hand carries them; in the
-// unit of the bones, before the parent's scale, no longer than 1e15. Angle: about the line from shoulder to wrist by
-// the right hand, of length 1e-9..1e9; where the pole does not say where the elbow goes and it stays as it was, it is
-// not turned on. Poles are normals of the swivel plane with POLE_NORMAL, and absent with POLE_INCOMING. Incoming pose:
-// says where the elbow goes where the pole does not; results take its hemisphere instead of w >= 0, but for compact
-// ones. Reach: soft zones and least distance are shares 0..1 of both bones' length, the stretch is 1..1000. A range is
-// cos and sin of its middle, cos and sin of half its width, which is 0..pi. Axes, cosines with their sines and ranges
-// are of unit length within 5e-4, weights 0..1: anything else is bad input, which also forgets the carried swivel.
+// RANGES. A range is cos and sin of its middle, then cos and sin of half its width, which is 0..pi. Axes, cosines with
+// their sines, and ranges are of unit length within 5e-4. Weights are 0..1. Anything else is bad input.
 //
-// Limits are about the rest pose with the elbow straightened, and have the arm frame's axes there, also those of the
-// hand: bones along +z, hinge +x, whatever axes a skeleton's joints have. A twist is that of swing and twist, 2 atan2(v
-// . axis, w) of what the joint adds to rest, by the right hand about +z, from shoulder to hand, or about the given
-// axis; it is none of the Euler angles, and counts less the further the swing: by half of 1 + cos swing. Where the wish
-// breaks a limit, the nearest swivel that keeps all of them is taken, within 1e-6 of a cosine. THE WRIST COMES FIRST:
-// where no swivel keeps them, the one that violates them least is taken, and flagged SWIVEL_INFEASIBLE; to keep a limit
-// even then, move the target, weigh it down or let the clavicle help. Joint limits win over MOST_SWIVEL, and that over
-// the wish. The elbow's flexion does not depend on the swivel: its limit narrows the reach, and the wrist stops short.
-// Softened at a reach R over a width s, a wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s,
-// and R beyond; mirrored at the near end. Stretch makes up for what is missing, up to the most.
+// EFFECTOR. The target is for this point of the hand instead of the wrist. With JOINTS it is in the wrist joint's own
+// frame, else in the arm frame's axes as the hand carries them. It is in the unit of the bones, before the parent's
+// scale, and no longer than 1e15.
 //
-// Aiming: the elbow keeps the flexion given, the wrist the rotation given in SWIVEL_HAND (relative to the forearm, the
-// joint's local one with JOINTS; without WITH_HAND the hand is at rest), and the shoulder turns so that the ray from
-// the effector (else the wrist) along the axis goes through the target. Axis and effector are of the hand, in the frame
-// that effectors are in. The elbow lies on the pole's side of the line from shoulder to target. A target too near for
-// that flexion is SWIVEL_CLAMPED_NEAR: then the ray's nearest point to the shoulder is brought onto the target's line.
-// swivel_aim() makes the value. Weights, reach, flexion limits and limits of the hand have nothing to do there and are
-// refused.
+// POLES. With POLE_NORMAL a pole is the normal of the swivel plane. With POLE_INCOMING there are no poles. The angle
+// turns the elbow on from the pole's side, about the line from shoulder to wrist, by the right hand; its cosine and
+// sine may be of any length in 1e-9..1e9. Where the pole says nothing, the angle is ignored.
 //
-// Clavicle: the parent joint, given as it is without this, turns about its own origin, which is SHOULDER_POSITION less
-// the bone (in the parent joint's axes and the unit of the bones, before the parent's scale, no longer than 1e15):
-// towards the target by about the share of the angle between the bone and the target, times the weight of position.
+// INCOMING POSE. It says where the elbow goes where the pole does not. Each result has the sign that is nearer to the
+// incoming quaternion, instead of w >= 0; compact results keep w >= 0.
+//
+// REACH. Soft zones and least distance are shares 0..1 of both bones' length, the stretch is 1..1000. At a reach R with
+// a soft zone s, a wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; the near
+// end is the mirror image. Stretch makes up for what is missing, up to the most.
+//
+// LIMITS. They are about the rest pose with the elbow straightened. Their axes, also those of the hand, are the arm
+// frame's there, whatever axes a skeleton's joints have: bones along +z, hinge +x. swivel_arm_axis() turns directions
+// of the character into them. A twist is that of swing and twist: 2 atan2(v . axis, w) of what the joint adds to rest,
+// by the right hand. Its axis is +z, from shoulder to hand, or the one given; it is none of the Euler angles.
+// - Where the wish breaks a limit, the nearest swivel that keeps all of them is taken. The cosine of a limited angle is
+//   off by at most 1e-6.
+// - THE WRIST COMES FIRST. Where no swivel keeps all limits, the one that violates them least is taken, and flagged
+//   SWIVEL_INFEASIBLE. A twist's violation counts for half of 1 + cos swing. To keep a limit even then, move the
+//   target, weigh it down or let the clavicle help.
+// - Joint limits win over MOST_SWIVEL, and that over the wish.
+// - Flexion does not depend on the swivel. Its limit narrows the reach, and the wrist stops short.
+//
+// AIMING. The elbow keeps the flexion given. The wrist keeps the rotation in SWIVEL_HAND, which is relative to the
+// forearm, or with JOINTS the joint's local one; without WITH_HAND the hand is at rest. The shoulder turns so that a
+// ray goes through the target: from the effector, else the wrist, along the axis. The axis is in the frame that
+// effectors are in; swivel_aim() makes the value. The elbow lies on the pole's side of the line from shoulder to
+// target. A target too near for that flexion is SWIVEL_CLAMPED_NEAR: then the ray's nearest point to the shoulder is
+// brought onto the line from shoulder to target. Weights, reach, flexion limits and limits of the hand are refused.
+//
+// CLAVICLE. The parent joint, given as it is without this, turns about its own origin, which is SHOULDER_POSITION less
+// the clavicle: the first three numbers, in the parent joint's axes and the unit of the bones, no longer than 1e15. It
+// turns towards the target by about the share of the angle between clavicle and target, times the weight of position.
 // Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is smooth,
 // and fades for targets on the body's other side.
 //
-// The hand's twist about the forearm is shared over n twist bones, children of the forearm: bone i of 1..n turns by
-// i / (n + 1) of it (within 0.12 degrees), about the forearm's axis, relative to rest: its local rotation is this
-// quaternion times its rest rotation with JOINTS, and this quaternion in the arm frame without.
+// TWIST BONES. The hand's twist about the forearm is shared over n of them, children of the forearm. Bone i of 1..n
+// turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis, relative to rest. With JOINTS its local
+// rotation is this quaternion times its rest rotation; without, it is this quaternion in the arm frame.
 //
-// With WITH_STEP the plane's normal is carried from solve to solve as the arm frame has it, each time projected across
-// the new line: the step is the turn from there. swivel_reset() forgets it, after a teleport. Without it results depend
-// on the frame's own inputs alone, and the swivel is continuous but for targets passing through the shoulder, poles
-// passing through the line, limits whose nearest swivel changes sides and, with WITH_AIM, elbows passing through the
-// line, which roll the arm over whatever MOST_SWIVEL says: it bounds the plane's normal.
+// STEPS. With WITH_STEP the plane's normal is carried from solve to solve, in the arm frame. In each it is first made
+// perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and swivel_reset()
+// forget it; call that after a teleport. Without WITH_STEP results depend on the frame's own inputs alone.
+//
+// CONTINUITY. The swivel is continuous, but for targets that pass through the shoulder, poles that pass through the
+// line, and limits whose nearest swivel changes sides. With WITH_AIM an elbow that passes through the line rolls the
+// arm over, whatever MOST_SWIVEL says, which bounds the plane's normal.
 //
 // COMPACT RESULTS. With SWIVEL_COMPACT a result row is 16 uint16_t, 32 bytes, word r of limb i at
 // base[((i / 16) * row_count + r) * 16 + i % 16] of swivel_compact_rows(), the fields in the same order:
@@ -127,16 +138,17 @@
 // elbow's quaternion is (-sin, 0, 0, cos). With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS
 // the binding says how it lies there.
 //
-// COST. Ordinary arms are solved fastest: bones between 1e-9 and 3e7 of a ratio below 1e6, wrists between 3e-5 and 5e3
-// from the shoulder, poles no further than 3e7 and off the target's line, all as the parent sees them, whose scale is
-// within 1e-5..1e5 and whose quaternion's squared length within 0.5..2. An arm outside of that is solved as exactly,
-// but the 4 to 32 limbs of its step take about four times as long. With any feature of THE WHOLE LIMB an arm takes
-// about three times as long as a plain one, with cones and twists seven, with a hand, a blend and limits ten; with
-// boxes of Euler angles that leave one limb in eight no swivel, thirty.
+// COST. Ordinary arms are solved fastest. As the parent sees them, their bones are 1e-9..3e7 long and of a ratio below
+// 1e6, their wrists 3e-5..5e3 from the shoulder, and their poles no further than 3e7 and off the target's line. The
+// parent's scale is within 1e-5..1e5, its quaternion's squared length within 0.5..2. Any other arm, one with bad input
+// too, is solved as exactly; but the 4 to 32 limbs of its step take about four times as long.
+// Beside a plain arm, one with any feature of THE WHOLE LIMB takes about three times as long. With cones and twists it
+// takes seven times as long; with a hand, a blend and limits ten; with boxes that leave one limb in eight no swivel
+// thirty.
 //
-// VALID INPUT. Every position and pole (in the world as given, and in the arm frame) is no longer than 1e15; a bone
-// length is 0 or in 1e-15..1e15; a quaternion's length is in 1e-9..1e9 (it need not be 1); a scale is in 1e-15..1e15.
-// A limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit. So does a limb
+// VALID INPUT. Every position and pole is no longer than 1e15, in the world as given and in the arm frame. A bone
+// length is 0 or in 1e-15..1e15. A quaternion's length is in 1e-9..1e9; it need not be 1. A scale is in 1e-15..1e15. A
+// limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit. So does a limb
 // that was never given its target, with WORLD its shoulder's place, or, without JOINTS, its bone lengths.
 //
 // Lengths below 1e-15 are not resolved: a target that near to the shoulder counts as on it. No wrist comes nearer to
@@ -160,8 +172,8 @@
 // the function that gives the defaults. A library accepts those of its own header and of older ones, which are shorter.
 // In arrays all elements have the size of the first.
 //
-// THREADS. Different crowds may be used by different threads at once; one crowd may not, but for jobs with
-// on_this_thread on blocks that do not overlap, and for calls that take it const while nothing else runs on it.
+// THREADS. Different crowds may be used by different threads at once. One crowd may not, with two exceptions: jobs with
+// on_this_thread on blocks that do not overlap, and calls that take it const while nothing else runs on it.
 #pragma once
 
 #include <stddef.h>
@@ -195,14 +207,14 @@ typedef enum swivel_status {
 
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
-    SWIVEL_REACHED = 1u << 0,      // the wrist is at the target, or at its blend with the incoming pose, or aims at it
+    SWIVEL_REACHED = 1u << 0,      // the wrist is at its target or blended target, or the hand aims at it
     SWIVEL_SOFTENED = 1u << 1,     // in a soft zone of reach, so the wrist is not quite at the target
     SWIVEL_STRETCHED = 1u << 2,    // SWIVEL_STRETCH is above 1
     SWIVEL_CLAMPED_FAR = 1u << 3,  // target out of reach: the wrist is at the nearest point that bones and limits allow
     SWIVEL_CLAMPED_NEAR = 1u << 4,  // target too near: the wrist is at the nearest point that bones and limits allow
     SWIVEL_SWIVEL_UNDEFINED =
-        1u << 5,                       // pole along the target within sin 1e-3, of no length, or target on the shoulder
-    SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
+        1u << 5,  // pole of no length or within sin 1e-3 of the target's line, or target on the shoulder
+    SWIVEL_LIMITED_FLEXION = 1u << 6,        // the elbow's flexion limit keeps the wrist from the target
     SWIVEL_LIMITED_SHOULDER_CONE = 1u << 7,  // this and the next: the limit forbids the swivel wished for
     SWIVEL_LIMITED_HUMERAL_TWIST = 1u << 8,
     SWIVEL_LIMITED_SHOULDER_BOX = 1u << 9,
@@ -409,9 +421,9 @@ SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
-// The alignments of a limb from its rest pose, and its two bone lengths. Fails with
-// SWIVEL_INVALID_ARGUMENT for a zero or non-finite quaternion, a bone of no length, a bend along the upper arm or one
-// that turns about the forearm, or a rest pose bent by 10 degrees or less without a bend. Any thread; no allocation.
+// The alignments of a limb from its rest pose, and its two bone lengths. Any thread; no allocation. It fails for a zero
+// or non-finite quaternion and a bone of no length. It fails for a bend along the upper arm, or one that turns about
+// the forearm, and for a rest pose bent by 10 degrees or less without a bend.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. A group that
@@ -438,10 +450,10 @@ SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride
 // The value of any half float, exactly. Any thread.
 SWIVEL_API float swivel_unpack_half(uint16_t word);
 
-// Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data: consecutive floats for
-// each limb (uint32_t for SWIVEL_FLAGS). first is counted within the group. write takes input fields, read takes any.
-// Values must not overlap the crowd's own memory. All fields together cost up to about a solve, less while the values
-// are in cache; rows cost nothing, and a solve with frames does not fetch them twice. Results of a crowd
+// Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data. Each limb has
+// consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write takes input fields, read
+// takes any. Values must not overlap the crowd's own memory. All fields together cost up to about a solve, less while
+// the values are in cache. Rows cost nothing, and a solve with frames does not fetch values twice. Results of a crowd
 // with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb after the other.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
@@ -458,14 +470,14 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
-// One group's values in the caller's own arrays, as engines keep them: one limb's value `stride` bytes after the one
-// before, from the group's first limb at `data`; consecutive floats in each (uint32_t for flags), of any alignment.
-// Units and meanings are the fields'. A stride beside null data is ignored.
+// One group's values in the caller's own arrays, as engines keep them. The group's first limb's value is at `data`,
+// each next one `stride` bytes further. A value is consecutive floats, a uint32_t for flags, of any alignment. Units
+// and meanings are the fields'. A stride beside null data is ignored.
 typedef struct swivel_frame {
     size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
     // With data: target, pole and shoulder_position hold 3 doubles each and are taken from this origin, 3 doubles as
-    // well, as by swivel_write_doubles(); a pole that is a direction is doubles, too, but has no origin. A position
-    // left out keeps its rows, which must be from the same origin. May be shoulder_position itself: then all is from
+    // well, as by swivel_write_doubles(). A pole that is a direction is doubles, too, but has no origin. A position
+    // left out keeps its rows, which must be from the same origin. It may be shoulder_position itself: then all is from
     // the shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
     swivel_in origin;
     // Inputs, in the order of the fields. Null data: the rows keep what they hold. Stride 0: one value for the group.
@@ -526,8 +538,8 @@ typedef struct swivel_job {
     const swivel_frame* frames;
 
     // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Such calls may run on several threads
-    // at once, for blocks that do not overlap, with the same mask and frames. 0: on the calling thread's oneTBB arena,
-    // if built with it and there is enough to do; oneTBB may allocate.
+    // at once, for blocks that do not overlap, with the same mask and frames.
+    // 0: on the calling thread's oneTBB arena, if built with it and there is enough to do. oneTBB may allocate.
     int on_this_thread;
 
     // Unless null, becomes how many limbs were solved.
@@ -546,14 +558,14 @@ static inline swivel_job swivel_default_job(void)
 // Solves limbs; job may be null, for every limb from and to rows. The caller's floating-point environment is restored.
 //
 // With frames it is a whole frame in one pass: swivel_write() of every input given, the solve, swivel_read() of every
-// result given, with the same bits, a few blocks at a time, so that their rows stay in the nearest cache from copy to
-// copy. Rows hold inputs and results afterwards. No byte beside the values is read or written. Inputs may overlap each
-// other. A limb's inputs are read before its results are written, so its results may overlap its own inputs: a pose may
-// be read and written in place. Another limb's inputs may be read later, on any thread. So no limb's result may overlap
-// another's input; an input of stride 0 is every limb's. Nor may a result overlap another result, or any value the
-// crowd's own memory. It fails for a field that this crowd does not have and for a stride smaller than a value. It also
-// fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or where they lie. For arms of
-// characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
+// result given, with the same bits. It takes a few blocks at a time, so that their rows stay in the nearest cache from
+// copy to copy. Rows hold inputs and results afterwards. No byte beside the values is read or written. Inputs may
+// overlap each other. A limb's inputs are read before its results are written, so its results may overlap its own
+// inputs: a pose may be read and written in place. Another limb's inputs may be read later, on any thread. So no limb's
+// result may overlap another's input; an input of stride 0 is every limb's. Nor may a result overlap another result, or
+// any value the crowd's own memory. It fails for a field that this crowd does not have and for a stride smaller than a
+// value. It also fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or where they lie.
+// For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
 //     swivel_frame frame = swivel_default_frame();
 //     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
 //     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
@@ -563,10 +575,10 @@ static inline swivel_job swivel_default_job(void)
 //     job.frames = &frame;
 //     status = swivel_solve(crowd, &job);
 //
-// The cost of some limbs goes with their blocks: a block chosen whole takes as long as in a solve of all, one chosen in
-// part 1.2 to 3 times as long, and one or two limbs of a block up to that of the block. Limbs picked one by one at
-// random cost, beside all: half of a crowd more than all of it; one in ten 0.5 times as much to all of it, and up to
-// 2.5 times where few rows come from memory; one in a hundred 0.1 to 0.4. Neighbours take their share, or little more.
+// The cost of some limbs goes with their blocks. A block chosen whole takes as long as in a solve of all, one chosen in
+// part 1.2 to 3 times as long, one or two limbs of it up to once. So neighbours take their share of the crowd, or
+// little more. Picked one by one at random, half of a crowd costs more than all of it. One in ten costs 0.5 to 1 times
+// as much as all, up to 2.5 times where few rows come from memory; one in a hundred 0.1 to 0.4 times.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
 // Chooses limbs by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb
@@ -600,23 +612,24 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 //         printf("limb %u of group %u has bad input\n", limb, group);
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
-// An arc of swivels, as cos and sin of its ends, turning from one to the other by the right hand about the line from
-// shoulder to wrist; 0 is the swivel wished for, as far as SWIVEL_MOST_SWIVEL lets it. The whole circle is one arc with
+// An arc of swivels, as cos and sin of its ends. It turns from one to the other by the right hand about the line from
+// shoulder to wrist. 0 is the swivel wished for, as far as SWIVEL_MOST_SWIVEL lets it. The whole circle is one arc with
 // equal ends.
 typedef struct swivel_arc {
     float from[2], to[2];
 } swivel_arc;
 
-// The swivels that a limb's limits allow for its inputs as they are now, which are the next solve's, in their order
-// around the circle: at most capacity of them are stored, *arc_count says how many there are. None for bad input. limb
-// is counted within the group. Takes some microseconds; no allocation.
+// The swivels that a limb's limits allow for its inputs as they are now, which are the next solve's. They are in their
+// order around the circle. At most capacity of them are stored, *arc_count says how many there are. None for bad input.
+// limb is counted within the group. Takes some microseconds; no allocation.
 SWIVEL_API swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                              uint32_t capacity, uint32_t* arc_count);
 
-// The joint angles of the results in radians, about the rest pose and the arm frame's axes: for each limb 7 doubles,
-// three of the shoulder in its order, the flexion, three of the wrist (0 without SWIVEL_WITH_HAND). Of the two triples
-// that give a rotation family 0 has the middle angle within -pi/2..pi/2, family 1 the other; at its ends the last angle
-// is 0. This is an output for people and files: no solve uses it, and its last digits may differ between C libraries.
+// The joint angles of the results in radians, about the rest pose and the arm frame's axes. Each limb has 7 doubles:
+// three of the shoulder in its order, the flexion, three of the wrist, which are 0 without SWIVEL_WITH_HAND. Two
+// triples give a rotation. Family 0 has the middle angle within -pi/2..pi/2, family 1 is the other; at its ends the
+// last angle is 0. This is an output for people and files: no solve uses it, and its last digits may differ between C
+// libraries.
 SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                              uint32_t limb_count, swivel_euler_order shoulder_order,
                                              swivel_euler_order wrist_order, int family, swivel_out angles);
@@ -646,21 +659,20 @@ SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion
 SWIVEL_API swivel_status swivel_aim(const double axis[3], double flexion, float aim[5]);
 // Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MOST_SWIVEL.
 SWIVEL_API void swivel_turn(double angle, float turn[2]);
-// The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side, whose arm frame is the mirror
-// image with its hinge turned over, as swivel_bind() makes it of a mirrored skeleton: mirrored in x, offsets are
-// and bends are (-x, y, z), rotations (x, -y, -z, w). order: of boxes, else ignored.
-// from and to have the field's components and may be the same; values of other input fields are copied:
-// places, hands, effectors, aims and poses are for the caller to mirror. Fails for
-// results and for an order that does not exist. Any thread; no allocation.
+// The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side. Mirrored in x, a skeleton's
+// offsets and bends are (-x, y, z), its rotations (x, -y, -z, w). swivel_bind() makes an arm frame of it that is the
+// mirror image with its x axis turned over. order: of boxes, else ignored. from and to have the field's components and
+// may be the same. Values of other input fields are copied: places, hands, effectors, aims and poses are for the caller
+// to mirror. Fails for results and for an order that does not exist. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 
 // Forward kinematics of the results, in double, in the space of the targets, clavicles turned: for each limb 3 doubles
 // (elbow, wrist) or 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
-// How far the wrist, or the effector, of each limb is from its target, or with WITH_AIM the target from the hand's ray:
-// one double, in arm lengths (upper + fore, scaled). 0 for a limb of no length, NaN for one with bad input. Means
-// nothing before the first solve.
+// How far the wrist, or the effector, of each limb is from its target; with WITH_AIM, how far the target is from the
+// hand's ray. One double each, in arm lengths: upper + fore, scaled. 0 for a limb of no length, NaN for one with bad
+// input. Means nothing before the first solve.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
