@@ -7,6 +7,7 @@
 
 #include "batch/check.h"
 #include "batch/edge.h"
+#include "batch/explain.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "batch/status.h"
@@ -54,6 +55,14 @@ int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint
         }
     }
     return 0;
+}
+
+swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text, size_t size)
+{
+    if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
+    if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
+    explain(*crowd, crowd->groups[group], limb, {text, size});
+    return SWIVEL_OK;
 }
 
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)

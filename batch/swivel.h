@@ -612,6 +612,14 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 //         printf("limb %u of group %u has bad input\n", limb, group);
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
+// Says in a sentence or two why a limb is as it is, of its inputs as they are now. It names the input that is bad, how
+// far out of reach the target is, which limit turned the elbow from its wish and by how much, or why none is kept.
+// Where the limb's results are not those of its inputs, it says so. It cannot know the step that a swivel carried was
+// from. limb is counted within the group. text gets at most size bytes, the 0 at its end among them. For people and
+// logs: the words may change, and the last digits differ between C libraries. Takes up to a millisecond; no allocation.
+SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
+                                        size_t size);
+
 // An arc of swivels, as cos and sin of its ends. It turns from one to the other by the right hand about the line from
 // shoulder to wrist. 0 is the swivel wished for, as far as SWIVEL_MOST_SWIVEL lets it. The whole circle is one arc with
 // equal ends.

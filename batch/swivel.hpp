@@ -285,6 +285,14 @@ public:
         return swivel_find(crowd_, flags, &from.group, &from.limb) ? std::optional(from) : std::nullopt;
     }
 
+    // swivel_explain(): why a limb is as it is, in words.
+    std::string explain(std::uint32_t group, std::uint32_t limb) const
+    {
+        std::array<char, 1024> text;
+        check(swivel_explain(crowd_, group, limb, text.data(), text.size()));
+        return text.data();
+    }
+
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
     std::vector<swivel_arc> allowed_arcs(std::uint32_t group, std::uint32_t limb) const
     {

@@ -110,7 +110,7 @@ double place_character(Leg* legs, double x, double z, double heading)
     return standing - height;
 }
 
-void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs, const swivel_binding& leg)
+void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs)
 {
     const Floats ankle_to_sole = {0, -static_cast<float>(kAnkleHeight), 0};  // in the ankle joint's frame
     swivel_frame frame = swivel_default_frame();
@@ -171,7 +171,7 @@ int stand()
         const double x = 1.3 * (n % 32) - 20, z = 1.7 * (n / 32) - 25, heading = 0.37 * n;
         most_drop = std::max(most_drop, place_character(&legs[2 * n], x, z, heading));
     }
-    solve_legs(crowd, legs, leg);
+    solve_legs(crowd, legs);
     return report(crowd, legs, most_drop);
 }
 

@@ -109,6 +109,14 @@ void add_answers(CrowdClass& crowd)
               "-pi/2..pi/2, family 1 the other.");
     crowd.def("find", &find, py::arg("flags"), py::arg("group") = 0, py::arg("limb") = 0,
               "The first limb with any of these flags, from a limb of a group on: (group, limb), or None.");
+    crowd.def(
+        "explain",
+        [](HeldCrowd& held, std::int64_t limb, std::int64_t group) {
+            const Limbs one = limbs_of(held, group, limb, 1);
+            return run(held, Way::kReading, [&] { return held.crowd.explain(one.group, one.first); });
+        },
+        py::arg("limb"), py::arg("group") = 0,
+        "Why a limb is as it is, of its inputs as they are now, in a sentence or two.");
     crowd.def("allowed_arcs", &allowed_arcs, py::arg("limb"), py::arg("group") = 0,
               "The swivels that one limb's limits allow for its inputs as they are: (arcs, 2, 2) float32.\n\n"
               "For each arc its two ends, for each end cos and sin of the angle about the line from shoulder to\n"

@@ -19,6 +19,7 @@ swivel_group_def one_limb()
     for (auto* q :
          {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest})
         std::copy(kIdentity.begin(), kIdentity.end(), *q);
+    b.lengths[0] = b.lengths[1] = 1;
     return group;
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// Why one limb's result is as it is, in words and numbers, for people.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "batch/crowd.h"
+
+namespace swivel {
+
+// What swivel_explain() promises. limb: counted within the group; text: a byte at least.
+void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, std::span<char> text);
+
+}  // namespace swivel
