@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
-#include <regex>
 #include <utility>
 
 namespace py = pybind11;
@@ -139,15 +138,16 @@ std::span<const Named> features() { return kFeatures; }
 
 std::string in_python(const std::string& line)
 {
-    static const std::regex names("SWIVEL_([A-Z_]+)|swivel_([a-z_]+)");
+    const auto is_letter = [](char c) { return c == '_' || std::isalpha(static_cast<unsigned char>(c)); };
     std::string said;
-    auto rest = line.begin();
-    for (std::sregex_iterator at(line.begin(), line.end(), names), end; at != end; ++at) {
-        const std::string member = (*at)[1].matched ? member_called((*at)[1]) : (*at)[2].str();
-        said.append(rest, (*at)[0].first).append(member.empty() ? at->str() : member);
-        rest = (*at)[0].second;
+    for (auto at = line.begin(); at != line.end();) {
+        const auto word_end = std::find_if_not(at, line.end(), is_letter);
+        const std::string word(at, word_end == at ? at + 1 : word_end);
+        at += static_cast<std::ptrdiff_t>(word.size());
+        const std::string member = word.starts_with("SWIVEL_") ? member_called(word.substr(7)) : "";
+        said += !member.empty() ? member : word.starts_with("swivel_") ? word.substr(7) : word;
     }
-    return said.append(rest, line.end());
+    return said;
 }
 
 std::string field_name(swivel_field field)
