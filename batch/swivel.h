@@ -90,7 +90,7 @@
 // - Where the wish breaks a limit, the nearest swivel that keeps all of them is taken. The cosine of a limited angle is
 //   off by at most 1e-6.
 // - THE WRIST COMES FIRST. Where no swivel keeps all limits, the one that violates them least is taken, and flagged
-//   SWIVEL_INFEASIBLE. A twist's violation counts for half of 1 + cos swing. To keep a limit even then, move the
+//   SWIVEL_INFEASIBLE. A twist's violation counts (1 + cos swing) / 2 times. To keep a limit even then, move the
 //   target, weigh it down or let the clavicle help.
 // - Joint limits win over MOST_SWIVEL, and that over the wish.
 // - Flexion does not depend on the swivel. Its limit narrows the reach, and the wrist stops short.
