@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "batch/check.h"
+#include "batch/numbers.h"
 #include "batch/status.h"
-#include "batch/swivel.h"
 #include "core/limits.h"
 #include "simd/rows.h"
 
@@ -105,36 +106,36 @@ void swivel_turn(double angle, float turn[2]) { store_turn(angle, turn); }
 
 // The arm frame of the other side is the mirror image with its hinge turned over: coordinates of vectors change sign
 // along the hinge, turns about the two other axes change their sense.
-swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to)
+swivel_status swivel_mirror(swivel_field number, swivel_euler_order order, const float* from, float* to)
 {
     if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
-    if (!field_name(field)) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
+    if (const swivel_status status = check_field(number); status != SWIVEL_OK) return status;
+    const Field field = field_of(number);
     if (!is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", field_name(field));
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", name_of(field));
     if (static_cast<unsigned>(order) > SWIVEL_ZYX)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
     float value[12] = {};
-    const std::uint32_t count = kFields[field].row_count;
+    const std::uint32_t count = layout_of(field).row_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
     switch (field) {
-        case SWIVEL_ANGLE:
+        case Field::angle:
             value[1] = -value[1];
             break;
-        case SWIVEL_SHOULDER_CONE:
-        case SWIVEL_HAND_CONE:
+        case Field::shoulder_cone:
+        case Field::hand_cone:
             value[0] = -value[0];
             break;
-        case SWIVEL_HUMERAL_TWIST:
-        case SWIVEL_FOREARM_TWIST:
+        case Field::humeral_twist:
+        case Field::forearm_twist:
             mirror_range(value, value);
             break;
-        case SWIVEL_HAND_TWIST:  // the axis' image times -1 turns the other way, so its own image keeps the range's
-                                 // sense
+        case Field::hand_twist:  // the axis' image times -1 turns the other way, so its own image keeps the sense
             value[0] = -value[0];
             mirror_range(value + 3, value + 3);
             break;
-        case SWIVEL_SHOULDER_BOX:
-        case SWIVEL_WRIST_BOX:
+        case Field::shoulder_box:
+        case Field::wrist_box:
             if (kEulerOrders[order].first != 0) mirror_range(value, value);
             if (kEulerOrders[order].middle != 0) mirror_range(value + 4, value + 4);
             if (kEulerOrders[order].last != 0) mirror_range(value + 8, value + 8);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "batch/check.h"
+#include "batch/numbers.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/solve.h"
@@ -139,11 +140,11 @@ uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group)
 }
 uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field)
 {
-    return crowd ? field_first_row(crowd->features, field) : 0;
+    return crowd && is_field(field) ? field_first_row(crowd->features, field_of(field)) : 0;
 }
 uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field)
 {
-    return crowd ? field_row_count(crowd->features, field) : 0;
+    return crowd && is_field(field) ? field_row_count(crowd->features, field_of(field)) : 0;
 }
 swivel_rows swivel_input_rows(swivel_crowd* crowd)
 {
@@ -169,30 +170,35 @@ void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyz
 }
 float swivel_unpack_half(uint16_t word) { return unpack_half(word); }
 
-swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
-                           swivel_in values)
+swivel_status swivel_write(swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
+                           uint32_t limb_count, swivel_in values)
 {
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, true);
-        status != SWIVEL_OK)
-        return status;
+    swivel_status status = check(crowd, group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_field(number);
+    if (status != SWIVEL_OK) return status;
+    const Field field = field_of(number);
+    status = check_values(*crowd, group, field, values.data, values.stride, true);
+    if (status != SWIVEL_OK) return status;
     copy_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 
-swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
                                    uint32_t limb_count, swivel_in values, swivel_in origins)
 {
     swivel_status status = check(crowd, group, first, limb_count);
-    if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
+    if (status == SWIVEL_OK) status = check_field(number);
+    if (status != SWIVEL_OK) return status;
+    const Field field = field_of(number);
+    status = check_field(*crowd, group, field, true);
     if (status != SWIVEL_OK) return status;
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, %s: not a position; doubles are for target, pole and shoulder_position", group,
-                    field_name(field));
+                    name_of(field));
     if (origins.data && !has_origin(crowd->features, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",
-                    group, field_name(field));
+                    group, name_of(field));
     status = check_values(*crowd, group, field, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
@@ -202,13 +208,15 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     return SWIVEL_OK;
 }
 
-swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
+swivel_status swivel_read(const swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
                           uint32_t limb_count, swivel_out values)
 {
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_values(*crowd, group, field, values.data, values.stride, false);
-        status != SWIVEL_OK)
-        return status;
+    swivel_status status = check(crowd, group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_field(number);
+    if (status != SWIVEL_OK) return status;
+    const Field field = field_of(number);
+    status = check_values(*crowd, group, field, values.data, values.stride, false);
+    if (status != SWIVEL_OK) return status;
     if (is_packed(*crowd, field))
         unpack_out(*crowd, crowd->groups[group], field, first, limb_count, values);
     else

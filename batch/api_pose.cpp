@@ -31,7 +31,7 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 
 std::uint32_t flags_of(const swivel_crowd& crowd, std::size_t limb)
 {
-    const std::uint32_t row = field_first_row(crowd.features, SWIVEL_FLAGS);
+    const std::uint32_t row = field_first_row(crowd.features, Field::flags);
     const std::size_t at = row_offset(limb, crowd.result_row_count, row);
     if (crowd.words) return crowd.words[at] | std::uint32_t{crowd.words[at + SWIVEL_LANES]} << 16;
     std::uint32_t flags = 0;
@@ -68,9 +68,9 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (!(crowd->features & SWIVEL_WITH_STEP)) return SWIVEL_OK;
+    if (!(crowd->features & feature::most_swivel)) return SWIVEL_OK;
     const float zero[3] = {};
-    copy_in(rows_of(*crowd, crowd->groups[group], SWIVEL_NORMAL), first, limb_count, {zero, 0});
+    copy_in(rows_of(*crowd, crowd->groups[group], Field::normal), first, limb_count, {zero, 0});
     return SWIVEL_OK;
 }
 
@@ -114,7 +114,7 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
                              swivel_out elbow, swivel_out wrist, swivel_out hand)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (hand.data && !(crowd->features & SWIVEL_WITH_HAND))
+    if (hand.data && !(crowd->features & feature::hand))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
     for (const auto& [name, out, component_count] :

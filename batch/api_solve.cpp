@@ -43,13 +43,13 @@ swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* prior
 swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swivel_frame& frame)
 {
     swivel_status status = SWIVEL_OK;
-    const auto check_member = [&](swivel_field field, const auto& values) {
+    const auto check_member = [&](Field field, const auto& values) {
         if (!values.data || status != SWIVEL_OK) return;
         if (is_packed(crowd, field))
             status = fail(SWIVEL_INVALID_ARGUMENT,
                           "group %u, %s: a frame does not take results out of a crowd with SWIVEL_COMPACT; use "
                           "swivel_read() or swivel_compact_rows()",
-                          g, field_name(field));
+                          g, name_of(field));
         else
             status = check_values(crowd, g, field, values.data, values.stride, is_input(field),
                                   frame.origin.data && is_position(field) ? sizeof(double) : sizeof(float));

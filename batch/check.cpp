@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "batch/numbers.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/status.h"
@@ -17,51 +18,47 @@ namespace swivel {
 
 namespace {
 
-constexpr std::uint32_t kAllFeatures =
-    (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
-
 // Features that mean something only beside another, or not beside another.
 struct FeatureRule {
-    std::uint32_t feature, other;
+    FeatureSet feature, other;
     bool together;
     const char* text;
 };
 constexpr FeatureRule kFeatureRules[] = {
-    {SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, true,
+    {feature::pole_direction, feature::world, true,
      "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both"},
-    {SWIVEL_POLE_NORMAL, SWIVEL_POLE_DIRECTION, false,
+    {feature::pole_normal, feature::pole_direction, false,
      "SWIVEL_POLE_NORMAL and SWIVEL_POLE_DIRECTION exclude each other; a pole is one of them"},
-    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_DIRECTION, false,
+    {feature::pole_incoming, feature::pole_direction, false,
      "SWIVEL_POLE_INCOMING and SWIVEL_POLE_DIRECTION exclude each other; with the first there are no poles"},
-    {SWIVEL_POLE_INCOMING, SWIVEL_POLE_NORMAL, false,
+    {feature::pole_incoming, feature::pole_normal, false,
      "SWIVEL_POLE_INCOMING and SWIVEL_POLE_NORMAL exclude each other; with the first there are no poles"},
-    {SWIVEL_POLE_INCOMING, SWIVEL_WITH_INCOMING, true, "SWIVEL_POLE_INCOMING needs SWIVEL_WITH_INCOMING"},
-    {SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, true,
+    {feature::pole_incoming, feature::incoming, true, "SWIVEL_POLE_INCOMING needs SWIVEL_WITH_INCOMING"},
+    {feature::weights, feature::incoming, true,
      "SWIVEL_WITH_WEIGHTS needs SWIVEL_WITH_INCOMING, the pose to blend with"},
-    {SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
-    {SWIVEL_LIMIT_HAND_CONE, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_CONE needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_FOREARM_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_HAND_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_TWIST needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_WRIST_BOX, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_WRIST_BOX needs SWIVEL_WITH_HAND"},
-    {7 * SWIVEL_TWIST_BONES, SWIVEL_WITH_HAND, true,
-     "SWIVEL_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
-    {SWIVEL_WITH_AIM, SWIVEL_WITH_WEIGHTS, false,
+    {feature::effector, feature::hand, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
+    {feature::hand_cone, feature::hand, true, "SWIVEL_WITH_HAND_CONE needs SWIVEL_WITH_HAND"},
+    {feature::forearm_twist, feature::hand, true, "SWIVEL_WITH_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
+    {feature::hand_twist, feature::hand, true, "SWIVEL_WITH_HAND_TWIST needs SWIVEL_WITH_HAND"},
+    {feature::wrist_box, feature::hand, true, "SWIVEL_WITH_WRIST_BOX needs SWIVEL_WITH_HAND"},
+    {7 * feature::twist_bones, feature::hand, true,
+     "SWIVEL_WITH_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
+    {feature::aim, feature::weights, false,
      "SWIVEL_WITH_AIM and SWIVEL_WITH_WEIGHTS exclude each other; blend the poses instead"},
-    {SWIVEL_WITH_AIM, SWIVEL_WITH_REACH, false,
+    {feature::aim, feature::reach, false,
      "SWIVEL_WITH_AIM and SWIVEL_WITH_REACH exclude each other; an aim's distance is its flexion's"},
-    {SWIVEL_WITH_AIM, SWIVEL_LIMIT_FLEXION, false,
-     "SWIVEL_WITH_AIM and SWIVEL_LIMIT_FLEXION exclude each other; give a flexion within the limit"},
-    {SWIVEL_WITH_AIM,
-     SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX, false,
+    {feature::aim, feature::flexion_limit, false,
+     "SWIVEL_WITH_AIM and SWIVEL_WITH_FLEXION_LIMIT exclude each other; give a flexion within the limit"},
+    {feature::aim, feature::hand_cone | feature::forearm_twist | feature::hand_twist | feature::wrist_box, false,
      "SWIVEL_WITH_AIM excludes limits of the hand; give a wrist rotation within them"},
-    {SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, true, "SWIVEL_WITH_CLAVICLE needs SWIVEL_WORLD, where the parent joint is"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_CLAVICLE, false,
+    {feature::clavicle, feature::world, true, "SWIVEL_WITH_CLAVICLE needs SWIVEL_WORLD, where the parent joint is"},
+    {feature::compact, feature::clavicle, false,
      "SWIVEL_COMPACT and SWIVEL_WITH_CLAVICLE exclude each other; leave one out"},
-    {SWIVEL_COMPACT, 7 * SWIVEL_TWIST_BONES, false,
-     "SWIVEL_COMPACT and SWIVEL_TWIST_BONES exclude each other; leave one out"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_REACH, false,
-     "SWIVEL_COMPACT and SWIVEL_WITH_REACH exclude each other; leave one out"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_STEP, false, "SWIVEL_COMPACT and SWIVEL_WITH_STEP exclude each other; leave one out"},
+    {feature::compact, 7 * feature::twist_bones, false,
+     "SWIVEL_COMPACT and SWIVEL_WITH_TWIST_BONES exclude each other; leave one out"},
+    {feature::compact, feature::reach, false, "SWIVEL_COMPACT and SWIVEL_WITH_REACH exclude each other; leave one out"},
+    {feature::compact, feature::most_swivel, false,
+     "SWIVEL_COMPACT and SWIVEL_WITH_MOST_SWIVEL exclude each other; leave one out"},
 };
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 
@@ -93,8 +90,10 @@ swivel_status check(const swivel_crowd_def* given)
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;
     const swivel_crowd_def def = full_def(given);
-    if (def.features & ~kAllFeatures)
-        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has unknown feature bits 0x%x", def.features & ~kAllFeatures);
+    if (const FeatureSet unknown = def.features & ~kKnownFeatures)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "crowd def has unknown feature bits 0x%llx; twist bones are at most 7 * SWIVEL_WITH_TWIST_BONES",
+                    static_cast<unsigned long long>(unknown));
     for (const FeatureRule& rule : kFeatureRules)
         if ((def.features & rule.feature) && !(def.features & rule.other) == rule.together)
             return fail(SWIVEL_INVALID_ARGUMENT, "%s", rule.text);
@@ -115,7 +114,7 @@ swivel_status check(const swivel_crowd_def* given)
         if (const swivel_status status = check_element("group def", def.groups, g); status != SWIVEL_OK) return status;
         const swivel_group_def group = group_at(def, g);
         if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
-        if (def.features & SWIVEL_JOINTS)
+        if (def.features & feature::joints)
             if (const swivel_status status = check_binding(g, group.binding); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
@@ -146,23 +145,27 @@ swivel_status check_stride(std::uint32_t group, const char* name, const void* da
     return SWIVEL_OK;
 }
 
-swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input)
+swivel_status check_field(swivel_field field)
 {
-    const char* const name = field_name(field);
-    if (!name) return fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
-    if (input && !is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
-    if (field_component_count(crowd.features, field) == 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
-                    kFields[field].without ? "out" : "", needed_feature(crowd.features, field));
-    return SWIVEL_OK;
+    return is_field(field) ? SWIVEL_OK : fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
 }
 
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, Field field, bool input)
+{
+    const auto& [name, row_count, needs, without] = layout_of(field);
+    if (input && !is_input(field))
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
+    if (field_component_count(crowd.features, field) != 0) return SWIVEL_OK;
+    const FeatureSet wrong = without ? without : needs & ~crowd.features;
+    return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
+                without ? "out" : "", feature_name(wrong));
+}
+
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, Field field, const void* data,
                            std::size_t stride, bool input, std::size_t component_bytes)
 {
     if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
-    return check_stride(group, field_name(field), data, stride,
+    return check_stride(group, name_of(field), data, stride,
                         field_component_count(crowd.features, field) * component_bytes, input);
 }
 

@@ -25,7 +25,7 @@ constexpr std::uint32_t kRunBlocks = 2;
 // Blocks solved together aside, on the stack: their rows stay in the nearest cache. Blocks of many rows are fewer.
 constexpr std::uint32_t kAsideBlocks = 8;
 constexpr std::uint32_t kAsideLimbs = kAsideBlocks * SWIVEL_LANES;
-constexpr std::uint32_t kPlainFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+constexpr FeatureSet kPlainFeatures = feature::world | feature::joints | feature::hand;
 constexpr std::uint32_t kInputRows = kAsideBlocks * input_row_count(kPlainFeatures),
                         kResultRows = kAsideBlocks * result_row_count(kPlainFeatures);
 static_assert(kInputRows >= input_row_count(kEveryFeature) && kResultRows >= result_row_count(kEveryFeature));
@@ -78,7 +78,7 @@ struct Aside {
     const std::uint32_t block_limit;
     alignas(64) float input[kInputRows * SWIVEL_LANES];
     alignas(64) float results[kResultRows * SWIVEL_LANES];
-    alignas(64) std::uint16_t words[kAsideLimbs * result_row_count(SWIVEL_COMPACT | kPlainFeatures)];
+    alignas(64) std::uint16_t words[kAsideLimbs * result_row_count(feature::compact | kPlainFeatures)];
 
     Aside(const swivel_crowd& of, const Kernels& with, const Group& in)
         : crowd(of),
@@ -88,7 +88,7 @@ struct Aside {
     {
     }
     // What is carried from solve to solve is read from the results.
-    bool reads_results() const { return crowd.features & SWIVEL_WITH_STEP; }
+    bool reads_results() const { return crowd.features & feature::most_swivel; }
 
     // Calls for the results of a limb's block, which are read and written once they are solved.
     void prefetch(std::size_t limb) const

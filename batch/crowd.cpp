@@ -22,6 +22,19 @@ constexpr std::size_t kAlignment = 64;
 
 constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
+RestFrames rest_frames(const swivel_binding& binding)
+{
+    RestFrames frames;
+    const auto copy = [](const float(&from)[4], float(&to)[4]) { std::copy_n(from, 4, to); };
+    copy(binding.parent_from_arm, frames.parent_from_arm);
+    copy(binding.upper_from_arm, frames.upper_from_arm);
+    copy(binding.fore_from_arm, frames.fore_from_arm);
+    copy(binding.shoulder_rest, frames.shoulder_rest);
+    copy(binding.elbow_rest, frames.elbow_rest);
+    copy(binding.wrist_rest, frames.wrist_rest);
+    return frames;
+}
+
 std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
 
 struct Layout {
@@ -34,13 +47,13 @@ struct Layout {
         groups = aligned(sizeof(swivel_crowd));
         chosen = groups + aligned(def.group_count * sizeof(Group));
         urgency = chosen + aligned(mask_word_count(block_count) * sizeof(std::uint32_t));
-        input = urgency + (def.features & SWIVEL_BUDGET ? aligned(block_count * sizeof(float)) : 0);
+        input = urgency + (def.features & feature::budget ? aligned(block_count * sizeof(float)) : 0);
         results = input + block_count * kInputRowBytes * input_row_count(def.features);
         end = results + aligned(block_count * result_row_bytes(def.features) * result_row_count(def.features));
     }
 };
 
-void fill_field(const swivel_crowd& crowd, swivel_field field, std::initializer_list<float> values)
+void fill_field(const swivel_crowd& crowd, Field field, std::initializer_list<float> values)
 {
     const std::uint32_t first = field_first_row(crowd.features, field);
     if (field_row_count(crowd.features, field) == 0) return;
@@ -53,28 +66,27 @@ void fill_field(const swivel_crowd& crowd, swivel_field field, std::initializer_
 // In every lane, padding too, an arm that any kernel solves without a second thought, and what changes nothing.
 void fill_inputs(const swivel_crowd& crowd)
 {
-    fill_field(crowd, SWIVEL_TARGET, {0, 0, 2});
-    fill_field(crowd, SWIVEL_POLE, {0, -1, 0});
-    fill_field(crowd, SWIVEL_LENGTHS, {1, 1});
-    fill_field(crowd, SWIVEL_PARENT_ROTATION, {0, 0, 0, 1});
-    fill_field(crowd, SWIVEL_PARENT_SCALE, {1});
-    fill_field(crowd, SWIVEL_HAND, {0, 0, 0, 1});
+    fill_field(crowd, Field::target, {0, 0, 2});
+    fill_field(crowd, Field::pole, {0, -1, 0});
+    fill_field(crowd, Field::lengths, {1, 1});
+    fill_field(crowd, Field::parent_rotation, {0, 0, 0, 1});
+    fill_field(crowd, Field::parent_scale, {1});
+    fill_field(crowd, Field::hand, {0, 0, 0, 1});
 
     // No turn, all of the goal, no limit. A range: its middle 0, half its width pi.
-    fill_field(crowd, SWIVEL_ANGLE, {1, 0});
-    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
+    fill_field(crowd, Field::angle, {1, 0});
+    for (const Field q : {Field::incoming_shoulder, Field::incoming_elbow, Field::incoming_wrist})
         fill_field(crowd, q, {0, 0, 0, 1});
-    fill_field(crowd, SWIVEL_WEIGHTS, {1, 1, 1});
-    fill_field(crowd, SWIVEL_REACH, {0, 0, 1, 0});
-    fill_field(crowd, SWIVEL_MOST_SWIVEL, {-1, 0});
-    fill_field(crowd, SWIVEL_FLEXION_LIMIT, {1, 0});
-    for (const swivel_field cone : {SWIVEL_SHOULDER_CONE, SWIVEL_HAND_CONE}) fill_field(crowd, cone, {0, 0, 1, -1});
-    for (const swivel_field twist : {SWIVEL_HUMERAL_TWIST, SWIVEL_FOREARM_TWIST})
-        fill_field(crowd, twist, {1, 0, -1, 0});
-    fill_field(crowd, SWIVEL_HAND_TWIST, {0, 0, 1, 1, 0, -1, 0});
-    for (const swivel_field box : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX})
+    fill_field(crowd, Field::weights, {1, 1, 1});
+    fill_field(crowd, Field::reach, {0, 0, 1, 0});
+    fill_field(crowd, Field::most_swivel, {-1, 0});
+    fill_field(crowd, Field::flexion_limit, {1, 0});
+    for (const Field cone : {Field::shoulder_cone, Field::hand_cone}) fill_field(crowd, cone, {0, 0, 1, -1});
+    for (const Field twist : {Field::humeral_twist, Field::forearm_twist}) fill_field(crowd, twist, {1, 0, -1, 0});
+    fill_field(crowd, Field::hand_twist, {0, 0, 1, 1, 0, -1, 0});
+    for (const Field box : {Field::shoulder_box, Field::wrist_box})
         fill_field(crowd, box, {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0});
-    fill_field(crowd, SWIVEL_AIM, {0, 0, 1, 1, 0});
+    fill_field(crowd, Field::aim, {0, 0, 1, 1, 0});
 }
 
 // In a group's limbs, what nobody can guess: bad input until it is given.
@@ -82,12 +94,12 @@ void unknown_inputs(const swivel_crowd& crowd, const Group& group)
 {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
     constexpr float unknown[] = {kUnknown, kUnknown, kUnknown};
-    const auto start = [&](swivel_field field, const float* value) {
+    const auto start = [&](Field field, const float* value) {
         copy_in(rows_of(crowd, group, field), 0, group.limb_count, {value, 0});
     };
-    start(SWIVEL_TARGET, unknown);
-    start(SWIVEL_LENGTHS, crowd.features & SWIVEL_JOINTS ? group.binding.lengths : unknown);
-    if (crowd.features & SWIVEL_WORLD) start(SWIVEL_SHOULDER_POSITION, unknown);
+    start(Field::target, unknown);
+    start(Field::lengths, crowd.features & feature::joints ? group.binding.lengths : unknown);
+    if (crowd.features & feature::world) start(Field::shoulder_position, unknown);
 }
 
 // Every row of a run of blocks holds in each lane what it has in the very first.
@@ -106,7 +118,7 @@ void rest(const swivel_crowd& crowd, const Group& group)
     const FloatEnv env;
     solve_group(crowd, find_isa("scalar")->kernels, group, group.first_block, 1);
     const std::size_t first = row_offset(std::size_t{group.first_block} * SWIVEL_LANES, crowd.result_row_count, 0);
-    const std::size_t flags = std::size_t{field_first_row(crowd.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
+    const std::size_t flags = std::size_t{field_first_row(crowd.features, Field::flags)} * SWIVEL_LANES;
     if (crowd.words) {
         crowd.words[first + flags] = crowd.words[first + flags + SWIVEL_LANES] = 0;
         spread(crowd.words + first, crowd.result_row_count, group.block_count);
@@ -135,11 +147,11 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def from = group_at(def, g);
         const std::uint32_t block_count = blocks_of(from);
-        new (groups + g) Group{first_block, block_count, from.limb_count, from.binding};
+        new (groups + g) Group{first_block, block_count, from.limb_count, from.binding, rest_frames(from.binding)};
         first_block += block_count;
     }
 
-    const bool compact = def.features & SWIVEL_COMPACT, budget = def.features & SWIVEL_BUDGET;
+    const bool compact = def.features & feature::compact, budget = def.features & feature::budget;
     char* const results = base + layout.results;
     swivel_crowd* const crowd =
         new (base) swivel_crowd{def.features,
@@ -162,9 +174,9 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                 reinterpret_cast<std::uint32_t*>(base + layout.chosen),
                                 budget ? reinterpret_cast<float*>(base + layout.urgency) : nullptr};
 
-    for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f)
-        crowd->first_row[f] = static_cast<std::uint16_t>(
-            field_first_row(def.features & ~std::uint32_t{SWIVEL_COMPACT}, static_cast<swivel_field>(f)));
+    for (std::size_t f = 0; f < kFieldCount; ++f)
+        crowd->first_row[f] =
+            static_cast<std::uint16_t>(field_first_row(def.features & ~feature::compact, static_cast<Field>(f)));
 
     fill_inputs(*crowd);
     for (std::uint32_t g = 0; g < def.group_count; ++g) {

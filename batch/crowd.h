@@ -7,21 +7,23 @@
 #include <cstdint>
 
 #include "batch/swivel.h"
+#include "simd/kernels.h"
 
 namespace swivel {
 
 struct Group {
     std::uint32_t first_block, block_count, limb_count;
     swivel_binding binding;
+    RestFrames frames;  // the binding's, for kernels
 };
 
 }  // namespace swivel
 
 struct swivel_crowd {
-    std::uint32_t features;
+    swivel::FeatureSet features;
     std::uint32_t group_count, block_count;
     std::uint32_t input_row_count, result_row_count;
-    std::uint16_t first_row[SWIVEL_FIELD_COUNT];  // of each field, among input or result rows of floats
+    std::uint16_t first_row[swivel::kFieldCount];  // of each field, among input or result rows of floats
     swivel_euler_order shoulder_order, wrist_order;
     swivel::Group* groups;
     float *input, *results;  // results: null in a compact crowd, which has words instead

@@ -17,16 +17,16 @@ struct Reader {
     const swivel_crowd& crowd;
     std::size_t limb;
 
-    double operator()(swivel_field field, std::uint32_t component) const { return lane(field, component); }
-    float lane(swivel_field field, std::uint32_t component) const
+    double operator()(Field field, std::uint32_t component) const { return lane(field, component); }
+    float lane(Field field, std::uint32_t component) const
     {
         if (is_packed(crowd, field)) return unpack_value(crowd, field, limb)[component];
         const float* rows = is_input(field) ? crowd.input : crowd.results;
         const std::uint32_t row_count = is_input(field) ? crowd.input_row_count : crowd.result_row_count;
         return rows[row_offset(limb, row_count, field_first_row(crowd.features, field) + component)];
     }
-    Vector<double> vector_of(swivel_field f) const { return vector((*this)(f, 0), (*this)(f, 1), (*this)(f, 2)); }
-    Rotor<double> rotor_of(swivel_field f) const
+    Vector<double> vector_of(Field f) const { return vector((*this)(f, 0), (*this)(f, 1), (*this)(f, 2)); }
+    Rotor<double> rotor_of(Field f) const
     {
         return normalise(rotor((*this)(f, 0), (*this)(f, 1), (*this)(f, 2), (*this)(f, 3)));
     }
@@ -38,9 +38,9 @@ Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0
 Vector<double> aim_axis(const swivel_crowd& crowd, const Group& group, std::size_t limb, const Rotor<double>& hand)
 {
     // A hand that is not solved stays at rest.
-    const bool resting = (crowd.features & SWIVEL_JOINTS) && !(crowd.features & SWIVEL_WITH_HAND);
+    const bool resting = (crowd.features & feature::joints) && !(crowd.features & feature::hand);
     return sandwich(resting ? hand * rotor_of(group.binding.wrist_rest) : hand,
-                    Reader{crowd, limb}.vector_of(SWIVEL_AIM));
+                    Reader{crowd, limb}.vector_of(Field::aim));
 }
 
 }  // namespace
@@ -48,15 +48,15 @@ Vector<double> aim_axis(const swivel_crowd& crowd, const Group& group, std::size
 LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
     const Reader read{crowd, limb};
-    const bool world = crowd.features & SWIVEL_WORLD, joints = crowd.features & SWIVEL_JOINTS;
+    const bool world = crowd.features & feature::world, joints = crowd.features & feature::joints;
     const Rotor<double> one = rotor(0.0, 0.0, 0.0, 1.0);
 
-    Vector<double> shoulder = world ? read.vector_of(SWIVEL_SHOULDER_POSITION) : vector(0.0, 0.0, 0.0);
-    Rotor<double> parent = world ? read.rotor_of(SWIVEL_PARENT_ROTATION) : one;
-    const double scale = world ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
-    if (crowd.features & SWIVEL_WITH_CLAVICLE) {
-        const Vector<double> bone = read.vector_of(SWIVEL_CLAVICLE);
-        const Rotor<double> turn = read.rotor_of(SWIVEL_CLAVICLE_TURN);
+    Vector<double> shoulder = world ? read.vector_of(Field::shoulder_position) : vector(0.0, 0.0, 0.0);
+    Rotor<double> parent = world ? read.rotor_of(Field::parent_rotation) : one;
+    const double scale = world ? read(Field::parent_scale, 0) : 1.0;
+    if (crowd.features & feature::clavicle) {
+        const Vector<double> bone = read.vector_of(Field::clavicle);
+        const Rotor<double> turn = read.rotor_of(Field::clavicle_turn);
         shoulder = shoulder + scale * sandwich(parent, sandwich(turn, bone) - bone);
         parent = parent * turn;
     }
@@ -65,49 +65,48 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
 
     const Rotor<double> upper_from_arm = joints ? rotor_of(group.binding.upper_from_arm) : one;
     const Rotor<double> fore_from_arm = joints ? rotor_of(group.binding.fore_from_arm) : one;
-    const Rotor<double> elbow = joints ? read.rotor_of(SWIVEL_ELBOW)
-                                       : normalise(rotor(-read(SWIVEL_ELBOW, 1), 0.0, 0.0, read(SWIVEL_ELBOW, 0)));
+    const Rotor<double> elbow = joints ? read.rotor_of(Field::elbow)
+                                       : normalise(rotor(-read(Field::elbow, 1), 0.0, 0.0, read(Field::elbow, 0)));
 
-    const Rotor<double> upper_w = base * read.rotor_of(SWIVEL_SHOULDER);
+    const Rotor<double> upper_w = base * read.rotor_of(Field::shoulder);
     const Rotor<double> fore_w = upper_w * elbow;
     const Vector<double> e3 = vector(0.0, 0.0, 1.0);
-    const double size = crowd.features & SWIVEL_WITH_REACH ? scale * read(SWIVEL_STRETCH, 0) : scale;
-    const Vector<double> elbow_w = shoulder + (size * read(SWIVEL_LENGTHS, 0)) * sandwich(upper_w * upper_from_arm, e3);
-    const Vector<double> wrist_w = elbow_w + (size * read(SWIVEL_LENGTHS, 1)) * sandwich(fore_w * fore_from_arm, e3);
-    const Rotor<double> hand_w = crowd.features & SWIVEL_WITH_HAND ? fore_w * read.rotor_of(SWIVEL_WRIST) : fore_w;
+    const double size = crowd.features & feature::reach ? scale * read(Field::stretch, 0) : scale;
+    const Vector<double> elbow_w = shoulder + (size * read(Field::lengths, 0)) * sandwich(upper_w * upper_from_arm, e3);
+    const Vector<double> wrist_w = elbow_w + (size * read(Field::lengths, 1)) * sandwich(fore_w * fore_from_arm, e3);
+    const Rotor<double> hand_w = crowd.features & feature::hand ? fore_w * read.rotor_of(Field::wrist) : fore_w;
     return {elbow_w, wrist_w, hand_w};
 }
 
 ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
     const Reader read{crowd, limb};
-    const bool joints = crowd.features & SWIVEL_JOINTS, hand = crowd.features & SWIVEL_WITH_HAND;
+    const bool joints = crowd.features & feature::joints, hand = crowd.features & feature::hand;
     const Rotor<double> one = rotor(0.0, 0.0, 0.0, 1.0);
-    const Rotor<double> wrist = hand ? read.rotor_of(SWIVEL_WRIST) : one;
+    const Rotor<double> wrist = hand ? read.rotor_of(Field::wrist) : one;
     if (!joints)
-        return {read.rotor_of(SWIVEL_SHOULDER),
-                normalise(rotor(-read(SWIVEL_ELBOW, 1), 0.0, 0.0, read(SWIVEL_ELBOW, 0))), hemisphere(wrist)};
+        return {read.rotor_of(Field::shoulder),
+                normalise(rotor(-read(Field::elbow, 1), 0.0, 0.0, read(Field::elbow, 0))), hemisphere(wrist)};
     const swivel_binding& b = group.binding;
     const Rotor<double> upper = rotor_of(b.upper_from_arm), fore = rotor_of(b.fore_from_arm);
     const Rotor<double> hand_from_arm = ~fore * rotor_of(b.wrist_rest);
-    return {~rotor_of(b.parent_from_arm) * read.rotor_of(SWIVEL_SHOULDER) * upper,
-            hemisphere(~upper * read.rotor_of(SWIVEL_ELBOW) * fore),
+    return {~rotor_of(b.parent_from_arm) * read.rotor_of(Field::shoulder) * upper,
+            hemisphere(~upper * read.rotor_of(Field::elbow) * fore),
             hand ? hemisphere(~fore * wrist * ~hand_from_arm) : one};
 }
 
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
     const Reader read{crowd, limb};
-    if (std::bit_cast<std::uint32_t>(read.lane(SWIVEL_FLAGS, 0)) & SWIVEL_BAD_INPUT)
+    if (std::bit_cast<std::uint32_t>(read.lane(Field::flags, 0)) & SWIVEL_BAD_INPUT)
         return std::numeric_limits<double>::quiet_NaN();
-    const double scale = crowd.features & SWIVEL_WORLD ? read(SWIVEL_PARENT_SCALE, 0) : 1.0;
-    const double length = scale * (read(SWIVEL_LENGTHS, 0) + read(SWIVEL_LENGTHS, 1));
+    const double scale = crowd.features & feature::world ? read(Field::parent_scale, 0) : 1.0;
+    const double length = scale * (read(Field::lengths, 0) + read(Field::lengths, 1));
     if (!(length > 0)) return 0;
     const LimbPose pose = forward(crowd, group, limb);
-    Vector<double> miss = read.vector_of(SWIVEL_TARGET) - pose.wrist;
-    if (crowd.features & SWIVEL_WITH_EFFECTOR)
-        miss = miss - scale * sandwich(pose.hand, read.vector_of(SWIVEL_EFFECTOR));
-    if (crowd.features & SWIVEL_WITH_AIM) {  // from the ray
+    Vector<double> miss = read.vector_of(Field::target) - pose.wrist;
+    if (crowd.features & feature::effector) miss = miss - scale * sandwich(pose.hand, read.vector_of(Field::effector));
+    if (crowd.features & feature::aim) {  // from the ray
         const Vector<double> axis = normalise(aim_axis(crowd, group, limb, pose.hand));
         miss = miss - std::fmax(scalar_product(miss, axis), 0) * axis;
     }

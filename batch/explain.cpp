@@ -55,14 +55,14 @@ public:
         swivel_group_def alone = swivel_default_group_def(1);
         alone.binding = group.binding;
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = of.features & ~std::uint32_t{SWIVEL_BUDGET};
+        def.features = of.features & ~feature::budget;
         def.groups = &alone;
         def.group_count = 1;
         def.shoulder_order = of.shoulder_order;
         def.wrist_order = of.wrist_order;
         crowd_ = place_crowd(def, arena_);
         copy_lane(of.input, of.input_row_count, crowd_->input);
-        if (of.features & SWIVEL_WITH_STEP)  // the normal that the next step is from
+        if (of.features & feature::most_swivel)  // the normal that the next step is from
             copy_lane(of.results, of.result_row_count, crowd_->results);
     }
 
@@ -70,18 +70,18 @@ public:
     LimbPose pose() const { return forward(*crowd_, crowd_->groups[0], 0); }
     double residual_length() const
     {
-        const double lengths = double{value(SWIVEL_LENGTHS, 0)} + double{value(SWIVEL_LENGTHS, 1)};
+        const double lengths = double{value(Field::lengths, 0)} + double{value(Field::lengths, 1)};
         return residual(*crowd_, crowd_->groups[0], 0) * scale() * lengths;
     }
-    double scale() const { return crowd_->features & SWIVEL_WORLD ? double{value(SWIVEL_PARENT_SCALE, 0)} : 1.0; }
+    double scale() const { return crowd_->features & feature::world ? double{value(Field::parent_scale, 0)} : 1.0; }
     Vector<double> shoulder() const
     {
-        if (!(crowd_->features & SWIVEL_WORLD)) return vector(0.0, 0.0, 0.0);
-        const auto at = [&](std::uint32_t c) { return double{value(SWIVEL_SHOULDER_POSITION, c)}; };
+        if (!(crowd_->features & feature::world)) return vector(0.0, 0.0, 0.0);
+        const auto at = [&](std::uint32_t c) { return double{value(Field::shoulder_position, c)}; };
         return vector(at(0), at(1), at(2));
     }
-    std::uint32_t component_count(swivel_field field) const { return field_row_count(crowd_->features, field); }
-    float value(swivel_field field, std::uint32_t component) const
+    std::uint32_t component_count(Field field) const { return field_row_count(crowd_->features, field); }
+    float value(Field field, std::uint32_t component) const
     {
         return crowd_->input[row_offset(0, 0, field_first_row(crowd_->features, field) + component)];
     }
@@ -91,7 +91,7 @@ public:
     {
         const FloatEnv env;
         solve_group(*crowd_, find_isa("scalar")->kernels, crowd_->groups[0], 0, 1);
-        const std::size_t at = std::size_t{field_first_row(crowd_->features, SWIVEL_FLAGS)} * SWIVEL_LANES;
+        const std::size_t at = std::size_t{field_first_row(crowd_->features, Field::flags)} * SWIVEL_LANES;
         if (crowd_->words) return crowd_->words[at] | std::uint32_t{crowd_->words[at + SWIVEL_LANES]} << 16;
         return std::bit_cast<std::uint32_t>(crowd_->results[at]);
     }
@@ -107,16 +107,16 @@ public:
         return true;
     }
     // The field asks for nothing: it has what padding has, an ordinary arm without limits.
-    void give_up(swivel_field field)
+    void give_up(Field field)
     {
         float* const rows = crowd_->input + row_offset(0, 0, field_first_row(crowd_->features, field));
         for (std::uint32_t row = 0; row < component_count(field); ++row)
             rows[row * SWIVEL_LANES] = rows[row * SWIVEL_LANES + 1];
     }
-    void give_up_all_but(swivel_field kept)
+    void give_up_all_but(Field kept)
     {
-        for (std::uint32_t f = 0; f < kInputFieldCount; ++f)
-            if (f != static_cast<std::uint32_t>(kept)) give_up(static_cast<swivel_field>(f));
+        for (std::size_t f = 0; f < kInputCount; ++f)
+            if (f != index_of(kept)) give_up(static_cast<Field>(f));
     }
 
 private:
@@ -138,13 +138,13 @@ void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint3
 {
     text.add("Bad input: ");
     bool is_found = false;
-    for (std::uint32_t f = 0; f < kInputFieldCount; ++f) {
-        const auto field = static_cast<swivel_field>(f);
+    for (std::size_t f = 0; f < kInputCount; ++f) {
+        const auto field = static_cast<Field>(f);
         Probe probe(crowd, group, limb);
         if (probe.component_count(field) == 0) continue;
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
-        text.add("%s%s (", is_found ? "; " : "", field_name(field));
+        text.add("%s%s (", is_found ? "; " : "", name_of(field));
         bool is_number = true;
         for (std::uint32_t c = 0; c < probe.component_count(field); ++c) {
             const double x = double{probe.value(field, c)};
@@ -183,17 +183,17 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
 
 struct Limit {
     std::uint32_t flag;
-    swivel_field field;
+    Field field;
 };
 constexpr Limit kLimits[] = {
-    {SWIVEL_LIMITED_SHOULDER_CONE, SWIVEL_SHOULDER_CONE}, {SWIVEL_LIMITED_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST},
-    {SWIVEL_LIMITED_SHOULDER_BOX, SWIVEL_SHOULDER_BOX},   {SWIVEL_LIMITED_HAND_CONE, SWIVEL_HAND_CONE},
-    {SWIVEL_LIMITED_FOREARM_TWIST, SWIVEL_FOREARM_TWIST}, {SWIVEL_LIMITED_HAND_TWIST, SWIVEL_HAND_TWIST},
-    {SWIVEL_LIMITED_WRIST_BOX, SWIVEL_WRIST_BOX},
+    {SWIVEL_LIMITED_SHOULDER_CONE, Field::shoulder_cone}, {SWIVEL_LIMITED_HUMERAL_TWIST, Field::humeral_twist},
+    {SWIVEL_LIMITED_SHOULDER_BOX, Field::shoulder_box},   {SWIVEL_LIMITED_HAND_CONE, Field::hand_cone},
+    {SWIVEL_LIMITED_FOREARM_TWIST, Field::forearm_twist}, {SWIVEL_LIMITED_HAND_TWIST, Field::hand_twist},
+    {SWIVEL_LIMITED_WRIST_BOX, Field::wrist_box},
 };
 
 // Whether this limit alone leaves the elbow no place.
-bool forbids_all(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, swivel_field limit)
+bool forbids_all(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Field limit)
 {
     Probe only(crowd, group, limb);
     for (const Limit& other : kLimits)
@@ -218,9 +218,9 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
     for (const Limit& limit : kLimits) {
         wished.give_up(limit.field);
         if (!(flags & limit.flag)) continue;
-        broken.add("%s%s", broken.is_empty() ? "" : " and ", field_name(limit.field));
+        broken.add("%s%s", broken.is_empty() ? "" : " and ", name_of(limit.field));
         if (flags & SWIVEL_INFEASIBLE && forbids_all(crowd, group, limb, limit.field))
-            alone.add("%s%s", alone.is_empty() ? "" : " and ", field_name(limit.field));
+            alone.add("%s%s", alone.is_empty() ? "" : " and ", name_of(limit.field));
     }
     if (broken.is_empty()) return;
     if (flags & SWIVEL_INFEASIBLE) {
@@ -242,7 +242,7 @@ void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, 
     Probe solved(crowd, group, limb);
     const std::uint32_t flags = solved.solve();
     // A step's results are not those of the next one.
-    if (!(crowd.features & SWIVEL_WITH_STEP) && !solved.has_bits_of(crowd))
+    if (!(crowd.features & feature::most_swivel) && !solved.has_bits_of(crowd))
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(crowd, group, limb, text);
     explain_reach(solved, flags, text);

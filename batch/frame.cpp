@@ -39,11 +39,11 @@ struct Copies {
         FieldRows rows;
         swivel_in values, origin;
         bool doubles;
-    } in[kInputFieldCount];
+    } in[kInputCount];
     struct Out {
         FieldRows rows;
         swivel_out values;
-    } out[SWIVEL_FIELD_COUNT - kInputFieldCount];
+    } out[kFieldCount - kInputCount];
     std::size_t in_count = 0, out_count = 0;
 
     Copies(const swivel_crowd& crowd, const Group& group, const swivel_frame& frame)

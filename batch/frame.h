@@ -6,53 +6,58 @@
 #include <iterator>
 
 #include "batch/swivel.h"
+#include "simd/fields.h"
 
 namespace swivel {
 
 struct FrameInput {
-    swivel_field field;
+    Field field;
     swivel_in swivel_frame::*member;
 };
 inline constexpr FrameInput kFrameInputs[] = {
-    {SWIVEL_TARGET, &swivel_frame::target},
-    {SWIVEL_POLE, &swivel_frame::pole},
-    {SWIVEL_LENGTHS, &swivel_frame::lengths},
-    {SWIVEL_SHOULDER_POSITION, &swivel_frame::shoulder_position},
-    {SWIVEL_PARENT_ROTATION, &swivel_frame::parent_rotation},
-    {SWIVEL_PARENT_SCALE, &swivel_frame::parent_scale},
-    {SWIVEL_HAND, &swivel_frame::hand},
-    {SWIVEL_EFFECTOR, &swivel_frame::effector},
-    {SWIVEL_ANGLE, &swivel_frame::angle},
-    {SWIVEL_INCOMING_SHOULDER, &swivel_frame::incoming_shoulder},
-    {SWIVEL_INCOMING_ELBOW, &swivel_frame::incoming_elbow},
-    {SWIVEL_INCOMING_WRIST, &swivel_frame::incoming_wrist},
-    {SWIVEL_WEIGHTS, &swivel_frame::weights},
-    {SWIVEL_REACH, &swivel_frame::reach},
-    {SWIVEL_MOST_SWIVEL, &swivel_frame::most_swivel},
-    {SWIVEL_FLEXION_LIMIT, &swivel_frame::flexion_limit},
-    {SWIVEL_SHOULDER_CONE, &swivel_frame::shoulder_cone},
-    {SWIVEL_HUMERAL_TWIST, &swivel_frame::humeral_twist},
-    {SWIVEL_SHOULDER_BOX, &swivel_frame::shoulder_box},
-    {SWIVEL_HAND_CONE, &swivel_frame::hand_cone},
-    {SWIVEL_FOREARM_TWIST, &swivel_frame::forearm_twist},
-    {SWIVEL_HAND_TWIST, &swivel_frame::hand_twist},
-    {SWIVEL_WRIST_BOX, &swivel_frame::wrist_box},
-    {SWIVEL_AIM, &swivel_frame::aim},
-    {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
+    {Field::target, &swivel_frame::target},
+    {Field::pole, &swivel_frame::pole},
+    {Field::lengths, &swivel_frame::lengths},
+    {Field::shoulder_position, &swivel_frame::shoulder_position},
+    {Field::parent_rotation, &swivel_frame::parent_rotation},
+    {Field::parent_scale, &swivel_frame::parent_scale},
+    {Field::hand, &swivel_frame::hand},
+    {Field::effector, &swivel_frame::effector},
+    {Field::angle, &swivel_frame::angle},
+    {Field::incoming_shoulder, &swivel_frame::incoming_shoulder},
+    {Field::incoming_elbow, &swivel_frame::incoming_elbow},
+    {Field::incoming_wrist, &swivel_frame::incoming_wrist},
+    {Field::weights, &swivel_frame::weights},
+    {Field::reach, &swivel_frame::reach},
+    {Field::most_swivel, &swivel_frame::most_swivel},
+    {Field::flexion_limit, &swivel_frame::flexion_limit},
+    {Field::shoulder_cone, &swivel_frame::shoulder_cone},
+    {Field::humeral_twist, &swivel_frame::humeral_twist},
+    {Field::shoulder_box, &swivel_frame::shoulder_box},
+    {Field::hand_cone, &swivel_frame::hand_cone},
+    {Field::forearm_twist, &swivel_frame::forearm_twist},
+    {Field::hand_twist, &swivel_frame::hand_twist},
+    {Field::wrist_box, &swivel_frame::wrist_box},
+    {Field::aim, &swivel_frame::aim},
+    {Field::clavicle, &swivel_frame::clavicle},
 };
 
-static_assert(std::size(kFrameInputs) == SWIVEL_SHOULDER, "every input");
+static_assert(std::size(kFrameInputs) == kInputCount, "every input");
 
 struct FrameOutput {
-    swivel_field field;
+    Field field;
     swivel_out swivel_frame::*member;
 };
 inline constexpr FrameOutput kFrameOutputs[] = {
-    {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
-    {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
-    {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
-    {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
+    {Field::shoulder, &swivel_frame::shoulder},
+    {Field::elbow, &swivel_frame::elbow},
+    {Field::wrist, &swivel_frame::wrist},
+    {Field::flags, &swivel_frame::flags},
+    {Field::stretch, &swivel_frame::stretch},
+    {Field::normal, &swivel_frame::normal},
+    {Field::twist_bones, &swivel_frame::twist_bones},
+    {Field::clavicle_turn, &swivel_frame::clavicle_turn},
 };
-static_assert(std::size(kFrameOutputs) == SWIVEL_FIELD_COUNT - SWIVEL_SHOULDER, "every result");
+static_assert(std::size(kFrameOutputs) == kFieldCount - kInputCount, "every result");
 
 }  // namespace swivel

@@ -13,11 +13,10 @@ namespace swivel {
 
 namespace {
 
-constexpr std::uint32_t kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+constexpr FeatureSet kFormulaFeatures = feature::world | feature::joints | feature::hand;
 
 // With any of these a crowd's limbs are whole ones, for which there is one kernel (simd/limb_run.h).
-constexpr std::uint32_t kLimbFeatures = ~std::uint32_t{SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND |
-                                                       SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET};
+constexpr FeatureSet kLimbFeatures = ~(kFormulaFeatures | feature::pole_direction | feature::compact | feature::budget);
 
 // Rows of more bytes than this come from memory at each solve: it is a common size of level 3 caches. Where they come
 // from a cache, prefetching costs up to 3 %; where from memory, it takes 5 to 15 % off.
@@ -25,7 +24,7 @@ constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 
 // Result rows of a compact crowd live on the stack until they are packed: so many blocks' stay in the nearest cache.
 constexpr std::uint32_t kPackBlocks = 8;
-constexpr std::uint32_t kMostResultRows = result_row_count(SWIVEL_JOINTS | SWIVEL_WITH_HAND);
+constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand);
 
 LimbRun limb_run(const swivel_crowd& crowd, const Group& group, const float* input, float* results,
                  std::uint32_t block_count)
@@ -34,11 +33,11 @@ LimbRun limb_run(const swivel_crowd& crowd, const Group& group, const float* inp
             results,
             block_count,
             crowd.input_row_count,
-            result_row_count(crowd.features & ~std::uint32_t{SWIVEL_COMPACT}),
+            result_row_count(crowd.features & ~feature::compact),
             crowd.features,
-            crowd.shoulder_order,
-            crowd.wrist_order,
-            &group.binding,
+            static_cast<std::uint32_t>(crowd.shoulder_order),
+            static_cast<std::uint32_t>(crowd.wrist_order),
+            &group.frames,
             crowd.first_row};
 }
 
@@ -62,22 +61,22 @@ void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& 
                 float* results, std::uint32_t block_count, bool prefetch)
 {
     if (crowd.features & kLimbFeatures) return kernels.limbs.solve(limb_run(crowd, group, input, results, block_count));
-    const float pole_is_point = crowd.features & SWIVEL_POLE_DIRECTION ? 0.0f : 1.0f;
+    const float pole_is_point = crowd.features & feature::pole_direction ? 0.0f : 1.0f;
     kernels.arms.solve[crowd.features & kFormulaFeatures](
-        {input, results, block_count, pole_is_point, &group.binding, prefetch});
+        {input, results, block_count, pole_is_point, &group.frames, prefetch});
 }
 
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
                std::uint32_t block_count, bool prefetch)
 {
-    kernels.arms.pack[(crowd.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS](
+    kernels.arms.pack[(crowd.features & (feature::joints | feature::hand)) / feature::joints](
         {results, words, block_count, prefetch});
 }
 
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count)
 {
-    if (crowd.features & SWIVEL_COMPACT) return solve_compact(crowd, kernels, group, first_block, block_count);
+    if (crowd.features & feature::compact) return solve_compact(crowd, kernels, group, first_block, block_count);
     const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
     solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0),
                crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count,
@@ -92,7 +91,12 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
     // The normal of the last solve counts; compact crowds have none.
     float* const results = crowd.words ? nullptr : crowd.results + row_offset(first, crowd.result_row_count, 0);
     const float* const input = crowd.input + row_offset(first, crowd.input_row_count, 0);
-    return scalar.limbs.allowed_arcs(limb_run(crowd, group, input, results, group.block_count), limb, arcs, capacity);
+    ArcEnds ends[kMostArcs];
+    const std::uint32_t count =
+        scalar.limbs.allowed_arcs(limb_run(crowd, group, input, results, group.block_count), limb, ends);
+    for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
+        arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
+    return count;
 }
 
 void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)

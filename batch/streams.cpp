@@ -64,7 +64,7 @@ void copy(FieldRows rows, std::size_t first, std::size_t limb_count, Byte* value
 
 }  // namespace
 
-FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field field)
+FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field)
 {
     const bool input = is_input(field);
     const std::uint32_t row_count = input ? crowd.input_row_count : crowd.result_row_count;

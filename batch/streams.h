@@ -13,7 +13,7 @@ struct FieldRows {
     std::uint32_t row_count;  // of a block
     std::uint32_t component_count;
 };
-FieldRows rows_of(const swivel_crowd& crowd, const Group& group, swivel_field field);
+FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field);
 
 // Values of limbs first ... first + limb_count - 1 of the group; data is limb first's.
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values);

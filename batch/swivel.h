@@ -48,22 +48,23 @@
 //   SWIVEL_INCOMING_WRIST      4     and WITH_HAND        whole quaternions
 //   SWIVEL_WEIGHTS             3     WITH_WEIGHTS         of position, hand, pole: 0 the incoming pose's, 1 the goal's
 //   SWIVEL_REACH               4     WITH_REACH           soft zone far, soft zone near, most stretch, least distance
-//   SWIVEL_MOST_SWIVEL         2     WITH_STEP            cos, sin of how far the swivel may turn in one solve, 0..pi
-//   SWIVEL_FLEXION_LIMIT       2     LIMIT_FLEXION        cos of half the least flexion, cos of half the largest
-//   SWIVEL_SHOULDER_CONE       4     LIMIT_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
-//   SWIVEL_HUMERAL_TWIST       4     LIMIT_HUMERAL_TWIST  range of the upper arm's twist about itself
-//   SWIVEL_SHOULDER_BOX        12    LIMIT_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
-//   SWIVEL_HAND_CONE           4     LIMIT_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
-//   SWIVEL_FOREARM_TWIST       4     LIMIT_FOREARM_TWIST  range of the hand's twist about the forearm
-//   SWIVEL_HAND_TWIST          7     LIMIT_HAND_TWIST     unit axis of the hand; range of its twist about it
-//   SWIVEL_WRIST_BOX           12    LIMIT_WRIST_BOX      ranges of the wrist's Euler angles
+//   SWIVEL_MOST_SWIVEL         2     WITH_MOST_SWIVEL            cos, sin of how far the swivel may turn in one solve,
+//   0..pi SWIVEL_FLEXION_LIMIT       2     WITH_FLEXION_LIMIT        cos of half the least flexion, cos of half the
+//   largest SWIVEL_SHOULDER_CONE       4     WITH_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
+//   SWIVEL_HUMERAL_TWIST       4     WITH_HUMERAL_TWIST  range of the upper arm's twist about itself
+//   SWIVEL_SHOULDER_BOX        12    WITH_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
+//   SWIVEL_HAND_CONE           4     WITH_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
+//   SWIVEL_FOREARM_TWIST       4     WITH_FOREARM_TWIST  range of the hand's twist about the forearm
+//   SWIVEL_HAND_TWIST          7     WITH_HAND_TWIST     unit axis of the hand; range of its twist about it
+//   SWIVEL_WRIST_BOX           12    WITH_WRIST_BOX      ranges of the wrist's Euler angles
 //   SWIVEL_AIM                 5     WITH_AIM             unit axis of the hand to aim with; cos, sin of half flexion
 //   SWIVEL_CLAVICLE            4     WITH_CLAVICLE        shoulder's place in its parent joint's frame; share 0..1
 //   more result rows
 //   SWIVEL_STRETCH             1     WITH_REACH           factor for both bone lengths, 1 or more
-//   SWIVEL_NORMAL              3     WITH_STEP            unit normal of the swivel plane, arm frame; kept for the next
-//   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
-//   SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation * this
+//   SWIVEL_NORMAL              3     WITH_MOST_SWIVEL            unit normal of the swivel plane, arm frame; kept for
+//   the next SWIVEL_TWIST_BONES               4 n   WITH_TWIST_BONES * n      a quaternion for each of n twist bones,
+//   see below SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation
+//   * this
 //
 // RANGES. A range is cos and sin of its middle, then cos and sin of half its width, which is 0..pi. Axes, cosines with
 // their sines, and ranges are of unit length within 5e-4. Weights are 0..1. Anything else is bad input.
@@ -112,9 +113,10 @@
 // turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis, relative to rest. With JOINTS its local
 // rotation is this quaternion times its rest rotation; without, it is this quaternion in the arm frame.
 //
-// STEPS. With WITH_STEP the plane's normal is carried from solve to solve, in the arm frame. In each it is first made
-// perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and swivel_reset()
-// forget it; call that after a teleport. Without WITH_STEP results depend on the frame's own inputs alone.
+// STEPS. With WITH_MOST_SWIVEL the plane's normal is carried from solve to solve, in the arm frame. In each it is first
+// made perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and
+// swivel_reset() forget it; call that after a teleport. Without WITH_MOST_SWIVEL results depend on the frame's own
+// inputs alone.
 //
 // CONTINUITY. The swivel is continuous, but for targets that pass through the shoulder, poles that pass through the
 // line, and limits whose nearest swivel changes sides. With WITH_AIM an elbow that passes through the line rolls the
@@ -229,39 +231,38 @@ typedef enum swivel_flag {
     // bits 17 to 29 are kept for later releases and are 0
 } swivel_flag;
 
-// What a crowd takes and gives; fixed at creation. Whatever is off costs neither memory nor time.
-typedef enum swivel_feature {
-    SWIVEL_WORLD = 1u << 0,           // targets, poles and hands are in the world; each limb has a parent frame
-    SWIVEL_JOINTS = 1u << 1,          // results are the skeleton's own local rotations, through the group's binding
-    SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
-    SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
-    SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less; not with
-                                      // WITH_REACH, WITH_STEP, TWIST_BONES, WITH_CLAVICLE
-    // THE WHOLE LIMB
-    SWIVEL_WITH_EFFECTOR = 1u << 5,
-    SWIVEL_WITH_ANGLE = 1u << 6,
-    SWIVEL_POLE_NORMAL = 1u << 7,  // poles are normals of the swivel plane: cross(line from shoulder to wrist, pole)
-    SWIVEL_WITH_INCOMING = 1u << 8,
-    SWIVEL_POLE_INCOMING = 1u << 9,  // no poles: the elbow goes as in the incoming pose. Needs WITH_INCOMING
-    SWIVEL_WITH_WEIGHTS = 1u << 10,
-    SWIVEL_WITH_REACH = 1u << 11,
-    SWIVEL_WITH_STEP = 1u << 12,
-    SWIVEL_LIMIT_FLEXION = 1u << 13,
-    SWIVEL_LIMIT_SHOULDER_CONE = 1u << 14,
-    SWIVEL_LIMIT_HUMERAL_TWIST = 1u << 15,
-    SWIVEL_LIMIT_SHOULDER_BOX = 1u << 16,
-    SWIVEL_LIMIT_HAND_CONE = 1u << 17,
-    SWIVEL_LIMIT_FOREARM_TWIST = 1u << 18,
-    SWIVEL_LIMIT_HAND_TWIST = 1u << 19,
-    SWIVEL_LIMIT_WRIST_BOX = 1u << 20,
-    SWIVEL_TWIST_BONES = 1u << 21,    // times the number of twist bones, 1 to 7
-    SWIVEL_WITH_AIM = 1u << 24,       // the flexion is given, and the hand points at the target
-    SWIVEL_WITH_CLAVICLE = 1u << 25,  // the shoulder's parent joint takes a share of the reach. Needs WORLD
-    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), jobs with priorities
-} swivel_feature;
+// What a crowd takes and gives: any of these bits together, fixed at creation. Whatever is off costs neither memory nor
+// time. The feature of a field F is SWIVEL_WITH_F; of the three of an incoming pose it is SWIVEL_WITH_INCOMING.
+typedef uint64_t swivel_features;
+#define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
+#define SWIVEL_JOINTS (UINT64_C(1) << 1)          // results are the joints' own local rotations, by the binding
+#define SWIVEL_WITH_HAND (UINT64_C(1) << 2)       // a wanted hand orientation goes in, a wrist rotation comes out
+#define SWIVEL_POLE_DIRECTION (UINT64_C(1) << 3)  // poles are directions, not points. Needs WORLD
+#define SWIVEL_COMPACT (UINT64_C(1) << 4)         // results in 16-bit words, half as large or less
+#define SWIVEL_WITH_EFFECTOR (UINT64_C(1) << 5)
+#define SWIVEL_WITH_ANGLE (UINT64_C(1) << 6)
+#define SWIVEL_POLE_NORMAL (UINT64_C(1) << 7)  // poles are normals of the swivel plane
+#define SWIVEL_WITH_INCOMING (UINT64_C(1) << 8)
+#define SWIVEL_POLE_INCOMING (UINT64_C(1) << 9)  // no poles: elbows go as in the incoming pose. Needs WITH_INCOMING
+#define SWIVEL_WITH_WEIGHTS (UINT64_C(1) << 10)
+#define SWIVEL_WITH_REACH (UINT64_C(1) << 11)
+#define SWIVEL_WITH_MOST_SWIVEL (UINT64_C(1) << 12)
+#define SWIVEL_WITH_FLEXION_LIMIT (UINT64_C(1) << 13)
+#define SWIVEL_WITH_SHOULDER_CONE (UINT64_C(1) << 14)
+#define SWIVEL_WITH_HUMERAL_TWIST (UINT64_C(1) << 15)
+#define SWIVEL_WITH_SHOULDER_BOX (UINT64_C(1) << 16)
+#define SWIVEL_WITH_HAND_CONE (UINT64_C(1) << 17)
+#define SWIVEL_WITH_FOREARM_TWIST (UINT64_C(1) << 18)
+#define SWIVEL_WITH_HAND_TWIST (UINT64_C(1) << 19)
+#define SWIVEL_WITH_WRIST_BOX (UINT64_C(1) << 20)
+#define SWIVEL_WITH_AIM (UINT64_C(1) << 21)          // the flexion is given, and the hand points at the target
+#define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)     // the shoulder's parent joint shares the reach. Needs WORLD
+#define SWIVEL_BUDGET (UINT64_C(1) << 23)            // blocks wait their turn: swivel_choose(), jobs with priorities
+#define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7; bits around it stay 0
 
+// Inputs, and from SWIVEL_SHOULDER on results. Both numbers only grow at their ends.
 typedef enum swivel_field {
-    SWIVEL_TARGET,
+    SWIVEL_TARGET = 0,
     SWIVEL_POLE,
     SWIVEL_LENGTHS,
     SWIVEL_SHOULDER_POSITION,
@@ -286,15 +287,16 @@ typedef enum swivel_field {
     SWIVEL_WRIST_BOX,
     SWIVEL_AIM,
     SWIVEL_CLAVICLE,
-    SWIVEL_SHOULDER,
+    SWIVEL_INPUT_END,  // one past the last input of this release
+    SWIVEL_SHOULDER = 256,
     SWIVEL_ELBOW,
     SWIVEL_WRIST,
     SWIVEL_FLAGS,
     SWIVEL_STRETCH,
     SWIVEL_NORMAL,
-    SWIVEL_TWIST,
+    SWIVEL_TWIST_BONES,
     SWIVEL_CLAVICLE_TURN,
-    SWIVEL_FIELD_COUNT
+    SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
 // How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w; and how long the
@@ -359,8 +361,9 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
 
 typedef struct swivel_crowd_def {
     size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
-    uint32_t features;               // swivel_feature bits
+    swivel_features features;        // 0: all is in the arm frame
     uint32_t group_count;            // 1 or more
+    uint32_t reserved;               // 0
     const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
     // Memory, first that is set: the caller's (64-byte aligned, swivel_crowd_bytes() long, the caller frees it after
     // destroy), the caller's callbacks (64-byte aligned results), the C library.
@@ -407,7 +410,7 @@ SWIVEL_API const char* swivel_last_error(void);
 static inline swivel_crowd_def swivel_default_crowd_def(void)
 {
     const swivel_crowd_def def = {
-        sizeof(swivel_crowd_def), 0, 0, NULL, NULL, 0, NULL, NULL, NULL, SWIVEL_XYZ, SWIVEL_XYZ};
+        sizeof(swivel_crowd_def), 0, 0, 0, NULL, NULL, 0, NULL, NULL, NULL, SWIVEL_XYZ, SWIVEL_XYZ};
     return def;
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
@@ -486,7 +489,7 @@ typedef struct swivel_frame {
     swivel_in flexion_limit, shoulder_cone, humeral_twist, shoulder_box;
     swivel_in hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle;
     // Results, in the order of the fields. Null data: not written.
-    swivel_out shoulder, elbow, wrist, flags, stretch, normal, twist, clavicle_turn;
+    swivel_out shoulder, elbow, wrist, flags, stretch, normal, twist_bones, clavicle_turn;
 } swivel_frame;
 
 // Nothing in and nothing out.
@@ -602,7 +605,7 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
                                        uint32_t* mask, uint32_t mask_word_count, uint32_t* chosen_count);
 
 // Forgets the swivel carried from solve to solve, of limbs of a group: the next one is not limited by
-// SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_STEP.
+// SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_MOST_SWIVEL.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
 // The first limb with any of these flags, looked for from limb *limb of group *group on, through all later groups.

@@ -199,7 +199,7 @@ struct Job {
 // larger values are stepped over by size.
 class Crowd {
 public:
-    Crowd(std::uint32_t features, std::span<const swivel_group_def> groups)
+    Crowd(swivel_features features, std::span<const swivel_group_def> groups)
     {
         swivel_crowd_def def = swivel_default_crowd_def();
         def.features = features;

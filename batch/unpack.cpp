@@ -20,9 +20,9 @@ double component(std::uint32_t word)
 
 }  // namespace
 
-bool is_packed(const swivel_crowd& crowd, swivel_field field)
+bool is_packed(const swivel_crowd& crowd, Field field)
 {
-    return (crowd.features & SWIVEL_COMPACT) && !is_input(field);
+    return (crowd.features & feature::compact) && !is_input(field);
 }
 
 std::array<float, 4> unpack_rotation(const std::uint16_t* words, std::size_t word_stride)
@@ -56,19 +56,19 @@ float unpack_half(std::uint16_t word)
     return std::bit_cast<float>(sign | of_float << 23 | digits << 13);
 }
 
-std::array<float, 4> unpack_value(const swivel_crowd& crowd, swivel_field field, std::size_t limb)
+std::array<float, 4> unpack_value(const swivel_crowd& crowd, Field field, std::size_t limb)
 {
     const std::uint16_t* const words =
         crowd.words + row_offset(limb, crowd.result_row_count, field_first_row(crowd.features, field));
-    if (field == SWIVEL_FLAGS)
+    if (field == Field::flags)
         return {std::bit_cast<float>(words[0] | std::uint32_t{words[SWIVEL_LANES]} << 16), 0, 0, 0};
-    if (field == SWIVEL_ELBOW && !(crowd.features & SWIVEL_JOINTS))
+    if (field == Field::elbow && !(crowd.features & feature::joints))
         return {unpack_half(words[0]), unpack_half(words[SWIVEL_LANES]), 0, 0};
     return unpack_rotation(words, SWIVEL_LANES);
 }
 
-void unpack_out(const swivel_crowd& crowd, const Group& group, swivel_field field, std::size_t first,
-                std::size_t limb_count, swivel_out values)
+void unpack_out(const swivel_crowd& crowd, const Group& group, Field field, std::size_t first, std::size_t limb_count,
+                swivel_out values)
 {
     const FloatEnv env;
     const std::size_t bytes = field_component_count(crowd.features, field) * sizeof(float);

@@ -11,16 +11,16 @@
 namespace swivel {
 
 // A field whose rows are words.
-bool is_packed(const swivel_crowd& crowd, swivel_field field);
+bool is_packed(const swivel_crowd& crowd, Field field);
 
 // x, y, z, w, from three words that lie word_stride words apart.
 std::array<float, 4> unpack_rotation(const std::uint16_t* words, std::size_t word_stride);
 float unpack_half(std::uint16_t word);
 
 // The value of a packed field of a limb of the crowd, as the same field of other crowds has it in its rows.
-std::array<float, 4> unpack_value(const swivel_crowd& crowd, swivel_field field, std::size_t limb);
+std::array<float, 4> unpack_value(const swivel_crowd& crowd, Field field, std::size_t limb);
 // Values of limbs first ... first + limb_count - 1 of the group; data is limb first's.
-void unpack_out(const swivel_crowd& crowd, const Group& group, swivel_field field, std::size_t first,
-                std::size_t limb_count, swivel_out values);
+void unpack_out(const swivel_crowd& crowd, const Group& group, Field field, std::size_t first, std::size_t limb_count,
+                swivel_out values);
 
 }  // namespace swivel

@@ -26,7 +26,7 @@ std::vector<std::uint32_t> random_words(std::uint32_t word_count, std::uint32_t 
 
 void add_choice(Suite& suite)
 {
-    const std::uint32_t features = kResident | SWIVEL_BUDGET;
+    const swivel_features features = kResident | SWIVEL_BUDGET;
     for (const std::size_t level : {1u, 3u}) {
         const std::size_t arm_count = arms_within(level, features);
         const std::string place = level == 1 ? "/L2" : "/memory", family = "choice/" + suite.best_isa();

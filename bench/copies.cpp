@@ -11,7 +11,7 @@ void add_copies(Suite& suite)
 {
     struct Named {
         const char* name;
-        std::uint32_t features;
+        swivel_features features;
     };
     for (const auto& [name, features] : {Named{"P", 0}, Named{"resident", kResident}}) {
         const std::size_t arm_count = arms_within(3, features);

@@ -5,7 +5,7 @@
 
 namespace bench {
 
-swivel::Crowd& Crowds::get(std::uint32_t features, std::size_t arm_count)
+swivel::Crowd& Crowds::get(swivel_features features, std::size_t arm_count)
 {
     const std::pair key(features, arm_count);
     const auto at = crowds_.find(key);
@@ -33,7 +33,7 @@ void add(const std::string& name, std::size_t arm_count, Clock clock, std::funct
     if (clock == Clock::wall) timed->UseRealTime();
 }
 
-void add_solve(Suite& suite, const std::string& name, const std::string& isa, std::uint32_t features,
+void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,
                std::size_t arm_count, std::size_t crowd_bytes)
 {
     const auto prepare = [&suite, isa, features, arm_count]() -> Work {

@@ -21,7 +21,7 @@ namespace bench {
 // Crowds are made when first asked for and kept: filling the largest takes longer than solving it.
 class Crowds {
 public:
-    swivel::Crowd& get(std::uint32_t features, std::size_t arm_count);
+    swivel::Crowd& get(swivel_features features, std::size_t arm_count);
 
 private:
     std::vector<Limb> limbs_ = random_limbs(65536);
@@ -45,7 +45,7 @@ using Work = std::function<void()>;
 void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare,
          std::size_t crowd_bytes = 0);
 // A crowd solved by that instruction set on one thread.
-void add_solve(Suite& suite, const std::string& name, const std::string& isa, std::uint32_t features,
+void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,
                std::size_t arm_count, std::size_t crowd_bytes = 0);
 
 // One for each family. Those with rivals also check what they are going to time; they throw if someone's results are

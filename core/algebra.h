@@ -94,17 +94,6 @@ constexpr int coefficient(Product kind, Blade a, Blade b, Blade out)
     return geometric(a, b, out);
 }
 
-constexpr BladeSet product_blades(Product kind, BladeSet a, BladeSet b)
-{
-    BladeSet set = 0;
-    for (Blade x = 0; x < 32; ++x)
-        for (Blade y = 0; y < 32; ++y)
-            if ((a >> x & 1u) && (b >> y & 1u))
-                for (Blade out = 0; out < 32; ++out)
-                    if (coefficient(kind, x, y, out) != 0) set |= BladeSet{1} << out;
-    return set;
-}
-
 struct Term {
     Blade a, b;
     int sign;
@@ -115,17 +104,29 @@ struct Terms {
 };
 
 // The products of components that add up to component `out`, one that is added first where there is one: then nothing
-// has to be negated.
+// has to be negated. The Euclidean parts of `out` and of one factor's blade give that of the other's.
 constexpr Terms terms(Product kind, BladeSet a, BladeSet b, Blade out)
 {
     Terms list{};
-    for (Blade x = 0; x < 32; ++x)
-        for (Blade y = 0; y < 32; ++y)
-            if ((a >> x & 1u) && (b >> y & 1u))
-                if (const int sign = coefficient(kind, x, y, out); sign != 0) list.term[list.count++] = {x, y, sign};
+    for (Blade x = 0; x < 32; ++x) {
+        if (!(a >> x & 1u)) continue;
+        for (const Blade null_y : {kScalar, kEinf, kE0, kEinf | kE0}) {
+            const Blade y = ((x ^ out) & kEuclid) | null_y;
+            if (!(b >> y & 1u)) continue;
+            if (const int sign = coefficient(kind, x, y, out); sign != 0) list.term[list.count++] = {x, y, sign};
+        }
+    }
     for (std::size_t n = 1; n < list.count; ++n)
         if (list.term[0].sign < 0 && list.term[n].sign > 0) std::swap(list.term[0], list.term[n]);
     return list;
+}
+
+constexpr BladeSet product_blades(Product kind, BladeSet a, BladeSet b)
+{
+    BladeSet set = 0;
+    for (Blade out = 0; out < 32; ++out)
+        if (terms(kind, a, b, out).count != 0) set |= BladeSet{1} << out;
+    return set;
 }
 
 constexpr Blade nth_blade(BladeSet set, std::size_t n)

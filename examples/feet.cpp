@@ -162,7 +162,7 @@ int stand()
 {
     const swivel_binding leg = bind_leg();
     const swivel_group_def groups[] = {swivel::group(2 * kCharacterCount, leg)};  // left and right legs are alike
-    const std::uint32_t features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
+    const swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
     swivel::Crowd crowd(features | SWIVEL_POLE_DIRECTION, groups);
 
     std::vector<Leg> legs(2 * kCharacterCount);

@@ -6,17 +6,26 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "batch/swivel.h"
+#include "simd/fields.h"
 
 namespace swivel {
 
-// A run of blocks that share one binding.
+// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w. Used with
+// feature::joints.
+struct RestFrames {
+    float parent_from_arm[4];                              // arm frame to the shoulder's parent joint
+    float upper_from_arm[4];                               // arm frame at rest to the shoulder joint's own
+    float fore_from_arm[4];                                // the same, to the elbow joint's own
+    float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations
+};
+
+// A run of blocks that share their frames.
 struct SolveRun {
     const float* input;  // input rows of the run's first block
     float* results;      // result rows of the same block
     std::uint32_t block_count;
-    float pole_is_point;  // 1, or 0 for poles that are directions; used with SWIVEL_WORLD
-    const swivel_binding* binding;
+    float pole_is_point;  // 1, or 0 for poles that are directions; used with feature::world
+    const RestFrames* frames;
     bool prefetch;  // rows come from memory: call for those of later blocks
 };
 
@@ -25,9 +34,9 @@ struct LimbRun {
     const float* input;
     float* results;
     std::uint32_t block_count, input_row_count, result_row_count;
-    std::uint32_t features;
-    swivel_euler_order shoulder_order, wrist_order;
-    const swivel_binding* binding;
+    FeatureSet features;
+    std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
+    const RestFrames* frames;
     const std::uint16_t* first_row;  // of each field, among input or result rows
 };
 
@@ -41,17 +50,24 @@ struct PackRun {
 
 // Of plain arms: simd/arm_kernels.cpp.
 struct ArmKernels {
-    // By the features that change the formula: SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND.
+    // By the features that change the formula: feature::world, joints and hand.
     void (*solve[8])(const SolveRun& run);
-    // By the features that change the result rows: (SWIVEL_JOINTS | SWIVEL_WITH_HAND) / SWIVEL_JOINTS.
+    // By the features that change the result rows: feature::joints and hand, over feature::joints.
     void (*pack[4])(const PackRun& run);
+};
+
+// How many arcs of swivels limits can leave: core/allowed_arcs.h has as many.
+inline constexpr std::size_t kMostArcs = 100;
+// An arc of swivels: cos and sin of its ends.
+struct ArcEnds {
+    float from[2], to[2];
 };
 
 // Of whole limbs: simd/limb_kernels.cpp.
 struct LimbKernels {
     void (*solve)(const LimbRun& run);
-    // Of one limb of a run: stores up to capacity arcs, returns how many there are. In the scalar build alone.
-    std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, swivel_arc* arcs, std::uint32_t capacity);
+    // Of one limb of a run: stores its arcs, returns how many there are. In the scalar build alone.
+    std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
 };
 
 struct Kernels {

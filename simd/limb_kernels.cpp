@@ -11,12 +11,13 @@ namespace {
 
 // For one limb at a time, so one build of it is enough.
 std::uint32_t store_arcs([[maybe_unused]] const LimbRun& run, [[maybe_unused]] std::size_t limb,
-                         [[maybe_unused]] swivel_arc* arcs, [[maybe_unused]] std::uint32_t capacity)
+                         [[maybe_unused]] ArcEnds (&arcs)[kMostArcs])
 {
     if constexpr (std::is_same_v<SWIVEL_ARCH, float>) {
         const AllowedArcs<float> allowed = allowed_arcs_of(run, limb);
+        static_assert(std::size(allowed.arc) == kMostArcs);
         const auto count = static_cast<std::uint32_t>(allowed.count);
-        for (std::uint32_t n = 0; n < count && n < capacity; ++n) {
+        for (std::uint32_t n = 0; n < count; ++n) {
             const Arc<float>& arc = allowed.arc[n];
             arcs[n] = {{arc.from.cos, arc.from.sin}, {arc.to.cos, arc.to.sin}};
         }

@@ -11,15 +11,15 @@ namespace swivel::inline SWIVEL_ISA {
 
 // One block of limbs put aside, and where each of them belongs.
 struct LimbsAside {
-    alignas(64) float input[input_row_count(kEveryFeature) * SWIVEL_LANES];
-    alignas(64) float results[result_row_count(kEveryFeature) * SWIVEL_LANES];
-    std::size_t limb[SWIVEL_LANES];
+    alignas(64) float input[input_row_count(kEveryFeature) * kLanes];
+    alignas(64) float results[result_row_count(kEveryFeature) * kLanes];
+    std::size_t limb[kLanes];
     std::size_t count = 0;
     bool filled = false;  // lanes that nothing is put into hold numbers all the same
 
     static void copy_lane(std::uint32_t row_count, const float* from, float* to)
     {
-        for (std::uint32_t row = 0; row < row_count; ++row) to[row * SWIVEL_LANES] = from[row * SWIVEL_LANES];
+        for (std::uint32_t row = 0; row < row_count; ++row) to[row * kLanes] = from[row * kLanes];
     }
     void take(const LimbRun& run, std::size_t from)
     {
@@ -48,7 +48,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const LimbRun& run, Settl
     LimbUse use = limb_use(run);
     use.aim = Aims;  // as it is, but now the compiler knows
     const LimbBinding<T> bind = limb_binding<T>(run);
-    for (std::size_t limb = 0; limb < std::size_t{run.block_count} * SWIVEL_LANES; limb += lane_count<T>)
+    for (std::size_t limb = 0; limb < std::size_t{run.block_count} * kLanes; limb += lane_count<T>)
         settled(limb, solve_limb_step<Aims, Searches>(use, bind, rows_of<T>(run, limb)));
 }
 
@@ -74,7 +74,7 @@ void solve_limbs(const LimbRun& run)
 {
     if constexpr (lane_count<T> == 1) {  // no neighbour has to wait
         search_limbs<T, Aims>(run);
-    } else if (!(run.features & (SWIVEL_LIMIT_SHOULDER_BOX | SWIVEL_LIMIT_WRIST_BOX))) {  // a short search
+    } else if (!(run.features & (feature::shoulder_box | feature::wrist_box))) {  // a short search
         search_limbs<T, Aims>(run);
     } else {
         LimbsAside aside;
@@ -86,7 +86,7 @@ void solve_limbs(const LimbRun& run)
             for (std::size_t lane = 0; lane < lane_count<T>; ++lane) {
                 if (waits[lane] == 0) continue;
                 aside.take(run, first + lane);
-                if (aside.count == SWIVEL_LANES) search_aside<T, Aims>(run, aside);
+                if (aside.count == kLanes) search_aside<T, Aims>(run, aside);
             }
         });
         if (aside.count > 0) search_aside<T, Aims>(run, aside);
@@ -95,7 +95,7 @@ void solve_limbs(const LimbRun& run)
 template <class T>
 void solve_limbs(const LimbRun& run)
 {
-    if (run.features & SWIVEL_WITH_AIM)
+    if (run.features & feature::aim)
         solve_limbs<T, true>(run);
     else
         solve_limbs<T, false>(run);

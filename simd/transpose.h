@@ -16,20 +16,20 @@
 #include <arm_neon.h>
 #endif
 
-#include "batch/swivel.h"
+#include "simd/fields.h"
 
 namespace swivel {
 
-// One limb's value of C components to or from its lane; components are a row, SWIVEL_LANES floats, apart.
+// One limb's value of C components to or from its lane; components are a row, kLanes floats, apart.
 template <std::size_t C>
 void value_to_rows(const char* value, float* lane)
 {
-    for (std::size_t c = 0; c < C; ++c) std::memcpy(lane + c * SWIVEL_LANES, value + c * sizeof(float), sizeof(float));
+    for (std::size_t c = 0; c < C; ++c) std::memcpy(lane + c * kLanes, value + c * sizeof(float), sizeof(float));
 }
 template <std::size_t C>
 void value_from_rows(const float* lane, char* value)
 {
-    for (std::size_t c = 0; c < C; ++c) std::memcpy(value + c * sizeof(float), lane + c * SWIVEL_LANES, sizeof(float));
+    for (std::size_t c = 0; c < C; ++c) std::memcpy(value + c * sizeof(float), lane + c * kLanes, sizeof(float));
 }
 
 // ---- four words in a register; zip_low is a0 b0 a1 b1, zip_high a2 b2 a3 b3
@@ -92,19 +92,19 @@ void four_values_to_rows(const char* values, std::size_t stride, float* lanes)
         const Words a = load4(v0), b = load4(v1), c = load4(v2), d = load4(v3);
         const Words ac = zip_low(a, c), bd = zip_low(b, d);
         store4(lanes, zip_low(ac, bd));
-        store4(lanes + SWIVEL_LANES, zip_high(ac, bd));
+        store4(lanes + kLanes, zip_high(ac, bd));
         const Words ac_high = zip_high(a, c), bd_high = zip_high(b, d);
-        store4(lanes + 2 * SWIVEL_LANES, zip_low(ac_high, bd_high));
-        store4(lanes + 3 * SWIVEL_LANES, zip_high(ac_high, bd_high));
+        store4(lanes + 2 * kLanes, zip_low(ac_high, bd_high));
+        store4(lanes + 3 * kLanes, zip_high(ac_high, bd_high));
     } else if constexpr (C >= 2) {
         const Words ac = zip_low(load2(v0), load2(v2)), bd = zip_low(load2(v1), load2(v3));
         store4(lanes, zip_low(ac, bd));
-        store4(lanes + SWIVEL_LANES, zip_high(ac, bd));
+        store4(lanes + kLanes, zip_high(ac, bd));
     }
     if constexpr (C % 2 == 1) {  // the last of one or three components
         constexpr std::size_t byte = (C - 1) * sizeof(float);
         const Words ac = zip_low(load1(v0 + byte), load1(v2 + byte)), bd = zip_low(load1(v1 + byte), load1(v3 + byte));
-        store4(lanes + (C - 1) * SWIVEL_LANES, zip_low(ac, bd));
+        store4(lanes + (C - 1) * kLanes, zip_low(ac, bd));
     }
 }
 
@@ -113,8 +113,8 @@ void four_values_from_rows(const float* lanes, char* values, std::size_t stride)
 {
     char *const v0 = values, *const v1 = v0 + stride, *const v2 = v1 + stride, *const v3 = v2 + stride;
     if constexpr (C == 4) {
-        const Words a = load4(lanes), b = load4(lanes + SWIVEL_LANES), c = load4(lanes + 2 * SWIVEL_LANES),
-                    d = load4(lanes + 3 * SWIVEL_LANES);
+        const Words a = load4(lanes), b = load4(lanes + kLanes), c = load4(lanes + 2 * kLanes),
+                    d = load4(lanes + 3 * kLanes);
         const Words ac = zip_low(a, c), bd = zip_low(b, d);
         store4(v0, zip_low(ac, bd));
         store4(v1, zip_high(ac, bd));
@@ -122,7 +122,7 @@ void four_values_from_rows(const float* lanes, char* values, std::size_t stride)
         store4(v2, zip_low(ac_high, bd_high));
         store4(v3, zip_high(ac_high, bd_high));
     } else if constexpr (C >= 2) {
-        const Words a = load4(lanes), b = load4(lanes + SWIVEL_LANES);
+        const Words a = load4(lanes), b = load4(lanes + kLanes);
         const Words low = zip_low(a, b), high = zip_high(a, b);
         store_low(v0, low);
         store_high(v1, low);
@@ -132,7 +132,7 @@ void four_values_from_rows(const float* lanes, char* values, std::size_t stride)
     if constexpr (C % 2 == 1) {
         constexpr std::size_t c = C - 1;
         char* const last[] = {v0, v1, v2, v3};
-        for (int n = 0; n < 4; ++n) value_from_rows<1>(lanes + c * SWIVEL_LANES + n, last[n] + c * sizeof(float));
+        for (int n = 0; n < 4; ++n) value_from_rows<1>(lanes + c * kLanes + n, last[n] + c * sizeof(float));
     }
 }
 

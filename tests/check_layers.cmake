@@ -97,16 +97,16 @@ may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"simd/(kernels|lanes|l
 may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/limb_step[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
-may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
-            "${standard}|\"simd/(dispatch|kernels)[.]h\"|\"batch/swivel[.]h\"|\"core/isa[.]h\"")
+may_include(simd "simd/(dispatch[.](h|cpp)|fields[.]h|kernels[.]h|rows[.]h)$"
+            "${standard}|\"simd/(dispatch|fields|kernels)[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
-may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"batch/swivel[.]h\"")
+may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"simd/fields[.]h\"")
 
 # ---- batch: never lanes; only rig, edge, joint_angles, unpack, verify and the flags in api.cpp know core
-set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env|transpose)[.]h\"")
+set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<(std(def|int)|string)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
-may_include(batch "batch/(api_solve|api_pose|sized|budget|chosen|crowd|frame|lane_mask|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/(api_solve|api_pose|sized|budget|chosen|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
 may_include(batch "batch/(rig|angles|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise of equal bits on a CPU of another family: builds the library for 64-bit ARM in BUILD, runs print_digest under an
-# emulator, with NEON and with the scalar kernels, and compares with tools/corpus/golden.h.
+# emulator and compares with tools/corpus/golden.h.
+#   ISAS: those to run, of neon64 and scalar
 #   BUILD: an own folder; XSIMD: the folder of xsimd's headers; OPTIMISATION: flags; the bits depend on none
 foreach(tool aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ qemu-aarch64-static)
   find_program(found_${tool} ${tool})
@@ -39,7 +40,7 @@ file(GLOB corpus ${SOURCE}/tools/corpus/*.cpp)
 run(${found_aarch64-linux-gnu-g++} -std=c++20 -O2 -ffp-contract=off -static -I${SOURCE} -I${BUILD}/public
     ${SOURCE}/tests/print_digest.cpp ${corpus} ${BUILD}/libswivel.a -o ${BUILD}/print_digest)
 
-foreach(isa neon64 scalar)
+foreach(isa IN LISTS ISAS)
   execute_process(COMMAND ${CMAKE_COMMAND} -E env SWIVEL_FORCE_ISA=${isa} ${found_qemu-aarch64-static} ${BUILD}/print_digest
                   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(NOT result EQUAL 0 OR NOT output STREQUAL "${isa}${golden}")

@@ -51,7 +51,7 @@ inline bool is_in_hemisphere(const Float4& q)
 }
 inline bool is_unit(const Float4& q) { return std::abs(quat(q).norm() - 1) <= 1e-6; }
 
-inline Crowd crowd_of(std::uint32_t features, std::uint32_t limb_count, const swivel_binding& binding = {})
+inline Crowd crowd_of(swivel_features features, std::uint32_t limb_count, const swivel_binding& binding = {})
 {
     const swivel_group_def group = swivel::group(limb_count, binding);
     Crowd crowd(features, std::span(&group, 1));

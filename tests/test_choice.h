@@ -19,7 +19,7 @@ inline bool is_set(const std::vector<std::uint32_t>& words, std::uint32_t limb)
 inline void set(std::vector<std::uint32_t>& words, std::uint32_t limb) { words[limb / 32] |= 1u << limb % 32; }
 
 // One in eight out of reach or of bad input.
-inline void write_arms(Crowd& crowd, std::uint32_t features, std::uint32_t group_count, Random& random)
+inline void write_arms(Crowd& crowd, swivel_features features, std::uint32_t group_count, Random& random)
 {
     for (std::uint32_t group = 0; group < group_count; ++group)
         for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n) {

@@ -439,18 +439,17 @@ TEST_CASE("rows of a compact crowd: words for results, floats for inputs, half t
 {
     const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
     for_each_feature_set([&](const Recipe& recipe) {
-        const std::uint32_t features = library_features(recipe);
+        const swivel_features features = library_features(recipe);
         const Crowd crowd(features | SWIVEL_COMPACT, groups), floats(features, groups);
         const bool joints = features & SWIVEL_JOINTS, hand = features & SWIVEL_WITH_HAND;
         const std::uint32_t sizes[] = {3, joints ? 3u : 2u, hand ? 3u : 0u, 2};
         std::uint32_t row = 0;
-        for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
-            const auto field = static_cast<swivel_field>(f);
+        for (const swivel_field field : every_field()) {
             if (field < SWIVEL_SHOULDER) {
                 CHECK(swivel_field_row_count(crowd.get(), field) == swivel_field_row_count(floats.get(), field));
                 continue;
             }
-            const std::uint32_t size = field <= SWIVEL_FLAGS ? sizes[f - SWIVEL_SHOULDER] : 0;
+            const std::uint32_t size = field <= SWIVEL_FLAGS ? sizes[field - SWIVEL_SHOULDER] : 0;
             CHECK(swivel_field_row_count(crowd.get(), field) == size);
             if (size) CHECK(swivel_field_first_row(crowd.get(), field) == row);
             row += size;

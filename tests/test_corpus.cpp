@@ -56,7 +56,7 @@ struct Inputs {
 };
 
 // Whether a kernel takes its short way for the limb: its step's tests, in one lane.
-bool is_plain(const Inputs& inputs, std::uint32_t features, std::uint32_t group, std::size_t n)
+bool is_plain(const Inputs& inputs, swivel_features features, std::uint32_t group, std::size_t n)
 {
     SeenGoal<float> seen{
         {vector_of(inputs.targets[n]), vector_of(inputs.poles[n]), inputs.lengths[n][0], inputs.lengths[n][1]}, true};

@@ -15,7 +15,16 @@
 
 namespace swivel::test {
 
-inline constexpr std::uint32_t kEverything = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
+// Every field there is, inputs first.
+inline std::vector<swivel_field> every_field()
+{
+    std::vector<swivel_field> fields;
+    for (int f = 0; f < SWIVEL_INPUT_END; ++f) fields.push_back(static_cast<swivel_field>(f));
+    for (int f = SWIVEL_SHOULDER; f < SWIVEL_RESULT_END; ++f) fields.push_back(static_cast<swivel_field>(f));
+    return fields;
+}
+
+inline constexpr swivel_features kEverything = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 inline bool is_one_line(const std::string& text)

@@ -50,28 +50,28 @@ TEST_CASE("a def that breaks its contract makes no crowd")
         def.features = 1u << bit;
         refuse(&def);
     }
-    for (const std::uint32_t features :
-         {0u, std::uint32_t{SWIVEL_JOINTS}, std::uint32_t{SWIVEL_JOINTS | SWIVEL_WITH_HAND}}) {
+    for (const swivel_features features :
+         {swivel_features{0}, SWIVEL_JOINTS, swivel_features{SWIVEL_JOINTS | SWIVEL_WITH_HAND}}) {
         def = good;
         def.features = features | SWIVEL_POLE_DIRECTION;
         refuse(&def);
     }
-    for (const std::uint32_t features : std::initializer_list<std::uint32_t>{
+    for (const swivel_features features : std::initializer_list<swivel_features>{
              SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL,
              SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
              SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
              int{SWIVEL_POLE_INCOMING},
              int{SWIVEL_WITH_WEIGHTS},
              int{SWIVEL_WITH_EFFECTOR},
-             int{SWIVEL_LIMIT_HAND_CONE},
-             int{SWIVEL_LIMIT_FOREARM_TWIST},
-             int{SWIVEL_LIMIT_HAND_TWIST},
-             int{SWIVEL_LIMIT_WRIST_BOX},
+             int{SWIVEL_WITH_HAND_CONE},
+             int{SWIVEL_WITH_FOREARM_TWIST},
+             int{SWIVEL_WITH_HAND_TWIST},
+             int{SWIVEL_WITH_WRIST_BOX},
              SWIVEL_COMPACT | SWIVEL_WITH_REACH,
-             SWIVEL_COMPACT | SWIVEL_WITH_STEP,
+             SWIVEL_COMPACT | SWIVEL_WITH_MOST_SWIVEL,
          }) {
         def = good;
-        def.features = static_cast<std::uint32_t>(features);
+        def.features = static_cast<swivel_features>(features);
         refuse(&def);
     }
     def = good;
@@ -129,7 +129,7 @@ TEST_CASE("wrong arguments are refused and change nothing")
     CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {in, 11}), bad);
     CHECK_REFUSED(swivel_write(c, SWIVEL_TARGET, 0, 0, 1, {in, 4}), bad);
     for (const swivel_field field :
-         {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_FIELD_COUNT, SWIVEL_SHOULDER_POSITION,
+         {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS, SWIVEL_INPUT_END, SWIVEL_SHOULDER_POSITION,
           SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND})
         CHECK_REFUSED(swivel_write(c, field, 0, 0, 1, {in, 0}), bad);
 
@@ -139,7 +139,7 @@ TEST_CASE("wrong arguments are refused and change nothing")
     CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 1, {nullptr, 16}), bad);
     CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 1, {out, 15}), bad);
     CHECK_REFUSED(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 1, {out, 0}), bad);
-    for (const swivel_field field : {SWIVEL_WRIST, SWIVEL_HAND, SWIVEL_PARENT_SCALE, SWIVEL_FIELD_COUNT})
+    for (const swivel_field field : {SWIVEL_WRIST, SWIVEL_HAND, SWIVEL_PARENT_SCALE, SWIVEL_INPUT_END})
         CHECK_REFUSED(swivel_read(c, field, 0, 0, 1, {out, 16}), bad);
 
     CHECK_REFUSED(swivel_solve(nullptr, nullptr), bad);
@@ -192,14 +192,14 @@ TEST_CASE("errors name group and field")
     says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
          "group 1, parent_scale: not part of this crowd; create it with SWIVEL_WORLD");
     says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
-    says(swivel_write(c, SWIVEL_FIELD_COUNT, 0, 0, 1, {value, 0}),
-         "there is no field " + std::to_string(SWIVEL_FIELD_COUNT));
+    says(swivel_write(c, SWIVEL_INPUT_END, 0, 0, 1, {value, 0}),
+         "there is no field " + std::to_string(SWIVEL_INPUT_END));
     says(swivel_read(c, SWIVEL_WRIST, 0, 0, 1, {value, 16}),
          "group 0, wrist: not part of this crowd; create it with SWIVEL_WITH_HAND");
     says(swivel_read(c, SWIVEL_ELBOW, 0, 0, 1, {value, 0}),
          "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
-    says(swivel_read(c, SWIVEL_FIELD_COUNT, 0, 0, 1, {value, 16}),
-         "there is no field " + std::to_string(SWIVEL_FIELD_COUNT));
+    says(swivel_read(c, SWIVEL_INPUT_END, 0, 0, 1, {value, 16}),
+         "there is no field " + std::to_string(SWIVEL_INPUT_END));
     says(swivel_forward(c, 1, 0, 1, none, {doubles, 8}, none),
          "group 1, wrist: stride 8 is smaller than a value, 24 bytes");
     says(swivel_residuals(c, 1, 0, 1, none), "group 1, distance: data is null");
@@ -383,7 +383,7 @@ TEST_CASE("find gives the limbs with a flag one after the other, and no other")
     const std::uint32_t counts[] = {5, 16, 40};
     std::vector<swivel_group_def> groups;
     for (const std::uint32_t count : counts) groups.push_back(group_of(count));
-    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_COMPACT}}) {
+    for (const swivel_features features : {swivel_features{0}, SWIVEL_COMPACT}) {
         Crowd crowd(features, groups);
         for (std::uint32_t g = 0; g < groups.size(); ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
         CHECK(!crowd.find(~0u));  // never solved

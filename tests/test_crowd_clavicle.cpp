@@ -9,7 +9,7 @@ using namespace swivel::test;
 
 namespace {
 
-constexpr std::uint32_t kFeatures = kWorldJointsHand | SWIVEL_WITH_CLAVICLE;
+constexpr swivel_features kFeatures = kWorldJointsHand | SWIVEL_WITH_CLAVICLE;
 
 // tan(turn / 2) = share sin theta / (2 (1 - share) + share (1 + cos theta)), about the bone's way to the target.
 Quaterniond turn_of(const Vector3d& bone, const Vector3d& target, double share)
@@ -199,8 +199,8 @@ TEST_CASE("bones and shares out of range are bad input; without a world there is
     }
     const swivel_group_def group = group_of(1);
     swivel_crowd_def def = def_of(group);
-    for (const std::uint32_t features :
-         {std::uint32_t{SWIVEL_WITH_CLAVICLE}, std::uint32_t{SWIVEL_WORLD | SWIVEL_COMPACT | SWIVEL_WITH_CLAVICLE}}) {
+    for (const swivel_features features :
+         {SWIVEL_WITH_CLAVICLE, swivel_features{SWIVEL_WORLD | SWIVEL_COMPACT | SWIVEL_WITH_CLAVICLE}}) {
         def.features = features;
         swivel_crowd* none = nullptr;
         CHECK_REFUSED(swivel_crowd_create(&def, &none), SWIVEL_INVALID_ARGUMENT);

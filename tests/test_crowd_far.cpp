@@ -19,9 +19,9 @@ using namespace swivel::test;
 namespace {
 
 constexpr double kFar = 1e7;
-constexpr std::uint32_t kFeatureSets[] = {SWIVEL_WORLD, SWIVEL_WORLD | SWIVEL_WITH_HAND, SWIVEL_WORLD | SWIVEL_JOINTS,
-                                          SWIVEL_WORLD | SWIVEL_POLE_DIRECTION,
-                                          SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_COMPACT};
+constexpr swivel_features kFeatureSets[] = {SWIVEL_WORLD, SWIVEL_WORLD | SWIVEL_WITH_HAND, SWIVEL_WORLD | SWIVEL_JOINTS,
+                                            SWIVEL_WORLD | SWIVEL_POLE_DIRECTION,
+                                            SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_COMPACT};
 
 using Double3 = std::array<double, 3>;
 
@@ -43,7 +43,7 @@ Float3 on_grid(const Float3& v)
     return grid;
 }
 
-Limb grid_limb(Random& random, std::uint32_t features)
+Limb grid_limb(Random& random, swivel_features features)
 {
     Limb limb = random_limb(random, features, {1, 1.25f});
     limb.scale[0] = 1;
@@ -64,7 +64,7 @@ void write_rest(Crowd& crowd, std::uint32_t n, const Limb& limb)
 }
 
 // The limbs' positions from their origins.
-void write_far(Crowd& crowd, std::uint32_t features, const std::vector<FarLimb>& limbs)
+void write_far(Crowd& crowd, swivel_features features, const std::vector<FarLimb>& limbs)
 {
     const swivel_in origins{&limbs[0].origin, sizeof limbs[0]};
     const auto count = static_cast<std::uint32_t>(limbs.size());
@@ -89,7 +89,7 @@ std::vector<std::uint32_t> results(const Crowd& crowd)
 TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whichever way they are given")
 {
     const std::uint32_t count = 200;
-    for (const std::uint32_t features : kFeatureSets)
+    for (const swivel_features features : kFeatureSets)
         for (const bool one_for_all : {false, true}) {
             INFO("features " << features << ", one for all " << one_for_all);
             const swivel_group_def group = group_of(count);
@@ -144,7 +144,8 @@ TEST_CASE("without a world the origin is the shoulder's place")
 
 TEST_CASE("any shift: wrists within 1e-6 of the arm, which floats out there are not")
 {
-    const std::uint32_t count = 2000, features = SWIVEL_WORLD;
+    const std::uint32_t count = 2000;
+    const swivel_features features = SWIVEL_WORLD;
     Random random{3};
     const swivel_group_def group = group_of(count);
     enum { at_shoulder, near, in_floats };
@@ -289,7 +290,7 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
     CHECK_REFUSED(swivel_write_doubles(c, SWIVEL_TARGET, 0, 0, 1, good, narrow), bad);
     CHECK(std::string(swivel_last_error()) == "group 0, origin: stride 23 is smaller than a value, 24 bytes");
     for (const swivel_field field : {SWIVEL_LENGTHS, SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND,
-                                     SWIVEL_SHOULDER, SWIVEL_FLAGS, SWIVEL_FIELD_COUNT})
+                                     SWIVEL_SHOULDER, SWIVEL_FLAGS, SWIVEL_INPUT_END})
         CHECK_REFUSED(swivel_write_doubles(c, field, 0, 0, 1, good, none), bad);
     swivel_write_doubles(c, SWIVEL_LENGTHS, 0, 0, 1, good, none);
     CHECK(std::string(swivel_last_error()) ==

@@ -72,7 +72,7 @@ Joints joints_of(const Crowd& crowd, std::uint32_t group, std::uint32_t n)
 }
 
 // Without a world the arm frame is the space of the targets; the parent joint is then seen from it.
-Parent parent_of(const Limb& limb, const swivel_binding& binding, std::uint32_t features)
+Parent parent_of(const Limb& limb, const swivel_binding& binding, swivel_features features)
 {
     if (features & SWIVEL_WORLD) return limb.parent();
     return {Vector3d::Zero(), quat(binding.parent_from_arm).normalized().conjugate(), 1};
@@ -90,8 +90,8 @@ constexpr std::uint32_t kGroups = 12, kLimbs = 21;
 
 TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as wanted, the elbow on the pole's side")
 {
-    const std::uint32_t j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
-    for (const std::uint32_t features : {j, j | h, j | w, j | w | h, j | w | d, j | w | h | d})
+    const swivel_features j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
+    for (const swivel_features features : {j, j | h, j | w, j | w | h, j | w | d, j | w | h | d})
         for (const Rest rest : {Rest::straight, Rest::bent, Rest::bent_by_itself}) {
             Random random{features * 3 + static_cast<std::uint64_t>(rest)};
             std::vector<swivel_chain> chains;
@@ -145,7 +145,7 @@ TEST_CASE("skeletons: the rest pose's own wrist and elbow give back the rest rot
             Random random{seed};
             const swivel_chain chain = random_chain(random, rest);
             const swivel_binding bound = bind(chain);
-            constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
+            constexpr swivel_features features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
             Crowd crowd = crowd_of(features, 1, bound);
             Limb limb = random_limb(random, features, {bound.lengths[0], bound.lengths[1]});
             const Places places = places_of(chain, limb.parent(), rest_of(chain));
@@ -171,7 +171,8 @@ TEST_CASE("skeletons: with a bend off the rest pose's own the elbow still turns 
         const Vector3d tilted = vec(chain.bend).normalized() + 0.5 * hinge_of(chain);
         std::ranges::copy(floats(tilted), chain.bend);
         const swivel_binding bound = bind(chain);
-        constexpr std::uint32_t count = 16, features = SWIVEL_JOINTS | SWIVEL_WORLD;
+        constexpr std::uint32_t count = 16;
+        constexpr swivel_features features = SWIVEL_JOINTS | SWIVEL_WORLD;
         Crowd crowd = crowd_of(features, count, bound);
         std::vector<Limb> limbs;
         for (std::uint32_t n = 0; n < count; ++n) {
@@ -196,7 +197,7 @@ TEST_CASE("skeletons: the negated bend bends the limb the other way")
         INFO("seed " << seed);
         Random random{seed};
         swivel_chain chain = random_chain(random, Rest::straight);
-        constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD;
+        constexpr swivel_features features = SWIVEL_JOINTS | SWIVEL_WORLD;
         const swivel_binding one = bind(chain);
         for (float& x : chain.bend) x = -x;
         const swivel_binding other = bind(chain);
@@ -236,7 +237,7 @@ TEST_CASE("skeletons: a mirrored limb with mirrored goals has mirrored rotations
             std::ranges::copy(mirror3(as3(left.wrist_offset)), right.wrist_offset);
             std::ranges::copy(mirror3(as3(left.bend)), right.bend);
             const swivel_binding l = bind(left), r = bind(right);
-            constexpr std::uint32_t features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
+            constexpr swivel_features features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
             const swivel_group_def groups[] = {swivel::group(1, l), swivel::group(1, r)};
             Crowd crowd(features, groups);
             const Limb limb = random_limb(random, features, {l.lengths[0], l.lengths[1]});

@@ -11,13 +11,12 @@ using namespace swivel::test;
 TEST_CASE("whole limbs at rest are the plain arms")
 {
     constexpr std::uint32_t count = 200;
-    const std::uint32_t at_rest =
-        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | SWIVEL_WITH_EFFECTOR | kLimits;
-    for (const std::uint32_t features :
-         {0u, kWorldJointsHand & ~std::uint32_t{SWIVEL_WORLD}, kWorldJointsHand,
-          kWorldJointsHand | SWIVEL_POLE_DIRECTION, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
-        for (const std::uint32_t more :
-             {std::uint32_t{SWIVEL_WITH_ANGLE}, features & SWIVEL_WITH_HAND ? at_rest : 0u}) {
+    const swivel_features at_rest =
+        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | kLimits;
+    for (const swivel_features features :
+         {swivel_features{0}, kWorldJointsHand & ~SWIVEL_WORLD, kWorldJointsHand,
+          kWorldJointsHand | SWIVEL_POLE_DIRECTION, swivel_features{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
+        for (const swivel_features more : {SWIVEL_WITH_ANGLE, features & SWIVEL_WITH_HAND ? at_rest : 0u}) {
             Random random{features + more};
             const Chained limb = chained(random);
             Crowd plain = crowd_of(features, count, limb.bound), whole = crowd_of(features | more, count, limb.bound);
@@ -83,7 +82,7 @@ TEST_CASE("an incoming pose of the skeleton's own rotations, kept by weights of 
 TEST_CASE("each weight blends its own part with the incoming pose")
 {
     constexpr std::uint32_t count = 100;
-    constexpr std::uint32_t features = SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
+    constexpr swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
     Random random{9};
     Crowd first = crowd_of(SWIVEL_WITH_HAND, count), crowd = crowd_of(features, count);
     std::vector<Limb> limbs;
@@ -184,7 +183,7 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     Random random{11};
     const Chained limb = chained(random);
     const double upper = limb.bound.lengths[0], fore = limb.bound.lengths[1];
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_FLEXION, count, limb.bound);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_FLEXION_LIMIT, count, limb.bound);
     std::vector<double> wanted, least, most;
     for (std::uint32_t n = 0; n < count; ++n) {
         const Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
@@ -219,11 +218,11 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
     constexpr std::uint32_t count = 100, bones = 3;
     Random random{6};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_TWIST_BONES, count, limb.bound);
+    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_WITH_TWIST_BONES, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n)
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
-    const auto twists = read<Float12>(crowd, SWIVEL_TWIST);
+    const auto twists = read<Float12>(crowd, SWIVEL_TWIST_BONES);
     const swivel_binding& b = limb.bound;
     const Quaterniond fore = quat(b.fore_from_arm), hand_rest = fore.conjugate() * quat(b.wrist_rest);
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -246,7 +245,7 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
 
 TEST_CASE("the swivel carried from solve to solve is forgotten on reset")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_STEP, 2);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL, 2);
     Float2 most;
     swivel_turn(0.1, most.data());
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);
@@ -269,7 +268,7 @@ TEST_CASE("a step goes towards the wish, whichever way that is")
 {
     constexpr std::uint32_t count = 100;
     Random random{10};
-    Crowd crowd = crowd_of(SWIVEL_WITH_STEP, count);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL, count);
     Float2 most;
     swivel_turn(0.1, most.data());
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);

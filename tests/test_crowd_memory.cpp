@@ -27,7 +27,7 @@ struct Ledger {
 TEST_CASE("a crowd takes swivel_crowd_bytes() once, from whom it was told to")
 {
     const swivel_group_def groups[] = {group_of(100), group_of(3), group_of(50)};
-    for (std::uint32_t features = 0; features < 16; ++features) {
+    for (swivel_features features = 0; features < 16; ++features) {
         if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
         INFO("features " << features);
         swivel_crowd_def def = def_of(groups[0]);
@@ -110,7 +110,7 @@ TEST_CASE("nothing allocates after creation")
         crowd.residuals(0, residuals);
         (void)swivel_solve(nullptr, nullptr);
     };
-    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
+    for (const swivel_features features : {swivel_features{0}, swivel_features{SWIVEL_WORLD | SWIVEL_WITH_HAND}}) {
         Crowd crowd = crowd_of(features, 5000);
         if (features & SWIVEL_WORLD) crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
         use(crowd);

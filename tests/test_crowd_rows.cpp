@@ -12,7 +12,7 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
 {
     const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
     const std::uint32_t first_limbs[] = {0, 16, 32, 64};
-    for (std::uint32_t features = 0; features < 16; ++features) {
+    for (swivel_features features = 0; features < 16; ++features) {
         if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
         const Crowd crowd(features, groups);
         INFO("features " << features);
@@ -23,21 +23,26 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
         }
         const bool world = features & SWIVEL_WORLD, joints = features & SWIVEL_JOINTS,
                    hand = features & SWIVEL_WITH_HAND;
-        std::uint32_t sizes[SWIVEL_FIELD_COUNT] = {3, 3, 2, world ? 3u : 0u, world ? 4u : 0u, world ? 1u : 0u};
-        sizes[SWIVEL_HAND] = sizes[SWIVEL_WRIST] = hand ? 4 : 0;
-        sizes[SWIVEL_SHOULDER] = 4;
-        sizes[SWIVEL_ELBOW] = joints ? 4 : 2;
-        sizes[SWIVEL_FLAGS] = 1;
+        std::map<swivel_field, std::uint32_t> sizes = {{SWIVEL_TARGET, 3},
+                                                       {SWIVEL_POLE, 3},
+                                                       {SWIVEL_LENGTHS, 2},
+                                                       {SWIVEL_SHOULDER_POSITION, world ? 3u : 0u},
+                                                       {SWIVEL_PARENT_ROTATION, world ? 4u : 0u},
+                                                       {SWIVEL_PARENT_SCALE, world ? 1u : 0u},
+                                                       {SWIVEL_HAND, hand ? 4u : 0u},
+                                                       {SWIVEL_SHOULDER, 4},
+                                                       {SWIVEL_ELBOW, joints ? 4u : 2u},
+                                                       {SWIVEL_WRIST, hand ? 4u : 0u},
+                                                       {SWIVEL_FLAGS, 1}};
         std::uint32_t row = 0;
-        for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
-            const auto field = static_cast<swivel_field>(f);
+        for (const swivel_field field : every_field()) {
             if (field == SWIVEL_SHOULDER) {
                 CHECK(swivel_input_rows(crowd.get()).row_count == row);
                 row = 0;
             }
-            CHECK(swivel_field_row_count(crowd.get(), field) == sizes[f]);
-            if (sizes[f]) CHECK(swivel_field_first_row(crowd.get(), field) == row);
-            row += sizes[f];
+            CHECK(swivel_field_row_count(crowd.get(), field) == sizes[field]);
+            if (sizes[field]) CHECK(swivel_field_first_row(crowd.get(), field) == row);
+            row += sizes[field];
         }
         CHECK(swivel_result_rows(crowd.get()).row_count == row);
         CHECK(swivel_result_rows(crowd.get()).block_count == 7);
@@ -51,7 +56,7 @@ TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
     swivel_group_def groups[] = {group_of(20), group_of(5)};
     std::ranges::copy(Float2{0.3f, 0}, groups[1].binding.lengths);
     for (const bool joints : {false, true}) {
-        const std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND | (joints ? SWIVEL_JOINTS : 0);
+        const swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND | (joints ? SWIVEL_JOINTS : 0);
         const Crowd crowd(features, groups);
         for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_SHOULDER_POSITION})
             for (const Float3& value : read<Float3>(crowd, field, 0))
@@ -102,22 +107,22 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
         return bind(chain);
     };
     const swivel_group_def groups[] = {swivel::group(33, slant(1)), swivel::group(7, slant(-1))};
-    constexpr std::uint32_t plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
-                            limb = SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | 3 * SWIVEL_TWIST_BONES |
-                                   SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
-    std::vector<std::uint32_t> sets = {plain | limb, SWIVEL_WORLD | SWIVEL_WITH_HAND | limb};
-    for (std::uint32_t n = 0; n < 8; ++n)
-        for (const std::uint32_t compact : {0u, std::uint32_t{SWIVEL_COMPACT}}) sets.push_back(n | compact);
-    for (const std::uint32_t features : sets) {
+    constexpr swivel_features plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
+                              limb = SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | 3 * SWIVEL_WITH_TWIST_BONES |
+                                     SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
+    std::vector<swivel_features> sets = {plain | limb, SWIVEL_WORLD | SWIVEL_WITH_HAND | limb};
+    for (swivel_features n = 0; n < 8; ++n)
+        for (const swivel_features compact : {swivel_features{0}, SWIVEL_COMPACT}) sets.push_back(n | compact);
+    for (const swivel_features features : sets) {
         INFO("features " << features);
         Crowd crowd(features, groups);
         std::vector<std::vector<float>> fresh;
         for (const bool solved : {false, true}) {
             if (solved) crowd.solve();
             for (std::uint32_t g = 0; g < 2; ++g)
-                for (int f = SWIVEL_SHOULDER; f < SWIVEL_FIELD_COUNT; ++f) {
-                    const auto field = static_cast<swivel_field>(f);
-                    if (swivel_field_row_count(crowd.get(), field) == 0 || field == SWIVEL_FLAGS) continue;
+                for (const swivel_field field : every_field()) {
+                    if (field < SWIVEL_SHOULDER || field == SWIVEL_FLAGS) continue;
+                    if (swivel_field_row_count(crowd.get(), field) == 0) continue;
                     std::vector<float> values(groups[g].limb_count * 12);  // the longest has 3 twist bones
                     REQUIRE(swivel_read(crowd.get(), field, g, 0, groups[g].limb_count, {values.data(), 48}) ==
                             SWIVEL_OK);
@@ -132,7 +137,7 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
         const Float4 rest = joints ? Float4{-0.2f, 0.4f, 0.4f, 0.8f} : Float4{0, 0, 0, 1};
         CHECK(distance(quat(shoulder), quat(rest)) <= (features & SWIVEL_COMPACT ? 1.54e-4 : 1e-6));
         if (features & SWIVEL_WITH_REACH) CHECK(read<Float1>(crowd, SWIVEL_STRETCH, 0)[32] == Float1{1});
-        if (features & SWIVEL_WITH_STEP) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
+        if (features & SWIVEL_WITH_MOST_SWIVEL) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
     }
 }
 
@@ -140,12 +145,12 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
 {
     const swivel_group_def groups[] = {group_of(5), group_of(37)};
     // Every field there is: all features that go together.
-    constexpr std::uint32_t others = SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING;
-    Crowd most(((8 * SWIVEL_TWIST_BONES - 1) & ~others) | SWIVEL_WITH_CLAVICLE, groups),
+    constexpr swivel_features others = SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
+                                       SWIVEL_POLE_INCOMING | SWIVEL_WITH_AIM | SWIVEL_BUDGET;
+    Crowd most(((2 * SWIVEL_BUDGET - 1) & ~others) | 7 * SWIVEL_WITH_TWIST_BONES, groups),
         aiming(SWIVEL_WITH_AIM, groups);
     Random random{1};
-    for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {
-        const auto field = static_cast<swivel_field>(f);
+    for (const swivel_field field : every_field()) {
         Crowd& crowd = field == SWIVEL_AIM ? aiming : most;
         const std::uint32_t rows_of_field = swivel_field_row_count(crowd.get(), field), count = 30, first = 3;
         REQUIRE(rows_of_field > 0);
@@ -153,7 +158,7 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
         const std::size_t bytes = rows_of_field * sizeof(float);
         for (const std::size_t stride : {bytes, bytes + 1, bytes + 3, bytes + 4, bytes + 81}) {
             for (const std::size_t misaligned : {0u, 1u, 2u, 3u}) {
-                INFO("field " << f << ", stride " << stride << ", from byte " << misaligned);
+                INFO("field " << field << ", stride " << stride << ", from byte " << misaligned);
                 const swivel_rows rows = input ? swivel_input_rows(crowd.get()) : swivel_result_rows(crowd.get());
                 const std::uint32_t row0 = swivel_field_first_row(crowd.get(), field);
                 const auto place = [&](std::uint32_t n, std::uint32_t c) {

@@ -10,8 +10,8 @@ using namespace swivel::test;
 
 TEST_CASE("arms in the arm frame and in the world: wrist on the target, elbow on the pole's side, hand as wanted")
 {
-    const std::uint32_t w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
-    for (const std::uint32_t features : {0u, h, w, w | h, w | d, w | h | d}) {
+    const swivel_features w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
+    for (const swivel_features features : {swivel_features{0}, h, w, w | h, w | d, w | h | d}) {
         constexpr std::uint32_t count = 400;
         Crowd crowd = crowd_of(features, count);
         Random random{features + 11};
@@ -45,7 +45,7 @@ TEST_CASE("arms in the arm frame and in the world: wrist on the target, elbow on
 TEST_CASE("a world frame of identity gives the arm frame's bits")
 {
     constexpr std::uint32_t count = 100;
-    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WITH_HAND}}) {
+    for (const swivel_features features : {swivel_features{0}, SWIVEL_WITH_HAND}) {
         Crowd arm = crowd_of(features, count), world = crowd_of(features | SWIVEL_WORLD, count);
         Random random{5};
         for (std::uint32_t n = 0; n < count; ++n) {

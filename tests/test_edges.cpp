@@ -259,7 +259,7 @@ swivel_binding some_binding(float side)
     return bind(chain);
 }
 
-Crowd good_crowd(std::uint32_t features)
+Crowd good_crowd(swivel_features features)
 {
     const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1)),
                                        swivel::group(kSecond, some_binding(-1))};
@@ -286,7 +286,10 @@ Crowd good_crowd(std::uint32_t features)
     return crowd;
 }
 
-bool is_feature_set(std::uint32_t features) { return !(features & SWIVEL_POLE_DIRECTION) || (features & SWIVEL_WORLD); }
+bool is_feature_set(swivel_features features)
+{
+    return !(features & SWIVEL_POLE_DIRECTION) || (features & SWIVEL_WORLD);
+}
 
 // The results of every limb, padding left out.
 std::vector<std::vector<std::uint32_t>> all_results(const Crowd& crowd)
@@ -307,7 +310,7 @@ void check_result(const Crowd& crowd, swivel_field field, std::uint32_t group, s
     for (std::size_t c = 0; c < N; ++c) CHECK(value[c] == expected[c]);
 }
 
-void check_rest(const Crowd& crowd, std::uint32_t features, std::uint32_t group, std::uint32_t limb)
+void check_rest(const Crowd& crowd, swivel_features features, std::uint32_t group, std::uint32_t limb)
 {
     const swivel_binding rest = some_binding(group == 0 ? 1.0f : -1.0f);
     const float one[4] = {0, 0, 0, 1}, straight[2] = {1, 0};
@@ -324,7 +327,7 @@ void check_rest(const Crowd& crowd, std::uint32_t features, std::uint32_t group,
 }
 
 // Solves the good crowd with one limb changed by spoil(value of the field), and checks that limb and all the others.
-void check_spoilt(std::uint32_t features, const Field& input, std::uint32_t group, std::uint32_t limb,
+void check_spoilt(swivel_features features, const Field& input, std::uint32_t group, std::uint32_t limb,
                   const std::function<void(float*)>& spoil)
 {
     Crowd crowd = good_crowd(features);
@@ -348,7 +351,7 @@ void check_spoilt(std::uint32_t features, const Field& input, std::uint32_t grou
 
 TEST_CASE("the good crowd is good")
 {
-    for (std::uint32_t features = 0; features < 16; ++features) {
+    for (swivel_features features = 0; features < 16; ++features) {
         if (!is_feature_set(features)) continue;
         Crowd crowd = good_crowd(features);
         crowd.solve();
@@ -361,7 +364,7 @@ TEST_CASE("the good crowd is good")
 TEST_CASE("one bad number spoils its limb and no other")
 {
     std::uint32_t turn = 0;
-    for (std::uint32_t features = 0; features < 16; ++features) {
+    for (swivel_features features = 0; features < 16; ++features) {
         if (!is_feature_set(features)) continue;
         const Crowd shape = good_crowd(features);
         for (const Field& input : kInputs)
@@ -378,7 +381,7 @@ TEST_CASE("one bad number spoils its limb and no other")
 
 TEST_CASE("numbers out of their range are bad")
 {
-    for (std::uint32_t features = 0; features < 16; ++features) {
+    for (swivel_features features = 0; features < 16; ++features) {
         if (!is_feature_set(features)) continue;
         for (const float bad : {-1.0f, 0.9e-15f, -1e-15f, 1e-40f, 1.001e15f})
             for (const std::size_t c : {0u, 1u}) {
@@ -411,8 +414,8 @@ TEST_CASE("numbers out of their range are bad")
 
 TEST_CASE("a target or pole that is too long in the arm frame is bad")
 {
-    for (const std::uint32_t more : {0u, std::uint32_t{SWIVEL_POLE_DIRECTION}}) {
-        const std::uint32_t features = SWIVEL_WORLD | more;
+    for (const swivel_features more : {swivel_features{0}, SWIVEL_POLE_DIRECTION}) {
+        const swivel_features features = SWIVEL_WORLD | more;
         Crowd crowd = crowd_of(features, 4);
         crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
         crowd.write(SWIVEL_PARENT_SCALE, 0, std::vector<Float1>{{0.01f}, {0.01f}, {1}, {0.01f}});
@@ -429,7 +432,7 @@ TEST_CASE("a target or pole that is too long in the arm frame is bad")
 
 TEST_CASE("quaternions of any allowed length mean the same rotation")
 {
-    constexpr std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND;
+    constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND;
     for (const float scale : {1e-15f, 1.0f, 1e14f})  // lengths go with the scale so that the arm frame stays the same
         for (const double length : {1.001e-9, 1e-5, 0.5, 2.0, 1e5, 0.999e9}) {
             Crowd crowd = good_crowd(features), same = good_crowd(features);

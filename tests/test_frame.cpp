@@ -38,9 +38,9 @@ constexpr swivel_in swivel_frame::*kIn[] = {&swivel_frame::target,
                                             &swivel_frame::weights,
                                             &swivel_frame::aim,
                                             &swivel_frame::clavicle};
-constexpr swivel_out swivel_frame::*kOut[] = {&swivel_frame::shoulder,     &swivel_frame::elbow,   &swivel_frame::wrist,
-                                              &swivel_frame::flags,        &swivel_frame::stretch, &swivel_frame::twist,
-                                              &swivel_frame::clavicle_turn};
+constexpr swivel_out swivel_frame::*kOut[] = {
+    &swivel_frame::shoulder, &swivel_frame::elbow,       &swivel_frame::wrist,        &swivel_frame::flags,
+    &swivel_frame::stretch,  &swivel_frame::twist_bones, &swivel_frame::clavicle_turn};
 constexpr std::uint32_t kInputs = std::size(kIn), kOutputs = std::size(kOut), kMembers = kInputs + kOutputs;
 struct Member {
     swivel_field field;
@@ -67,7 +67,7 @@ constexpr Member kMember[kMembers] = {
     {SWIVEL_WRIST, "wrist", "SWIVEL_WITH_HAND"},
     {SWIVEL_FLAGS, "flags", ""},
     {SWIVEL_STRETCH, "stretch", "SWIVEL_WITH_REACH"},
-    {SWIVEL_TWIST, "twist", "SWIVEL_TWIST_BONES"},
+    {SWIVEL_TWIST_BONES, "twist_bones", "SWIVEL_WITH_TWIST_BONES"},
     {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "SWIVEL_WITH_CLAVICLE"},
 };
 
@@ -189,7 +189,7 @@ bool same_bytes(const std::vector<Arrays>& a, const std::vector<Arrays>& b)
 }
 
 struct Problem {
-    std::uint32_t features = 0;
+    swivel_features features = 0;
     std::vector<swivel_group_def> groups;
     std::vector<Arrays> arrays;
 
@@ -203,7 +203,7 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
     while ((problem.features & SWIVEL_POLE_DIRECTION) && !(problem.features & SWIVEL_WORLD));
     if (random.below(3) == 0) {
         problem.features |= SWIVEL_WITH_ANGLE | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH;
-        if (problem.features & SWIVEL_WITH_HAND) problem.features |= SWIVEL_WITH_EFFECTOR | 2 * SWIVEL_TWIST_BONES;
+        if (problem.features & SWIVEL_WITH_HAND) problem.features |= SWIVEL_WITH_EFFECTOR | 2 * SWIVEL_WITH_TWIST_BONES;
     }
     if (problem.features < 16 && random.below(4) == 0) problem.features |= SWIVEL_WITH_AIM;
     if ((problem.features & SWIVEL_WORLD) && random.below(4) == 0) problem.features |= SWIVEL_WITH_CLAVICLE;
@@ -424,7 +424,7 @@ TEST_CASE("values that start or end at a page nobody may touch, the array or eac
 {
     constexpr std::uint32_t kMostLimbs = 21;
     const GuardedPages pages(kMostLimbs);
-    for (const std::uint32_t features : {kEverything, std::uint32_t{0}})  // elbows of four and of two components
+    for (const swivel_features features : {kEverything, swivel_features{0}})  // elbows of four and of two components
         for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 7u, 16u, kMostLimbs}) {
             Crowd crowd = crowd_of(features, count, group_of(1).binding);
             swivel_crowd* const c = crowd.get();
@@ -572,7 +572,7 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
 {
     const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
     float values[200] = {};
-    const auto fill = [&](std::uint32_t features) {
+    const auto fill = [&](swivel_features features) {
         std::vector<swivel_frame> frames(3, swivel_default_frame());
         for (swivel_frame& frame : frames)
             for (std::uint32_t f = 0; f < kInputs; ++f)
@@ -582,7 +582,7 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
                     frame.*kIn[f] = {values, 0};
         return frames;
     };
-    for (const std::uint32_t features : {0u, std::uint32_t{SWIVEL_WORLD}, std::uint32_t{kEverything}}) {
+    for (const swivel_features features : {swivel_features{0}, SWIVEL_WORLD, kEverything}) {
         Crowd crowd(features, groups);
         crowd.solve();
         const auto before = all_words(crowd);

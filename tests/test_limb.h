@@ -30,7 +30,7 @@ struct Limb {
 };
 
 // A limb in reach, bent, its pole well off the line; parent and hand quaternions of any length.
-inline Limb random_limb(Random& random, std::uint32_t features, const Float2& lengths)
+inline Limb random_limb(Random& random, swivel_features features, const Float2& lengths)
 {
     Limb limb;
     limb.lengths = lengths;
@@ -50,7 +50,7 @@ inline Limb random_limb(Random& random, std::uint32_t features, const Float2& le
     return limb;
 }
 
-inline Vector3d pole_direction(const Limb& limb, std::uint32_t features)
+inline Vector3d pole_direction(const Limb& limb, swivel_features features)
 {
     return features & SWIVEL_POLE_DIRECTION ? vec(limb.pole) : vec(limb.pole) - vec(limb.position);
 }
@@ -88,7 +88,7 @@ inline Places places_of(const Limb& limb, const Float4& shoulder, const Float2& 
 // 1.5e-6 arm lengths: the wrist's own 1e-6 and the rounding of the frame's rotor.
 inline constexpr double kWristError = 1.5e-6;
 
-inline void check_places(const Limb& limb, std::uint32_t features, const Places& got, std::uint32_t flags)
+inline void check_places(const Limb& limb, swivel_features features, const Places& got, std::uint32_t flags)
 {
     const double length = double{limb.scale[0]} * (double{limb.lengths[0]} + limb.lengths[1]);
     CHECK((got.wrist - vec(limb.target)).norm() <= kWristError * length);

@@ -120,7 +120,7 @@ std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs)
     return arms;
 }
 
-swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::span<const Limb> limbs)
+swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs)
 {
     const swivel_group_def group = swivel::group(static_cast<std::uint32_t>(arm_count), binding());
     swivel::Crowd crowd(features, {&group, 1});
@@ -151,7 +151,7 @@ swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::spa
     return crowd;
 }
 
-std::size_t row_bytes(std::uint32_t features)
+std::size_t row_bytes(swivel_features features)
 {
     const swivel_group_def group = swivel::group(1, binding());
     const swivel::Crowd crowd(features, {&group, 1});
@@ -159,7 +159,7 @@ std::size_t row_bytes(std::uint32_t features)
            sizeof(std::uint16_t) * swivel_compact_rows(crowd.get()).row_count;
 }
 
-std::size_t arms_within(std::size_t memory_level, std::uint32_t features)
+std::size_t arms_within(std::size_t memory_level, swivel_features features)
 {
     const std::size_t blocks = working_sets()[memory_level] / row_bytes(features) / SWIVEL_LANES;
     return std::max(blocks, std::size_t{1}) * SWIVEL_LANES;

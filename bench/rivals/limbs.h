@@ -32,20 +32,20 @@ Arms arms_of(std::span<const Limb> limbs);
 std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs);
 
 // Resident: world targets, poles, lengths and parent frames in rows, the skeleton's local rotations in rows.
-inline constexpr std::uint32_t kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
+inline constexpr swivel_features kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
 
 // Parent frame, hand, cone and flexion limits, and a blend with an incoming pose.
-inline constexpr std::uint32_t kFullArm = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS |
-                                          SWIVEL_LIMIT_FLEXION | SWIVEL_LIMIT_SHOULDER_CONE;
+inline constexpr swivel_features kFullArm = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING |
+                                            SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE;
 // Incoming poses, weights and limits of the first limbs of a crowd, where it has them.
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count);
 
 // A crowd of one group with all inputs written; limbs repeat where the crowd is larger than they are.
-swivel::Crowd make_crowd(std::uint32_t features, std::size_t arm_count, std::span<const Limb> limbs);
+swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs);
 // Bytes of rows, in and out, that a solve of one arm touches.
-std::size_t row_bytes(std::uint32_t features);
+std::size_t row_bytes(swivel_features features);
 // Arms whose rows are at home in a level of memory, one of kMemoryLevels; whole blocks.
-std::size_t arms_within(std::size_t memory_level, std::uint32_t features);
+std::size_t arms_within(std::size_t memory_level, swivel_features features);
 // Results of a crowd without features.
 Poses poses_of(const swivel::Crowd& crowd);
 

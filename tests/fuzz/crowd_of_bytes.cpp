@@ -10,14 +10,14 @@ namespace swivel::fuzz {
 namespace {
 
 constexpr std::uint32_t kHandLimits =
-    SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
+    SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 constexpr std::uint32_t kPlain =
     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET;
-constexpr std::uint32_t kTwist = 7 * SWIVEL_TWIST_BONES;
-constexpr std::uint32_t kAll = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
+constexpr swivel_features kTwist = 7 * SWIVEL_WITH_TWIST_BONES;
+constexpr swivel_features kOneBit = 2 * SWIVEL_BUDGET - 1;  // all features but the number of twist bones
 
 // Where a feature of `of` is there, what it needs comes in and what it excludes goes.
-void settle(std::uint32_t& features, std::uint32_t of, std::uint32_t needs, std::uint32_t excludes)
+void settle(swivel_features& features, swivel_features of, swivel_features needs, swivel_features excludes)
 {
     if (features & of) features = (features | needs) & ~excludes;
 }
@@ -139,17 +139,19 @@ std::uint64_t Random::bits()
 }
 float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits() >> 40) - (1 << 23)) * 0x1p-23f; }
 
-std::uint32_t features_of(Bytes& bytes)
+swivel_features features_of(Bytes& bytes)
 {
     const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
-    std::uint32_t features = bytes.take<std::uint32_t>() & kAll;
-    if (kind == 1) features &= kPlain;                       // with other kernels than whole limbs, so often
-    if (kind == 2) features &= bytes.take<std::uint32_t>();  // few
+    const auto word = bytes.take<std::uint32_t>();
+    swivel_features features = (word & kOneBit) | (word >> 24 & 7) * SWIVEL_WITH_TWIST_BONES;
+    if (kind == 1) features &= kPlain;                                // with other kernels than whole limbs, so often
+    if (kind == 2) features &= kTwist | bytes.take<std::uint32_t>();  // few
     settle(features, SWIVEL_POLE_INCOMING, 0, SWIVEL_POLE_NORMAL | SWIVEL_POLE_DIRECTION);
     settle(features, SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, SWIVEL_POLE_NORMAL);
     settle(features, SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, 0);
-    settle(features, SWIVEL_WITH_AIM, 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_LIMIT_FLEXION | kHandLimits);
-    settle(features, SWIVEL_COMPACT, 0, SWIVEL_WITH_CLAVICLE | kTwist | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP);
+    settle(features, SWIVEL_WITH_AIM, 0,
+           SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits);
+    settle(features, SWIVEL_COMPACT, 0, SWIVEL_WITH_CLAVICLE | kTwist | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL);
     settle(features, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, 0);
     settle(features, SWIVEL_WITH_EFFECTOR | kHandLimits | kTwist, SWIVEL_WITH_HAND, 0);
     return features;

@@ -12,7 +12,7 @@
 namespace swivel::fuzz {
 
 // A set of features that swivel_crowd_create() takes.
-std::uint32_t features_of(Bytes& bytes);
+swivel_features features_of(Bytes& bytes);
 
 // Bindings are sound; each group has 1 to most_limbs limbs.
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);

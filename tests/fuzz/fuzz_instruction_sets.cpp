@@ -24,7 +24,7 @@ using Crowd = std::unique_ptr<swivel_crowd, Destroy>;
 
 // Everything but numbers that an input says, to make the same crowd several times.
 struct Shape {
-    std::uint32_t features;
+    swivel_features features;
     std::vector<swivel_group_def> groups;
     swivel_euler_order shoulder_order, wrist_order;
 };
@@ -56,7 +56,7 @@ void put_inputs(swivel_crowd& crowd, const std::vector<float>& inputs)
 std::vector<std::uint32_t> results_of(swivel_crowd& crowd, const Shape& shape)
 {
     std::vector<std::uint32_t> words;
-    for (int f = SWIVEL_SHOULDER; f < SWIVEL_FIELD_COUNT; ++f) {
+    for (int f = SWIVEL_SHOULDER; f < SWIVEL_RESULT_END; ++f) {
         const auto field = static_cast<swivel_field>(f);
         if (swivel_field_row_count(&crowd, field) == 0) continue;
         for (std::uint32_t group = 0; group < shape.groups.size(); ++group) {

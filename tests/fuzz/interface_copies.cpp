@@ -15,7 +15,7 @@ namespace {
 // A field, one in 16 times any that C++ lets the enum hold.
 swivel_field take_field(Session& session, std::uint32_t limit)
 {
-    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.below(64));
+    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.below(2 * SWIVEL_RESULT_END));
     return static_cast<swivel_field>(session.bytes.below(limit));
 }
 
@@ -91,10 +91,12 @@ void call_write_doubles(Session& session)
 
 void call_read(Session& session)
 {
-    const swivel_field field = take_field(session, SWIVEL_FIELD_COUNT + 1);
+    swivel_field field = take_field(session, SWIVEL_INPUT_END + SWIVEL_RESULT_END - SWIVEL_SHOULDER + 1);
+    if (field >= SWIVEL_INPUT_END && field < SWIVEL_SHOULDER)  // results, too
+        field = static_cast<swivel_field>(field - SWIVEL_INPUT_END + SWIVEL_SHOULDER);
     const Limbs limbs = take_limbs(session);
     Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, field), false);
-    const bool is_there = field < SWIVEL_FIELD_COUNT && component_count(session, field) > 0;
+    const bool is_there = component_count(session, field) > 0;
     const swivel_status status = swivel_read(session.crowd, field, limbs.group, limbs.first, limbs.count, values.out());
     check_status(session, status, limbs.is_valid && is_there && values.is_valid());
     values.check_gaps(status != SWIVEL_OK);

@@ -15,7 +15,8 @@ namespace swivel::fuzz {
 struct Session {
     Bytes& bytes;
     swivel_crowd* crowd = nullptr;
-    std::uint32_t features = 0, group_count = 0;
+    swivel_features features = 0;
+    std::uint32_t group_count = 0;
     std::span<const char> arena = {};     // all of the crowd's memory, where it is ours
     std::vector<char> arena_before = {};  // as it was before the call at hand
     std::vector<char> results_before = {};

@@ -16,7 +16,7 @@ namespace swivel::corpus {
 using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
 // The recipe's features in the library's bits.
-std::uint32_t library_features(const Recipe& recipe);
+std::uint64_t library_features(const Recipe& recipe);
 // An empty crowd of three groups with the bindings of bindings.h.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 LimbCounts limb_counts(const Crowd& crowd);

@@ -21,9 +21,9 @@ enum class Way { kAlone, kReading, kSolvingBlocks };
 
 struct HeldCrowd {
     Crowd crowd;
-    std::uint32_t features;
-    std::array<std::uint32_t, SWIVEL_FIELD_COUNT> component_counts;  // of fields as values, also where rows are words
-    std::array<std::uint32_t, 3> users{};                            // by Way; changed with the GIL held
+    swivel_features features;
+    std::array<std::uint32_t, SWIVEL_RESULT_END> component_counts;  // of fields as values, also where rows are words
+    std::array<std::uint32_t, 3> users{};                           // by Way; changed with the GIL held
 };
 
 std::uint32_t group_count(const HeldCrowd& held);

@@ -47,18 +47,22 @@ constexpr FrameInput kFrameInputs[] = {
     {SWIVEL_AIM, &swivel_frame::aim},
     {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
-static_assert(std::size(kFrameInputs) == SWIVEL_SHOULDER);
+static_assert(std::size(kFrameInputs) == SWIVEL_INPUT_END);
 struct FrameOutput {
     swivel_field field;
     swivel_out swivel_frame::*member;
 };
 constexpr FrameOutput kFrameOutputs[] = {
-    {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
-    {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
-    {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
-    {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
+    {SWIVEL_SHOULDER, &swivel_frame::shoulder},
+    {SWIVEL_ELBOW, &swivel_frame::elbow},
+    {SWIVEL_WRIST, &swivel_frame::wrist},
+    {SWIVEL_FLAGS, &swivel_frame::flags},
+    {SWIVEL_STRETCH, &swivel_frame::stretch},
+    {SWIVEL_NORMAL, &swivel_frame::normal},
+    {SWIVEL_TWIST_BONES, &swivel_frame::twist_bones},
+    {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
-static_assert(std::size(kFrameOutputs) == SWIVEL_FIELD_COUNT - SWIVEL_SHOULDER);
+static_assert(std::size(kFrameOutputs) == SWIVEL_RESULT_END - SWIVEL_SHOULDER);
 
 // ValueError for a key that no frame has.
 void check_keys(std::uint32_t group, const py::dict& given)

@@ -57,7 +57,9 @@ HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t sho
     else
         for (const py::handle entry : groups) defs.push_back(group_of(entry));
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = count_of("features", features);
+    if (features < 0)
+        throw py::value_error("features is " + std::to_string(features) + "; give members of swivel.Feature");
+    def.features = static_cast<swivel_features>(features);
     def.group_count = static_cast<std::uint32_t>(defs.size());
     def.groups = defs.data();
     def.shoulder_order = order_of(shoulder_order);

@@ -25,19 +25,19 @@ constexpr Named kFeatures[] = {
     {"POLE_INCOMING", SWIVEL_POLE_INCOMING},
     {"WITH_WEIGHTS", SWIVEL_WITH_WEIGHTS},
     {"WITH_REACH", SWIVEL_WITH_REACH},
-    {"WITH_STEP", SWIVEL_WITH_STEP},
-    {"LIMIT_FLEXION", SWIVEL_LIMIT_FLEXION},
-    {"LIMIT_SHOULDER_CONE", SWIVEL_LIMIT_SHOULDER_CONE},
-    {"LIMIT_HUMERAL_TWIST", SWIVEL_LIMIT_HUMERAL_TWIST},
-    {"LIMIT_SHOULDER_BOX", SWIVEL_LIMIT_SHOULDER_BOX},
-    {"LIMIT_HAND_CONE", SWIVEL_LIMIT_HAND_CONE},
-    {"LIMIT_FOREARM_TWIST", SWIVEL_LIMIT_FOREARM_TWIST},
-    {"LIMIT_HAND_TWIST", SWIVEL_LIMIT_HAND_TWIST},
-    {"LIMIT_WRIST_BOX", SWIVEL_LIMIT_WRIST_BOX},
-    {"TWIST_BONES", SWIVEL_TWIST_BONES},
+    {"WITH_MOST_SWIVEL", SWIVEL_WITH_MOST_SWIVEL},
+    {"WITH_FLEXION_LIMIT", SWIVEL_WITH_FLEXION_LIMIT},
+    {"WITH_SHOULDER_CONE", SWIVEL_WITH_SHOULDER_CONE},
+    {"WITH_HUMERAL_TWIST", SWIVEL_WITH_HUMERAL_TWIST},
+    {"WITH_SHOULDER_BOX", SWIVEL_WITH_SHOULDER_BOX},
+    {"WITH_HAND_CONE", SWIVEL_WITH_HAND_CONE},
+    {"WITH_FOREARM_TWIST", SWIVEL_WITH_FOREARM_TWIST},
+    {"WITH_HAND_TWIST", SWIVEL_WITH_HAND_TWIST},
+    {"WITH_WRIST_BOX", SWIVEL_WITH_WRIST_BOX},
     {"WITH_AIM", SWIVEL_WITH_AIM},
     {"WITH_CLAVICLE", SWIVEL_WITH_CLAVICLE},
     {"BUDGET", SWIVEL_BUDGET},
+    {"WITH_TWIST_BONES", SWIVEL_WITH_TWIST_BONES},
 };
 constexpr Named kFields[] = {
     {"TARGET", SWIVEL_TARGET},
@@ -71,7 +71,7 @@ constexpr Named kFields[] = {
     {"FLAGS", SWIVEL_FLAGS},
     {"STRETCH", SWIVEL_STRETCH},
     {"NORMAL", SWIVEL_NORMAL},
-    {"TWIST", SWIVEL_TWIST},
+    {"TWIST_BONES", SWIVEL_TWIST_BONES},
     {"CLAVICLE_TURN", SWIVEL_CLAVICLE_TURN},
 };
 constexpr Named kFlags[] = {
@@ -98,11 +98,12 @@ constexpr Named kEulerOrders[] = {
     {"XYZ", SWIVEL_XYZ}, {"XZY", SWIVEL_XZY}, {"YZX", SWIVEL_YZX},
     {"YXZ", SWIVEL_YXZ}, {"ZXY", SWIVEL_ZXY}, {"ZYX", SWIVEL_ZYX},
 };
-static_assert(std::size(kFields) == SWIVEL_FIELD_COUNT, "name the header's new field here");
+static_assert(std::size(kFields) == SWIVEL_INPUT_END + (SWIVEL_RESULT_END - SWIVEL_SHOULDER),
+              "name the header's new field here");
 
 constexpr const char* kFeatureText =
     "What a crowd takes and gives; fixed at creation, combined with |.\n\n"
-    "Whatever is off costs neither memory nor time. n twist bones are n * Feature.TWIST_BONES, n from 1 to 7.";
+    "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from 1 to 7.";
 constexpr const char* kFieldText =
     "A field of a crowd's limbs: an input up to SHOULDER, from there on a result.\n\n"
     "Crowd.component_count() tells how many numbers its values have; docs/python.md lists units and meanings.";
@@ -135,6 +136,7 @@ std::string member_called(const std::string& name)
 }  // namespace
 
 std::span<const Named> features() { return kFeatures; }
+std::span<const Named> fields() { return kFields; }
 
 std::string in_python(const std::string& line)
 {
@@ -152,14 +154,16 @@ std::string in_python(const std::string& line)
 
 std::string field_name(swivel_field field)
 {
-    std::string name = kFields[field].name;
+    std::string name = std::find_if(std::begin(kFields), std::end(kFields), [&](const Named& each) {
+                           return each.value == field;
+                       })->name;
     for (char& letter : name) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     return name;
 }
 
 swivel_field field_of(std::int64_t number)
 {
-    if (number < 0 || number >= SWIVEL_FIELD_COUNT)
+    if (std::none_of(std::begin(kFields), std::end(kFields), [&](const Named& each) { return each.value == number; }))
         throw py::value_error("there is no field " + std::to_string(number) + "; give a member of swivel.Field");
     return static_cast<swivel_field>(number);
 }

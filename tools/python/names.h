@@ -19,6 +19,7 @@ struct Named {
     std::int64_t value;
 };
 std::span<const Named> features();
+std::span<const Named> fields();
 
 // A line of the library with Python's names: "create it with SWIVEL_BUDGET" has Feature.BUDGET, and no function has the
 // prefix of C.

@@ -22,7 +22,7 @@ struct FixedField {
 };
 
 struct LimbPlan {
-    std::uint32_t features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+    swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
     swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
     std::vector<FixedField> fields;
 
@@ -36,8 +36,8 @@ struct LimbPlan {
     bool blends_position = false;  // the end is not at the target, by its weight
     bool blends_hand = false;
 
-    bool has(std::uint32_t feature) const { return (features & feature) != 0; }
-    unsigned twist_count() const { return features / SWIVEL_TWIST_BONES & 7; }
+    bool has(swivel_features feature) const { return (features & feature) != 0; }
+    unsigned twist_count() const { return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES); }
 };
 
 struct CrowdPlan {

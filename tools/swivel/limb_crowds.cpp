@@ -10,33 +10,33 @@ namespace swivel::tools {
 namespace {
 
 // Features that a crowd has for all its limbs or for none; the others are at rest where a limb does not use them.
-constexpr std::uint32_t kShared = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
-                                  SWIVEL_POLE_INCOMING | 7 * SWIVEL_TWIST_BONES;
+constexpr swivel_features kShared = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
+                                    SWIVEL_POLE_INCOMING | 7 * SWIVEL_WITH_TWIST_BONES;
 
 // A crowd in the making.
 struct Draft {
-    std::uint32_t features;
+    swivel_features features;
     swivel_euler_order shoulder_order, wrist_order;
     std::vector<swivel_group_def> groups;
 
     bool takes(const LimbPlan& plan) const
     {
-        const auto both = [&](std::uint32_t box) { return (features & plan.features & box) != 0; };
+        const auto both = [&](swivel_features box) { return (features & plan.features & box) != 0; };
         return (features & kShared) == (plan.features & kShared) &&
-               (!both(SWIVEL_LIMIT_SHOULDER_BOX) || shoulder_order == plan.shoulder_order) &&
-               (!both(SWIVEL_LIMIT_WRIST_BOX) || wrist_order == plan.wrist_order);
+               (!both(SWIVEL_WITH_SHOULDER_BOX) || shoulder_order == plan.shoulder_order) &&
+               (!both(SWIVEL_WITH_WRIST_BOX) || wrist_order == plan.wrist_order);
     }
     void add(const LimbPlan& plan, const swivel_group_def& group)
     {
-        if (plan.has(SWIVEL_LIMIT_SHOULDER_BOX)) shoulder_order = plan.shoulder_order;
-        if (plan.has(SWIVEL_LIMIT_WRIST_BOX)) wrist_order = plan.wrist_order;
+        if (plan.has(SWIVEL_WITH_SHOULDER_BOX)) shoulder_order = plan.shoulder_order;
+        if (plan.has(SWIVEL_WITH_WRIST_BOX)) wrist_order = plan.wrist_order;
         features |= plan.features;
         groups.push_back(group);
     }
     Crowd make(bool budget) const
     {
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = features | (budget ? std::uint32_t{SWIVEL_BUDGET} : 0u);
+        def.features = features | (budget ? SWIVEL_BUDGET : 0u);
         def.group_count = static_cast<std::uint32_t>(groups.size());
         def.groups = groups.data();
         def.shoulder_order = shoulder_order;

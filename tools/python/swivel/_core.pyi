@@ -27,19 +27,19 @@ class Feature(enum.IntFlag):
     POLE_INCOMING = 1 << 9
     WITH_WEIGHTS = 1 << 10
     WITH_REACH = 1 << 11
-    WITH_STEP = 1 << 12
-    LIMIT_FLEXION = 1 << 13
-    LIMIT_SHOULDER_CONE = 1 << 14
-    LIMIT_HUMERAL_TWIST = 1 << 15
-    LIMIT_SHOULDER_BOX = 1 << 16
-    LIMIT_HAND_CONE = 1 << 17
-    LIMIT_FOREARM_TWIST = 1 << 18
-    LIMIT_HAND_TWIST = 1 << 19
-    LIMIT_WRIST_BOX = 1 << 20
-    TWIST_BONES = 1 << 21
-    WITH_AIM = 1 << 24
-    WITH_CLAVICLE = 1 << 25
-    BUDGET = 1 << 29
+    WITH_MOST_SWIVEL = 1 << 12
+    WITH_FLEXION_LIMIT = 1 << 13
+    WITH_SHOULDER_CONE = 1 << 14
+    WITH_HUMERAL_TWIST = 1 << 15
+    WITH_SHOULDER_BOX = 1 << 16
+    WITH_HAND_CONE = 1 << 17
+    WITH_FOREARM_TWIST = 1 << 18
+    WITH_HAND_TWIST = 1 << 19
+    WITH_WRIST_BOX = 1 << 20
+    WITH_AIM = 1 << 21
+    WITH_CLAVICLE = 1 << 22
+    BUDGET = 1 << 23
+    WITH_TWIST_BONES = 1 << 40
 
 class Field(enum.IntEnum):
     TARGET = 0
@@ -67,14 +67,14 @@ class Field(enum.IntEnum):
     WRIST_BOX = 22
     AIM = 23
     CLAVICLE = 24
-    SHOULDER = 25
-    ELBOW = 26
-    WRIST = 27
-    FLAGS = 28
-    STRETCH = 29
-    NORMAL = 30
-    TWIST = 31
-    CLAVICLE_TURN = 32
+    SHOULDER = 256
+    ELBOW = 257
+    WRIST = 258
+    FLAGS = 259
+    STRETCH = 260
+    NORMAL = 261
+    TWIST_BONES = 262
+    CLAVICLE_TURN = 263
 
 class Flag(enum.IntFlag):
     REACHED = 1 << 0
