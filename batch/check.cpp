@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t kAllFeatures =
     (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
 
-// Features that mean something only beside another, or not beside another.
+// Features that need another feature, or exclude another one.
 struct FeatureRule {
     std::uint32_t feature, other;
     bool together;

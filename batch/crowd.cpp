@@ -50,7 +50,7 @@ void fill_field(const swivel_crowd& crowd, swivel_field field, std::initializer_
     }
 }
 
-// In every lane, padding too, an arm that any kernel solves without a second thought, and what changes nothing.
+// Fills every lane, also of the padding, with an ordinary arm and with inputs that change nothing.
 void fill_inputs(const swivel_crowd& crowd)
 {
     fill_field(crowd, SWIVEL_TARGET, {0, 0, 2});
@@ -77,7 +77,7 @@ void fill_inputs(const swivel_crowd& crowd)
     fill_field(crowd, SWIVEL_AIM, {0, 0, 1, 1, 0});
 }
 
-// In a group's limbs, what nobody can guess: bad input until it is given.
+// Gives a group's limbs NaN for inputs without a sensible default. So they are bad input until the caller gives them.
 void unknown_inputs(const swivel_crowd& crowd, const Group& group)
 {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
@@ -90,7 +90,7 @@ void unknown_inputs(const swivel_crowd& crowd, const Group& group)
     if (crowd.features & SWIVEL_WORLD) start(SWIVEL_SHOULDER_POSITION, unknown);
 }
 
-// Every row of a run of blocks holds in each lane what it has in the very first.
+// Copies the first lane of each row of the first block to all lanes of this row, in all blocks of the run.
 template <class Word>
 void spread(Word* rows, std::uint32_t row_count, std::uint32_t block_count)
 {
@@ -100,7 +100,8 @@ void spread(Word* rows, std::uint32_t row_count, std::uint32_t block_count)
                         rows[std::size_t{row} * SWIVEL_LANES]);
 }
 
-// A group's limbs rest, as their inputs, which are bad, have the kernel do; but nothing is said of limbs never solved.
+// Puts a group's limbs into their rest pose. The kernel does so, because their inputs are bad. Limbs that were never
+// solved have no flag.
 void rest(const swivel_crowd& crowd, const Group& group)
 {
     const FloatEnv env;

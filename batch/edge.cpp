@@ -60,7 +60,7 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
         shoulder = shoulder + scale * sandwich(parent, sandwich(turn, bone) - bone);
         parent = parent * turn;
     }
-    // Without a world the arm frame itself is the space of the targets, so the parent joint is seen from it.
+    // Without SWIVEL_WORLD, targets are in the arm frame itself, so the parent joint is relative to it.
     const Rotor<double> base = joints && !world ? ~rotor_of(group.binding.parent_from_arm) : parent;
 
     const Rotor<double> upper_from_arm = joints ? rotor_of(group.binding.upper_from_arm) : one;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What needs no lanes: forward kinematics of a solved limb and how far it is from its target, in double.
+// Forward kinematics of one solved limb, and how far it is from its target. It is in double and needs no lanes.
 #pragma once
 
 #include "batch/crowd.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The limb is solved again in a crowd of its own, on the stack. Which input is bad, and what a limit did, is found by
-// giving it up: with a value that asks for nothing in its place the limb is good, or goes where it was wished to.
-// Degrees are for people: trigonometry is allowed here, as no solve sees it.
+// Solves the limb again, in a crowd of its own on the stack. To find a bad input, or what a limit did, it replaces the
+// input by a value that asks for nothing. If that input is the cause, the limb is then good, or goes where it was
+// wished to. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
 #include "batch/explain.h"
 
 #include <bit>
@@ -106,7 +106,7 @@ public:
         }
         return true;
     }
-    // The field asks for nothing: it has what padding has, an ordinary arm without limits.
+    // Makes the field ask for nothing. It gets the padding's value, from an ordinary arm without limits.
     void give_up(swivel_field field)
     {
         float* const rows = crowd_->input + row_offset(0, 0, field_first_row(crowd_->features, field));

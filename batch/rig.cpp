@@ -28,7 +28,7 @@ void store(const Rotor<double>& q, float (&to)[4])
     to[3] = static_cast<float>(unit.at<kScalar>());
 }
 
-// cos 10 degrees: a rest pose that is bent by less shows noise rather than where the limb bends to.
+// cos 10 degrees. A rest pose that is bent by less shows noise, and not where the limb bends to.
 constexpr double kBent = 0.984807753;
 
 // The rotor from the arm frame to a joint's own frame: e3 to the joint's bone, e1 to the hinge's part orthogonal to it.

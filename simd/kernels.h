@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a build for one instruction set gives: a function for each set of features. No lanes in sight.
+// The functions that a build for one instruction set gives: one for each set of features. Nothing here knows lanes.
 #pragma once
 
 #include <cstddef>
@@ -50,7 +50,7 @@ struct ArmKernels {
 // Of whole limbs: simd/limb_kernels.cpp.
 struct LimbKernels {
     void (*solve)(const LimbRun& run);
-    // Of one limb of a run: stores up to capacity arcs, returns how many there are. In the scalar build alone.
+    // For one limb of a run: stores up to capacity arcs and returns how many there are. Only in the scalar build.
     std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, swivel_arc* arcs, std::uint32_t capacity);
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One step of the whole limb: loads the rows that a crowd has, brings them into the arm frame, solves, and stores what
-// the crowd gives out. Which rows those are is the same for all of a run's limbs: it asks once a step,
-// never for a limb.
+// One step of the whole limb. It loads the rows that a crowd has, brings them into the arm frame, solves, and stores
+// the results. All limbs of a run have the same rows, so the step asks for them once, and never for a single limb.
 #pragma once
 
 #include "core/clavicle.h"
@@ -133,8 +132,8 @@ SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T>&
     return limits;
 }
 
-// What the formula does not see of a limb: how far its clavicle has been turned, in the arm frame's axes, and whether
-// its other inputs are good.
+// The parts of a limb that the formula does not see: how far its clavicle has turned, in the arm frame's axes, and
+// whether its other inputs are good.
 template <class T>
 struct LimbEntry {
     Rotor<T> clavicle;
@@ -272,8 +271,8 @@ SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
             run.results ? run.results + row_offset(limb, run.result_row_count, 0) : nullptr};
 }
 
-// Solves one step. Where it says false the limits allow no swivel, and a search for the least violation was not wanted:
-// there the results mean nothing.
+// Solves one step. Where it returns false, the limits allow no swivel and Searches is false, so the results mean
+// nothing.
 template <bool Aims, bool Searches, class T>
 SWIVEL_INLINE Mask<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows)
 {

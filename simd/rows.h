@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The layout of a crowd's rows: which fields a set of features has, in which order, and where a lane of a row lies. The
-// only place that knows.
+// The layout of a crowd's rows: which fields a set of features has, in which order, and where a lane of a row lies. No
+// other file knows it.
 #pragma once
 
 #include <bit>
@@ -33,7 +33,8 @@ constexpr std::uint32_t compact_row_count(std::uint32_t features, swivel_field f
     }
 }
 
-// What every field is called in messages, its rows, and the features that a crowd must have for it, and must not.
+// For every field: its name in messages, its rows, the features that a crowd must have for it, and those that it must
+// not have.
 struct FieldLayout {
     const char* name;
     std::uint32_t row_count, needs, without = 0;
@@ -75,7 +76,7 @@ constexpr FieldLayout kFields[] = {
 };
 static_assert(sizeof kFields / sizeof *kFields == SWIVEL_FIELD_COUNT);
 
-// The feature's name that a crowd lacks, or has too much, for a field that it does not have.
+// For a field that a crowd does not have: the name of the feature that it lacks, or must not have.
 constexpr const char* needed_feature(std::uint32_t features, swivel_field field)
 {
     constexpr const char* names[] = {
@@ -126,14 +127,15 @@ constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field fie
     return (features & layout.needs) == layout.needs && !(features & layout.without) ? layout.row_count : 0;
 }
 
-// Floats, or the one uint32_t, of a field's value as callers read and write it; 0 likewise.
+// The floats, or the one uint32_t, of a field's value as callers read and write it. 0 if crowds with these features do
+// not have it.
 constexpr std::uint32_t field_component_count(std::uint32_t features, swivel_field field)
 {
     return field_row_count(features & ~std::uint32_t{SWIVEL_COMPACT}, field);
 }
 
-// Fields that are positions, and those of them that an origin is taken from: not poles that are directions
-// or normals.
+// The fields that are positions, and those from which an origin is subtracted: not poles that are directions or
+// normals.
 constexpr bool is_position(swivel_field field)
 {
     return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
