@@ -37,7 +37,8 @@ public:
     // Solves the frame; adds the time it took.
     void solve(Statistics& statistics);
 
-    // Adds what the errors and flags of the limbs solved in this frame are, by forward kinematics in double.
+    // Adds what the errors, differences from the clip and flags of the limbs solved in this frame are, by forward
+    // kinematics in double.
     void measure(Statistics& statistics) const;
 
     // One limb's local rotations as the skeleton stores them: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that
@@ -59,7 +60,7 @@ private:
     struct Goal {  // what one limb was asked for, relative to its character's root
         Eigen::Vector3d target, pole;
         Eigen::Quaterniond hand;
-        bool from_clip;  // elbow and upper arm may be held against the clip's
+        bool from_clip;  // elbow and upper arm should be the clip's
     };
     struct Input {  // the same as the solver takes it
         float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
