@@ -17,7 +17,7 @@ namespace swivel::test {
 
 inline const std::string kPoseHeader =
     "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
-    "wrist_x,wrist_y,wrist_z,wrist_w,flags";
+    "wrist_x,wrist_y,wrist_z,wrist_w,flags,place_x,place_y,place_z,size,start";
 
 struct PoseLine {
     std::size_t frame = 0, character = 0;
@@ -45,7 +45,7 @@ inline std::vector<std::string> cells_of(const std::string& line)
     return cells;
 }
 
-// more: what the header has after the flags.
+// more: what the header has after these columns.
 inline std::vector<PoseLine> pose_lines(const std::string& text, const std::string& more = "")
 {
     std::istringstream in(text);
