@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
@@ -66,6 +67,16 @@ inline std::vector<PoseLine> pose_lines(const std::string& text, const std::stri
         to.flags = static_cast<unsigned>(to.number("flags"));
     }
     return lines;
+}
+
+// Of all joints in all rows, the largest angle between the two tables.
+inline double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
+{
+    REQUIRE(a.size() == b.size());
+    double worst = 0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+        for (std::size_t j = 0; j < 3; ++j) worst = std::max(worst, a[n].joint[j].angularDistance(b[n].joint[j]));
+    return worst;
 }
 
 }  // namespace swivel::test

@@ -70,8 +70,10 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
         const bool loses = std::filesystem::is_regular_file(a, ignored);
         return loses && std::filesystem::equivalent(a, b, ignored);
     }
-    const std::filesystem::path whole = std::filesystem::weakly_canonical(a, ignored);
-    return !whole.empty() && whole == std::filesystem::weakly_canonical(b, ignored);
+    const auto whole = [&](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+    };
+    return !whole(a).empty() && whole(a) == whole(b);
 }
 
 // Nothing that is read is written over, and nothing that is written.
