@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "tests/crowd_stage.h"
+#include "tests/random_figure.h"
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;
@@ -230,6 +231,39 @@ TEST_CASE("exported targets, given back unchanged, change nothing")
         CHECK(worst_rotation(own, again) < 1e-5);
         CHECK(Table(slurp(stage.folder / "t.csv")).rows.size() == own.size());
     }
+}
+
+TEST_CASE("exported targets give back what figures do that are mirrored, scaled and have twist bones")
+{
+    const TempFolder folder;
+    std::mt19937 random(11);
+    const FigureWish wish{.twist_bones = 0.5, .scales = 0.5, .mirrors = 0.7};
+    std::size_t mirrored = 0;
+    for (int n = 0; n < 8; ++n) {
+        const Figure figure = random_figure(random, wish, figure_names()[0]);
+        INFO("figure " << n);
+        figure.rig.write(folder / "in.glb");
+        const auto solve = [&](const std::string& option, const std::string& table) {
+            const Words words = {"solve", "in.glb", "--limbs", "all", "--out", "out.glb", option, table};
+            const Outcome outcome = run_command(folder.path, words);
+            INFO(outcome.err);
+            REQUIRE(outcome.exit_code == 0);
+        };
+        const auto require_closed_by = [&](const Table& table) {
+            spill(folder / "given.csv", table.text());
+            solve("--targets", "given.csv");
+            require_closed(closure(plain_gltf_of(folder / "in.glb"), plain_gltf_of(folder / "out.glb"), 0,
+                                   {figure.limbs.begin(), figure.limbs.end()}));
+        };
+        solve("--export-targets", "t.csv");
+        Table table(slurp(folder / "t.csv"));
+        require_closed_by(table);
+        table.leave_out({"pole_x", "pole_y", "pole_z", "qx", "qy", "qz", "qw"});
+        require_closed_by(table);
+        mirrored += figure.is_mirrored;
+    }
+    CHECK(mirrored > 2);
+    CHECK(mirrored < 7);
 }
 
 TEST_CASE("an edit of one exported row moves that wrist alone")
