@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Tables of targets as `swivel solve` writes and takes them: what is exported is the clip, and given back changes
-// nothing; poles and orientations may be left out; frames between rows hold them or go on to the next.
+// Tables of targets as `swivel solve` writes and takes them. What is exported is the clip, and given back it changes
+// nothing. Poles and orientations may be left out. Frames between rows hold them or go on to the next.
 #include <rapidcheck/catch.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
