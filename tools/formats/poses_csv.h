@@ -1,9 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The table of solved poses, written as it is produced: one line per frame, character and limb, with the three local
-// rotations as quaternions x, y, z, w, the flag word as a decimal number, and what makes the character differ from the
-// others. Numbers have the fewest digits that give the same number back. Knows no solver: what the flags mean is the
-// caller's affair.
+// The table of solved poses, written as it is produced: one line per frame, character and limb. It has the three local
+// rotations as quaternions x, y, z, w, the flag word as a decimal number, and what makes the character differ. Numbers
+// have the fewest digits that give the same number back. Knows no solver: what the flags mean is the caller's affair.
 
 #include <array>
 #include <cstdint>

@@ -17,8 +17,9 @@ struct Character {
 };
 
 // Character 0 is the clip's own. The others differ by the seed: a size within the plan's, and a start anywhere in the
-// clip, if the plan staggers them. Character n stands the plan's spacing, in arm spans (leg spans where no arm is
-// solved), apart from its neighbours on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)).
+// clip, if the plan staggers them. They stand on a square grid in X and Z: character n in column n % w and row n / w,
+// w = ceil(sqrt(characters)). Neighbours are the plan's spacing apart, in arm spans, or in leg spans where no arm is
+// solved.
 std::vector<Character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count);
 
 }  // namespace swivel::tools

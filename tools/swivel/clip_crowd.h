@@ -28,9 +28,9 @@ public:
 
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
 
-    // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world; limbs without
-    // one take their plan's point or follow the clip; without a pole elbows and knees lean as the clip's do, and
-    // without an orientation hands and feet keep the clip's. Every character and limb in given must exist.
+    // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world. Limbs without
+    // one take their plan's point or follow the clip. Without a pole elbows and knees lean as the clip's do, without an
+    // orientation hands and feet keep the clip's. Every character and limb in given must exist.
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
 
     // What the frame asks of all limbs, in order of character, then limb: given to set_frame() it asks for the same.

@@ -152,7 +152,8 @@ void add_solve(CLI::App& app)
         ->check(CLI::IsMember({"hold", "linear"}));
     command
         ->add_option("--export-targets", options->export_targets,
-                     "Write what this run asks of every limb as a table to edit and to give back by --targets")
+                     "Write the clip's wrists, poles and hands, or those given, as a table to edit and to give back by "
+                     "--targets")
         ->check(file_name());
     command
         ->add_option(
