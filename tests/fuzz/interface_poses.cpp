@@ -75,8 +75,7 @@ void call_bind(Bytes& bytes)
     static_assert(offsetof(swivel_chain, bend) + sizeof chain.bend == first + sizeof numbers);
     std::memcpy(reinterpret_cast<char*>(&chain) + first, numbers.data(), sizeof numbers);
     if (bytes.one_in(4)) chain.size = bytes.take<std::uint8_t>();
-    std::array<float, 26> binding;
-    static_assert(sizeof binding == sizeof(swivel_binding));
+    std::array<float, sizeof(swivel_binding) / sizeof(float)> binding;
     binding.fill(7);
     swivel_binding bound;
     std::memcpy(&bound, binding.data(), sizeof bound);
@@ -84,7 +83,8 @@ void call_bind(Bytes& bytes)
     std::memcpy(binding.data(), &bound, sizeof bound);
     bool is_sound = true;
     for (const float length : bound.lengths) is_sound = is_sound && length > 0 && std::isfinite(length);
-    for (std::size_t n = 0; n < 24; n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
+    for (std::size_t n = 0; n < 32; n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
+    for (std::size_t n = 35; n < binding.size(); n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
     check_helper(status, binding, is_sound);
 }
 
