@@ -670,10 +670,11 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
 // Says in a sentence or two why a limb is as it is, of its inputs as they are now. It names the input that is bad, how
-// far out of reach the target is, which limit turned the elbow from its wish and by how much, or why none is kept.
-// Where the limb's results are not those of its inputs, it says so. It cannot know the step that a swivel carried was
-// from. limb is counted within the group. text gets at most size bytes, the 0 at its end among them. For people and
-// logs: the words may change, and the last digits differ between C libraries. Takes up to a millisecond; no allocation.
+// far out of reach the target is, which limit turned the elbow from its wish and by how much. Where no elbow keeps the
+// limits, it says by how many degrees the pose violates each. Where the limb's results are not those of its inputs, it
+// says so. It cannot know the step that a swivel carried was from. limb is counted within the group. text gets at most
+// size bytes, the 0 at its end among them. For people and logs: the words may change, and the last digits differ
+// between C libraries. Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
