@@ -234,7 +234,6 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
             if (!(flags[n] & SWIVEL_INFEASIBLE)) continue;
             const std::string text = crowd.explain(0, n);
             INFO(text);
-            CHECK(compact.explain(0, n).substr(text.find(" Its")) == text.substr(text.find(" Its")));
             const Added q = added(limbs[n], limb.bound, Vector3d(elbows[n].data()), Vector3d(wrists[n].data()),
                                   Quaterniond(hands[n].data()));
             const Vector3d bone = Vector3d::UnitZ();
@@ -248,6 +247,7 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
                 {SWIVEL_LIMIT_WRIST_BOX, {"wrist_box", off_box(q.wrist, wrist_box)}},
             };
             const std::string pose = text.substr(text.find("Its pose violates"));
+            CHECK(compact.explain(0, n).ends_with(pose));  // words of 16 bits do not matter
             for (const auto& [limit, named_off] : off) {
                 const auto& [name, angle] = named_off;
                 const double degrees_off = angle / degrees(1);
