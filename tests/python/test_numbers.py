@@ -109,8 +109,8 @@ class Poses(unittest.TestCase):
         self.assertGreater(reached.sum(), N / 2)
         np.testing.assert_allclose(at[0][reached], targets[reached], atol=2e-6)
         np.testing.assert_allclose(abs(np.sum(turned[0] * hands, axis=1)), 1, atol=2e-6)
-        with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 0, is not below the shoulder, joint 4"):
-            swivel.bind_joints(parents, places, 4, 0, 6, rotations=rest)
+        with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 6, is not below the shoulder, joint 4"):
+            swivel.bind_joints(parents, places, 4, 6, 0, rotations=rest)
         with self.assertRaisesRegex(ValueError, r"translations: expected shape \(9, 3\)"):
             swivel.bind_joints(parents, places[1:], 6, 4, 0)
 
