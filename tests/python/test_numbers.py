@@ -111,6 +111,9 @@ class Poses(unittest.TestCase):
         np.testing.assert_allclose(abs(np.sum(turned[0] * hands, axis=1)), 1, atol=2e-6)
         with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 6, is not below the shoulder, joint 4"):
             swivel.bind_joints(parents, places, 4, 6, 0, rotations=rest)
+        turned_none = swivel.bind_joints(parents, places, 6, 4, 0, twist_bones=[2, 1], bend=(1, 0, 0))
+        given = swivel.bind_joints(parents, places, 6, 4, 0, np.tile((0, 0, 0, 1), (9, 1)), [2, 1], (1, 0, 0))
+        self.assertEqual(repr(turned_none), repr(given))
         with self.assertRaisesRegex(ValueError, r"translations: expected shape \(9, 3\)"):
             swivel.bind_joints(parents, places[1:], 6, 4, 0)
 

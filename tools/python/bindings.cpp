@@ -79,8 +79,14 @@ swivel_binding make_binding(const py::object& parent_from_arm, const py::object&
                             const py::object& elbow_rest, const py::object& wrist_rest, const py::object& lengths,
                             const py::object& twist_parent_from_arm, const py::object& twist_from_arm)
 {
-    const py::object* const given[] = {&parent_from_arm,       &upper_from_arm, &elbow_parent_from_arm, &fore_from_arm,
-                                       &wrist_parent_from_arm, &shoulder_rest,  &elbow_rest,            &wrist_rest};
+    const py::object* const given[] = {&parent_from_arm,
+                                       &upper_from_arm,
+                                       &elbow_parent_from_arm,
+                                       &fore_from_arm,
+                                       &wrist_parent_from_arm,
+                                       &shoulder_rest,
+                                       &elbow_rest,
+                                       &wrist_rest};
     static_assert(std::size(given) == std::size(kQuaternions));
     swivel_binding binding;
     for (std::size_t n = 0; n < std::size(kQuaternions); ++n)
@@ -121,11 +127,11 @@ swivel_binding bind_skeleton(const py::object& parents, const py::object& transl
     skeleton.joint_count = count_of("number of joints", static_cast<std::int64_t>(count));
     skeleton.parents = parents_in.values;
     skeleton.translations = places.values;
-    Input turned;
+    Input turned{};  // none
     if (!rotations.is_none()) turned = input({"rotations", count, 4}, rotations, py::dtype::of<float>(), false);
     skeleton.rotations = turned.values;
-    swivel_limb_joints joints = swivel_default_limb_joints(count_of("shoulder", shoulder), count_of("elbow", elbow),
-                                                           count_of("wrist", wrist));
+    swivel_limb_joints joints =
+        swivel_default_limb_joints(count_of("shoulder", shoulder), count_of("elbow", elbow), count_of("wrist", wrist));
     std::vector<std::uint32_t> bones;
     for (const std::int64_t bone : twist_bones) bones.push_back(count_of("twist_bones", bone));
     joints.twist_bones = bones.data();
@@ -184,16 +190,17 @@ void add_bindings(py::module_& module)
                "any length, or zeros: as the rest pose is bent, by more than 10 degrees. Rotations (4,) are\n"
                "x, y, z, w: each joint's at rest, relative to its parent joint. ValueError for a straight rest pose\n"
                "without a bend, a bend along the upper arm, bones of no length and quaternions without a direction.");
-    module.def("bind_joints", &bind_skeleton, py::arg("parents"), py::arg("translations"), py::arg("shoulder"),
-               py::arg("elbow"), py::arg("wrist"), py::arg("rotations") = py::none(),
-               py::arg("twist_bones") = py::tuple(), py::arg("bend") = none,
-               "The binding of a limb in a skeleton at rest, by its joints' indices.\n\n"
-               "parents (n,): each joint's parent, -1 for a root, in any order; translations (n, 3): its place in its\n"
-               "parent's frame; rotations (n, 4): relative to its parent, x, y, z, w, or None if no joint is turned.\n"
-               "The elbow is below the shoulder, the wrist below the elbow; joints in between keep their rest\n"
-               "rotations. twist_bones: joints below the elbow that share the hand's twist, from elbow to wrist; none of\n"
-               "them carries another or the wrist. bend (3,) as in bind(). Results are local rotations relative to the\n"
-               "joints' own parents. ValueError for joints that do not exist or are no limb, and as in bind().");
+    module.def(
+        "bind_joints", &bind_skeleton, py::arg("parents"), py::arg("translations"), py::arg("shoulder"),
+        py::arg("elbow"), py::arg("wrist"), py::arg("rotations") = py::none(), py::arg("twist_bones") = py::tuple(),
+        py::arg("bend") = none,
+        "The binding of a limb in a skeleton at rest, by its joints' indices.\n\n"
+        "parents (n,): each joint's parent, -1 for a root, in any order; translations (n, 3): its place in its\n"
+        "parent's frame; rotations (n, 4): relative to its parent, x, y, z, w, or None if no joint is turned.\n"
+        "The elbow is below the shoulder, the wrist below the elbow; joints in between keep their rest\n"
+        "rotations. twist_bones: joints below the elbow that share the hand's twist, from elbow to wrist; none of\n"
+        "them carries another or the wrist. bend (3,) as in bind(). Results are local rotations relative to the\n"
+        "joints' own parents. ValueError for joints that do not exist or are no limb, and as in bind().");
 }
 
 }  // namespace swivel::python
