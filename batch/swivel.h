@@ -477,9 +477,9 @@ static inline swivel_limb_joints swivel_default_limb_joints(uint32_t shoulder, u
 }
 
 // swivel_bind() of a limb in a skeleton. Local rotations are relative to the joint's own parent, as the skeleton has
-// them. Reads only the joints from wrist and twist bones up to the shoulder. Any thread; no allocation. It fails as
-// swivel_bind() does. It fails for joints that do not exist, are no limb or have a parent that does not exist, and for
-// twist bones that are not in order.
+// them. Reads the joints from wrist and twist bones up to the shoulder, and parents up to the root: others may hold
+// anything. Any thread; no allocation. It fails as swivel_bind() does. It also fails for joints that do not exist or
+// are no limb, for parents that do not exist or go round in a circle, and for twist bones that are not in order.
 SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                             swivel_binding* binding);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: a limb bound by joints of a skeleton, with joints in between that rest rigid and twist bones, poses that
-// skeleton: forward kinematics over all of its joints, by Eigen in double, finds the wrist on its target.
+// The promise: a limb bound by joints of a skeleton poses that skeleton. It may have joints in between, which stay at
+// rest, and twist bones. Forward kinematics over all joints, by Eigen in double, finds the wrist on its target.
 #include "tests/rest_skeleton.h"
 #include "tests/test_whole_limb.h"
 
