@@ -48,7 +48,8 @@ double outside_twist(const Rotor<double>& q, const Vector<double>& axis, const f
 }
 double outside_cone(const Vector<double>& a, const Vector<double>& b, double cos_opening)
 {
-    return std::atan2(std::sqrt(len2(cross(a, b))), scalar_product(a, b)) - std::acos(std::clamp(cos_opening, -1.0, 1.0));
+    return std::atan2(std::sqrt(len2(cross(a, b))), scalar_product(a, b)) -
+           std::acos(std::clamp(cos_opening, -1.0, 1.0));
 }
 // Of the two triples of angles the one that is nearer counts.
 double outside_box(const Rotor<double>& q, const float* ranges, const EulerOrder& order)
