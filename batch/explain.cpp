@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "batch/edge.h"
+#include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
@@ -49,13 +50,13 @@ private:
 // A crowd of one limb, which takes a limb of another.
 class Probe {
 public:
-    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb)
+    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb, std::uint32_t without = 0)
         : from_(std::size_t{group.first_block} * SWIVEL_LANES + limb)
     {
         swivel_group_def alone = swivel_default_group_def(1);
         alone.binding = group.binding;
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = of.features & ~std::uint32_t{SWIVEL_BUDGET};
+        def.features = of.features & ~(SWIVEL_BUDGET | without);
         def.groups = &alone;
         def.group_count = 1;
         def.shoulder_order = of.shoulder_order;
@@ -68,6 +69,16 @@ public:
 
     const swivel_crowd& crowd() const { return *crowd_; }
     LimbPose pose() const { return forward(*crowd_, crowd_->groups[0], 0); }
+    // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the crowd has none.
+    double violation(swivel_field limit) const
+    {
+        float values[12] = {};
+        const std::uint32_t count = component_count(limit);
+        for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
+        const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? crowd_->wrist_order : crowd_->shoulder_order;
+        const ArmRotors arm = arm_rotors(*crowd_, crowd_->groups[0], 0);
+        return count == 0 ? 0 : outside_limit(arm, limit, values, order) * 180 / std::numbers::pi;
+    }
     double residual_length() const
     {
         const double lengths = double{value(SWIVEL_LENGTHS, 0)} + double{value(SWIVEL_LENGTHS, 1)};
@@ -209,6 +220,21 @@ double swivel_between(const Vector<double>& shoulder, const LimbPose& a, const L
     return std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)) * 180 / std::numbers::pi;
 }
 
+// How far the place that violates all limits least is outside of each.
+void explain_violations(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+{
+    Probe taken(crowd, group, limb, SWIVEL_COMPACT);  // words of 16 bits are good to 0.009 degrees
+    taken.solve();
+    bool is_first = true;
+    for (const Limit& limit : kLimits) {
+        const double degrees = taken.violation(limit.field);
+        if (degrees < 0.005) continue;  // it would read 0.00
+        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", field_name(limit.field), degrees);
+        is_first = false;
+    }
+    text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
+}
+
 void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, const Probe& solved,
                     std::uint32_t flags, Text& text)
 {
@@ -227,6 +253,7 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
         text.add(" No place of the elbow keeps %s%s: the one that violates them least is taken.",
                  alone.is_empty() ? "all limits at once, as the wish breaks " : "",
                  alone.is_empty() ? room[0] : room[1]);
+        explain_violations(crowd, group, limb, text);
         return;
     }
     wished.solve();

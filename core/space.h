@@ -23,21 +23,29 @@ struct ParentFrame {
 // What a group's binding (batch/swivel.h: swivel_binding) makes of an arm's rotors. All of them of unit length.
 template <class T>
 struct Binding {
-    Rotor<T> parent_from_arm, arm_from_upper, fore_from_arm;
+    Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm;
     Rotor<T> elbow_straight, elbow_hinge;  // the elbow's local rotation is cos elbow_straight - sin elbow_hinge
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
 
+// One of a binding's quaternions.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> broadcast(const float (&q)[4])
+{
+    return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3]));
+}
+
 template <class T>
 SWIVEL_INLINE constexpr Binding<T> binding(const Rotor<T>& parent_from_arm, const Rotor<T>& upper_from_arm,
-                                           const Rotor<T>& fore_from_arm, const Rotor<T>& shoulder_rest,
+                                           const Rotor<T>& elbow_parent_from_arm, const Rotor<T>& fore_from_arm,
+                                           const Rotor<T>& wrist_parent_from_arm, const Rotor<T>& shoulder_rest,
                                            const Rotor<T>& elbow_rest, const Rotor<T>& wrist_rest)
 {
     return {parent_from_arm,
             ~upper_from_arm,
-            fore_from_arm,
-            upper_from_arm * ~fore_from_arm,
-            times_blade<kI>(upper_from_arm) * ~fore_from_arm,
+            wrist_parent_from_arm,
+            elbow_parent_from_arm * ~fore_from_arm,
+            times_blade<kI>(elbow_parent_from_arm) * ~fore_from_arm,
             shoulder_rest,
             elbow_rest,
             wrist_rest};
@@ -106,7 +114,7 @@ SWIVEL_INLINE constexpr Rotor<T> elbow_local(const Binding<T>& bind, const ArmPo
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> wrist_local(const Binding<T>& bind, const Rotor<T>& wrist)
 {
-    return bind.fore_from_arm * wrist;
+    return bind.wrist_parent_from_arm * wrist;
 }
 
 // q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to the wanted orientation of the

@@ -53,12 +53,6 @@ struct Rows {
     }
 };
 
-template <class T>
-SWIVEL_INLINE Rotor<T> broadcast(const float (&q)[4])
-{
-    return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3]));
-}
-
 // What all steps of a run share.
 template <class T>
 struct Shared {
@@ -69,9 +63,11 @@ template <class T>
 SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
 {
     const swivel_binding& b = *run.binding;
-    return {binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
-                    broadcast<T>(b.shoulder_rest), broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
-            T(run.pole_is_point)};
+    return {
+        binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.elbow_parent_from_arm),
+                broadcast<T>(b.fore_from_arm), broadcast<T>(b.wrist_parent_from_arm), broadcast<T>(b.shoulder_rest),
+                broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
+        T(run.pole_is_point)};
 }
 
 constexpr bool has(std::uint32_t features, swivel_feature feature) { return features & feature; }

@@ -98,20 +98,26 @@ inline LimbUse limb_use(const LimbRun& run)
 // How the skeleton's joints lie to the arm frame; all identities in crowds without joints.
 template <class T>
 struct LimbBinding {
-    Rotor<T> parent_from_arm, upper_from_arm, fore_from_arm;
+    Rotor<T> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
     Rotor<T> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
 template <class T>
 SWIVEL_INLINE LimbBinding<T> limb_binding(const LimbRun& run)
 {
-    const auto broadcast = [](const float(&q)[4])
-                               SWIVEL_INLINE_LAMBDA { return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3])); };
-    if (!(run.features & SWIVEL_JOINTS)) return {one<T>(), one<T>(), one<T>(), one<T>(), one<T>(), one<T>(), one<T>()};
+    const Rotor<T> q = one<T>();
+    if (!(run.features & SWIVEL_JOINTS)) return {q, q, q, q, q, q, q, q, q};
     const swivel_binding& b = *run.binding;
-    const Rotor<T> fore = broadcast(b.fore_from_arm), wrist_rest = broadcast(b.wrist_rest);
-    return {broadcast(b.parent_from_arm), broadcast(b.upper_from_arm), fore,      normalise(~fore * wrist_rest),
-            broadcast(b.shoulder_rest),   broadcast(b.elbow_rest),     wrist_rest};
+    const Rotor<T> wrist_parent = broadcast<T>(b.wrist_parent_from_arm), wrist_rest = broadcast<T>(b.wrist_rest);
+    return {broadcast<T>(b.parent_from_arm),
+            broadcast<T>(b.upper_from_arm),
+            broadcast<T>(b.elbow_parent_from_arm),
+            broadcast<T>(b.fore_from_arm),
+            wrist_parent,
+            normalise(~wrist_parent * wrist_rest),
+            broadcast<T>(b.shoulder_rest),
+            broadcast<T>(b.elbow_rest),
+            wrist_rest};
 }
 
 template <class T>
@@ -185,7 +191,8 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
         if (use.hand && !use.aim) goal.hand = arm_from_world * goal.hand;
         if (rows.has(SWIVEL_WITH_CLAVICLE)) turn_clavicle(use, bind, rows, pole_is_point, goal, entry);
     }
-    if (use.hand && joints) goal.hand = (use.aim ? ~bind.fore_from_arm * goal.hand : goal.hand) * ~bind.hand_from_arm;
+    if (use.hand && joints)
+        goal.hand = (use.aim ? ~bind.wrist_parent_from_arm * goal.hand : goal.hand) * ~bind.hand_from_arm;
     const auto load_in_hand = [&](swivel_field field) SWIVEL_INLINE_LAMBDA {
         const Vector<T> v = rows.load_vector(field);
         return joints ? sandwich(bind.hand_from_arm, v) : v;
@@ -200,8 +207,9 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
             return scaled(joints ? ~from * local * to : local);
         };
         goal.incoming = {load(SWIVEL_INCOMING_SHOULDER, bind.parent_from_arm, bind.upper_from_arm),
-                         load(SWIVEL_INCOMING_ELBOW, bind.upper_from_arm, bind.fore_from_arm), one<T>()};
-        if (use.hand) goal.incoming.wrist = load(SWIVEL_INCOMING_WRIST, bind.fore_from_arm, ~bind.hand_from_arm);
+                         load(SWIVEL_INCOMING_ELBOW, bind.elbow_parent_from_arm, bind.fore_from_arm), one<T>()};
+        if (use.hand)
+            goal.incoming.wrist = load(SWIVEL_INCOMING_WRIST, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
     }
     if (use.weights)
         goal.weights = {rows.load(SWIVEL_WEIGHTS, 0), rows.load(SWIVEL_WEIGHTS, 1), rows.load(SWIVEL_WEIGHTS, 2)};
@@ -233,21 +241,24 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
           joints ? bind.parent_from_arm * pose.arm.shoulder * ~bind.upper_from_arm : pose.arm.shoulder,
           bind.shoulder_rest);
     if (joints) {
-        store(SWIVEL_ELBOW, SWIVEL_INCOMING_ELBOW, bind.upper_from_arm * elbow * ~bind.fore_from_arm, bind.elbow_rest);
+        store(SWIVEL_ELBOW, SWIVEL_INCOMING_ELBOW, bind.elbow_parent_from_arm * elbow * ~bind.fore_from_arm,
+              bind.elbow_rest);
     } else {
         rows.store(SWIVEL_ELBOW, 0, pose.arm.cos_half);
         rows.store(SWIVEL_ELBOW, 1, pose.arm.sin_half);
     }
     if (use.hand)
         store(SWIVEL_WRIST, SWIVEL_INCOMING_WRIST,
-              joints ? bind.fore_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist, bind.wrist_rest);
+              joints ? bind.wrist_parent_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist, bind.wrist_rest);
     if (const int bones = static_cast<int>(twist_bone_count(rows.run.features)); bones > 0) {
         const Turned<T> twist = twist_rotor(pose.wrist);
         for (int n = 0; n < bones; ++n) {
             const Turned<T> share = shared_twist(twist, (n + 1.0) / (bones + 1.0));
-            const Rotor<T> q =
-                bind.fore_from_arm * (share.cos * unit<T, kScalar>() + share.sin * unit<T, kK>()) * ~bind.fore_from_arm;
-            rows.store_rotor(SWIVEL_TWIST, hemisphere(q), 4 * n);
+            const auto turn = share.cos * unit<T, kScalar>() + share.sin * unit<T, kK>();
+            const swivel_binding& b = *rows.run.binding;
+            const Rotor<T> parent = joints ? broadcast<T>(b.twist_parent_from_arm[n]) : one<T>(),
+                           bone = joints ? broadcast<T>(b.twist_from_arm[n]) : one<T>();
+            rows.store_rotor(SWIVEL_TWIST, hemisphere(parent * turn * ~bone), 4 * n);
         }
     }
     if (rows.has(SWIVEL_WITH_CLAVICLE)) {

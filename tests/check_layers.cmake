@@ -102,14 +102,14 @@ may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$"
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"batch/swivel[.]h\"")
 
-# ---- batch: never lanes; only rig, edge, joint_angles, unpack, verify and the flags in api.cpp know core
+# ---- batch: never lanes; only rig, skeleton, edge, joint_angles, unpack, verify and the flags in api.cpp know core
 set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<(std(def|int)|string)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
 may_include(batch "batch/(api_solve|api_pose|sized|budget|chosen|crowd|frame|lane_mask|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
-may_include(batch "batch/(rig|angles|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|skeleton|angles|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<(std(def|int)|string)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver

@@ -74,8 +74,9 @@ bool is_plain(const Inputs& inputs, std::uint32_t features, std::uint32_t group,
     }
     const PlainArm<float> arm = solve_plain(seen.goal);
     const swivel::corpus::Binding& own = kBindings[group];
-    const auto bind = binding(rotor_of(own.parent_from_arm), rotor_of(own.upper_from_arm), rotor_of(own.fore_from_arm),
-                              rotor_of(own.shoulder_rest), rotor_of(own.elbow_rest), rotor_of(own.wrist_rest));
+    const Rotor<float> upper = rotor_of(own.upper_from_arm), fore = rotor_of(own.fore_from_arm);
+    const auto bind = binding(rotor_of(own.parent_from_arm), upper, upper, fore, fore, rotor_of(own.shoulder_rest),
+                              rotor_of(own.elbow_rest), rotor_of(own.wrist_rest));
     Rotor<float> shoulder = arm.pose.shoulder, wrist = wrist_rotor(arm.pose, hand);
     if (features & kJoints) {
         shoulder = shoulder_local(bind, arm.pose);

@@ -211,6 +211,7 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
         problem.groups.push_back(group_of(1 + random.below(most_limbs)));
         const Quaterniond q = random.rotation();
         std::ranges::copy(floats(q), problem.groups.back().binding.upper_from_arm);
+        std::ranges::copy(floats(q), problem.groups.back().binding.elbow_parent_from_arm);
     }
     const Crowd crowd = problem.crowd();
     for (const swivel_group_def& group : problem.groups) {
