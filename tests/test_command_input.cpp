@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bad input of every kind: exit code 1, one line on stderr that names file, line and cause, and no file that was not
-// there, whole or partial; a file that was there keeps its bytes.
+// Bad input of every kind. The exit code is 1, and one line on stderr names file, line and cause. No new file appears,
+// whole or partial. A file that was there keeps its bytes.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: the corpus is what it says. Every ordinary arm passes the plain formula's own test, hard and whole limbs
-// meet every flag there is, names and seeds are unique, and golden.h has each crowd once.
+// The promise: the corpus is what it says. Every ordinary arm passes the plain formula's own test. Hard and whole limbs
+// together have every flag. Names and seeds are unique, and golden.h has each crowd once.
 #include "tools/corpus/corpus.h"
 
 #include <algorithm>

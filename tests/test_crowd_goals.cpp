@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a crowd file asks of where limbs go is in the poses that `swivel solve` writes: each key by forward kinematics
-// of the written file, or against what the same crowd does without it. Limits and reach are in test_crowd_bounds.cpp.
+// The goals of a crowd file are met in the poses that `swivel solve` writes. Each key is checked by forward kinematics
+// of the written file, or against the same crowd without it. Limits and reach are in test_crowd_bounds.cpp.
 #include <catch2/catch.hpp>
 
 #include <cmath>

@@ -185,8 +185,8 @@ TEST_CASE("targets: damaged tables are refused with line, column and cause")
     CHECK_THROWS_WITH(read_targets_csv(folder.path), Contains("is a directory"));
 }
 
-// The parser reads 32 MiB, then 16 MiB at a time over what it read before. With lines of 32 bytes and no last line end,
-// the byte after the end is the line end of an older line, which must not be taken for one.
+// The parser reads 32 MiB, and then 16 MiB at a time over older text. Lines have 32 bytes, and the last one has no line
+// end. So the byte after the end is the line end of an older line. The parser must not take it for this line's end.
 TEST_CASE("targets: tables longer than the parser's window are read whole")
 {
     const TempFolder folder;

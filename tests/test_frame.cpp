@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a whole frame through the caller's arrays gives the bits of writing, solving and reading, for any stride
-// and alignment, touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
+// and alignment. It touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
 #include "tests/allocation_count.h"
 #include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
