@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "tools/formats/targets_csv.h"
+
 #include <fmt/format.h>
 
 #include <iterator>
-
-#include "tools/formats/targets_csv.h"
 
 namespace swivel::formats {
 
