@@ -65,7 +65,7 @@ double off_box(const Quaterniond& q, const AngleBox& box)
 
 TEST_CASE("explain names inputs that were never written, or are out of range, and no other")
 {
-    constexpr std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_LIMIT_SHOULDER_CONE;
+    constexpr std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
     const swivel_group_def group = swivel_default_group_def(20);
     for (const std::uint32_t compact : {0u, std::uint32_t{SWIVEL_COMPACT}}) {
         Crowd crowd(features | compact, {&group, 1});
@@ -127,7 +127,7 @@ TEST_CASE("explain measures how far a target is out of reach")
 TEST_CASE("explain says which limit turned the elbow from its wish, by how much, and why none is kept")
 {
     Random random{6};
-    constexpr std::uint32_t count = 300, limits = SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
+    constexpr std::uint32_t count = 300, limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
     const Chained limb = chained(random);
     Crowd limited = crowd_of(kWorldJointsHand | limits, count, limb.bound),
           free = crowd_of(kWorldJointsHand, count, limb.bound);
@@ -184,9 +184,9 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
     };
     int named = 0;
     for (const std::uint32_t limits :
-         {SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_HAND_CONE,
-          SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_SHOULDER_CONE,
-          SWIVEL_LIMIT_SHOULDER_BOX | SWIVEL_LIMIT_WRIST_BOX, SWIVEL_LIMIT_WRIST_BOX | SWIVEL_LIMIT_HAND_CONE}) {
+         {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
+          SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
+          SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
         const Chained limb = chained(random);
         swivel_group_def group = swivel::group(count, limb.bound);
         swivel_crowd_def def = def_of(group);
@@ -238,13 +238,13 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
                                   Quaterniond(hands[n].data()));
             const Vector3d bone = Vector3d::UnitZ();
             const std::pair<std::uint32_t, std::pair<const char*, double>> off[] = {
-                {SWIVEL_LIMIT_SHOULDER_CONE, {"shoulder_cone", off_cone(shoulder_axis, q.shoulder * bone, 0.5)}},
-                {SWIVEL_LIMIT_HUMERAL_TWIST, {"humeral_twist", off_twist(q.shoulder, bone, humeral)}},
-                {SWIVEL_LIMIT_SHOULDER_BOX, {"shoulder_box", off_box(q.shoulder, shoulder_box)}},
-                {SWIVEL_LIMIT_HAND_CONE, {"hand_cone", off_cone(bone, q.wrist * hand_axis, 0.3)}},
-                {SWIVEL_LIMIT_FOREARM_TWIST, {"forearm_twist", off_twist(q.wrist, bone, forearm)}},
-                {SWIVEL_LIMIT_HAND_TWIST, {"hand_twist", off_twist(q.wrist, twist_axis, hand)}},
-                {SWIVEL_LIMIT_WRIST_BOX, {"wrist_box", off_box(q.wrist, wrist_box)}},
+                {SWIVEL_WITH_SHOULDER_CONE, {"shoulder_cone", off_cone(shoulder_axis, q.shoulder * bone, 0.5)}},
+                {SWIVEL_WITH_HUMERAL_TWIST, {"humeral_twist", off_twist(q.shoulder, bone, humeral)}},
+                {SWIVEL_WITH_SHOULDER_BOX, {"shoulder_box", off_box(q.shoulder, shoulder_box)}},
+                {SWIVEL_WITH_HAND_CONE, {"hand_cone", off_cone(bone, q.wrist * hand_axis, 0.3)}},
+                {SWIVEL_WITH_FOREARM_TWIST, {"forearm_twist", off_twist(q.wrist, bone, forearm)}},
+                {SWIVEL_WITH_HAND_TWIST, {"hand_twist", off_twist(q.wrist, twist_axis, hand)}},
+                {SWIVEL_WITH_WRIST_BOX, {"wrist_box", off_box(q.wrist, wrist_box)}},
             };
             const std::string pose = text.substr(text.find("Its pose violates"));
             CHECK(compact.explain(0, n).ends_with(pose));  // words of 16 bits do not matter
@@ -266,7 +266,7 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
 
 TEST_CASE("explain writes no further than it may, changes nothing and refuses what is not there")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_STEP | SWIVEL_LIMIT_SHOULDER_CONE, 20);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE, 20);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.1));
     crowd.solve();

@@ -32,9 +32,9 @@ Locals posed(const RestSkeleton& skeleton, const Crowd& crowd, std::uint32_t n)
     locals[skeleton.shoulder] = result_of(crowd, SWIVEL_SHOULDER, n);
     locals[skeleton.elbow] = result_of(crowd, SWIVEL_ELBOW, n);
     if (swivel_field_row_count(crowd.get(), SWIVEL_WRIST)) locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
-    if (swivel_field_row_count(crowd.get(), SWIVEL_TWIST))
+    if (swivel_field_row_count(crowd.get(), SWIVEL_TWIST_BONES))
         for (std::uint32_t bone = 0; bone < skeleton.twist_bones.size(); ++bone)
-            locals[skeleton.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST, n, 4 * bone);
+            locals[skeleton.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST_BONES, n, 4 * bone);
     return locals;
 }
 
@@ -62,7 +62,7 @@ struct Posed {
     Posed(Random& random, const Between& shape, std::uint32_t features, std::uint32_t count, std::uint32_t bones = 0)
         : skeleton(random_skeleton(random, shape, bones)),
           bound(skeleton.bound()),
-          crowd(crowd_of(features | bones * SWIVEL_TWIST_BONES, count, bound))
+          crowd(crowd_of(features | bones * SWIVEL_WITH_TWIST_BONES, count, bound))
     {
         for (std::uint32_t n = 0; n < count; ++n) {
             limbs.push_back(random_limb(random, features, {bound.lengths[0], bound.lengths[1]}));
@@ -393,12 +393,12 @@ TEST_CASE("a crowd has as many twist bones as its bindings, or bindings that do 
     const swivel_group_def group = swivel::group(1, bind(figure.skeleton, figure.joints));
     for (const std::uint32_t bones : {1u, 3u})
         CHECK_THROWS_WITH(
-            Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_TWIST_BONES, {&group, 1}),
+            Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}),
             Catch::Contains("group 0's binding has 2 twist bones, this crowd has " + std::to_string(bones)));
     for (const std::uint32_t bones : {0u, 2u})
-        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_TWIST_BONES, {&group, 1}));
-    CHECK_NOTHROW(Crowd(SWIVEL_WITH_HAND | 5 * SWIVEL_TWIST_BONES, {&group, 1}));
+        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
+    CHECK_NOTHROW(Crowd(SWIVEL_WITH_HAND | 5 * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
     const swivel_group_def chain = group_of(1);
     for (std::uint32_t bones = 0; bones <= 7; ++bones)
-        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_TWIST_BONES, {&chain, 1}));
+        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&chain, 1}));
 }

@@ -63,7 +63,7 @@ TEST_CASE("docs: joints of a skeleton")
     const swivel_group_def arms = swivel::group(1, swivel::bind(skeleton, left));
     // [end]
     constexpr std::uint32_t features =
-        SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_TWIST_BONES;
+        SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_TWIST_BONES;
     swivel::Crowd crowd(features, {&arms, 1});
     const Eigen::Vector3d shoulder(0.2, 1.4, 0), target(0.3, 1.2, 0.35);
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.2f, 1.4f, 0});
@@ -75,7 +75,7 @@ TEST_CASE("docs: joints of a skeleton")
     crowd.read(SWIVEL_SHOULDER, 0, upper);
     crowd.read(SWIVEL_ELBOW, 0, fore);
     crowd.read(SWIVEL_WRIST, 0, hand);
-    crowd.read(SWIVEL_TWIST, 0, twist);
+    crowd.read(SWIVEL_TWIST_BONES, 0, twist);
     const Eigen::Quaterniond elbow_w = quat(upper[0]) * quat(fore[0]);
     const Eigen::Vector3d x = Eigen::Vector3d::UnitX(),
                           wrist = shoulder + quat(upper[0]) * (0.3 * x) +
@@ -97,7 +97,7 @@ TEST_CASE("docs: mirrored limits")
         swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
     // [end]
     const swivel_group_def arms[] = {swivel::group(1), swivel::group(1)};
-    swivel::Crowd crowd(SWIVEL_LIMIT_HUMERAL_TWIST, arms);
+    swivel::Crowd crowd(SWIVEL_WITH_HUMERAL_TWIST, arms);
     for (const std::uint32_t side : {0u, 1u})
         crowd.write_all(SWIVEL_LENGTHS, side, Float2{1, 1});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, left);

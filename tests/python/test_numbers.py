@@ -91,7 +91,7 @@ class Poses(unittest.TestCase):
         kept = swivel.Binding(**{name: getattr(limb, name) for name in dir(swivel.Binding) if name[0] != "_"})
         self.assertEqual(repr(kept), repr(limb))
         self.assertEqual(limb.twist_from_arm.shape, (2, 4))
-        crowd = swivel.Crowd([(N, kept)], Feature.JOINTS | Feature.WORLD | Feature.WITH_HAND | 2 * Feature.TWIST_BONES)
+        crowd = swivel.Crowd([(N, kept)], Feature.JOINTS | Feature.WORLD | Feature.WITH_HAND | 2 * Feature.WITH_TWIST_BONES)
         reach = limb.lengths.sum()
         line = random.normal(size=(N, 3))
         line *= random.uniform(0.7, 0.9, (N, 1)) * reach / np.linalg.norm(line, axis=1)[:, None]
@@ -102,7 +102,7 @@ class Poses(unittest.TestCase):
         crowd.solve()
         local = list(still)
         local[6], local[4], local[0] = crowd.read(Field.SHOULDER), crowd.read(Field.ELBOW), crowd.read(Field.WRIST)
-        twist = crowd.read(Field.TWIST)
+        twist = crowd.read(Field.TWIST_BONES)
         local[2], local[1] = twist[:, :4], twist[:, 4:]
         turned, at = pose(local)
         reached = (crowd.read(Field.FLAGS) & Flag.REACHED) != 0
@@ -127,7 +127,7 @@ class Poses(unittest.TestCase):
         feasible = (arms.flags & Flag.INFEASIBLE) == 0
         self.assertTrue(np.any(feasible) and np.any(~feasible))
         self.assertTrue(np.all(cosine[feasible] > np.cos(1.2) - 1e-6))
-        crowd = crowd_of(sample, Feature.LIMIT_SHOULDER_CONE)
+        crowd = crowd_of(sample, Feature.WITH_SHOULDER_CONE)
         crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 0, 1), 1.2))
         arcs = [crowd.allowed_arcs(limb) for limb in range(N)]
         crowd.solve()
@@ -230,7 +230,7 @@ class Bits(unittest.TestCase):
             if runs:
                 swivel.use_isa(name)
                 self.assertEqual(swivel.isa_name(), name)
-                crowd = crowd_of(Sample(N), Feature.LIMIT_SHOULDER_CONE)
+                crowd = crowd_of(Sample(N), Feature.WITH_SHOULDER_CONE)
                 crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 1, 1), 1.0))
                 crowd.solve()
                 found.add(self.results(crowd))
