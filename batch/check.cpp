@@ -61,7 +61,8 @@ constexpr FeatureRule kFeatureRules[] = {
      "SWIVEL_COMPACT and SWIVEL_WITH_TWIST_BONES exclude each other; leave one out"},
     {SWIVEL_COMPACT, SWIVEL_WITH_REACH, false,
      "SWIVEL_COMPACT and SWIVEL_WITH_REACH exclude each other; leave one out"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_MOST_SWIVEL, false, "SWIVEL_COMPACT and SWIVEL_WITH_MOST_SWIVEL exclude each other; leave one out"},
+    {SWIVEL_COMPACT, SWIVEL_WITH_MOST_SWIVEL, false,
+     "SWIVEL_COMPACT and SWIVEL_WITH_MOST_SWIVEL exclude each other; leave one out"},
 };
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 

@@ -48,9 +48,9 @@
 //   SWIVEL_INCOMING_WRIST      4     and WITH_HAND        whole quaternions
 //   SWIVEL_WEIGHTS             3     WITH_WEIGHTS         of position, hand, pole: 0 the incoming pose's, 1 the goal's
 //   SWIVEL_REACH               4     WITH_REACH           soft zone far, soft zone near, most stretch, least distance
-//   SWIVEL_MOST_SWIVEL         2     WITH_MOST_SWIVEL            cos, sin of how far the swivel may turn in one solve, 0..pi
-//   SWIVEL_FLEXION_LIMIT       2     WITH_FLEXION_LIMIT        cos of half the least flexion, cos of half the largest
-//   SWIVEL_SHOULDER_CONE       4     WITH_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
+//   SWIVEL_MOST_SWIVEL         2     WITH_MOST_SWIVEL            cos, sin of how far the swivel may turn in one solve,
+//   0..pi SWIVEL_FLEXION_LIMIT       2     WITH_FLEXION_LIMIT        cos of half the least flexion, cos of half the
+//   largest SWIVEL_SHOULDER_CONE       4     WITH_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
 //   SWIVEL_HUMERAL_TWIST       4     WITH_HUMERAL_TWIST  range of the upper arm's twist about itself
 //   SWIVEL_SHOULDER_BOX        12    WITH_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
 //   SWIVEL_HAND_CONE           4     WITH_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
@@ -61,9 +61,10 @@
 //   SWIVEL_CLAVICLE            4     WITH_CLAVICLE        shoulder's place in its parent joint's frame; share 0..1
 //   more result rows
 //   SWIVEL_STRETCH             1     WITH_REACH           factor for both bone lengths, 1 or more
-//   SWIVEL_NORMAL              3     WITH_MOST_SWIVEL            unit normal of the swivel plane, arm frame; kept for the next
-//   SWIVEL_TWIST_BONES               4 n   WITH_TWIST_BONES * n      a quaternion for each of n twist bones, see below
-//   SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation * this
+//   SWIVEL_NORMAL              3     WITH_MOST_SWIVEL            unit normal of the swivel plane, arm frame; kept for
+//   the next SWIVEL_TWIST_BONES               4 n   WITH_TWIST_BONES * n      a quaternion for each of n twist bones,
+//   see below SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation
+//   * this
 //
 // RANGES. A range is cos and sin of its middle, then cos and sin of half its width, which is 0..pi. Axes, cosines with
 // their sines, and ranges are of unit length within 5e-4. Weights are 0..1. Anything else is bad input.
@@ -110,12 +111,13 @@
 //
 // TWIST BONES. The hand's twist about the forearm is shared over n of them, children of the forearm. Bone i of 1..n
 // turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis. With JOINTS and a binding that knows them,
-// SWIVEL_TWIST_BONES is their local rotations. With a binding of a chain, a local rotation is this quaternion times the rest
-// rotation; without JOINTS it is this quaternion in the arm frame.
+// SWIVEL_TWIST_BONES is their local rotations. With a binding of a chain, a local rotation is this quaternion times the
+// rest rotation; without JOINTS it is this quaternion in the arm frame.
 //
-// STEPS. With WITH_MOST_SWIVEL the plane's normal is carried from solve to solve, in the arm frame. In each it is first made
-// perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and swivel_reset()
-// forget it; call that after a teleport. Without WITH_MOST_SWIVEL results depend on the frame's own inputs alone.
+// STEPS. With WITH_MOST_SWIVEL the plane's normal is carried from solve to solve, in the arm frame. In each it is first
+// made perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and
+// swivel_reset() forget it; call that after a teleport. Without WITH_MOST_SWIVEL results depend on the frame's own
+// inputs alone.
 //
 // CONTINUITY. The swivel is continuous, but for targets that pass through the shoulder, poles that pass through the
 // line, and limits whose nearest swivel changes sides. With WITH_AIM an elbow that passes through the line rolls the
@@ -255,10 +257,10 @@ typedef enum swivel_feature {
     SWIVEL_WITH_FOREARM_TWIST = 1u << 18,
     SWIVEL_WITH_HAND_TWIST = 1u << 19,
     SWIVEL_WITH_WRIST_BOX = 1u << 20,
-    SWIVEL_WITH_TWIST_BONES = 1u << 21,    // times the number of twist bones, 1 to 7
-    SWIVEL_WITH_AIM = 1u << 24,       // the flexion is given, and the hand points at the target
-    SWIVEL_WITH_CLAVICLE = 1u << 25,  // the shoulder's parent joint takes a share of the reach. Needs WORLD
-    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), jobs with priorities
+    SWIVEL_WITH_TWIST_BONES = 1u << 21,  // times the number of twist bones, 1 to 7
+    SWIVEL_WITH_AIM = 1u << 24,          // the flexion is given, and the hand points at the target
+    SWIVEL_WITH_CLAVICLE = 1u << 25,     // the shoulder's parent joint takes a share of the reach. Needs WORLD
+    SWIVEL_BUDGET = 1u << 29,            // how long blocks wait is remembered: swivel_choose(), jobs with priorities
 } swivel_feature;
 
 typedef enum swivel_field {

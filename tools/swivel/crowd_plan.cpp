@@ -62,7 +62,8 @@ struct Planner {
             plan.effector = from.effector->value;
             plan.features |= SWIVEL_WITH_EFFECTOR;
         }
-        if (from.twist_bones) plan.features |= static_cast<std::uint32_t>(from.twist_bones->value) * SWIVEL_WITH_TWIST_BONES;
+        if (from.twist_bones)
+            plan.features |= static_cast<std::uint32_t>(from.twist_bones->value) * SWIVEL_WITH_TWIST_BONES;
         if (from.priority) plan.priority = static_cast<float>(from.priority->value);
     }
 
