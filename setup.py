@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The part of the Python package's build that pyproject.toml cannot say: swivel._core, compiled by CMake from tools/python.
+"""Builds swivel._core, the Python package's extension module, by CMake from tools/python. pyproject.toml has the rest.
 
-An installed swivel of the same version is linked where CMake finds it (CMAKE_PREFIX_PATH); otherwise the library is built, too.
-CMAKE_ARGS in the environment is passed on, such as "-DSWIVEL_TBB=OFF".
+If CMake finds an installed swivel of the same version (CMAKE_PREFIX_PATH), the module links it. Otherwise CMake builds the library, too.
+The environment variable CMAKE_ARGS passes options to CMake, such as "-DSWIVEL_TBB=OFF".
 """
 import os
 import re
@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parent
 
 
 def pybind11_folder():
-    """Where CMake finds the pybind11 that pip may have brought; nothing for a system's own."""
+    """Tells CMake where a pybind11 is that pip installed. CMake finds that of the system by itself."""
     try:
         import pybind11
     except ImportError:
@@ -28,7 +28,7 @@ def pybind11_folder():
 
 
 def generator(build, arguments):
-    """Ninja where it is there, as a system may have no make; the caller's choice, and a build folder's own, come first."""
+    """Chooses Ninja if it is installed, because a system may have no make. The caller's choice and that of a build folder come first."""
     chosen = ("CMAKE_GENERATOR" in os.environ or any(each.startswith("-G") for each in arguments)
               or (build / "CMakeCache.txt").exists())
     return [] if chosen or not shutil.which("ninja") else ["-G", "Ninja"]

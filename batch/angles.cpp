@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Values of limit fields from angles, and for the body's other side. The only place of the library, with the joint
-// angles, where trigonometry is allowed: before a solve, never in it.
+// Values of limit fields from angles, and for the other side of the body. Trigonometry is allowed here and in the joint
+// angles: before a solve, never in it.
 #include <cmath>
 #include <numbers>
 
@@ -104,8 +104,8 @@ swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
 
 void swivel_turn(double angle, float turn[2]) { store_turn(angle, turn); }
 
-// The arm frame of the other side is the mirror image with its hinge turned over: coordinates of vectors change sign
-// along the hinge, turns about the two other axes change their sense.
+// The arm frame of the other side is the mirror image with its hinge turned over. So coordinates of vectors change sign
+// along the hinge, and turns about the two other axes change their sense.
 swivel_status swivel_mirror(swivel_field number, swivel_euler_order order, const float* from, float* to)
 {
     if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
@@ -130,7 +130,7 @@ swivel_status swivel_mirror(swivel_field number, swivel_euler_order order, const
         case Field::forearm_twist:
             mirror_range(value, value);
             break;
-        case Field::hand_twist:  // the axis' image times -1 turns the other way, so its own image keeps the sense
+        case Field::hand_twist:  // a turn about the axis becomes one the other way about the axis' mirror image
             value[0] = -value[0];
             mirror_range(value + 3, value + 3);
             break;

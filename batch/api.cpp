@@ -9,6 +9,7 @@
 #include "batch/numbers.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
+#include "batch/skeleton.h"
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
@@ -109,7 +110,23 @@ swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
     if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
     if (const swivel_status status = check_size<swivel_chain>("chain", size_of(chain)); status != SWIVEL_OK)
         return status;
-    return bind(element(chain, 0, swivel_default_chain()), *binding);
+    RestLimb limb;
+    const swivel_status status = rest_limb(element(chain, 0, swivel_default_chain()), limb);
+    return status == SWIVEL_OK ? bind("swivel_bind", limb, *binding) : status;
+}
+
+swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
+                                 swivel_binding* binding)
+{
+    if (!skeleton || !joints || !binding)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: skeleton, joints or binding is null");
+    swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(skeleton));
+    if (status == SWIVEL_OK) status = check_size<swivel_limb_joints>("limb joints", size_of(joints));
+    if (status != SWIVEL_OK) return status;
+    RestLimb limb;
+    status = rest_limb(element(skeleton, 0, swivel_default_skeleton()),
+                       element(joints, 0, swivel_default_limb_joints(0, 0, 0)), limb);
+    return status == SWIVEL_OK ? bind("swivel_bind_joints", limb, *binding) : status;
 }
 
 swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_rotation[4], const double direction[3],

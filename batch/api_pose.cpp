@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The C entry points about single poses: what limits allow, what was solved, in angles, places and errors.
+// The C entry points about single poses: the swivels that limits allow, and the solved pose as angles, positions and
+// errors.
 #include <cstring>
 #include <tuple>
 #include <utility>

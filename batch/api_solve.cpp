@@ -61,7 +61,7 @@ swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swiv
     return status;
 }
 
-// Frames of the groups that blocks touch: those of other groups are not looked at.
+// Checks the frames of the groups that the blocks touch, and not those of other groups.
 swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, swivel_blocks blocks)
 {
     swivel_status status = check_size<swivel_frame>("the first frame", size_of(frames));
@@ -90,7 +90,7 @@ swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
     return job.priorities ? check_priorities(crowd, job.priorities) : SWIVEL_OK;
 }
 
-// Which of a crowd's groups a limb index is in; lists often stay in one.
+// Finds the group that a limb index is in. It keeps the last group, because lists often stay in one.
 struct Finder {
     const swivel_crowd& crowd;
     const Group* at = crowd.groups;

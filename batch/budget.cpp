@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Picks the most urgent blocks by their floats' bits, which for positive numbers are in the same order: counts of how
-// many blocks have which leading digits give the least urgency that is picked, without sorting and without memory.
+// Picks the most urgent blocks. Urgencies are positive floats, whose bits are in the same order as the numbers. The
+// code counts how many blocks have which leading digits. The counts give the least urgency that is picked, without
+// sorting and without allocating memory.
 #include "batch/budget.h"
 
 #include <algorithm>
@@ -29,8 +30,8 @@ float largest(const char* priority, std::size_t stride, std::uint32_t limb_count
     return most < kMostPriority ? most : kMostPriority;
 }
 
-// Adds priorities to the urgency of a group's blocks. That of blocks that are not wanted now becomes negative, or 0.
-// Returns how many are wanted.
+// Adds priorities to the urgency of a group's blocks. The urgency of blocks that are not wanted now becomes negative,
+// or 0. Returns how many are wanted.
 std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& priorities)
 {
     const char* at = static_cast<const char*>(priorities.data);
@@ -53,8 +54,7 @@ struct Limit {
     std::uint32_t key, equal_count;
 };
 
-// The most_blocks largest of the keys, of which more than that are above 0; found digit by digit, the leading one
-// first.
+// Finds the most_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
 Limit find_limit(const swivel_crowd& crowd, std::uint32_t most_blocks)
 {
     constexpr std::uint32_t kMostBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Who is solved within a budget: blocks gather urgency while they wait, and the most urgent are picked.
+// Chooses the blocks that are solved within a budget. Blocks gather urgency while they wait, and the most urgent are
+// picked.
 #pragma once
 
 #include "batch/crowd.h"

@@ -18,7 +18,7 @@ namespace swivel {
 
 namespace {
 
-// Features that mean something only beside another, or not beside another.
+// Features that need another feature, or exclude another one.
 struct FeatureRule {
     FeatureSet feature, other;
     bool together;
@@ -64,7 +64,7 @@ constexpr std::uint64_t kMostLimbs = 1u << 31;
 
 bool is_zero(float x) { return x == 0; }
 
-swivel_status check_binding(std::uint32_t group, const swivel_binding& binding)
+swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, std::uint32_t twist_bones)
 {
     if (std::all_of(std::begin(binding.parent_from_arm), std::end(binding.parent_from_arm), is_zero))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no binding; make it with swivel_bind()", group);
@@ -77,6 +77,10 @@ swivel_status check_binding(std::uint32_t group, const swivel_binding& binding)
             "group %u's binding has bones of length 0; make it with swivel_bind(), or give NaN for lengths that "
             "are written later",
             group);
+    if (twist_bones > 0 && binding.twist_bone_count > 0 && binding.twist_bone_count != twist_bones)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u's binding has %u twist bones, this crowd has %u; give it as many", group,
+                    binding.twist_bone_count, twist_bones);
     return SWIVEL_OK;
 }
 
@@ -115,7 +119,9 @@ swivel_status check(const swivel_crowd_def* given)
         const swivel_group_def group = group_at(def, g);
         if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
         if (def.features & feature::joints)
-            if (const swivel_status status = check_binding(g, group.binding); status != SWIVEL_OK) return status;
+            if (const swivel_status status = check_binding(g, group.binding, twist_bone_count(def.features));
+                status != SWIVEL_OK)
+                return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
     if (limb_count > kMostLimbs)

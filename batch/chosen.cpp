@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Solving some limbs of a crowd. Runs of blocks chosen whole are solved where they lie; other blocks are copied aside
-// and the results of chosen lanes copied back; where only one or two limbs of a block are chosen, these are gathered.
-// Knows nothing of who chose them or why.
+// Solves some limbs of a crowd.
+// - If all limbs of several successive blocks are chosen, the blocks are solved where they lie.
+// - Other blocks are copied aside, and the results of the chosen lanes are copied back.
+// - If only one or two limbs of a block are chosen, they are gathered with others.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,13 +17,14 @@ namespace swivel {
 
 namespace {
 
-// So many limbs of a block, or fewer, are gathered; for more, solving all of it aside costs less.
+// So many limbs of a block, or fewer, are gathered. For more limbs, it costs less to solve the whole block aside.
 constexpr int kFewLimbs = 2;
-// A run of so many blocks chosen whole is solved where it lies. A single one is better solved together with others:
-// alone it leaves a core waiting for its roots.
+// So many successive blocks, all chosen whole, are solved where they lie. A single block is better solved together with
+// others. Alone, it leaves a core waiting for its roots.
 constexpr std::uint32_t kRunBlocks = 2;
 
-// Blocks solved together aside, on the stack: their rows stay in the nearest cache. Blocks of many rows are fewer.
+// So many blocks are solved together aside, on the stack. Their rows stay in the nearest cache. If blocks have many
+// rows, fewer fit.
 constexpr std::uint32_t kAsideBlocks = 8;
 constexpr std::uint32_t kAsideLimbs = kAsideBlocks * SWIVEL_LANES;
 constexpr FeatureSet kPlainFeatures = feature::world | feature::joints | feature::hand;
@@ -30,8 +32,8 @@ constexpr std::uint32_t kInputRows = kAsideBlocks * input_row_count(kPlainFeatur
                         kResultRows = kAsideBlocks * result_row_count(kPlainFeatures);
 static_assert(kInputRows >= input_row_count(kEveryFeature) && kResultRows >= result_row_count(kEveryFeature));
 
-// Four lanes' bits as words of all ones or zeros. A table: such words made one by one could be loaded only after all
-// stores before them, which took as long as half the solve.
+// The bits of four lanes, as words of all ones or zeros. This is a table, because words made one by one can be loaded
+// only after all stores before them. That took as long as half the solve.
 constexpr std::uint32_t kQuad = 4;
 template <class Bits>
 constexpr std::array<std::array<Bits, kQuad>, 1u << kQuad> kTake = [] {
@@ -211,7 +213,7 @@ void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const
             block += whole;
             continue;
         }
-        // A block at a time: those behind are looked at again, at most kRunBlocks times.
+        // This takes one block at a time. It looks at the next blocks again, at most kRunBlocks times.
         const LaneMask chosen = lanes_of(mask, block) & lanes_of_limbs(group, block);
         if (std::popcount(chosen) > kFewLimbs)
             blocks.add(block, chosen);

@@ -28,10 +28,16 @@ RestFrames rest_frames(const swivel_binding& binding)
     const auto copy = [](const float(&from)[4], float(&to)[4]) { std::copy_n(from, 4, to); };
     copy(binding.parent_from_arm, frames.parent_from_arm);
     copy(binding.upper_from_arm, frames.upper_from_arm);
+    copy(binding.elbow_parent_from_arm, frames.elbow_parent_from_arm);
     copy(binding.fore_from_arm, frames.fore_from_arm);
+    copy(binding.wrist_parent_from_arm, frames.wrist_parent_from_arm);
     copy(binding.shoulder_rest, frames.shoulder_rest);
     copy(binding.elbow_rest, frames.elbow_rest);
     copy(binding.wrist_rest, frames.wrist_rest);
+    for (std::size_t n = 0; n < kMostTwistBones; ++n) {
+        copy(binding.twist_parent_from_arm[n], frames.twist_parent_from_arm[n]);
+        copy(binding.twist_from_arm[n], frames.twist_from_arm[n]);
+    }
     return frames;
 }
 
@@ -63,7 +69,7 @@ void fill_field(const swivel_crowd& crowd, Field field, std::initializer_list<fl
     }
 }
 
-// In every lane, padding too, an arm that any kernel solves without a second thought, and what changes nothing.
+// Fills every lane, also of the padding, with an ordinary arm and with inputs that change nothing.
 void fill_inputs(const swivel_crowd& crowd)
 {
     fill_field(crowd, Field::target, {0, 0, 2});
@@ -89,7 +95,7 @@ void fill_inputs(const swivel_crowd& crowd)
     fill_field(crowd, Field::aim, {0, 0, 1, 1, 0});
 }
 
-// In a group's limbs, what nobody can guess: bad input until it is given.
+// Gives a group's limbs NaN for inputs without a sensible default. So they are bad input until the caller gives them.
 void unknown_inputs(const swivel_crowd& crowd, const Group& group)
 {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
@@ -102,7 +108,7 @@ void unknown_inputs(const swivel_crowd& crowd, const Group& group)
     if (crowd.features & feature::world) start(Field::shoulder_position, unknown);
 }
 
-// Every row of a run of blocks holds in each lane what it has in the very first.
+// Copies the first lane of each row of the first block to all lanes of this row, in all blocks of the run.
 template <class Word>
 void spread(Word* rows, std::uint32_t row_count, std::uint32_t block_count)
 {
@@ -112,7 +118,8 @@ void spread(Word* rows, std::uint32_t row_count, std::uint32_t block_count)
                         rows[std::size_t{row} * SWIVEL_LANES]);
 }
 
-// A group's limbs rest, as their inputs, which are bad, have the kernel do; but nothing is said of limbs never solved.
+// Puts a group's limbs into their rest pose. The kernel does so, because their inputs are bad. Limbs that were never
+// solved have no flag.
 void rest(const swivel_crowd& crowd, const Group& group)
 {
     const FloatEnv env;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd in memory: one arena, laid out at creation as the crowd itself, its groups, its input rows, its result rows.
+// A crowd in memory. It has one arena, laid out when the crowd is created: the crowd itself, its groups, its input
+// rows, its result rows.
 #pragma once
 
 #include <cstddef>
@@ -42,9 +43,9 @@ namespace swivel {
 // Words of one bit for each lane.
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
 
-// A group of a def that is full_def()'s.
+// A group of a def that full_def() has filled.
 swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g);
-// Bytes of the arena. The def must be valid, and full_def()'s.
+// Bytes of the arena. The def must be valid, and full_def() must have filled it.
 std::size_t crowd_bytes(const swivel_crowd_def& def);
 // Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says,
 // and all limbs at rest.

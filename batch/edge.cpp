@@ -60,22 +60,19 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
         shoulder = shoulder + scale * sandwich(parent, sandwich(turn, bone) - bone);
         parent = parent * turn;
     }
-    // Without a world the arm frame itself is the space of the targets, so the parent joint is seen from it.
-    const Rotor<double> base = joints && !world ? ~rotor_of(group.binding.parent_from_arm) : parent;
+    // Without SWIVEL_WORLD, targets are in the arm frame itself.
+    const Rotor<double> arm_w = joints && world ? parent * rotor_of(group.binding.parent_from_arm) : parent;
 
-    const Rotor<double> upper_from_arm = joints ? rotor_of(group.binding.upper_from_arm) : one;
-    const Rotor<double> fore_from_arm = joints ? rotor_of(group.binding.fore_from_arm) : one;
-    const Rotor<double> elbow = joints ? read.rotor_of(Field::elbow)
-                                       : normalise(rotor(-read(Field::elbow, 1), 0.0, 0.0, read(Field::elbow, 0)));
-
-    const Rotor<double> upper_w = base * read.rotor_of(Field::shoulder);
-    const Rotor<double> fore_w = upper_w * elbow;
+    // Its axes, as upper arm and forearm carry them. Joints in between go along with the bone that they are in.
+    const ArmRotors arm = arm_rotors(crowd, group, limb);
+    const Rotor<double> upper_w = arm_w * arm.shoulder, fore_w = upper_w * arm.elbow;
+    const Rotor<double> wrist_parent_w = joints ? fore_w * ~rotor_of(group.binding.wrist_parent_from_arm) : fore_w;
     const Vector<double> e3 = vector(0.0, 0.0, 1.0);
     const double size = crowd.features & feature::reach ? scale * read(Field::stretch, 0) : scale;
-    const Vector<double> elbow_w = shoulder + (size * read(Field::lengths, 0)) * sandwich(upper_w * upper_from_arm, e3);
-    const Vector<double> wrist_w = elbow_w + (size * read(Field::lengths, 1)) * sandwich(fore_w * fore_from_arm, e3);
-    const Rotor<double> hand_w = crowd.features & feature::hand ? fore_w * read.rotor_of(Field::wrist) : fore_w;
-    return {elbow_w, wrist_w, hand_w};
+    const Vector<double> elbow_w = shoulder + (size * read(Field::lengths, 0)) * sandwich(upper_w, e3);
+    const Vector<double> wrist_w = elbow_w + (size * read(Field::lengths, 1)) * sandwich(fore_w, e3);
+    const bool with_hand = crowd.features & feature::hand;
+    return {elbow_w, wrist_w, with_hand ? wrist_parent_w * read.rotor_of(Field::wrist) : wrist_parent_w};
 }
 
 ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb)
@@ -88,11 +85,11 @@ ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t 
         return {read.rotor_of(Field::shoulder),
                 normalise(rotor(-read(Field::elbow, 1), 0.0, 0.0, read(Field::elbow, 0))), hemisphere(wrist)};
     const swivel_binding& b = group.binding;
-    const Rotor<double> upper = rotor_of(b.upper_from_arm), fore = rotor_of(b.fore_from_arm);
-    const Rotor<double> hand_from_arm = ~fore * rotor_of(b.wrist_rest);
-    return {~rotor_of(b.parent_from_arm) * read.rotor_of(Field::shoulder) * upper,
-            hemisphere(~upper * read.rotor_of(Field::elbow) * fore),
-            hand ? hemisphere(~fore * wrist * ~hand_from_arm) : one};
+    const Rotor<double> wrist_parent = rotor_of(b.wrist_parent_from_arm);
+    const Rotor<double> hand_from_arm = ~wrist_parent * rotor_of(b.wrist_rest);
+    return {~rotor_of(b.parent_from_arm) * read.rotor_of(Field::shoulder) * rotor_of(b.upper_from_arm),
+            hemisphere(~rotor_of(b.elbow_parent_from_arm) * read.rotor_of(Field::elbow) * rotor_of(b.fore_from_arm)),
+            hand ? hemisphere(~wrist_parent * wrist * ~hand_from_arm) : one};
 }
 
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)

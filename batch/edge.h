@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What needs no lanes: forward kinematics of a solved limb and how far it is from its target, in double.
+// Forward kinematics of one solved limb, and how far it is from its target. It is in double and needs no lanes.
 #pragma once
 
 #include "batch/crowd.h"
@@ -10,7 +10,7 @@ namespace swivel {
 
 struct LimbPose {
     Vector<double> elbow, wrist;  // in the space of the targets
-    Rotor<double> hand;           // identity relative to the forearm without SWIVEL_WITH_HAND
+    Rotor<double> hand;           // without SWIVEL_WITH_HAND that of the wrist's parent joint
 };
 
 LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb);

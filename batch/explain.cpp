@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The limb is solved again in a crowd of its own, on the stack. Which input is bad, and what a limit did, is found by
-// giving it up: with a value that asks for nothing in its place the limb is good, or goes where it was wished to.
-// Degrees are for people: trigonometry is allowed here, as no solve sees it.
+// Solves the limb again, in a crowd of its own on the stack. To find a bad input, or what a limit did, it replaces the
+// input by a value that asks for nothing. If that input is the cause, the limb is then good, or goes where it was
+// wished to. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
 #include "batch/explain.h"
 
 #include <bit>
@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "batch/edge.h"
+#include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
@@ -49,13 +50,13 @@ private:
 // A crowd of one limb, which takes a limb of another.
 class Probe {
 public:
-    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb)
+    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb, std::uint32_t without = 0)
         : from_(std::size_t{group.first_block} * SWIVEL_LANES + limb)
     {
         swivel_group_def alone = swivel_default_group_def(1);
         alone.binding = group.binding;
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = of.features & ~feature::budget;
+        def.features = of.features & ~(feature::budget | without);
         def.groups = &alone;
         def.group_count = 1;
         def.shoulder_order = of.shoulder_order;
@@ -68,6 +69,16 @@ public:
 
     const swivel_crowd& crowd() const { return *crowd_; }
     LimbPose pose() const { return forward(*crowd_, crowd_->groups[0], 0); }
+    // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the crowd has none.
+    double violation(Field limit) const
+    {
+        float values[12] = {};
+        const std::uint32_t count = component_count(limit);
+        for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
+        const swivel_euler_order order = limit == Field::wrist_box ? crowd_->wrist_order : crowd_->shoulder_order;
+        const ArmRotors arm = arm_rotors(*crowd_, crowd_->groups[0], 0);
+        return count == 0 ? 0 : outside_limit(arm, limit, values, order) * 180 / std::numbers::pi;
+    }
     double residual_length() const
     {
         const double lengths = double{value(Field::lengths, 0)} + double{value(Field::lengths, 1)};
@@ -106,7 +117,7 @@ public:
         }
         return true;
     }
-    // The field asks for nothing: it has what padding has, an ordinary arm without limits.
+    // Makes the field ask for nothing. It gets the padding's value, from an ordinary arm without limits.
     void give_up(Field field)
     {
         float* const rows = crowd_->input + row_offset(0, 0, field_first_row(crowd_->features, field));
@@ -209,6 +220,21 @@ double swivel_between(const Vector<double>& shoulder, const LimbPose& a, const L
     return std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)) * 180 / std::numbers::pi;
 }
 
+// How far the place that violates all limits least is outside of each.
+void explain_violations(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+{
+    Probe taken(crowd, group, limb, feature::compact);  // words of 16 bits are good to 0.009 degrees
+    taken.solve();
+    bool is_first = true;
+    for (const Limit& limit : kLimits) {
+        const double degrees = taken.violation(limit.field);
+        if (degrees < 0.005) continue;  // it would read 0.00
+        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", name_of(limit.field), degrees);
+        is_first = false;
+    }
+    text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
+}
+
 void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, const Probe& solved,
                     std::uint32_t flags, Text& text)
 {
@@ -227,6 +253,7 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
         text.add(" No place of the elbow keeps %s%s: the one that violates them least is taken.",
                  alone.is_empty() ? "all limits at once, as the wish breaks " : "",
                  alone.is_empty() ? room[0] : room[1]);
+        explain_violations(crowd, group, limb, text);
         return;
     }
     wished.solve();

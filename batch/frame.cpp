@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole frame: a few blocks at a time are copied in, solved and copied out, while their rows are in the nearest
-// cache; or those of their limbs that are chosen.
+// The whole frame. A few blocks at a time are copied in, solved and copied out, while their rows are in the nearest
+// cache. If limbs are chosen, only these are.
 #include "batch/frame.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace swivel {
 
 namespace {
 
-// A run's rows stay in a level 1 cache of 32 KiB, and it is long enough for the kernels' constants not to count: 4 to
-// 16 blocks took the same time within 3 %.
+// The rows of a run stay in a level 1 cache of 32 KiB. A run is so long that loading the kernels' constants does not
+// count. 4 to 16 blocks took the same time within 3 %.
 constexpr std::uint32_t kRunBlocks = 8;
-// Where limbs are chosen: enough for single ones of several blocks to be solved together.
+// With chosen limbs, a run is longer, so that single limbs of several blocks are solved together.
 constexpr std::uint32_t kChosenRunBlocks = 64;
-// Field after field, two blocks at a time: the fields of a limb often share cache lines, and values a kilobyte apart
-// fall on so few places of a cache that 8 blocks' lines do not stay. Took 0.8 of the time there, 1.03 where they lie
-// close.
+// Copies field after field, for two blocks at a time. The fields of a limb often share cache lines. If values are a
+// kilobyte apart, they fall on so few places of a cache that the lines of 8 blocks do not stay. There this took 0.8 of
+// the time, and 1.03 where values lie close.
 constexpr std::size_t kCopyLimbs = 2 * SWIVEL_LANES;
 
 // Values from limb first on.

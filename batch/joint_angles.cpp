@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "batch/joint_angles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/limits.h"
+#include "core/joint_limits.h"
 
 namespace swivel {
 
@@ -36,7 +37,57 @@ void euler_angles(const Rotor<double>& q, const EulerOrder& order, int family, d
     angles[2] = half_turn_on(angles[2]);
 }
 
+double outside_range(double angle, const float* range)
+{
+    const double middle = std::atan2(range[1], range[0]), half = std::atan2(range[3], range[2]);
+    return std::fabs(std::remainder(angle - middle, 2 * std::numbers::pi)) - half;
+}
+double outside_twist(const Rotor<double>& q, const Vector<double>& axis, const float* range)
+{
+    return outside_range(2 * std::atan2(about(axis, q), q.at<kScalar>()), range);
+}
+double outside_cone(const Vector<double>& a, const Vector<double>& b, double cos_opening)
+{
+    return std::atan2(std::sqrt(len2(cross(a, b))), scalar_product(a, b)) -
+           std::acos(std::clamp(cos_opening, -1.0, 1.0));
+}
+// Of the two triples of angles the one that is nearer counts.
+double outside_box(const Rotor<double>& q, const float* ranges, const EulerOrder& order)
+{
+    double outside[2];
+    for (const int family : {0, 1}) {
+        double angles[3];
+        euler_angles(q, order, family, angles);
+        outside[family] = std::max({outside_range(angles[0], ranges), outside_range(angles[1], ranges + 4),
+                                    outside_range(angles[2], ranges + 8)});
+    }
+    return std::min(outside[0], outside[1]);
+}
+
 }  // namespace
+
+double outside_limit(const ArmRotors& arm, Field limit, const float* value, swivel_euler_order order)
+{
+    const Vector<double> bone = vector(0.0, 0.0, 1.0), axis = vector<double>(value[0], value[1], value[2]);
+    switch (limit) {
+        case Field::shoulder_cone:
+            return outside_cone(axis, sandwich(arm.shoulder, bone), double{value[3]});
+        case Field::hand_cone:
+            return outside_cone(bone, sandwich(arm.wrist, axis), double{value[3]});
+        case Field::humeral_twist:
+            return outside_twist(arm.shoulder, bone, value);
+        case Field::forearm_twist:
+            return outside_twist(arm.wrist, bone, value);
+        case Field::hand_twist:
+            return outside_twist(arm.wrist, axis, value + 3);
+        case Field::shoulder_box:
+            return outside_box(arm.shoulder, value, kEulerOrders[order]);
+        case Field::wrist_box:
+            return outside_box(arm.wrist, value, kEulerOrders[order]);
+        default:
+            return 0;
+    }
+}
 
 JointAngles joint_angles(const ArmRotors& arm, swivel_euler_order shoulder_order, swivel_euler_order wrist_order,
                          int family)

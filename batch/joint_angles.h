@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A pose as joint angles, for people and files. With angles.cpp the only place with trigonometry.
+// A pose as joint angles, and their limits, for people and files.
 #pragma once
 
 #include "batch/edge.h"
@@ -12,5 +12,9 @@ struct JointAngles {
 };
 JointAngles joint_angles(const ArmRotors& arm, swivel_euler_order shoulder_order, swivel_euler_order wrist_order,
                          int family);
+
+// By how many radians a pose is outside of a limit on the swivel; 0 or less where it keeps it. value: as the limit's
+// rows hold it. order: a box's.
+double outside_limit(const ArmRotors& arm, Field limit, const float* value, swivel_euler_order order);
 
 }  // namespace swivel

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Masks of a crowd's lanes: one bit for each, 32 in a word, so that a word is two blocks.
+// Masks of a crowd's lanes have one bit for each lane. A word has 32, so it covers two blocks.
 #pragma once
 
 #include "batch/crowd.h"

@@ -11,6 +11,8 @@
 
 namespace swivel {
 
+static_assert(kLanes == SWIVEL_LANES && kMostTwistBones == SWIVEL_MOST_TWIST_BONES);
+
 // Results have a range of public numbers of their own, so that a new input moves none.
 inline constexpr std::uint32_t kFirstResult = SWIVEL_SHOULDER;
 constexpr bool is_field(swivel_field field)

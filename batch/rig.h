@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: MIT
 //
-// From a skeleton's limb at rest to its binding: bone lengths, bone axes, bend, and the constant rotors between arm
-// frame and joints.
+// From a limb at rest to its binding: bone lengths, bone axes, bend, and the constant rotors between arm frame and
+// joints.
 #pragma once
 
+#include <optional>
+
 #include "batch/swivel.h"
+#include "core/conformal.h"
 
 namespace swivel {
 
-// What swivel_bind() promises, arguments already checked for null.
-swivel_status bind(const swivel_chain& chain, swivel_binding& binding);
-// What swivel_arm_axis() promises, likewise.
+// A joint at rest, below another of its skeleton. What lies between them rests rigid.
+struct RestJoint {
+    Rotor<double> rotation;                // relative to its parent, of any usable length
+    std::optional<Rotor<double>> between;  // its parent's, unit, relative to the joint above; none if they are the same
+    Vector<double> place;                  // in the joint above's frame
+};
+
+// A limb at rest.
+struct RestLimb {
+    RestJoint shoulder, elbow, wrist;  // of the shoulder only the rotation counts
+    Vector<double> bend;               // in the shoulder's frame
+    std::uint32_t twist_bone_count;
+    RestJoint twist_bones[SWIVEL_MOST_TWIST_BONES];  // below the elbow
+};
+
+// What swivel_bind() promises of a limb whose rotations are usable. call: named in the line that a refusal leaves.
+swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& binding);
+// The chain as a limb, or a refusal.
+swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb);
+
+// What swivel_arm_axis() promises, arguments already checked for null.
 swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],
                        double (&axis)[3]);
-// Whether its quaternions are of unit length.
+// Whether its quaternions are of unit length, and its twist bones not too many.
 bool is_binding(const swivel_binding& binding);
+
+// Numbers that have a direction and can be squared.
+inline bool is_usable(const Rotor<double>& q) { return len2(q) >= 1e-18 && len2(q) <= 1e18; }
 
 }  // namespace swivel

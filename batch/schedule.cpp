@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Cuts a crowd's blocks into chunks and runs them on oneTBB, each on the thread that had it before where that is free,
-// so that its rows are in that core's cache. The only file that knows oneTBB.
+// Cuts a crowd's blocks into chunks and runs them on oneTBB. A chunk runs on the thread that had it before, if that
+// thread is free. So its rows are in the cache of that core. This is the only file that knows oneTBB.
 #include "batch/solve.h"
 
 #include <algorithm>
@@ -47,19 +47,19 @@ std::uint32_t busy_block_count(const Work& work, swivel_blocks blocks)
 void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)
 {
 #ifdef SWIVEL_WITH_TBB
-    // Rows of a quarter of a level 2 cache of 512 KiB: some microseconds of work. Crowds of one chunk would only lose
-    // by being shared: up to 2,000 arms two threads were no faster than one, with chunks of any size.
+    // The rows of a chunk fill a quarter of a level 2 cache of 512 KiB, which is some microseconds of work. A crowd of
+    // one chunk stays on one thread. Up to 2,000 arms, two threads were no faster than one, with chunks of any size.
     constexpr std::size_t kChunkBytes = 128 * 1024;
     const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes(crowd.features));
     if (busy_block_count(work, blocks) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;
-        // Of its own: a cancelled context of the caller's must not leave blocks out.
+        // This context is isolated, because a cancelled context of the caller must not leave blocks out.
         oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
         const auto on_range = [&](const Range& range) {
             solve_here(crowd, kernels, work, {range.begin(), range.end() - range.begin()});
         };
-        // While this thread waits for the others it takes up none of the caller's other tasks, which may be long.
+        // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
         oneapi::tbb::this_task_arena::isolate([&] {
             const Range all(blocks.first, blocks.first + blocks.count, chunk);
             oneapi::tbb::parallel_for(all, on_range, partitioner_of(crowd), context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Structures that say their own size, so that a library reads those of an older header, which are shorter.
+// Structures that have their own size. So a library can read those of an older header, which are shorter.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ inline std::size_t size_of(const void* given)
     return size;
 }
 
-// A size that some header gave the structure: one that cuts no member in two. name: in the line that a wrong one
-// leaves.
+// Checks that some header gave the structure this size: it cuts no member in two. name: the structure's name in the
+// error message.
 template <class Struct>
 swivel_status check_size(const char* name, std::size_t size)
 {
@@ -43,7 +43,8 @@ swivel_status check_element(const char* name, const Struct* array, std::size_t n
                 size, step);
 }
 
-// Element n of an array whose first element's size is the step; what it is too short for is as in `otherwise`.
+// Element n of an array, whose step is the size of its first element. Members that it is too short for are taken from
+// `otherwise`.
 template <class Struct>
 Struct element(const Struct* array, std::size_t n, Struct otherwise)
 {
@@ -53,7 +54,7 @@ Struct element(const Struct* array, std::size_t n, Struct otherwise)
     return otherwise;
 }
 
-// The structure itself; or a copy in `filled`, if it is shorter. otherwise: makes the defaults.
+// The structure itself. If it is shorter, a copy in `filled`, where otherwise() gives the missing members.
 template <class Struct>
 const Struct& whole(const Struct* given, Struct (*otherwise)(), Struct& filled)
 {

@@ -15,14 +15,15 @@ namespace {
 
 constexpr FeatureSet kFormulaFeatures = feature::world | feature::joints | feature::hand;
 
-// With any of these a crowd's limbs are whole ones, for which there is one kernel (simd/limb_run.h).
+// With any of these features, a crowd's limbs are whole limbs, which have one kernel (simd/limb_run.h).
 constexpr FeatureSet kLimbFeatures = ~(kFormulaFeatures | feature::pole_direction | feature::compact | feature::budget);
 
-// Rows of more bytes than this come from memory at each solve: it is a common size of level 3 caches. Where they come
-// from a cache, prefetching costs up to 3 %; where from memory, it takes 5 to 15 % off.
+// Rows of more bytes than this come from memory at each solve, because this is a common size of level 3 caches.
+// Prefetching costs up to 3 % if rows come from a cache. It saves 5 to 15 % if they come from memory.
 constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 
-// Result rows of a compact crowd live on the stack until they are packed: so many blocks' stay in the nearest cache.
+// Result rows of a compact crowd are on the stack until they are packed. Those of so many blocks stay in the nearest
+// cache.
 constexpr std::uint32_t kPackBlocks = 8;
 constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Solving runs of blocks, and cutting a crowd into chunks for threads.
+// Solves runs of blocks, and cuts a crowd into chunks for threads.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,12 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
     }
 }
 
-// Solves blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv):
-// every limb; those whose bits are set in mask, one bit for each lane of the crowd, padding lanes ignored, while others
-// keep their results; and either, mask null for every limb, with the caller's values copied in before and out after.
+// These solve blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv).
+// - solve_group: every limb.
+// - solve_chosen_group: the limbs whose bits are set in mask, which has one bit for each lane of the crowd. Bits of
+//   padding lanes are ignored. Other limbs keep their results.
+// - solve_frame_group: either of these; mask is null for every limb. It copies the caller's values in before and out
+//   after.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count);
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
@@ -38,20 +41,22 @@ void solve_frame_group(const swivel_crowd& crowd, const Kernels& kernels, const 
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
                            swivel_arc* arcs, std::uint32_t capacity);
 
-// The steps of that, on rows wherever they lie: blocks of input rows to result rows of floats, and these, in a compact
-// crowd, to words. prefetch: the rows come from memory, or the words go there, and later blocks follow.
+// The two steps of solve_group, on rows anywhere in memory. The first makes result rows of floats from blocks of input
+// rows. The second makes words from these, in a compact crowd. prefetch: rows come from memory, or words go there, and
+// later blocks follow.
 void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
                 float* results, std::uint32_t block_count, bool prefetch);
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
                std::uint32_t block_count, bool prefetch);
 
-// Which limbs are solved, null for every one, and from where, null for rows: checked members of a swivel_job.
+// Checked members of a swivel_job. mask: which limbs are solved, null for all. frames: where values come from, null for
+// rows.
 struct Work {
     const std::uint32_t* mask = nullptr;
     const swivel_frame* frames = nullptr;
 };
 
-// Solves blocks on this thread, or in chunks on the caller's oneTBB arena where that is worth it.
+// Solves blocks on this thread; or in chunks in the caller's oneTBB arena, if there are enough.
 void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
 void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How a C entry point fails: a status for the program, one line for the person.
+// A C entry point that fails returns a status for the program, and leaves one line for people.
 #pragma once
 
 #include "batch/swivel.h"

@@ -17,8 +17,8 @@ FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field);
 
 // Values of limbs first ... first + limb_count - 1 of the group; data is limb first's.
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values);
-// The same from 3 doubles each, less the limb's origin unless origins' data is null, rounded in the floating-point
-// environment that the caller has set (FloatEnv).
+// The same from 3 doubles each. The limb's origin is subtracted, unless the data of origins is null. They are rounded
+// in the floating-point environment that the caller has set (FloatEnv).
 void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values,
                      swivel_in origins);
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values);

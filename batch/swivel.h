@@ -110,8 +110,9 @@
 // and fades for targets on the body's other side.
 //
 // TWIST BONES. The hand's twist about the forearm is shared over n of them, children of the forearm. Bone i of 1..n
-// turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis, relative to rest. With JOINTS its local
-// rotation is this quaternion times its rest rotation; without, it is this quaternion in the arm frame.
+// turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis. With JOINTS and a binding that knows them,
+// SWIVEL_TWIST_BONES is their local rotations. With a binding of a chain, a local rotation is this quaternion times the
+// rest rotation; without JOINTS it is this quaternion in the arm frame.
 //
 // STEPS. With WITH_MOST_SWIVEL the plane's normal is carried from solve to solve, in the arm frame. In each it is first
 // made perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and
@@ -299,14 +300,21 @@ typedef enum swivel_field {
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
+enum { SWIVEL_MOST_TWIST_BONES = 7 };  // of one limb
+
 // How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w; and how long the
-// bones are. Made by swivel_bind().
+// bones are. Made by swivel_bind() or swivel_bind_joints().
 typedef struct swivel_binding {
-    float parent_from_arm[4];  // arm frame to the shoulder's parent joint
-    float upper_from_arm[4];   // arm frame, bones and hinge at rest, to the shoulder joint's own frame
-    float fore_from_arm[4];    // the same, to the elbow joint's own frame
+    float parent_from_arm[4];        // arm frame to the shoulder's parent joint
+    float upper_from_arm[4];         // arm frame, bones and hinge at rest, to the shoulder joint's own frame
+    float elbow_parent_from_arm[4];  // the same, to the elbow's parent: upper_from_arm where that is the shoulder joint
+    float fore_from_arm[4];          // the same, to the elbow joint's own frame
+    float wrist_parent_from_arm[4];  // the same, to the wrist's parent: fore_from_arm where that is the elbow joint
     float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations a limb with bad input gets
     float lengths[2];                                      // upper arm, forearm; NaN where they are not known
+    uint32_t twist_bone_count;  // 0: they are not known, and SWIVEL_TWIST_BONES of any number is relative to their rest
+    // The same, to each twist bone's parent and to its own frame; fore_from_arm for those that there are not.
+    float twist_parent_from_arm[SWIVEL_MOST_TWIST_BONES][4], twist_from_arm[SWIVEL_MOST_TWIST_BONES][4];
 } swivel_binding;
 
 // A shoulder, elbow and wrist joint at rest, as a skeleton stores them.
@@ -428,6 +436,55 @@ SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 // or non-finite quaternion and a bone of no length. It fails for a bend along the upper arm, or one that turns about
 // the forearm, and for a rest pose bent by 10 degrees or less without a bend.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
+
+// A skeleton at rest. Joints are named by index, in any order; every stride is at least a value's size.
+typedef struct swivel_skeleton {
+    size_t size;             // sizeof(swivel_skeleton), set by swivel_default_skeleton()
+    swivel_in parents;       // an int32_t for each joint: its parent, or -1 for a root
+    swivel_in rotations;     // x, y, z, w relative to the parent; null data: no joint is turned at rest
+    swivel_in translations;  // 3 floats: the joint's place in its parent's frame. Scales are to be in them already
+    uint32_t joint_count;
+    uint32_t reserved;  // 0
+} swivel_skeleton;
+
+static inline swivel_skeleton swivel_default_skeleton(void)
+{
+    swivel_skeleton skeleton;
+    memset(&skeleton, 0, sizeof skeleton);
+    skeleton.size = sizeof skeleton;
+    return skeleton;
+}
+
+// Which joints of a skeleton are a limb. The elbow is below the shoulder, the wrist below the elbow. Joints in between
+// keep their rest rotations: they are part of the bone.
+typedef struct swivel_limb_joints {
+    size_t size;  // sizeof(swivel_limb_joints), set by swivel_default_limb_joints()
+    uint32_t shoulder, elbow, wrist;
+    // Joints that share the hand's twist, from elbow to wrist, at most SWIVEL_MOST_TWIST_BONES. Each is below the elbow
+    // and not below the wrist. None of them, and not the wrist, is below another: it would be turned along.
+    uint32_t twist_bone_count;
+    const uint32_t* twist_bones;
+    float bend[3];   // as swivel_chain's: in the shoulder joint's frame
+    float reserved;  // 0
+} swivel_limb_joints;
+
+static inline swivel_limb_joints swivel_default_limb_joints(uint32_t shoulder, uint32_t elbow, uint32_t wrist)
+{
+    swivel_limb_joints joints;
+    memset(&joints, 0, sizeof joints);
+    joints.size = sizeof joints;
+    joints.shoulder = shoulder;
+    joints.elbow = elbow;
+    joints.wrist = wrist;
+    return joints;
+}
+
+// swivel_bind() of a limb in a skeleton. Local rotations are relative to the joint's own parent, as the skeleton has
+// them. Reads the joints from wrist and twist bones up to the shoulder, and parents up to the root: others may hold
+// anything. Any thread; no allocation. It fails as swivel_bind() does. It also fails for joints that do not exist or
+// are no limb, for parents that do not exist or go round in a circle, and for twist bones that are not in order.
+SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
+                                            swivel_binding* binding);
 
 // The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. A group that
 // does not exist has 0 limbs. Of a null crowd everything is 0 here and in the next five calls. Any thread.
@@ -616,10 +673,11 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
 // Says in a sentence or two why a limb is as it is, of its inputs as they are now. It names the input that is bad, how
-// far out of reach the target is, which limit turned the elbow from its wish and by how much, or why none is kept.
-// Where the limb's results are not those of its inputs, it says so. It cannot know the step that a swivel carried was
-// from. limb is counted within the group. text gets at most size bytes, the 0 at its end among them. For people and
-// logs: the words may change, and the last digits differ between C libraries. Takes up to a millisecond; no allocation.
+// far out of reach the target is, which limit turned the elbow from its wish and by how much. Where no elbow keeps the
+// limits, it says by how many degrees the pose violates each. Where the limb's results are not those of its inputs, it
+// says so. It cannot know the step that a swivel carried was from. limb is counted within the group. text gets at most
+// size bytes, the 0 at its end among them. For people and logs: the words may change, and the last digits differ
+// between C libraries. Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 

@@ -53,6 +53,13 @@ inline swivel_binding bind(const swivel_chain& chain)
     check(swivel_bind(&chain, &binding));
     return binding;
 }
+// The same from joints of a skeleton: swivel_bind_joints().
+inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_joints& joints)
+{
+    swivel_binding binding;
+    check(swivel_bind_joints(&skeleton, &joints, &binding));
+    return binding;
+}
 
 // A direction of the character at rest in the arm frame: swivel_arm_axis().
 inline std::array<double, 3> arm_axis(const swivel_binding& binding, const std::array<float, 4>& parent_rotation,
@@ -134,6 +141,9 @@ template <class Value>
 concept FieldValue = holds<Value, float, std::uint32_t>();
 template <class Value>
 concept DoubleValue = holds<Value, double>();
+// What structures have beside: an int32_t is a skeleton's parent.
+template <class Value>
+concept StreamValue = FieldValue<Value> || holds<Value, std::int32_t>();
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 template <class Range>
@@ -158,7 +168,7 @@ auto stream_of(Range&& values, Value Struct::*member)
 }
 // frame.target = swivel::stream(characters, &Character::grip): where the first one's member is, and the stride. Of no
 // characters it is null, which leaves the field out.
-template <class Range, class Struct, FieldValue Value>
+template <class Range, class Struct, StreamValue Value>
 requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
 auto stream(Range&& values, Value Struct::*member) { return stream_of(values, member); }
 // The same for positions in double, beside a frame's origin.

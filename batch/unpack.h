@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The words of a compact crowd's results as floats again, one value at a time, in the floating-point environment that
-// the caller has set; unpack_out() sets its own.
+// Turns the words of a compact crowd's results into floats again, one value at a time. The floating-point environment
+// is the caller's; unpack_out() sets its own.
 #pragma once
 
 #include <array>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// swivel_verify(): the formulas against each other, each comparison on its own so that a failure names its cause. The
-// lecture's steps in double against the dense oracle, the production formula in double against the lecture's steps, and
-// in float against its own target through forward kinematics in double.
+// swivel_verify() compares the formulas with each other. Each comparison stands alone, so that a failure names its
+// cause.
+// - The lecture's steps in double are compared with the dense oracle.
+// - The production formula in double is compared with the lecture's steps.
+// - The production formula in float is compared with its own target, through forward kinematics in double.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +17,8 @@ namespace swivel {
 
 namespace {
 
-// The same numbers everywhere: integers (Steele, Lea, Flood: SplitMix64, 2014) and correctly rounded operations alone.
+// Gives the same numbers everywhere, by integers (Steele, Lea, Flood: SplitMix64, 2014) and correctly rounded
+// operations alone.
 struct Random {
     std::uint64_t state;
 
@@ -82,8 +85,9 @@ Rotor<double> to_double(const Rotor<float>& q)
     return rotor<double>(q.at<kI>(), q.at<kJ>(), q.at<kK>(), q.at<kScalar>());
 }
 
-// An arm of any ratio of bones up to most_ratio to 1, either way round, its wrist in the band, its pole at least 1e-3
-// off the line (half of them closer than 0.1). The numbers are floats, so they are exact in both precisions.
+// A random arm. The ratio of its bones is up to most_ratio to 1, either way round. Its wrist is in the band. Its pole
+// is at least 1e-3 off the line, half of the poles closer than 0.1. The numbers are floats, so they are exact in both
+// precisions.
 ArmGoal<float> random_arm(Random& random, const Band& band, double most_ratio)
 {
     const double shorter = 1 / random.between(1, most_ratio);
@@ -122,7 +126,7 @@ struct FloatErrors {
         const double upper = goal.upper, fore = goal.fore;
         wrist.add(std::sqrt(len2(wrist_of(exact, upper, fore) - reachable(goal))) / (upper + fore));
 
-        // How far the hinge is from the swivel plane's normal, times the sine that the normal's digits are lost by.
+        // How far the hinge is from the swivel plane's normal, times the sine by which the normal loses digits.
         const Vector<double> line = normalise(convert<double>(goal.wrist)),
                              pole = normalise(convert<double>(goal.pole));
         const Vector<double> normal = cross(line, pole), hinge = sandwich(exact.shoulder, vector(1.0, 0.0, 0.0));

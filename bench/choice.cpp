@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Some limbs of a resident crowd, picked limb by limb at random or as neighbours, and a tenth of it within a budget; in
-// nanoseconds for each arm of the whole crowd, to be held against all/.
+// Solves some limbs of a resident crowd. They are picked at random or as neighbours, or are a tenth of the crowd within
+// a budget. Times are nanoseconds for each arm of the whole crowd. Compare them with all/.
 #include "bench/suite.h"
 
 namespace bench {

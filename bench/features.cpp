@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Crowds with features, rows in and rows out: resident (world targets to local rotations) with each instruction set,
-// the other sets of features, whole limbs among them, with the best; within the level 2 cache, resident and compact
-// results also in memory.
+// Crowds with features, from rows to rows. Resident crowds (world targets to local rotations) run with each instruction
+// set. Other sets of features, among them whole limbs, run with the best one. They are within the level 2 cache;
+// resident crowds and compact results are also measured in memory.
 #include "bench/suite.h"
 
 namespace bench {

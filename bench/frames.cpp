@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Whole frames, from and to the pose buffers of 8,192 characters, 16,384 arms, on one thread: swivel in one call, with
-// each instruction set; its three steps apart, with the best; one arm at a time on glm. And in one call on several
-// threads.
+// Whole frames, from and to the pose buffers of 8,192 characters with 16,384 arms, on one thread. swivel runs in one
+// call, with each instruction set. With the best one, its three steps also run apart. The rival solves one arm at a
+// time with glm. And in one call on several threads.
 #include <cstdio>
 #include <stdexcept>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// swivel_bench: swivel's kernels with each instruction set and in each level of memory, on one thread and several, from
-// one arm to ten million, beside textbook rivals, bare copies and the machine's own limits, all in one run. Before
-// timing, forward kinematics of everyone's results must put the wrists of ordinary arms on their targets.
+// swivel_bench measures swivel's kernels with each instruction set and in each level of memory, on one thread and on
+// several, from one arm to ten million. The same run measures textbook rivals, bare copies and the machine's own
+// limits. Before timing, it checks all results by forward kinematics: the wrists of ordinary arms must be on their
+// targets.
 //
 //   cmake --preset dev && cmake --build --preset dev && build/dev/bench/swivel_bench
 //

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the README's pictures from a result file of swivel_bench: speed.svg, nanoseconds an arm against the crowd's size,
+"""Draws the pictures of docs/speed.md from a result file of swivel_bench: speed.svg, nanoseconds an arm against the crowd's size,
 and roofline.svg, what the kernels do beside what this machine can do. The same file gives the same bytes.
 
 usage: bench/plot.py RESULT.json     (python3-matplotlib)

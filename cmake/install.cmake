@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` puts under the prefix: two headers, the library, the command and swivel-race, package files, the licence. All
-# of it may be moved as a whole: no file names its place.
+# `cmake --install` puts two headers, the library, the command with swivel-race, package files and the licence under the prefix. You
+# may move the whole prefix, because no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -18,10 +18,10 @@ endif()
 
 # ---- find_package(swivel)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/swivel)
-# What a static library must hand on: oneTBB, and for programs linked by a C compiler what C++ adds to C.
+# A program that links the static library also needs oneTBB. If a C compiler links it, it needs the libraries of C++, too.
 set(cxx_libraries "")
 set(find_dependencies "")
-set(link_as_c "# The shared library brings along what it needs.")
+set(link_as_c "# The shared library loads what it needs.")
 if(NOT BUILD_SHARED_LIBS)
   set(cxx_libraries ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
   list(REMOVE_ITEM cxx_libraries ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
@@ -33,14 +33,14 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 configure_package_config_file(cmake/swivelConfig.cmake.in swivelConfig.cmake INSTALL_DESTINATION ${package_dir}
                               NO_SET_AND_CHECK_MACRO)
-# Before 1.0 a minor version may change anything; from then on this is SameMajorVersion.
+# Before 1.0 a minor version may change anything. From 1.0 on, this is SameMajorVersion.
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/swivelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swivelConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/swivelConfigVersion.cmake
         DESTINATION ${package_dir})
 install(EXPORT swivelTargets NAMESPACE swivel:: DESTINATION ${package_dir})
 
 # ---- pkg-config swivel
-# ${pcfiledir} is where the file lies, wherever that is by then.
+# pkg-config sets ${pcfiledir} to the folder in which it finds the file, so the prefix may move.
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH pc_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
 file(RELATIVE_PATH pc_includedir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})

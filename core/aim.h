@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Aiming: the elbow's flexion and the wrist are given, and the shoulder turns the arm so that a line carried by the
-// hand goes through the target. Seen from the shoulder the arm is one rigid piece then, and the line runs through it
-// from the effector: the point of it that lies as far from the shoulder as the target does is the one to bring there.
-// So this is a limb like any other, its swivel free about the line from the shoulder to the target. The goal itself is
-// Tolani, Goswami and Badler's (2000).
+// Aiming: the elbow's flexion and the wrist are given. The shoulder turns the arm so that a line carried by the hand
+// goes through the target. So the arm is one rigid piece, seen from the shoulder. The line starts at the effector. One
+// point of it is as far from the shoulder as the target is, and this point must come to the target. Then this is a limb
+// like any other, whose swivel is free about the line from the shoulder to the target. The goal itself is Tolani,
+// Goswami and Badler's (2000).
 #pragma once
 
 #include "core/frame_rotor.h"
@@ -13,17 +13,17 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Further away than this, in sizes of the arm, floats see the direction only.
+// In sizes of the arm: from further away than this, floats tell the direction only.
 inline constexpr double kAimFar = 1e7;
 
-// The rotor from the arm, hand and all, to the frame that has e3 along the line to the aimed point and the elbow on the
-// side of e2 that poles are for. point: of any length but zero.
+// The rotor from the arm with its hand to another frame. That frame has e3 along the line to the aimed point, and the
+// elbow on the side of e2 that poles are for. point: of any length but zero.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> line_from_arm(const Vector<T>& point)
 {
     const Vector<T> line = normalise(point), hinge = vector(T(1), T(0), T(0));
-    // The elbow lies along e3. Where that is the line itself no side is the elbow's, and its hinge is taken: beyond,
-    // the arm is rolled over.
+    // The elbow lies along e3. If that is the line itself, the elbow has no side, and its hinge decides. Beyond, the
+    // arm is rolled over.
     const Vector<T> normal = cross(line, vector(T(0), T(0), T(1)));
     const Mask<T> off = len2(normal) > T(kPoleOff * kPoleOff);
     return ~frame_along(line, normalise(select(off, normal, across(hinge, line))));
@@ -34,7 +34,7 @@ template <class T>
 SWIVEL_INLINE constexpr PlacedBones<T, Rotor<T>> aimed_bones(const LimbUse& use, const LimbGoal<T>& goal,
                                                              const Rotor<T>& hand, const T& wanted)
 {
-    // Sizes of about 1 and less, to the last bit in the same ratios.
+    // Scaled to about 1 and less; the ratios stay the same to the last bit.
     T size = goal.arm.upper + goal.arm.fore;
     if (use.effector) size = size + length1(goal.effector);
     const T shrink = per_power_of_two(hi(size, T(kTiny)));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The conformal geometric algebra G(4,1) at compile time. A multivector's type says which blades it has; a product's
-// type and its terms follow from its factors' types, so S1 ^ S2 ^ plane costs its own multiplications and nothing else.
+// The conformal geometric algebra G(4,1) at compile time. A multivector's type says which blades it has. The type of a
+// product and its terms follow from the types of its factors. So S1 ^ S2 ^ plane costs its own multiplications and
+// nothing else.
 //
 // Basis: e1 e2 e3, e0 (origin), einf (infinity) with e0^2 = einf^2 = 0, e0.einf = -1. Blades are ordered e1 e2 e3 einf
 // e0, except that the Euclidean bivectors are the lecture's imaginary units i = e3^e2, j = e1^e3, k = e2^e1 themselves.
@@ -58,8 +59,9 @@ constexpr int orientation(Blade b)
     return euclid == kI || euclid == kK ? -1 : 1;
 }
 
-// Coefficient of the null part `out` in the product of the null parts a and b, all made of einf and e0 alone, with
-// E = einf^e0: einf e0 = E - 1, e0 einf = -E - 1, E einf = -einf, einf E = einf, E e0 = e0, e0 E = -e0, E E = 1.
+// Coefficient of the null part `out` in the product of the null parts a and b. All consist of einf and e0 alone. With E
+// = einf^e0, the products are einf e0 = E - 1, e0 einf = -E - 1, E einf = -einf, einf E = einf, E e0 = e0, e0 E = -e0,
+// E E = 1.
 constexpr int null_coefficient(Blade a, Blade b, Blade out)
 {
     const Blade big = kEinf | kE0;
@@ -103,8 +105,9 @@ struct Terms {
     std::size_t count;
 };
 
-// The products of components that add up to component `out`, one that is added first where there is one: then nothing
-// has to be negated. The Euclidean parts of `out` and of one factor's blade give that of the other's.
+// The products of components that add up to component `out`. A product that is added comes first, if there is one; then
+// nothing has to be negated.
+// The Euclidean parts of `out` and of one factor's blade give that of the other factor's blade.
 constexpr Terms terms(Product kind, BladeSet a, BladeSet b, Blade out)
 {
     Terms list{};
@@ -181,7 +184,7 @@ SWIVEL_INLINE constexpr Mv<T, blades(B)> unit()
     return {{T(1)}};
 }
 
-// The chosen blades of a multivector, all of which it must have; and all its blades of one grade.
+// The chosen blades of a multivector, which must have them all; and all its blades of one grade.
 template <BladeSet Part, class T, BladeSet S>
 SWIVEL_INLINE constexpr Mv<T, Part> part(const Mv<T, S>& m)
 {
@@ -240,7 +243,7 @@ SWIVEL_INLINE constexpr Mv<T, S> operator*(const T& scalar, const Mv<T, S>& m)
     return for_each_blade<T, S>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return scalar * m.template at<B>(); });
 }
 
-// Some blades of a product, all of which it has; and all of it.
+// Some blades of a product, which must have them all; and the whole product.
 template <table::Product Kind, BladeSet Part, class T, BladeSet A, BladeSet B>
 SWIVEL_INLINE constexpr auto product_part(const Mv<T, A>& a, const Mv<T, B>& b)
 {
@@ -302,8 +305,8 @@ SWIVEL_INLINE constexpr Mv<T, S> operator~(const Mv<T, S>& m)
     });
 }
 
-// The geometric product m * B with a basis blade that contains einf and e0 both or neither: components change places
-// and signs, nothing is multiplied.
+// The geometric product m * B with a basis blade that contains einf and e0 both, or neither. Components change places
+// and signs, and nothing is multiplied.
 template <Blade B, class T, BladeSet S>
 SWIVEL_INLINE constexpr auto times_blade(const Mv<T, S>& m)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The swivels that a limb's limits allow, as arcs: what IKAN calls psi intervals, without an angle. For one limb, at
-// rest; the solver itself needs only the nearest end.
+// The swivels that a limb's limits allow, as arcs. IKAN calls them psi intervals; here they need no angle. This is for
+// one limb, with time to spare: the solver itself needs only the nearest end.
 #pragma once
 
 #include <algorithm>
@@ -21,13 +21,14 @@ struct AllowedArcs {
     int count = 0;
 };
 
-// Of the turn from a to b. In double, where products of floats are exact: its sign is right for neighbours, too.
+// Of the turn from a to b. In double, products of floats are exact, so the sign is right for close turns, too.
 template <class T>
 constexpr double sine_between(const Turned<T>& a, const Turned<T>& b)
 {
     return double{a.cos} * double{b.sin} - double{a.sin} * double{b.cos};
 }
-// Whether a comes before b on the way from 0 to 2 pi, exactly: by the half of the circle, then by the sine between.
+// Whether a comes before b on the way from 0 to 2 pi. This is exact: it compares the halves of the circle, then uses
+// the sine between.
 template <class T>
 constexpr bool is_before(const Turned<T>& a, const Turned<T>& b)
 {
@@ -39,7 +40,7 @@ constexpr bool is_before(const Turned<T>& a, const Turned<T>& b)
 template <class T>
 Turned<T> between(const Turned<T>& a, const Turned<T>& b)
 {
-    // b as a sees it, half of that turn, and back; half of almost a whole turn is almost half a turn.
+    // Takes b relative to a, halves that turn, and goes back. Half of almost a whole turn is almost half a turn.
     const T cos = a.cos * b.cos + a.sin * b.sin, sin = static_cast<T>(sine_between(a, b));
     const T c = sqrt(hi(T(0), T(0.5) * (T(1) + cos))),
             s = cos > T(0) ? T(0.5) * abs(sin) / c : sqrt(hi(T(0), T(0.5) * (T(1) - cos)));
@@ -66,7 +67,7 @@ AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
         if (allowed({T(1), T(0)})) arcs.arc[arcs.count++] = {{T(-1), T(0)}, {T(-1), T(0)}};
         return arcs;
     }
-    // From end to end: what is allowed in the middle is allowed all the way. Neighbours join.
+    // From end to end: if the middle is allowed, the whole way is. Neighbours join.
     for (int n = 0; n < count; ++n) {
         const Turned<T>&from = end[n], &to = end[(n + 1) % count];
         const bool whole =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What goes into an arm and what comes out of it, in the arm frame: the shoulder at the origin; at rest both bones
-// along +e3 and the hinge along e1; flexion carries the forearm towards +e2.
+// The inputs and results of an arm, in the arm frame. The shoulder is at the origin. At rest both bones lie along +e3
+// and the hinge along e1. Flexion carries the forearm towards +e2.
 #pragma once
 
 #include "core/conformal.h"
@@ -34,17 +34,21 @@ inline namespace SWIVEL_ISA {
 
 // Vectors are no longer than kHuge; a shorter one than kTiny counts as zero.
 inline constexpr double kTiny = 1e-15, kTiny2 = 1e-30, kHuge = 1e15, kHuge2 = 1e30;
-// Between these lie the poles, the squared wrists and twice the shorter bones of plain arms, and below the most the
-// longer bones; solve_arm.h's product of all squared lengths, half2, then stays a normal float. With wrists w, poles p
-// and distances d, half2 is a quarter to one times (d/L2)^2 w^2 (p sin)^2: at least 0.25 1e-13 (1e-9 1e-3)^2, as
-// kLeastLift bounds (d/L2)^2 w^2, and at most 5e15 kPlainMost^3, as the digits of bones allow d/L2 up to 1.6e7.
+// For plain arms, poles, squared wrists and twice the shorter bones lie between kPlainLeast and kPlainMost. The longer
+// bones lie below kPlainMost. Then half2 in solve_arm.h, the product of all squared lengths, stays a normal float. With
+// wrists w, poles p and distances d, half2 is a quarter to one times (d/L2)^2 w^2 (p sin)^2. It is at least 0.25 1e-13
+// (1e-9 1e-3)^2, because kLeastLift bounds (d/L2)^2 w^2. It is at most 5e15 kPlainMost^3, because the digits of bones
+// allow d/L2 up to 1.6e7.
 inline constexpr double kPlainLeast = 1e-9, kPlainMost = 3.5e7, kLeastLift = 1e-13;
-// The sine of a pole's angle to the target's line: a closer one does not say where the elbow goes, its digits are
-// noise.
+// The least sine of a pole's angle to the target's line. A closer pole does not say where the elbow goes, because its
+// digits are noise.
 inline constexpr double kPoleOff = 1e-3;
-// In arm lengths: a shorter bone is lost in the digits of the other; no wrist comes nearer to the shoulder; a wrist
-// this far away is out of reach by any rounding; and so far away is a pole put that half2 of even the nearest wrist,
-// 1e-24 times its square, stays a normal float.
+// In arm lengths.
+// - kSwallowed: a shorter bone is lost in the digits of the other.
+// - kNearest: no wrist comes nearer to the shoulder.
+// - kOutOfReach: a wrist this far away is out of reach by any rounding.
+// - kPoleAway: a pole is put this far away. Then half2 stays a normal float even for the nearest wrist, where it is
+//   1e-24 times the pole's square.
 inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9, kOutOfReach = 4, kPoleAway = 1e6;
 
 template <class T>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The swivel that is taken: the wish, if the limits allow it; else the nearest end of an allowed arc; else, where no
-// swivel is allowed, the one that violates the limits least. The wish is phi = 0, so near means a large cosine. The
-// lane-wise choice among a fixed list of candidates, each of which costs one root and no angle. The nearest
-// legal swivel as such is Tolani, Goswami and Badler's (2000); they find it by angles. Lines that do not vary over the
-// circle allow all of it or nothing.
+// Chooses the swivel. It is the wish, if the limits allow it; else the nearest end of an allowed arc. If no swivel is
+// allowed, it is the one that violates the limits least. The wish is phi = 0, so near means a large cosine. Each lane
+// chooses from a fixed list of candidates. A candidate costs one root and no angle. The nearest legal swivel as such is
+// Tolani, Goswami and Badler's (2000); they find it by angles. Lines that do not vary over the circle allow all of it
+// or nothing.
 #pragma once
 
 #include "core/limits.h"
@@ -46,9 +46,9 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
     return front || back || (x.box != y.box && crosswise);
 }
 
-// The swivel at which the limits have the most room, though it is less than none: the room is the least of lines and
-// the most of such alternatives, so it peaks where a line does or where two lines of an alternative are equal. Long and
-// rarely needed, so a function of its own.
+// The swivel at which the limits have the most room, though this is less than none. The room is the least over lines,
+// and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
+// are equal. This is long and rarely needed, so it is a function of its own.
 template <class T>
 SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
 {
@@ -83,7 +83,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 
-// Searches: whether the least violation is looked for. If not, where no swivel is allowed the answer means nothing.
+// Searches: whether to look for the least violation. If not, the answer means nothing where no swivel is allowed.
 template <bool Searches, class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
 {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// The clavicle's share of a reach: how far it turns the shoulder towards the target before the arm is solved. A curve
-// of our own choice that is smooth everywhere but for a whole share of a target straight behind the bone, and forms no
-// angle.
+// The clavicle's share of a reach: how far it turns the shoulder towards the target before the arm is solved. The curve
+// is our own choice and needs no angle. It is smooth everywhere, except for a whole share and a target straight behind
+// the bone.
 #pragma once
 
 #include "core/wish.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// The rotor of unit length that turns the clavicle's bone towards the target by about the share, 0 to 1, of the angle
-// theta between them: tan(turn / 2) = share sin theta / (2 (1 - share) + share (1 + cos theta)). So a whole share is
-// the whole turn, a small one grows with the angle up to about a right one, and fades to none for a target behind,
-// where no way round is shorter. Both vectors from the clavicle's joint; one shorter than kTiny has no direction,
-// and nothing turns.
+// The unit rotor that turns the clavicle's bone towards the target, by about a share of 0 to 1 of the angle theta
+// between them. tan(turn / 2) = share sin theta / (2 (1 - share) + share (1 + cos theta)). So a whole share is the
+// whole turn. A small share grows with the angle up to about a right angle. It fades to none for a target behind, where
+// neither way round is shorter. Both vectors start at the clavicle's joint. If one is shorter than kTiny, it has no
+// direction, and nothing turns.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> clavicle_turn(const Vector<T>& bone, const Vector<T>& target, const T& share)
 {

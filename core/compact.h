@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Rotations and half flexions in 16-bit words, rounded by float arithmetic alone: adding a large number leaves an
-// integer, or a half float's digits, in the low bits of the sum, rounded to nearest and ties to even. The words stay in
-// the bits of a T; whoever stores them cuts them out. swivel.h documents the words and how to read them.
+// Rotations and half flexions in 16-bit words. Float arithmetic alone rounds them: adding a large number leaves an
+// integer, or a half float's digits, in the low bits of the sum. They are rounded to nearest, ties to even. The words
+// stay in the bits of a T; the code that stores them cuts them out. swivel.h documents the words and how to read them.
 #pragma once
 
 #include "core/conformal.h"
@@ -22,8 +22,8 @@ struct CompactRotation {
 // A number in the middle of [2^23, 2^24): there floats are the integers, and the low 16 bits of s + it are s rounded.
 inline constexpr double kIntegers = 12582912;
 
-// The smallest three of a unit quaternion q: the component of largest size (the first, if equal) is left out. It is
-// positive in one of q and -q; the other three are that one's.
+// The smallest three components of a unit quaternion q. The component of largest size is left out (the first, if
+// equal). It is positive in one of q and -q, and the other three are taken from that one.
 template <class T>
 SWIVEL_INLINE constexpr CompactRotation<T> compact_rotation(const Rotor<T>& q)
 {
@@ -42,10 +42,10 @@ SWIVEL_INLINE constexpr CompactRotation<T> compact_rotation(const Rotor<T>& q)
             steps * third + plain};
 }
 
-// v in 0..1 as a half float, in bits kHalfBit to kHalfBit + 15. With v in [2^e, 2^(e+1)) a half's last digit is worth
-// 2^(e-10), but no less than 2^-24; as much as that of a float in [m, 2m). Of a float's exponent, biased by 127, the
-// half, biased by 15, has the lowest six bits, so 2^-48 does for 2^-112, and no denormal floats arise, which are slow.
-// A denormal half is its digits under exponent bits 0, as 2 has them.
+// v in 0..1 as a half float, in bits kHalfBit to kHalfBit + 15. For v in [2^e, 2^(e+1)), the last digit of a half is
+// worth 2^(e-10), but no less than 2^-24. The last digit of a float in [m, 2m) is worth as much. A float's exponent is
+// biased by 127 and a half's by 15, and the half keeps the lowest six bits. So 2^-48 serves as well as 2^-112, and it
+// avoids denormal floats, which are slow. A denormal half has its digits under exponent bits 0, as 2 has them.
 inline constexpr int kHalfBit = 13;
 template <class T>
 SWIVEL_INLINE constexpr T compact_half(const T& v)

@@ -2,10 +2,10 @@
 //
 // The shapes of conformal geometric algebra as multivectors, how to make them and how to read them.
 //
-// Conventions, fixed here and nowhere else: a point is P = x + x^2/2 einf + e0, a sphere P - r^2/2 einf, a plane
-// n + d einf. A quaternion w + xi + yj + zk is the rotor with i = e3^e2, j = e1^e3, k = e2^e1; it turns o into Q o ~Q,
-// by the right hand, and a*b applies b first. So it is the ordinary Hamilton quaternion. Source: D. Hildenbrand,
-// Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019), eqs. 3.9-3.23.
+// Conventions, fixed here and nowhere else: a point is P = x + x^2/2 einf + e0, a sphere P - r^2/2 einf, a plane n + d
+// einf. A quaternion w + xi + yj + zk is the rotor with i = e3^e2, j = e1^e3, k = e2^e1. It turns o into Q o ~Q, by the
+// right hand, and a*b applies b first. So it is the ordinary Hamilton quaternion. Source: D. Hildenbrand, Inverse
+// Kinematics of a Virtual Character (TU Darmstadt, 2019), eqs. 3.9-3.23.
 #pragma once
 
 #include "core/algebra.h"
@@ -85,8 +85,8 @@ SWIVEL_INLINE constexpr T length1(const Mv<T, S>& m)
     return sum;
 }
 
-// The normal of the plane through the origin, a and b, as long as a x b: the dual of e0 ^ b ^ a ^ einf, which is the
-// Euclidean dual of b ^ a.
+// The normal of the plane through the origin, a and b. It is as long as a x b. It is the dual of e0 ^ b ^ a ^ einf,
+// which is the Euclidean dual of b ^ a.
 template <class T, BladeSet A, BladeSet B>
 SWIVEL_INLINE constexpr auto cross(const Mv<T, A>& a, const Mv<T, B>& b)
 {

@@ -25,8 +25,8 @@ constexpr int grade(unsigned blade)
     return count;
 }
 
-// Sign of the product of two basis blades: one swap for each factor of `left` that must move past a lower factor of
-// `right` to sort them, then each shared factor squares to 1, except (e-)^2 = -1.
+// Sign of the product of two basis blades. To sort the factors, each factor of `left` moves past every lower factor of
+// `right`, with one swap each. Then each shared factor squares to 1, except (e-)^2 = -1.
 constexpr double blade_sign(unsigned left, unsigned right)
 {
     int swaps = 0;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The wrist's rotation taken apart: its twist about the forearm, shared out over twist bones between elbow and wrist.
-// Halves of a turn are exact, by one root each; between the quarters a straight line is close enough: its error is
-// under 0.12 degrees for a twist of 180, and an eighth of it for one of 90.
+// The wrist's twist about the forearm, shared out over twist bones between elbow and wrist. Halves of a turn are exact
+// and take one root each. Between the quarters a straight line is close enough. Its error is under 0.12 degrees for a
+// twist of 180, and an eighth of that for a twist of 90.
 #pragma once
 
 #include "core/swivel_circle.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// The twist of a rotor about e3, as the rotor of unit length that turns the short way; the identity where the rest
-// turns by pi, so that there is no twist.
+// The twist of a rotor about e3, as the unit rotor that turns the short way. If the rest of the rotor turns by pi,
+// there is no twist, and this is the identity.
 template <class T>
 SWIVEL_INLINE constexpr Turned<T> twist_rotor(const Rotor<T>& q)
 {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The rotor that lays a frame along a line: steps 3 to 5 of the lecture (pipeline.h), the middle line and the twist
-// about it, in forms that cannot cancel and take lines and normals of any length. Source: D. Hildenbrand, Inverse
-// Kinematics of a Virtual Character (TU Darmstadt, 2019).
+// The rotor that lays a frame along a line. It takes steps 3 to 5 of the lecture (pipeline.h), the middle line and the
+// twist about it. The forms here cannot cancel, and take lines and normals of any length. Source: D. Hildenbrand,
+// Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019).
 #pragma once
 
 #include "core/conformal.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A line along -e3 has no middle line to e3. So the frame starts from e3 or -e3, whichever is nearer to the line: from
-// -e3 it is first turned by pi about e1.
+// A line along -e3 has no middle line to e3. So the frame starts from e3 or -e3, whichever is nearer to the line.
+// Before it starts from -e3, it is turned by pi about e1.
 template <class T>
 struct FrameRotor {
     Rotor<T> from_start;         // carries the start to the line and e1 to the normal; of any length
@@ -18,8 +18,8 @@ struct FrameRotor {
     T start;                     // only its sign counts: e3's
 };
 
-// line: of this length, and per_length2 about 1 / length^2: it keeps the numbers in range and falls out with the
-// rotor's length. normal: orthogonal to the line but for rounding, of this length, not zero.
+// line: of length `length`. per_length2: about 1 / length^2; it keeps the numbers in range, and cancels with the
+// rotor's length. normal: orthogonal to the line up to rounding, of length normal_length, not zero.
 template <class T>
 SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, const T& length, const T& per_length2,
                                                        const Vector<T>& normal, const T& normal_length)
@@ -28,8 +28,8 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
     const T start = line.template at<kE3>(), height = length + abs(start);
     const Vector<T> middle = part<blades(kE1, kE2)>(line) + copysign(height, start) * unit<T, kE3>();
 
-    // Step 5: the normal before the turn by pi about the middle line, n' = 2 (n.m) m / |m|^2 - n, lies in the plane of
-    // e1, e2: n' ~ c e1 + s e2. Here all is times height per_length2.
+    // Step 5: before the turn by pi about the middle line, the normal is n' = 2 (n.m) m / |m|^2 - n. It lies in the
+    // plane of e1 and e2: n' ~ c e1 + s e2. Here everything is multiplied by height per_length2.
     const Vector<T> n = per_length2 * normal;
     const T along = flip_sign(n.template at<kE3>(), start);  // n.m / length, as n is orthogonal to the line
     const T c = along * line.template at<kE1>() - height * n.template at<kE1>();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Names the namespace that every formula lives in, so that the same source compiled for two instruction sets gives
-// differently named functions, and the attributes that keep calls out of kernel loops: formulas are many small
-// functions, and compilers give up inlining them all on their own.
+// Names the namespace of all formulas. So the same source, compiled for two instruction sets, gives functions of
+// different names. This file also has the attributes that keep calls out of kernel loops. Formulas are many small
+// functions, and compilers do not inline all of them on their own.
 #pragma once
 
 #ifndef SWIVEL_ISA

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// An arm's joint limits, written as limits of its swivel (limits.h). All of them are about the rest pose: axes as the
-// arm frame has them at rest, twists and Euler angles of what the joint adds to rest. The elbow's flexion does not
-// depend on the swivel: it is a range of reach (limb_bones.h).
+// An arm's joint limits, written as limits of its swivel (limits.h). All of them are measured from the rest pose. Axes
+// are those of the arm frame at rest. Twists and Euler angles are those of what the joint adds to rest. The elbow's
+// flexion does not depend on the swivel: its limit is a range of reach (limb_bones.h).
 #pragma once
 
 #include "core/arm.h"
@@ -64,7 +64,7 @@ struct SwivelLimits {
     std::uint32_t line_flag[kMostLines] = {}, box_flag[kMostBoxes] = {};
 };
 
-// The component of a rotor that turns about the axis: the rotor's scalar part with the axis' own rotor of pi taken out.
+// The component of a rotor that turns about the axis: the dot product of the axis and the rotor's vector part.
 template <class T>
 SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
 {
@@ -81,7 +81,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     const auto k = unit<T, kK>();
     const Rotor<T>& from_line = arm.from_line;
     const Lift& to_arm = arm.to_arm;
-    // Each of the rotors turns a vector by the square of its length, too, and stands twice in a twist's products.
+    // Each of the rotors also scales a vector by the square of its length, and appears twice in a twist's products.
     const T per_size = T(1) / (len2(from_line) * len2(to_arm));
     const auto cosine = [&](const Vector<T>& fixed, const auto& moving)
                             SWIVEL_INLINE_LAMBDA { return per_size * inner(fixed, widen<Vector<T>::set>(moving)); };
@@ -141,7 +141,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
                         limits.hand_twist.range),
                 flag::limited_hand_twist);
     }
-    // Its matrix has the forearm's axes in its rows: there the moving vector is the row's.
+    // Its matrix has the forearm's axes in its rows, so the moving vector belongs to the row.
     if (use.wrist_box) {
         const auto transposed = matrix_entry(turn_by(hand), turn_by(widen<rotors>(forearm)));
         add_box(euler_box<T>(

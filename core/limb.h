@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole limb: everything that may be asked of an arm beside its wrist, its pole and its bones, each part only where
-// the crowd uses it. The order is the lecture's, with one step more: from the goal to a wrist target, how far it
-// reaches, the swivel plane that is wished for, the frame along the target's line and the triangle that lifts the upper
-// arm out of it, and last the swivel that the joint limits allow. All in the arm frame.
+// The whole limb: everything that a goal may ask of an arm beyond its wrist, its pole and its bones. Each part is
+// computed only if the crowd uses it. The order is the lecture's, with one step more. From the goal comes a wrist
+// target, and then how far it reaches. Next are the swivel plane that is wished for, the frame along the target's line,
+// and the triangle that lifts the upper arm out of it. The last step is the swivel that the joint limits allow.
+// Everything is in the arm frame.
 //
-// Degenerate input is answered here, lane by lane: bad numbers by the arm at rest, a target on the shoulder by the
-// direction e3, a wish that does not say where the elbow goes by the first of the previous normal, the incoming pose's,
-// the rest hinge e1 and e2 that does. Source of the steps: D. Hildenbrand, Inverse Kinematics of a Virtual Character
-// (TU Darmstadt, 2019).
+// Degenerate input is replaced here, lane by lane. Bad numbers become the arm at rest. A target on the shoulder becomes
+// the direction e3. A wish that does not say where the elbow goes becomes the first normal that does: the previous one,
+// the incoming pose's, the rest hinge e1, or e2. Source of the steps: D. Hildenbrand, Inverse Kinematics of a Virtual
+// Character (TU Darmstadt, 2019).
 #pragma once
 
 #include "core/aim.h"
@@ -59,7 +60,7 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
         wrist.hand = blended(normalise(shoulder * elbow * hand), wrist.hand, goal.weights.hand);
     if (use.effector && !use.aim) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
     if (use.weights) {
-        // Each rotor turns a bone by the square of its length, too.
+        // Each rotor also scales a bone by the square of its length.
         const auto e3 = unit<T, kE3>();
         const T shoulder2 = len2(shoulder), elbow2 = len2(elbow);
         const Vector<T> was = (T(1) / (shoulder2 * elbow2)) * ((goal.arm.upper * elbow2) * sandwich(shoulder, e3) +
@@ -82,8 +83,8 @@ SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
     return flags;
 }
 
-// A limb whose goal is understood and whose swivel is still free; phi = 0 is the wish, limited by the frame's most
-// swivel.
+// A limb whose goal is known and whose swivel is still free. phi = 0 is the wish, limited by the most that the swivel
+// may turn in a frame.
 template <class T, class Lift>
 struct PlacedLimb {
     SwivellingArm<T, Lift> arm;
@@ -93,7 +94,7 @@ struct PlacedLimb {
     Bits<T> flags;
 };
 
-// Aims: what use.aim says, known when this is compiled. wanted: the distance from shoulder to target.
+// Aims: what use.aim says, as a constant. wanted: the distance from shoulder to target.
 template <bool Aims, class T>
 SWIVEL_INLINE constexpr auto bones_for(const LimbUse& use, const LimbGoal<T>& goal, const Rotor<T>& hand,
                                        const T& wanted)
@@ -131,8 +132,8 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
     return limb;
 }
 
-// good: false where the caller already knows the input to be bad. Searches: see choose_swivel; without it the previous
-// normal is given back where the limb is not settled.
+// good: false where the caller already knows that the input is bad. Searches: see choose_swivel. Without it, a limb
+// that is not settled gives back the previous normal.
 template <bool Aims, bool Searches = true, class T>
 SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
 {

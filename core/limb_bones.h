@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The bones of a whole limb for a wanted distance from shoulder to wrist: how far they reach, how the elbow bends, and
-// how the upper arm is lifted off the line to the wrist.
+// The bones of a whole limb for a wanted distance from shoulder to wrist. This computes how far they reach, the elbow's
+// flexion, and how far the upper arm is lifted off the line to the wrist.
 #pragma once
 
 #include "core/limb_goal.h"
@@ -36,7 +36,7 @@ template <class T>
 SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use, const LimbGoal<T>& goal,
                                                              const T& wanted)
 {
-    // Sizes of about 1, to the last bit in the same ratios.
+    // Scaled to about 1; the ratios stay the same to the last bit.
     const T sum = goal.arm.upper + goal.arm.fore, shrink = per_power_of_two(select(sum > T(0), sum, T(1)));
     const T upper = goal.arm.upper * shrink, fore = goal.arm.fore * shrink, far = upper + fore,
             near = abs(upper - fore), distance = wanted * shrink;
@@ -60,7 +60,8 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
         flags = flags | bits_where(missed & (too_straight | too_bent), flag::limited_flexion);
     }
 
-    // Steps 1 and 2 of the lecture: the triangle of the bones. One that the other swallows is straight with it.
+    // Steps 1 and 2 of the lecture: the triangle of the bones. A bone that is lost in the other's digits is straight
+    // with it.
     const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
     const T first = select(one_bone, T(0.5), upper), second = select(one_bone, T(0.5), fore);
     const T both = first + second, difference = first - second;

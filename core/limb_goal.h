@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What may be asked of a limb beside its wrist, its pole and its bones, and which of it a crowd uses. All in the arm
-// frame; what a crowd does not use may hold anything.
+// What a goal may ask of a limb beyond its wrist, its pole and its bones, and which parts of it a crowd uses.
+// Everything is in the arm frame. Parts that a crowd does not use may hold anything.
 #pragma once
 
 #include "core/joint_limits.h"
@@ -29,7 +29,7 @@ struct Weights {
     T position, hand, pole;
 };
 
-// As fractions of the arm's length, but for the stretch, a factor of 1 or more.
+// Fractions of the arm's length, except the stretch, which is a factor of 1 or more.
 template <class T>
 struct ReachGoal {
     T soft_far, soft_near, most_stretch, least_distance;
@@ -41,7 +41,8 @@ struct Continuity {
     Turned<T> most;             // swivel in a frame, 0 to pi
 };
 
-// The line of the hand that is brought to the target, from the effector on, and half the flexion to do it with.
+// The line of the hand that goes through the target, from the effector on, and half the flexion that the elbow then
+// has.
 template <class T>
 struct AimGoal {
     Vector<T> axis;  // unit, in the hand's frame

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Joint limits on the swivel's circle. For a given target every limit says that some a cos phi + b sin phi + c is not
-// negative: it is a line in (cos phi, sin phi), in units of a cosine. A box of Euler angles is a list of alternatives,
-// each of several lines. How much room a limit leaves at a swivel is the least over its lines, and the most over its
-// alternatives; it is allowed where that room is not negative. Nothing here forms an angle.
+// Joint limits on the swivel's circle. For a given target, every limit says that some a cos phi + b sin phi + c is not
+// negative. This is a line in (cos phi, sin phi), in units of a cosine. A box of Euler angles is a list of
+// alternatives, each of several lines. The room that a limit leaves at a swivel is the least over its lines, and the
+// most over its alternatives. The swivel is allowed if the room is not negative. Nothing here forms an angle.
 //
 // Sources: swivel-angle intervals, D. Tolani, A. Goswami, N. Badler, Real-time inverse kinematics techniques for
 // anthropomorphic limbs (2000); swing and twist, the rotor's own components.
@@ -13,7 +13,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Less room than this is a violation: what rounding leaves at the end of an allowed arc is about half of it.
+// Less room than this is a violation. Rounding leaves about half of it at the end of an allowed arc.
 inline constexpr double kNoRoom = -5e-7;
 
 // A range of angles: its middle and half its width, which is 0 to pi.
@@ -22,17 +22,17 @@ struct Range {
     Turned<T> middle, half;
 };
 
-// An axis carried by the arm stays within a cone about a fixed one, or a fixed axis within a carried cone: the cosine
-// of the angle between the two is at least the opening's.
+// An axis carried by the arm stays within a cone about a fixed axis; or a fixed axis stays within a carried cone. The
+// cosine of the angle between the two axes must be at least the opening's.
 template <class T>
 SWIVEL_INLINE constexpr OnCircle<T> cone_limit(const OnCircle<T>& cosine, const T& cos_opening)
 {
     return cosine - constant(cos_opening);
 }
 
-// The twist of a rotor about an axis, whose components w and s (along the axis) are given, stays within a range. With
-// tau the twist and beta the swing, w^2 - s^2 = cos^2(beta/2) cos tau and 2 w s = cos^2(beta/2) sin tau, so the room is
-// cos^2(beta/2) (cos(tau - middle) - cos half).
+// The twist of a rotor about an axis stays within a range. w and s are the rotor's scalar part and its part along the
+// axis. With tau the twist and beta the swing, w^2 - s^2 = cos^2(beta/2) cos tau, and 2 w s = cos^2(beta/2) sin tau. So
+// the room is cos^2(beta/2) (cos(tau - middle) - cos half).
 template <class T>
 SWIVEL_INLINE constexpr OnCircle<T> twist_limit(const OnHalfCircle<T>& w, const OnHalfCircle<T>& s,
                                                 const Range<T>& range)
@@ -41,7 +41,7 @@ SWIVEL_INLINE constexpr OnCircle<T> twist_limit(const OnHalfCircle<T>& w, const 
     return range.middle.cos * (ww - ss) + (range.middle.sin + range.middle.sin) * ws - range.half.cos * (ww + ss);
 }
 
-// x in sine direction past a turn: the sine of what (x, y) is past `turn`, times the length of (x, y).
+// Turns (x, y) back by `turn`. past() is then its sine and along() its cosine, both times the length of (x, y).
 template <class N, class T>
 SWIVEL_INLINE constexpr N past(const Turned<T>& turn, const N& x, const N& y)
 {
@@ -53,7 +53,7 @@ SWIVEL_INLINE constexpr N along(const Turned<T>& turn, const N& x, const N& y)
     return turn.cos * x + turn.sin * y;
 }
 
-// A range's ends. A range wider than pi needs one of them only.
+// The ends of a range. A direction is in a range wider than pi if it is on the inner side of one of them.
 template <class T>
 struct Ends {
     Turned<T> low, high, middle;
@@ -77,8 +77,8 @@ SWIVEL_INLINE constexpr T room_between(const Ends<T>& ends, const T& x, const T&
     return select(ends.wide, hi(past_low, before_high), narrow);
 }
 
-// What the sine of an angle may be in a range, where its cosine is positive, or negative: from low to high, or what is
-// not between high and low.
+// The sines of the angles in a range whose cosine has one given sign. They lie between low and high. With `beyond`,
+// they lie outside of high and low instead.
 template <class T>
 struct Sines {
     T low, high;
@@ -90,8 +90,8 @@ SWIVEL_INLINE constexpr T room_between(const Sines<T>& sines, const T& sine)
     const T past_low = sine - sines.low, before_high = sines.high - sine;
     return select(sines.beyond, hi(past_low, before_high), lo(past_low, before_high));
 }
-// entry, leave: the range's ends in the order in which the sine grows; inside: whether they have this sign of the
-// cosine. A wide range with both ends on the other side has all of this one, a narrow one nothing.
+// entry, leave: the ends of the range, in the order in which the sine grows. entry_inside, leave_inside: whether their
+// cosine has the given sign. If neither has it, a wide range allows every sine and a narrow one none.
 template <class T>
 SWIVEL_INLINE constexpr Sines<T> sines(const Turned<T>& entry, const Mask<T>& entry_inside, const Turned<T>& leave,
                                        const Mask<T>& leave_inside, const Mask<T>& wide)
@@ -101,9 +101,9 @@ SWIVEL_INLINE constexpr Sines<T> sines(const Turned<T>& entry, const Mask<T>& en
     return {select(entry_inside, entry.sin, outside_low), select(leave_inside, leave.sin, T(2)), beyond};
 }
 
-// A rotation by a first angle about one axis, a middle one about the next and a last one about the third, each axis as
-// the rotations before have left it, and the range of each angle. The middle angle's cosine may have either sign: with
-// the other one, first and last angle are half a turn off.
+// The ranges of three Euler angles. A rotation turns by a first angle about one axis, by a middle one about the next,
+// and by a last one about the third. Each axis is as the rotations before have left it. The middle angle's cosine may
+// have either sign. With the other sign, the first and the last angle are half a turn off.
 template <class T>
 struct EulerBox {
     OnCircle<T> sine;                                      // of the middle angle
@@ -134,8 +134,8 @@ inline constexpr EulerOrder kEulerOrders[] = {{0, 1, 2, true},  {0, 2, 1, false}
                                               {1, 0, 2, false}, {2, 0, 1, true},  {2, 1, 0, false}};
 
 // entry(row, column): that entry of the rotation's matrix, R = R_first R_middle R_last. With the axes p, q, r in cyclic
-// order, R_pr = sin middle, (R_rr, -R_qr) = cos middle (cos, sin) of the first, (R_pp, -R_pq) of the last; in the
-// other order the sines change sign.
+// order, R_pr = sin middle. (R_rr, -R_qr) is cos middle (cos, sin) of the first angle, and (R_pp, -R_pq) that of the
+// last. In the other order the sines change sign.
 template <class T, class Entry>
 SWIVEL_INLINE constexpr EulerBox<T> euler_box(const EulerOrder& order, const Entry& entry, const Range<T>& first,
                                               const Range<T>& middle, const Range<T>& last)
@@ -154,7 +154,7 @@ SWIVEL_INLINE constexpr EulerBox<T> euler_box(const EulerOrder& order, const Ent
             sines(m.high, !high_front, m.low, !low_front, m.wide)};
 }
 
-// All limits of an arm whose swivel is free, at most kMostLines of them alone and one box for each joint.
+// All limits of an arm whose swivel is free: at most kMostLines single lines, and one box for each joint.
 inline constexpr int kMostLines = 5, kMostBoxes = 2, kMostEdges = kMostLines + 10 * kMostBoxes;
 template <class T>
 struct Limits {
@@ -173,17 +173,16 @@ SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
     return least;
 }
 
-// The edges of all limits: what is allowed changes only where one of them crosses zero. live: where it is an edge at
-// all. front, back: the sign with which it is part of the room where its box takes the middle angle's cosine as
-// positive, or as negative; 0: it is no part of that. Lines without a box are part of all of it.
+// The edges of all limits. The allowed arcs can begin and end only where an edge crosses zero. live: the lanes in which
+// it is an edge at all. front, back: the sign with which it is part of the room, if its box takes the middle angle's
+// cosine as positive (front) or negative (back). 0: it is no part of that room. Lines without a box are part of both.
 template <class T>
 struct Edge {
     OnCircle<T> line;
     Mask<T> live;
     int box, front, back;
 };
-// middles: with those lines, too, that only matter where nothing is allowed. Edges that are live in no lane are left
-// out.
+// middles: also gives the lines that matter only where nothing is allowed. Edges that are live in no lane are left out.
 template <class T>
 SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, Edge<T> (&edge)[kMostEdges])
 {

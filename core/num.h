@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a number type T owes the formulas: + - * /, unary minus, comparisons giving Mask<T>, and the functions below.
-// Here for float and double; simd/lanes.h has the same list for lanes. Each is one correctly rounded IEEE 754 operation
-// or a matter of bits, so every T of the same precision gives the same bits.
+// The operations that formulas use of a number type T: + - * /, unary minus, comparisons that give Mask<T>, and the
+// functions below. This file has them for float and double; simd/lanes.h has the same list for lanes. Each is one
+// correctly rounded IEEE 754 operation, or moves bits. So every T of the same precision gives the same bits.
 #pragma once
 
 #include <bit>
@@ -36,8 +36,8 @@ SWIVEL_INLINE double copysign(double x, double sign) { return std::copysign(x, s
 SWIVEL_INLINE float flip_sign(float x, float sign) { return std::signbit(sign) ? -x : x; }
 SWIVEL_INLINE double flip_sign(double x, double sign) { return std::signbit(sign) ? -x : x; }
 
-// For x > 0, a normal number: the largest power of two that is not above it; and half of one by that power, so that the
-// product with x is at least 1/2 and under 1 (x up to 2^125). Products with either are not rounded.
+// For a normal number x > 0: the largest power of two that is not above it. per_power_of_two() is 1/2 divided by that
+// power. Its product with x is at least 1/2 and under 1 (x up to 2^125). Products with either are not rounded.
 SWIVEL_INLINE float power_of_two(float x)
 {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7f800000u);

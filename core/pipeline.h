@@ -3,9 +3,9 @@
 // The five steps of the lecture, line by line, over any number type: the rotors of a 7-DOF arm from its wrist, its
 // swivel plane and its lengths. Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019).
 //
-// This is the algorithm to read first; solve_arm.h is the same arm made exact where these formulas lose digits. Valid
-// for a wrist within reach, an arm neither straight nor folded and an upper arm not along -e3; elsewhere it divides by
-// zero.
+// Read this algorithm first; solve_arm.h solves the same arm and is exact where these formulas lose digits. This is
+// valid for a wrist within reach, an arm that is neither straight nor folded, and an upper arm that is not along -e3.
+// Elsewhere it divides by zero.
 #pragma once
 
 #include "core/conformal.h"
@@ -32,8 +32,8 @@ SWIVEL_INLINE constexpr Vector<T> pair_point(const Mv<T, S>& pp, const T& side)
     return (T(1) / p.template at<kE0>()) * part<Vector<T>::set>(p);
 }
 
-// wrist: relative to the shoulder. normal: the swivel plane's, of unit length; the elbow is on the side of normal x
-// wrist. upper, fore: bone lengths, > 0.
+// wrist: relative to the shoulder. normal: that of the swivel plane, of unit length. The elbow is on the side of normal
+// x wrist. upper, fore: bone lengths, > 0.
 template <class T>
 SWIVEL_INLINE constexpr PipelinePose<T> solve_pipeline(const Vector<T>& wrist, const Vector<T>& normal, const T& upper,
                                                        const T& fore)
@@ -72,8 +72,8 @@ SWIVEL_INLINE constexpr PipelinePose<T> solve_pipeline(const Vector<T>& wrist, c
     // Step 4, rotate to the elbow by pi about the middle line: q12 = l_M / |l_M|.
     const CentralLine<T> q12 = normalise(l_m);
 
-    // Step 5, rotate to the wrist about k: pi_yz2 = q12 pi_yz ~q12, c3 = cos of the angle from it to pi_swivel,
-    // measured here before the turn by q12; q3 = sqrt((1+c3)/2) + s sqrt((1-c3)/2) k, s the sign of the angle.
+    // Step 5, rotate to the wrist about k: pi_yz2 = q12 pi_yz ~q12. c3 is the cosine of the angle from it to pi_swivel,
+    // measured here before the turn by q12. q3 = sqrt((1+c3)/2) + s sqrt((1-c3)/2) k, where s is the sign of the angle.
     const Vector<T> n = grade_part<1>(~q12 * pi_swivel * q12);
     const T c3 = n.template at<kE1>(), s3 = n.template at<kE2>();
     const T s = select(s3 < T(0), T(-1), T(1));

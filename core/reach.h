@@ -3,7 +3,7 @@
 // How far the wrist is from the shoulder, and the triangle that this distance and the two bones form. All angles come
 // as cosines and sines of their halves, built from products that cannot cancel.
 //
-// Bones of which one is too short for the other's digits have no triangle (solve_arm.h: tamed).
+// If one bone is too short for the digits of the other, there is no triangle (solve_arm.h: tamed).
 #pragma once
 
 #include "core/arm.h"
@@ -26,15 +26,15 @@ SWIVEL_INLINE constexpr Reach<T> clamp_reach(const T& wanted, const T& near, con
 template <class T>
 struct ArmTriangle {
     T cos_half, sin_half;  // of the flexion
-    // Of half the lift, the angle between the target's line and the upper arm: the larger and the smaller of cosine and
-    // sine, both times the same number, and the sum of their squares.
+    // The lift is the angle between the target's line and the upper arm. These are the larger and the smaller of the
+    // cosine and sine of its half, both times the same number, and the sum of their squares.
     T larger, smaller, lift2;
     T cos_lift;  // only its sign counts: not negative where the larger is the cosine
 };
 
-// distance: within the shell and not 0; far = L1+L2, diff = L1-L2. With the perimeter's differences, a = (d-(L1-L2))
-// (d+(L1-L2)), b = (L1+L2-d) (L1+L2+d), p = (d+(L1-L2)) (L1+L2+d), m = (d-(L1-L2)) (L1+L2-d), all >= 0, and a + b = 4
-// L1 L2:
+// distance: within the shell and not 0; far = L1+L2, diff = L1-L2. These products of sums and differences are >= 0: a =
+// (d-(L1-L2)) (d+(L1-L2)), b = (L1+L2-d) (L1+L2+d), p = (d+(L1-L2)) (L1+L2+d), m = (d-(L1-L2)) (L1+L2-d). With a + b =
+// 4 L1 L2,
 //   cos^2(flexion/2) = a / (a+b),   sin^2(flexion/2) = b / (a+b),
 //   cos^2(lift/2)    = p / (p+m),   sin^2(lift/2)    = m / (p+m),   so they are as p to sqrt(pm) = sqrt(ab) to m.
 template <class T>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The oracle: the five steps of D. Hildenbrand, "Inverse Kinematics of a Virtual Character" (TU Darmstadt, 2019), to
-// the letter, in double, on 32-coefficient multivectors. Slow, obviously right, and sharing no code with the solvers
-// that are checked against it. Degenerate poses are the caller's job: see ReferenceArm.
+// the letter, in double, on 32-coefficient multivectors. It is slow and obviously right, and shares no code with the
+// solvers that are checked against it. The caller must avoid degenerate poses: see ReferenceArm.
 
 namespace swivel {
 
@@ -13,9 +13,9 @@ namespace swivel {
 //   the pole is not along the wrist's line;
 //   the arm is neither straight nor folded;
 //   the upper arm is not along +e3 or -e3, where p_ze and p_e have no middle line.
-// The lecture's formulas lose digits towards these. Measured, relative to upper + fore: an upper arm at an angle t from
-// +e3 puts the wrist off by up to 4e-15 / t, a twist theta3 at an angle t from 0 or pi by up to 3e-16 / t.
-// Nothing is checked or clamped: a singular pose, or a twist of 0 or pi whose c3 rounds past 1, may give NaN.
+// The lecture's formulas lose digits towards these. We measured the wrist's error relative to upper + fore. An upper
+// arm at an angle t from +e3 gives up to 4e-15 / t. A twist theta3 at an angle t from 0 or pi gives up to 3e-16 / t.
+// Nothing is checked or clamped. A singular pose may give NaN, and so may a twist of 0 or pi whose c3 rounds past 1.
 struct ReferenceArm {
     double wrist[3];
     double pole[3];  // the elbow lies on this point's side of the wrist's line

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How far the wrist goes for a wanted distance: bounded by the bones, the elbow's flexion and a least distance; eased
-// into both bounds, by parabolas of our own choice; made up for by stretching the bones. Bones of no length reach
-// nothing.
+// How far the wrist goes for a wanted distance. The bones, the elbow's flexion and a least distance bound it. Parabolas
+// of our own choice ease it into both bounds. Stretching the bones makes up for what is missing. Bones of no length
+// reach nothing.
 #pragma once
 
 #include "core/num.h"
@@ -30,8 +30,9 @@ SWIVEL_INLINE constexpr SoftReach<T> hard_reach(const T& wanted, const T& near, 
     return {lo(hi(wanted, near), far), T(1), wanted > far, wanted < near, T(1) < T(0)};
 }
 
-// Eased at the far end over d = far - w .. far + w: d - (d - far + w)^2 / (4 w), a parabola with slope 1 where it
-// starts and 0 where it ends; mirrored at the near end. The zones do not overlap: each is at most half of the range.
+// At the far end, the zone is d = far - w .. far + w. There the distance becomes d - (d - far + w)^2 / (4 w), a
+// parabola with slope 1 where it starts and 0 where it ends. The near end is the mirror image. The zones do not
+// overlap: each is at most half of the range.
 template <class T>
 SWIVEL_INLINE constexpr SoftReach<T> soft_reach(const T& wanted, const ReachRange<T>& range)
 {

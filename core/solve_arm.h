@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The production formula: an arm's rotors from its wrist target, pole and lengths, exact to single precision for every
-// reach and every ratio of bones that its digits can tell. It takes the lecture's five steps (pipeline.h) in an order
-// that shortens them: the middle line and the twist lay a frame along the target's line (frame_rotor.h), and the
-// elbow's triangle (reach.h) lifts the upper arm out of it. Every length is taken off in one root at the end. Source:
-// D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in conformal.h.
+// The production formula: an arm's rotors from its wrist target, pole and lengths. It is exact to single precision, for
+// every reach and for every ratio of bones that the digits can tell. It takes the lecture's five steps (pipeline.h) in
+// an order that shortens them. The middle line and the twist lay a frame along the target's line (frame_rotor.h). The
+// elbow's triangle (reach.h) then lifts the upper arm off this line. One root at the end divides all lengths out.
+// Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019); conventions in conformal.h.
 //
-// The formula has no guards; it says for which arms it holds. The others, rare, are given a tame goal with the same
-// pose first: bad numbers the arm at rest, so no NaN is left; a target on the shoulder the direction e3; a pole that
-// does not say where the elbow goes (along the target's line within sin 1e-3, or of no length) the rest hinge e1 as the
-// swivel plane's normal, or e2 when e1 lies along the line.
+// The formula has no guards; it says for which arms it holds. The other arms are rare. They first get a tame goal that
+// has the same pose:
+// - Bad numbers are replaced by the arm at rest, so no NaN is left.
+// - A target on the shoulder is replaced by the direction e3.
+// - A pole may not say where the elbow goes: it has no length, or is along the target's line within sin 1e-3. Then the
+//   rest hinge e1 is the normal of the swivel plane, or e2 if e1 lies along the line.
 #pragma once
 
 #include "core/frame_rotor.h"
@@ -38,8 +40,8 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
     const T normal_length = sqrt(len2(normal));
     const FrameRotor<T> frame = frame_from_start(goal.wrist, length, per_power_of_two(wrist2), normal, normal_length);
 
-    // The upper arm is lifted off the line by a turn about the normal, at rest e1: cos + sin i, or after the turn by pi
-    // that starts from -e3, i (cos + sin i) = -sin + cos i.
+    // A turn about the normal, at rest e1, lifts the upper arm off the line: cos + sin i. If the frame starts from -e3,
+    // it is turned by pi first: i (cos + sin i) = -sin + cos i.
     const Mask<T> larger_first = flip_sign(triangle.cos_lift, frame.start) >= T(0);
     const T first = select(larger_first, triangle.larger, triangle.smaller),
             second = select(larger_first, triangle.smaller, triangle.larger);
@@ -48,8 +50,8 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
     const T half2 = (frame.middle_half2 * frame.twist_len2) * triangle.lift2;  // the lift comes last
     const Rotor<T> shoulder = (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * lift);
 
-    // It holds for numbers whose squares and products stay normal floats, for poles off the line, and for bones of
-    // which neither swallows the other.
+    // It holds for numbers whose squares and products stay normal floats, for poles off the line, and for bones that
+    // are not lost in each other's digits.
     const T pole1 = length1(goal.pole), shortest2 = far - near;
     const Mask<T> holds =
         (lo(lo(wrist2, pole1), lo(shortest2, T(kPlainLeast / kLeastLift) * (frame.middle_half2 * triangle.lift2))) >=
@@ -62,7 +64,7 @@ SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
             holds};
 }
 
-// A goal for which the formula holds, and what only the asked one tells.
+// A goal for which the formula holds, and what only the original goal tells.
 template <class T>
 struct TameArm {
     ArmGoal<T> goal;
@@ -70,7 +72,7 @@ struct TameArm {
     Mask<T> valid;
 };
 
-// axes: the arm frame, in the space of the goal. good: false where the caller already knows the input to be bad.
+// axes: the arm frame, in the space of the goal. good: false where the caller already knows that the input is bad.
 template <class T>
 SWIVEL_INLINE constexpr TameArm<T> tamed(const ArmGoal<T>& asked, const Mask<T>& good, const ArmAxes<T>& axes)
 {
@@ -86,15 +88,15 @@ SWIVEL_INLINE constexpr TameArm<T> tamed(const ArmGoal<T>& asked, const Mask<T>&
     const T length = sqrt(select(on_shoulder, T(1), wrist2));
     const Vector<T> line = select(on_shoulder, axes.bone, (T(1) / length) * wrist);
 
-    // Bones of about length 1, in the same ratio to the last bit. One that the other swallows is straight with it,
-    // along the line.
+    // Bones of about length 1, in the same ratio to the last bit. A bone that is lost in the other's digits is straight
+    // with it, along the line.
     const T wanted = select(on_shoulder, T(0), length), far = upper + fore;
     const Reach<T> reach = clamp_reach(wanted, abs(upper - fore), far);
     const T shrink = per_power_of_two(select(far > T(0), far, T(1)));
     const Mask<T> one_bone = !(lo(upper, fore) > T(kSwallowed) * far);
     const T distance = select(one_bone, T(kOutOfReach), lo(hi(wanted * shrink, T(kNearest)), T(kOutOfReach)));
 
-    // The pole by the normal that it stands for: orthogonal to the line and the normal, so that line x pole = normal.
+    // The stand-in for a pole. It is orthogonal to the line and to the wanted normal, so that line x pole = normal.
     const T pole2 = len2(pole);
     const Mask<T> no_pole = pole2 < T(kTiny2);
     const Vector<T> towards = (T(1) / sqrt(select(no_pole, T(1), pole2))) * pole;
@@ -112,7 +114,7 @@ SWIVEL_INLINE constexpr TameArm<T> tamed(const ArmGoal<T>& asked, const Mask<T>&
             valid};
 }
 
-// Any arm. plain: the same goal in the form that the formula was tried on; where it holds its bits are kept.
+// Any arm. plain: the same goal, in the form on which the formula was already tried. Where it holds, its bits are kept.
 template <class T>
 SWIVEL_INLINE constexpr ArmPose<T> solve_any(const ArmGoal<T>& plain, const Mask<T>& holds, const ArmGoal<T>& asked,
                                              const Mask<T>& good, const ArmAxes<T>& axes)
@@ -124,7 +126,7 @@ SWIVEL_INLINE constexpr ArmPose<T> solve_any(const ArmGoal<T>& plain, const Mask
     return pose;
 }
 
-// An arm in the arm frame. good: false where the caller already knows the input to be bad.
+// An arm in the arm frame. good: false where the caller already knows that the input is bad.
 template <class T>
 SWIVEL_INLINE constexpr ArmPose<T> solve_arm(const ArmGoal<T>& goal, const Mask<T>& good)
 {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Between the arm's own frame and everything around it: the parent's frame in the world on the way in, the skeleton's
-// own joint frames on the way out, and the hand, which needs both.
+// The way between the arm frame and the spaces around it. Goals come in from the world, through the parent's frame.
+// Results go out to the skeleton's own joint frames. The hand needs both.
 //
 // Names: parent = frame of the shoulder's parent joint, arm = arm frame (arm.h), hand = the wrist joint's own frame.
-// Targets in the world are solved in the parent's frame: the rotor found there carries the arm frame's axes e3 and e1
-// to upper arm and hinge just the same, and where the arm frame lies in the parent's only says what is at rest.
+// Targets in the world are solved in the parent's frame. The rotor found there carries the arm frame's axes e3 and e1
+// to upper arm and hinge, as everywhere. How the arm frame lies in the parent's frame only says where the arm is at
+// rest.
 #pragma once
 
 #include "core/arm.h"
@@ -22,21 +23,29 @@ struct ParentFrame {
 // What a group's binding (batch/swivel.h: swivel_binding) makes of an arm's rotors. All of them of unit length.
 template <class T>
 struct Binding {
-    Rotor<T> parent_from_arm, arm_from_upper, fore_from_arm;
+    Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm;
     Rotor<T> elbow_straight, elbow_hinge;  // the elbow's local rotation is cos elbow_straight - sin elbow_hinge
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
 
+// One of a binding's quaternions.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> broadcast(const float (&q)[4])
+{
+    return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3]));
+}
+
 template <class T>
 SWIVEL_INLINE constexpr Binding<T> binding(const Rotor<T>& parent_from_arm, const Rotor<T>& upper_from_arm,
-                                           const Rotor<T>& fore_from_arm, const Rotor<T>& shoulder_rest,
+                                           const Rotor<T>& elbow_parent_from_arm, const Rotor<T>& fore_from_arm,
+                                           const Rotor<T>& wrist_parent_from_arm, const Rotor<T>& shoulder_rest,
                                            const Rotor<T>& elbow_rest, const Rotor<T>& wrist_rest)
 {
     return {parent_from_arm,
             ~upper_from_arm,
-            fore_from_arm,
-            upper_from_arm * ~fore_from_arm,
-            times_blade<kI>(upper_from_arm) * ~fore_from_arm,
+            wrist_parent_from_arm,
+            elbow_parent_from_arm * ~fore_from_arm,
+            times_blade<kI>(elbow_parent_from_arm) * ~fore_from_arm,
             shoulder_rest,
             elbow_rest,
             wrist_rest};
@@ -47,7 +56,7 @@ SWIVEL_INLINE constexpr Mask<T> is_within(const T& x, double least, double most)
 {
     return (x >= T(least)) & (x <= T(most));
 }
-// A rotor may have any length in 1e-9..1e9: the square of it times a scale stays among the normal floats.
+// A rotor may have any length in 1e-9..1e9. Its square times a scale is then a normal float.
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Rotor<T>& q)
 {
@@ -59,8 +68,9 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
     return is_valid(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
-// A goal in the world as the parent's frame sees it: turned back by the parent's rotation. Instead of taking its length
-// and the scale off the target, both go onto the bones; an arm of another size has the same pose.
+// A goal in the world, as the parent's frame sees it. The parent's rotation is turned back. The target is not divided
+// by the rotation's length and by the scale; instead the bones are multiplied by both. An arm of another size has the
+// same pose.
 template <class T>
 struct SeenGoal {
     ArmGoal<T> goal;
@@ -104,11 +114,11 @@ SWIVEL_INLINE constexpr Rotor<T> elbow_local(const Binding<T>& bind, const ArmPo
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> wrist_local(const Binding<T>& bind, const Rotor<T>& wrist)
 {
-    return bind.fore_from_arm * wrist;
+    return bind.wrist_parent_from_arm * wrist;
 }
 
-// q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to a wanted hand orientation in the
-// space of the pose, which may have any length in 1e-18..1e18.
+// q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to the wanted orientation of the
+// hand. q_hand is in the space of the pose, and may have any length in 1e-18..1e18.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> wrist_rotor(const ArmPose<T>& pose, const Rotor<T>& hand)
 {

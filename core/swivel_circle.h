@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// What is left free when the target and both bones are given: the swivel phi, the arm's turn about the line from the
-// shoulder to the target. In the line's own frame, e3 along it, that is the rotor cos(phi/2) + sin(phi/2) k, so every
-// coordinate of whatever turns with the arm, and every product of two components of its rotor, is
-// a cos phi + b sin phi + c. No angle is formed: a turn is the pair (cos, sin).
+// When the target and both bones are given, the swivel phi is left free: the arm's turn about the line from the
+// shoulder to the target. In the line's own frame, with e3 along it, this turn is the rotor cos(phi/2) + sin(phi/2) k.
+// So every coordinate of whatever turns with the arm is a cos phi + b sin phi + c. The same holds for every product of
+// two components of its rotor. No angle is formed: a turn is the pair (cos, sin).
 #pragma once
 
 #include "core/conformal.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// What varies by less than this, squared, over the whole circle does not vary.
+// A number whose squared variation over the whole circle is less than this does not vary.
 inline constexpr double kFlat2 = 1e-14;
 
 // (cos, sin) of a turn.
@@ -84,7 +84,7 @@ SWIVEL_INLINE constexpr OnCircle<T> operator*(const OnHalfCircle<T>& x, const On
     return {T(0.5) * (both_0 - both_pi), T(0.5) * (x.at_0 * y.at_pi + x.at_pi * y.at_0), T(0.5) * (both_0 + both_pi)};
 }
 
-// Where x crosses zero: two turns, one root. x.a^2 + x.b^2 = r2 and x.c: there are none where r2 < c^2.
+// The two turns where x crosses zero, by one root. r2 is x.a^2 + x.b^2. There are none where r2 < x.c^2.
 template <class T>
 struct Crossings {
     Turned<T> first, second;

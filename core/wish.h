@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Where the elbow shall be: the normal of the swivel plane that a goal wishes for, and how far it may move in a frame.
-// A wish that does not say (within kPoleOff of the line) is replaced by the first of the previous normal, the incoming
-// pose's, the rest hinge e1 and e2 that does.
+// The wish for the elbow: the normal of the swivel plane that a goal asks for, and how far it may move in a frame. A
+// wish within kPoleOff of the line does not say where the elbow goes. It is replaced by the first normal that does: the
+// previous one, the incoming pose's, the rest hinge e1, or e2.
 #pragma once
 
 #include "core/limb_goal.h"
@@ -15,8 +15,8 @@ SWIVEL_INLINE constexpr Vector<T> across(const Vector<T>& v, const Vector<T>& u)
 {
     return v - scalar_product(v, u) * u;
 }
-// A vector or rotor times a power of two that makes it shorter than 1; not much shorter, unless it is shorter than
-// kTiny.
+// A vector or rotor times a power of two, so that it is shorter than 1. It is not much shorter, unless it was shorter
+// than kTiny.
 template <class T, BladeSet S>
 SWIVEL_INLINE constexpr Mv<T, S> scaled(const Mv<T, S>& m)
 {
@@ -34,7 +34,8 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
                                                       const Vector<T>& line)
 {
     const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
-    // Whether a direction, of this squared length, says where the elbow goes: its part across the line is the normal.
+    // Whether a direction of this squared length says where the elbow goes. Its part across the line is then the
+    // normal.
     const auto is_off = [](const Vector<T>& normal, const T& of2)
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
     // The stand-ins, the best last.
@@ -87,7 +88,8 @@ template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>& to, const Vector<T>& line,
                                           const Turned<T>& most, double slack)
 {
-    // The sine of what it is larger; where that is of half a turn, the cosines tell.
+    // This is the sine of the excess over the most. Near an excess of half a turn the sine is small, and the cosines
+    // tell.
     const T cos_turn = scalar_product(from, to), sin_turn = abs(scalar_product(cross(from, to), line));
     return (sin_turn * most.cos - cos_turn * abs(most.sin) > T(slack)) | (cos_turn < most.cos - T(1e-3));
 }

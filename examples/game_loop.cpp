@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A crowd in a game loop: the game moves in steps of fixed length, frames are as long as they are, and hands get about
-// their share of each frame's time. Hands near the camera are solved more often; none is forgotten.
+// A crowd in a game loop. The game moves in steps of fixed length, while frames differ in length. Hands get a fixed
+// part of each frame's time. Hands near the camera are solved more often, and none is forgotten.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -26,8 +26,8 @@ struct Character {
     float priority;
 };
 
-// Characters stand in rows of 100 before a camera at the origin, so that neighbours, which swivel solves together in
-// blocks of 16, are about as important.
+// Characters stand in rows of 100 before a camera at the origin. swivel solves neighbours together, in blocks of 16, so
+// neighbours should be about equally important.
 std::vector<Character> make_characters()
 {
     std::vector<Character> characters(kHandCount);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A host with a job system of its own: its threads solve ranges of blocks, and swivel starts none. The results are
-// those of swivel_solve() to the bit, however the work is cut and whoever does it.
+// A host with a job system of its own. The host's threads solve ranges of blocks, and swivel starts no thread. The
+// results have the bits of one swivel_solve(), whatever the ranges are and whichever thread solves them.
 #include <algorithm>
 #include <array>
 #include <atomic>

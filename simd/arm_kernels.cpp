@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The kernels of plain arms, compiled once for each instruction set: loads rows, calls the formulas of core, stores
-// rows. SWIVEL_ARCH is an xsimd architecture or float; SWIVEL_REGISTERS how many registers a step works on side by
-// side.
+// The kernels of plain arms, compiled once for each instruction set. They load rows, call the formulas of core, and
+// store rows. SWIVEL_ARCH is an xsimd architecture or float. SWIVEL_REGISTERS is how many registers a step works on
+// side by side.
 #include "core/solve_arm.h"
 #include "core/space.h"
 #include "simd/kernels.h"
@@ -14,8 +14,8 @@ namespace swivel::inline SWIVEL_ISA {
 
 namespace {
 
-// The rows of one step of T's lanes: where its first lane is in the first input row and in the first result row. A step
-// does not cross blocks unevenly, so every other place is a constant away.
+// The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
+// step covers whole blocks or lies in one. So every other place is a constant away.
 template <class T, FeatureSet Features>
 struct Rows {
     const float* input;
@@ -53,12 +53,6 @@ struct Rows {
     }
 };
 
-template <class T>
-SWIVEL_INLINE Rotor<T> broadcast(const float (&q)[4])
-{
-    return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3]));
-}
-
 // What all steps of a run share.
 template <class T>
 struct Shared {
@@ -69,9 +63,11 @@ template <class T>
 SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
 {
     const RestFrames& b = *run.frames;
-    return {binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.fore_from_arm),
-                    broadcast<T>(b.shoulder_rest), broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
-            T(run.pole_is_point)};
+    return {
+        binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.elbow_parent_from_arm),
+                broadcast<T>(b.fore_from_arm), broadcast<T>(b.wrist_parent_from_arm), broadcast<T>(b.shoulder_rest),
+                broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
+        T(run.pole_is_point)};
 }
 
 constexpr bool has(FeatureSet features, FeatureSet one) { return features & one; }
@@ -101,7 +97,7 @@ SWIVEL_INLINE Rotor<T> load_hand(const Rows<T, Features>& rows)
         return rows.load_rotor(Field::hand);
 }
 
-// The goals as the formula takes them, and where their other numbers are plain too.
+// The goals as the formula takes them, and in which lanes their other numbers are plain, too.
 template <class T, FeatureSet Features>
 SWIVEL_INLINE SeenGoal<T> seen_goal(const Rows<T, Features>& rows, const Shared<T>& shared)
 {
@@ -139,7 +135,7 @@ SWIVEL_INLINE void store_rest(const Rows<T, Features>& rows, const ArmPose<T>& p
     rows.store(Field::flags, 0, pose.flags);
 }
 
-// Stores a rotation as its quaternion with w > 0; false where w is 0, or NaN: then it means nothing.
+// Stores a rotation as its quaternion with w > 0. Returns false where w is 0 or NaN: there the result means nothing.
 template <class T, FeatureSet Features>
 SWIVEL_INLINE Mask<T> store_plain(const Rows<T, Features>& rows, Field field, const Rotor<T>& q)
 {
@@ -148,7 +144,8 @@ SWIVEL_INLINE Mask<T> store_plain(const Rows<T, Features>& rows, Field field, co
     return abs(w) > T(0);
 }
 
-// Solves a step of plain arms. False for arms that are not, or lie half a turn away: then their results mean nothing.
+// Solves a step of plain arms. Returns false where an arm is not plain, or turns by half a turn. Its results mean
+// nothing there.
 template <class T, FeatureSet Features>
 SWIVEL_INLINE Mask<T> solve_plain_step(const Rows<T, Features>& rows, const Shared<T>& shared)
 {
@@ -165,7 +162,7 @@ SWIVEL_INLINE Mask<T> solve_plain_step(const Rows<T, Features>& rows, const Shar
     return holds;
 }
 
-// Solves a step of any arms: plain ones to the same bits.
+// Solves a step of any arms. Plain arms get the same bits as above.
 template <class T, FeatureSet Features>
 SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Features> rows, const SolveRun& run)
 {
@@ -200,7 +197,8 @@ SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Fe
     store_rest(rows, pose);
 }
 
-// The same for a step of any width, one register after the other: such arms are rare, and one build of that is enough.
+// The same for a step of any width, one register after the other. Such arms are rare, so one build of the function is
+// enough.
 template <class T, FeatureSet Features>
 SWIVEL_INLINE void solve_any_registers(const Rows<T, Features>& rows, const SolveRun& run)
 {
@@ -211,9 +209,9 @@ SWIVEL_INLINE void solve_any_registers(const Rows<T, Features>& rows, const Solv
                        run);
 }
 
-// Calls for the rows of the block that is solved some blocks after this one: 8 is far enough for memory to answer, and
-// their rows still fit a level 1 cache of 32 KiB. Moves no values: past the run's end, or the crowd's, it is only in
-// vain.
+// Prefetches the rows of a block that is solved 8 blocks later. This is far enough for memory to answer, and the rows
+// of 8 blocks still fit a level 1 cache of 32 KiB. A prefetch moves no values. So it does no harm past the end of the
+// run or of the crowd.
 template <FeatureSet Features>
 SWIVEL_INLINE void prefetch_rows(const float* input, const float* results)
 {
@@ -224,8 +222,8 @@ SWIVEL_INLINE void prefetch_rows(const float* input, const float* results)
         __builtin_prefetch(results + row_offset(ahead, result_row_count(Features), row), 1);
 }
 
-// Solves whole steps from block on; returns the first block it left. A function of its own for each T, so that its
-// constants do not take registers from another's loop.
+// Solves whole steps from block on, and returns the first block that is left. It is a function of its own for each T,
+// so that its constants do not take registers from another loop.
 template <class T, FeatureSet Features>
 SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block)
 {
@@ -250,7 +248,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     return block;
 }
 
-// Steps of several registers, then the rest with one: the same formula, the same bits.
+// Solves steps of several registers, and then the rest with one register. The formula and the bits are the same.
 template <FeatureSet Features>
 void solve(const SolveRun& run)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which kernels to run: asks the CPU once, lets the environment or the caller override by name.
+// Which kernels to run. This asks the CPU once. The environment or the caller may choose by name instead.
 #pragma once
 
 #include "simd/kernels.h"

@@ -10,6 +10,7 @@
 namespace swivel {
 
 inline constexpr std::uint32_t kLanes = 16;  // limbs in a block
+inline constexpr std::uint32_t kMostTwistBones = 7;
 
 // Inputs, then results.
 enum class Field : std::uint8_t {

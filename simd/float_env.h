@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets the floating-point environment that the bits of a result depend on (round to nearest, denormals kept, exceptions
-// masked) for as long as it lives, then puts the caller's back, sticky flags included.
+// The bits of a result depend on the floating-point environment. While it lives, this object sets it: round to nearest,
+// keep denormals, mask exceptions. Then it restores the caller's environment, sticky flags included.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a build for one instruction set gives: a function for each set of features. No lanes in sight.
+// The functions that a build for one instruction set gives: one for each set of features. Nothing here knows lanes.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,12 @@ namespace swivel {
 struct RestFrames {
     float parent_from_arm[4];                              // arm frame to the shoulder's parent joint
     float upper_from_arm[4];                               // arm frame at rest to the shoulder joint's own
+    float elbow_parent_from_arm[4];                        // the same, to the elbow's parent joint
     float fore_from_arm[4];                                // the same, to the elbow joint's own
+    float wrist_parent_from_arm[4];                        // the same, to the wrist's parent joint
     float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations
+    float twist_parent_from_arm[kMostTwistBones][4];       // the same, to each twist bone's parent joint and its own
+    float twist_from_arm[kMostTwistBones][4];
 };
 
 // A run of blocks that share their frames.
@@ -66,7 +70,7 @@ struct ArcEnds {
 // Of whole limbs: simd/limb_kernels.cpp.
 struct LimbKernels {
     void (*solve)(const LimbRun& run);
-    // Of one limb of a run: stores its arcs, returns how many there are. In the scalar build alone.
+    // For one limb of a run: stores its arcs and returns how many there are. Only in the scalar build.
     std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
 };
 

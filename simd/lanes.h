@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Lanes<Arch, Registers>: a few xsimd batches of floats worked on side by side, with core/num.h's list of operations,
-// so that every formula runs on it unchanged. The only file that names xsimd, and where its operations are made equal:
-// unary minus flips the sign bit, lo and hi do as selects do, NEON's root and quotient are the exact instructions.
+// Lanes<Arch, Registers>: a few xsimd batches of floats, worked on side by side. It has core/num.h's list of
+// operations, so every formula runs on it unchanged. This is the only file that names xsimd. It makes xsimd's
+// operations equal on all CPUs: unary minus flips the sign bit, lo and hi do as selects do, and NEON's root and
+// quotient are the exact instructions.
 #pragma once
 
 #include <bit>
@@ -23,8 +24,7 @@ struct Lanes {
     Batch r[Registers];
 
     Lanes() = default;
-    // Register by register: as one piece of memory, g++ would carry copies of arrays of these through general
-    // registers.
+    // Copies register by register. g++ would copy arrays of these as one piece of memory, through general registers.
     SWIVEL_INLINE Lanes(const Lanes& other) { *this = other; }
     SWIVEL_INLINE Lanes& operator=(const Lanes& other)
     {
@@ -41,7 +41,8 @@ template <class Arch, int Registers>
 struct LanesMask {
     typename xsimd::batch<float, Arch>::batch_bool_type r[Registers];
 };
-// 32-bit words, kept in registers of floats: they are only selected, or-ed and stored, which leaves bits as they are.
+// 32-bit words, kept in registers of floats. They are only selected, or-ed and stored, and these operations keep the
+// bits.
 template <class Arch, int Registers>
 struct LanesBits {
     using Batch = xsimd::batch<float, Arch>;
@@ -112,7 +113,7 @@ SWIVEL_INLINE Lanes<A, R> sqrt(const Lanes<A, R>& a)
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> operator-(const Lanes<A, R>& a)
 {
-    // The compilers' own minus of registers, so that they may make x + (-y) z into x - y z.
+    // This is the compilers' own minus of registers. So they may turn x + (-y) z into x - y z.
     return each_register<Lanes<A, R>>([&](std::size_t n)
                                           SWIVEL_INLINE_LAMBDA { return xsimd::batch<float, A>(-a.r[n].data); });
 }
@@ -189,7 +190,7 @@ SWIVEL_INLINE bool all(const LanesMask<A, R>& mask)
     return xsimd::all(both);
 }
 #ifdef __x86_64__
-// Here minps and maxps are num.h's selects to the bit: the second operand for NaN and for two zeros.
+// Here minps and maxps have the bits of num.h's selects: they give the second operand for NaN and for two zeros.
 template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> lo(const Lanes<A, R>& a, const Lanes<A, R>& b)
 {
@@ -219,7 +220,7 @@ SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint3
     return select(mask, LanesBits<A, R>(word), LanesBits<A, R>(0u));
 }
 
-// How many lanes a number has, and moving them in and out of rows. address(lane) gives the place of a lane; the lanes
+// How many lanes a number has, and how they move in and out of rows. address(lane) gives the place of a lane. The lanes
 // of one register lie side by side there, aligned to the register.
 template <class T>
 inline constexpr std::size_t lane_count = 1;

@@ -9,7 +9,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 namespace {
 
-// For one limb at a time, so one build of it is enough.
+// This takes one limb at a time, so one build of it is enough.
 std::uint32_t store_arcs([[maybe_unused]] const LimbRun& run, [[maybe_unused]] std::size_t limb,
                          [[maybe_unused]] ArcEnds (&arcs)[kMostArcs])
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A run of whole limbs, step by step. A step takes as long as its slowest limb, and the least violation of Euler boxes
-// takes five to ten times as long to find as the rest: so limbs that need it are put aside and solved together.
+// A run of whole limbs, step by step. A step takes as long as its slowest limb. Finding the least violation of Euler
+// boxes takes five to ten times as long as the rest. So limbs that need it are put aside, and solved together.
 #pragma once
 
 #include "core/allowed_arcs.h"
@@ -40,8 +40,8 @@ struct LimbsAside {
     }
 };
 
-// The steps of a run; settled(first limb, mask) is told of each. One register a step: two were no faster, their values
-// do not stay in registers.
+// Solves the steps of a run, and calls settled(first limb, mask) after each. A step has one register. Two were no
+// faster, because their values do not stay in registers.
 template <class T, bool Aims, bool Searches, class Settled>
 SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const LimbRun& run, Settled settled)
 {

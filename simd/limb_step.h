@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One step of the whole limb: loads the rows that a crowd has, brings them into the arm frame, solves, and stores what
-// the crowd gives out. Which rows those are is the same for all of a run's limbs: it asks once a step,
-// never for a limb.
+// One step of the whole limb. It loads the rows that a crowd has, brings them into the arm frame, solves, and stores
+// the results. All limbs of a run have the same rows, so the step asks for them once, and never for a single limb.
 #pragma once
 
 #include "core/clavicle.h"
@@ -96,21 +95,26 @@ inline LimbUse limb_use(const LimbRun& run)
 // How the skeleton's joints lie to the arm frame; all identities in crowds without joints.
 template <class T>
 struct LimbBinding {
-    Rotor<T> parent_from_arm, upper_from_arm, fore_from_arm;
+    Rotor<T> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
     Rotor<T> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
 template <class T>
 SWIVEL_INLINE LimbBinding<T> limb_binding(const LimbRun& run)
 {
-    const auto broadcast = [](const float(&q)[4])
-                               SWIVEL_INLINE_LAMBDA { return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3])); };
-    if (!(run.features & feature::joints))
-        return {one<T>(), one<T>(), one<T>(), one<T>(), one<T>(), one<T>(), one<T>()};
+    const Rotor<T> q = one<T>();
+    if (!(run.features & feature::joints)) return {q, q, q, q, q, q, q, q, q};
     const RestFrames& b = *run.frames;
-    const Rotor<T> fore = broadcast(b.fore_from_arm), wrist_rest = broadcast(b.wrist_rest);
-    return {broadcast(b.parent_from_arm), broadcast(b.upper_from_arm), fore,      normalise(~fore * wrist_rest),
-            broadcast(b.shoulder_rest),   broadcast(b.elbow_rest),     wrist_rest};
+    const Rotor<T> wrist_parent = broadcast<T>(b.wrist_parent_from_arm), wrist_rest = broadcast<T>(b.wrist_rest);
+    return {broadcast<T>(b.parent_from_arm),
+            broadcast<T>(b.upper_from_arm),
+            broadcast<T>(b.elbow_parent_from_arm),
+            broadcast<T>(b.fore_from_arm),
+            wrist_parent,
+            normalise(~wrist_parent * wrist_rest),
+            broadcast<T>(b.shoulder_rest),
+            broadcast<T>(b.elbow_rest),
+            wrist_rest};
 }
 
 template <class T>
@@ -131,8 +135,8 @@ SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T>&
     return limits;
 }
 
-// What the formula does not see of a limb: how far its clavicle has been turned, in the arm frame's axes, and whether
-// its other inputs are good.
+// The parts of a limb that the formula does not see: how far its clavicle has turned, in the arm frame's axes, and
+// whether its other inputs are good.
 template <class T>
 struct LimbEntry {
     Rotor<T> clavicle;
@@ -184,7 +188,8 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
         if (use.hand && !use.aim) goal.hand = arm_from_world * goal.hand;
         if (rows.has(feature::clavicle)) turn_clavicle(use, bind, rows, pole_is_point, goal, entry);
     }
-    if (use.hand && joints) goal.hand = (use.aim ? ~bind.fore_from_arm * goal.hand : goal.hand) * ~bind.hand_from_arm;
+    if (use.hand && joints)
+        goal.hand = (use.aim ? ~bind.wrist_parent_from_arm * goal.hand : goal.hand) * ~bind.hand_from_arm;
     const auto load_in_hand = [&](Field field) SWIVEL_INLINE_LAMBDA {
         const Vector<T> v = rows.load_vector(field);
         return joints ? sandwich(bind.hand_from_arm, v) : v;
@@ -199,8 +204,9 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
             return scaled(joints ? ~from * local * to : local);
         };
         goal.incoming = {load(Field::incoming_shoulder, bind.parent_from_arm, bind.upper_from_arm),
-                         load(Field::incoming_elbow, bind.upper_from_arm, bind.fore_from_arm), one<T>()};
-        if (use.hand) goal.incoming.wrist = load(Field::incoming_wrist, bind.fore_from_arm, ~bind.hand_from_arm);
+                         load(Field::incoming_elbow, bind.elbow_parent_from_arm, bind.fore_from_arm), one<T>()};
+        if (use.hand)
+            goal.incoming.wrist = load(Field::incoming_wrist, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
     }
     if (use.weights)
         goal.weights = {rows.load(Field::weights, 0), rows.load(Field::weights, 1), rows.load(Field::weights, 2)};
@@ -231,21 +237,24 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
           joints ? bind.parent_from_arm * pose.arm.shoulder * ~bind.upper_from_arm : pose.arm.shoulder,
           bind.shoulder_rest);
     if (joints) {
-        store(Field::elbow, Field::incoming_elbow, bind.upper_from_arm * elbow * ~bind.fore_from_arm, bind.elbow_rest);
+        store(Field::elbow, Field::incoming_elbow, bind.elbow_parent_from_arm * elbow * ~bind.fore_from_arm,
+              bind.elbow_rest);
     } else {
         rows.store(Field::elbow, 0, pose.arm.cos_half);
         rows.store(Field::elbow, 1, pose.arm.sin_half);
     }
     if (use.hand)
         store(Field::wrist, Field::incoming_wrist,
-              joints ? bind.fore_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist, bind.wrist_rest);
+              joints ? bind.wrist_parent_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist, bind.wrist_rest);
     if (const int bones = static_cast<int>(twist_bone_count(rows.run.features)); bones > 0) {
         const Turned<T> twist = twist_rotor(pose.wrist);
         for (int n = 0; n < bones; ++n) {
             const Turned<T> share = shared_twist(twist, (n + 1.0) / (bones + 1.0));
-            const Rotor<T> q =
-                bind.fore_from_arm * (share.cos * unit<T, kScalar>() + share.sin * unit<T, kK>()) * ~bind.fore_from_arm;
-            rows.store_rotor(Field::twist_bones, hemisphere(q), 4 * n);
+            const auto turn = share.cos * unit<T, kScalar>() + share.sin * unit<T, kK>();
+            const RestFrames& b = *rows.run.frames;
+            const Rotor<T> parent = joints ? broadcast<T>(b.twist_parent_from_arm[n]) : one<T>(),
+                           bone = joints ? broadcast<T>(b.twist_from_arm[n]) : one<T>();
+            rows.store_rotor(Field::twist_bones, hemisphere(parent * turn * ~bone), 4 * n);
         }
     }
     if (rows.has(feature::clavicle)) {
@@ -269,8 +278,8 @@ SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
             run.results ? run.results + row_offset(limb, run.result_row_count, 0) : nullptr};
 }
 
-// Solves one step. Where it says false the limits allow no swivel, and a search for the least violation was not wanted:
-// there the results mean nothing.
+// Solves one step. Where it returns false, the limits allow no swivel and Searches is false, so the results mean
+// nothing.
 template <bool Aims, bool Searches, class T>
 SWIVEL_INLINE Mask<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows)
 {

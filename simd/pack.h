@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Result rows of floats to rows of 16-bit words, block by block: the part of the kernels that compact crowds add.
-// Knows no solver.
+// Converts result rows of floats to rows of 16-bit words, block by block. Compact crowds add this part to the kernels.
+// It knows no solver.
 #pragma once
 
 #include <cstring>
@@ -48,8 +48,8 @@ struct PackStep {
     }
 };
 
-// 16 bits of every float, from bit `from` on. Not unrolled: g++ would take the 16 turns of a single row apart before it
-// could make vectors of them, which took half as long again on AVX2.
+// 16 bits of every float, from bit `from` on. The loop is not unrolled. Otherwise g++ would unroll the 16 turns of a
+// single row before it could vectorise them, which took half as long again on AVX2.
 SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_t row_count, std::uint16_t* words)
 {
 #pragma GCC unroll 1

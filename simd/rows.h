@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The layout of a crowd's rows: which fields a set of features has, in which order, and where a lane of a row lies. The
-// only place that knows.
+// The layout of a crowd's rows: which fields a set of features has, in which order, and where a lane of a row lies. No
+// other file knows it.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,8 @@ constexpr std::uint32_t compact_row_count(FeatureSet features, Field field)
     }
 }
 
-// What every field is called in messages, its rows, and the features that a crowd must have for it, and must not.
+// For every field: its name in messages, its rows, the features that a crowd must have for it, and those that it must
+// not have.
 struct FieldLayout {
     const char* name;
     std::uint32_t row_count;
@@ -88,14 +89,15 @@ constexpr std::uint32_t field_row_count(FeatureSet features, Field field)
     return (features & layout.needs) == layout.needs && !(features & layout.without) ? layout.row_count : 0;
 }
 
-// Floats, or the one uint32_t, of a field's value as callers read and write it; 0 likewise.
+// The floats, or the one uint32_t, of a field's value as callers read and write it. 0 if crowds with these features do
+// not have it.
 constexpr std::uint32_t field_component_count(FeatureSet features, Field field)
 {
     return field_row_count(features & ~feature::compact, field);
 }
 
-// Fields that are positions, and those of them that an origin is taken from: not poles that are directions
-// or normals.
+// The fields that are positions, and those from which an origin is subtracted: not poles that are directions or
+// normals.
 constexpr bool is_position(Field field)
 {
     return field == Field::target || field == Field::pole || field == Field::shoulder_position;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Values of 1 to 4 components, as callers keep them, to rows and back: four limbs at a time through 128-bit registers,
-// one at a time at ragged ends. Bit copies of 32-bit words, so a NaN keeps its payload and a flag word its bits. Values
-// may have any alignment and lie any number of bytes apart; no byte beside them is read or written. Where there are no
-// registers to use, four limbs are four times one.
+// Copies values of 1 to 4 components, as callers keep them, to rows and back. It takes four limbs at a time through
+// 128-bit registers, and the last ones one at a time. It copies 32-bit words bit for bit, so a NaN keeps its payload
+// and a flag word its bits. Values may have any alignment and lie any number of bytes apart. No byte beside them is
+// read or written. On CPUs without such registers, four limbs are copied one by one.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: files include what their layer may include and no more, and use only the operations that give the same bits
-# everywhere. One rule a line: rule(folder, what the path must match, the rest of the arrow).
+# The promise: files include only what their layer may include. They use only operations that give the same bits everywhere. Each line is
+# one rule: rule(folder, what the path must match, the rest of the arrow).
 cmake_minimum_required(VERSION 3.22)
 set(rule_count 0)
 
@@ -13,7 +13,7 @@ function(list_files folder)
   set(files "${found}" PARENT_SCOPE)
 endfunction()
 
-# A file without its comments and without the characters that CMake's lists trip over.
+# Reads a file, without its comments and without the characters that have a meaning in CMake's lists.
 function(read_code file)
   file(READ ${SOURCE}/${file} text)
   string(REGEX REPLACE "[][;]" " " text "${text}")
@@ -22,7 +22,7 @@ function(read_code file)
   set(code "\n${text}\n" PARENT_SCOPE)
 endfunction()
 
-# Files of `folder` whose path matches `path` include nothing but headers that match `allowed`, a regex for "name" or <name>.
+# Files of `folder` whose path matches `path` may include only headers that match `allowed`, a regex for "name" or <name>.
 function(may_include folder path allowed)
   list_files(${folder})
   set(seen 0)
@@ -46,7 +46,7 @@ function(may_include folder path allowed)
   set(rule_count ${count} PARENT_SCOPE)
 endfunction()
 
-# Code matches `word` nowhere in `folder` but in files whose path matches `except`.
+# In `folder`, code may match `word` only in files whose path matches `except`.
 function(must_not_say folder word except reason)
   list_files(${folder})
   foreach(file IN LISTS files)
@@ -62,7 +62,7 @@ function(must_not_say folder word except reason)
   set(rule_count ${count} PARENT_SCOPE)
 endfunction()
 
-# Every .cpp beside a header of its name includes that first, so that the header is seen to need nothing else.
+# A .cpp beside a header of its name must include that header first. So the compiler sees that the header needs nothing else.
 function(own_header_first folder)
   list_files(${folder})
   foreach(file IN LISTS files)
@@ -82,7 +82,7 @@ endfunction()
 set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
 
-# ---- core: formulas and the standard library; the oracle shares nothing with them
+# ---- core: formulas and the standard library; the oracle shares nothing with the formulas
 may_include(core "core/(isa|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
             "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"")
 may_include(core "core/dense[.]h$" "<cmath>")
@@ -90,7 +90,7 @@ may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
 
-# ---- simd: the two files of kernels and their headers see formulas and lanes, the rest sees neither
+# ---- simd: the two files of kernels and their headers see formulas and lanes; the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
 may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(kernels|lanes|pack|rows)[.]h\"")
 may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"simd/(kernels|lanes|limb_run)[.]h\"")
@@ -102,19 +102,19 @@ may_include(simd "simd/(dispatch[.](h|cpp)|fields[.]h|kernels[.]h|rows[.]h)$"
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"simd/fields[.]h\"")
 
-# ---- batch: never lanes; only rig, edge, joint_angles, unpack, verify and the flags in api.cpp know core
+# ---- batch: never lanes; only rig, skeleton, edge, joint_angles, unpack, verify and the flags in api.cpp know core
 set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<(std(def|int)|string)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
 may_include(batch "batch/(api_solve|api_pose|sized|budget|chosen|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
-may_include(batch "batch/(rig|angles|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|skeleton|angles|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<(std(def|int)|string)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver
 foreach(folder tools bench)
-  # Counting a formula's operations takes the formula itself.
+  # To count a formula's operations, op_counts needs the formula itself.
   must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted[.]h|op_counts[.]cpp)$"
                "only the public headers are for it")
   must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h and swivel.hpp")
@@ -133,7 +133,7 @@ must_not_say(tools "pybind11" "tools/python/" "the binding is in tools/python al
 must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmarks do not know the tools")
 
 
-# ---- examples see what an installed swivel has; replay reads files, too
+# ---- examples see what an installed swivel has; replay also reads files
 may_include(examples "examples/replay[.]cpp$" "${standard}|<swivel/swivel[.]hpp>|\"tools/formats/(bvh|clip)[.]h\"")
 may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms)[.]c" "${standard}|<stdio[.]h>|<swivel/swivel[.]h(pp)?>")
 
@@ -142,7 +142,7 @@ foreach(folder core simd batch bench tests tools)
 endforeach()
 
 foreach(folder core simd batch)
-  # ---- names at home in one file
+  # ---- names that belong to one file
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
   must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
   # ---- only + - * / sqrt, comparisons, selects and sign bits
@@ -153,15 +153,15 @@ foreach(folder core simd batch)
                ${nowhere} "its bits differ between CPUs")
 endforeach()
 foreach(folder core simd)
-  # lanes.h may: there test_lanes judges min and max to the bit.
+  # lanes.h may use min and max, because test_lanes checks their bits.
   must_not_say(${folder} "[^a-zA-Z_]f?(min|max)f?[ \t]*[(<]" "simd/lanes[.]h$" "use lo and hi: min and max differ between CPUs on NaN and zeros")
   must_not_say(${folder} "[^a-zA-Z_](hypot|remainder|fmod|rint|nearbyint|round|floor|ceil)f?[ \t]*[(]" ${nowhere} "not in num.h's list")
 endforeach()
-# Intrinsics in simd: the two exact NEON instructions, the control word, and moves of words.
+# simd may use intrinsics for the two exact NEON instructions, for the control word, and to move words.
 must_not_say(simd "[^a-zA-Z_](_mm[0-9]*_[a-z0-9_]+|v[a-z]+q_f32)" "simd/(lanes|float_env|transpose)[.]h$"
              "intrinsics belong to lanes.h, float_env.h and transpose.h")
 
-# ---- flags that would move bits
+# ---- flags that would change bits
 file(READ ${SOURCE}/CMakeLists.txt build)
 string(REGEX REPLACE "#[^\n]*" "" build "${build}")
 foreach(flag -ffast-math -Ofast -march= -mtune= -mfma -funsafe-math -fassociative-math -freciprocal-math)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: the program that a newcomer reads first, in the README, is the one that is built and run.
+# The promise: the README shows the program that the tests build and run.
 file(READ ${SOURCE}/examples/hello.cpp hello)  # all but the comment at its head
 string(REGEX REPLACE "^(//[^\n]*\n)+" "" hello "${hello}")
 file(READ ${SOURCE}/README.md text)

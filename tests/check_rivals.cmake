@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: what reports say of the rivals is true of the objects, and the linker cannot hand code for one CPU to another. No
-# object that is built for a level or an instruction set shares a function; loops work in registers of their level's width and
-# call libmvec where they are said to; one arm at a time means just that.
-#   NM, OBJDUMP: the tools; OBJECTS: comma-separated; COMPILER: CMake's name of it
+# The promise: the object files of the rivals are what reports say of them.
+# - No object that is built for a level or an instruction set shares a function. So the linker cannot hand code for one CPU to another.
+# - Loops work in registers of their level's width, and call libmvec where reports say so.
+# - Solvers of one arm at a time really solve one arm at a time.
+#   NM, OBJDUMP: the tools. OBJECTS: separated by commas. COMPILER: CMake's name of the compiler.
 string(REPLACE "," ";" objects "${OBJECTS}")
 
 # Runs a tool on an object; its output is in `output`.

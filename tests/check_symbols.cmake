@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: the linker cannot hand one instruction set's code to another. The two objects of an instruction set's kernels define
-# one strong symbol each, their tables, and every function that other objects might define, too, carries the instruction set in its
-# name.
-#   NM: the tool; OBJECTS: name=object|object,...; DEBUG: 1 for a build without optimisation
+# The promise: the linker cannot hand one instruction set's code to another. Each instruction set has two objects of kernels. Each of
+# them defines one strong symbol, its table. Other objects may define the same functions; so their names carry the instruction set.
+#   NM: the tool. OBJECTS: name=object|object,... DEBUG: 1 for a build without optimisation.
 string(REPLACE "," ";" isas "${OBJECTS}")
 if(NOT isas)
   message(FATAL_ERROR "OBJECTS is empty")
@@ -32,9 +31,9 @@ foreach(entry IN LISTS isas)
       else()
         message(SEND_ERROR "${isa}: a strong symbol besides the tables: ${name}")
       endif()
-    # The namespace of the instruction set, or xsimd's architecture of that name, as a part of the mangled name.
+    # A part of the mangled name is the namespace of the instruction set, or xsimd's architecture of that name.
     elseif(NOT name MATCHES "[0-9]${isa}|simd_${isa}" AND NOT "${isa} ${name}" MATCHES "^avx2 .*3avxE")
-      # Without optimisation one-line functions of other libraries stay: xsimd's constant -0.0f, std::bit_cast, std::sqrt...
+      # Without optimisation, one-line functions of other libraries are not inlined: xsimd's constant -0.0f, std::bit_cast, std::sqrt...
       if(NOT (DEBUG AND name MATCHES "^_ZN5xsimd9constants9minuszeroIfEE|^_ZSt[0-9]+(bit_castIfj|fabsf|sqrtf|signbitf|copysignf)"))
         message(SEND_ERROR "${isa}: a shared function without the instruction set in its name: ${name}")
       endif()

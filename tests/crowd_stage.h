@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A folder with a clip of real motion and a crowd file, the command to solve them, and the solved poses as the tests of
-// crowd files look at them: places by forward kinematics of the written BVH, rotations about the arm frame's axes.
+// A folder with a clip of real motion and a crowd file, the command to solve them, and the solved poses for the tests
+// of crowd files. Places come from forward kinematics of the written BVH. Rotations are about the arm frame's axes.
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Holds a written glTF file against the one it was solved from: where wrists and elbows are, by the plain reading of
-// both, and whether anything else moved.
+// Compares a written glTF file with the one that it was solved from. The plain reading of both gives the places of
+// wrists and elbows, and tells whether anything else moved.
 
 #include <array>
 #include <string>
@@ -26,8 +26,8 @@ inline Eigen::Matrix3d plain_axes(const Eigen::Affine3d& pose) { return pose.lin
 // must have the local transforms they had.
 Closure closure(const PlainGltf& from, const PlainGltf& to, int animation, const std::vector<LimbNodes>& limbs);
 
-// 1e-5 of the limb's length; of an elbow bent by less than 0.02 rad the height over the line from shoulder to wrist is
-// the root of what a float knows of the reach: 2e-3, see tests/test_clip_back.cpp.
+// 1e-5 of the limb's length. For an elbow bent by less than 0.02 rad it is 2e-3. The elbow's height over the line from
+// shoulder to wrist is then the root of a float's error in the reach; see tests/test_clip_back.cpp.
 void require_closed(const Closure& worst);
 
 }  // namespace swivel::test

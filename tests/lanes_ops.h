@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Every operation of core/num.h's list, over any number type of floats: compiled for lanes by lanes_isa.cpp, once for
-// each instruction set, and for plain float by test_lanes.cpp. No standard containers here: their functions would be
-// shared between instruction sets.
+// Every operation of core/num.h's list, over any number type of floats. lanes_isa.cpp compiles this for lanes, once for
+// each instruction set, and test_lanes.cpp for plain float. There are no standard containers here, because their
+// functions would be shared between instruction sets.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Joint limits judged by angles, in double, with Eigen and the C library's arcs: how far a rotation is outside of a
-// cone, a twist range or a box of Euler angles. Shares nothing with core/limits.h.
+// Judges joint limits by angles, in double, with Eigen and the C library's arc functions. It says how far a rotation is
+// outside of a cone, a twist range or a box of Euler angles. It shares nothing with core/limits.h.
 #pragma once
 
 #include <Eigen/Geometry>

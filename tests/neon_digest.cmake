@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise of equal bits on a CPU of another family: builds the library for 64-bit ARM in BUILD, runs print_digest under an
-# emulator and compares with tools/corpus/golden.h.
-#   ISAS: those to run, of neon64 and scalar
-#   BUILD: an own folder; XSIMD: the folder of xsimd's headers; OPTIMISATION: flags; the bits depend on none
+# The promise: a CPU of another family gives the same bits. This script builds the library for 64-bit ARM in BUILD. It runs print_digest
+# under an emulator with each of ISAS, neon64 and scalar, and compares the digests with tools/corpus/golden.h.
+#   BUILD: an own folder. XSIMD: the folder of xsimd's headers. OPTIMISATION: flags, on which the bits do not depend.
 foreach(tool aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ qemu-aarch64-static)
   find_program(found_${tool} ${tool})
   if(NOT found_${tool})
@@ -11,7 +10,7 @@ foreach(tool aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ qemu-aarch64-static)
   endif()
 endforeach()
 
-# The lines of kGoldenDigests: "    0x0123456789abcdefu,  // ordinary".
+# kGoldenDigests has lines such as "    0x0123456789abcdefu,  // ordinary".
 set(golden "")
 foreach(part ordinary hard limbs)
   file(STRINGS ${SOURCE}/tools/corpus/golden.h line REGEX "^ *0x[0-9a-f]+u, *// ${part}$")

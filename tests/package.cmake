@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: an installed swivel is two headers, the library, its command, package files and the licence; it may be moved; C11 and
-# C++20 programs outside the tree find it through CMake and pkg-config, and are told nothing but where it is.
-#   BUILD: the build folder to install from; WORK: an own folder; SOURCE: the repository; LIBDIR, BINDIR, DOCDIR, VERSION, MAJOR;
-#   SHARED, TBB, TOOLS: what BUILD has; FLAGS: that the build's programs need; NM, READELF: tools; see package/host.cmake
+# The promise: an installed swivel consists of two headers, the library, its command, package files and the licence. You may move it. C11
+# and C++20 programs outside the tree find it through CMake and pkg-config. They get its place and no other options.
+#   BUILD: the build folder to install from. WORK: an own folder. SOURCE: the repository. LIBDIR, BINDIR, DOCDIR, VERSION, MAJOR.
+#   SHARED, TBB, TOOLS: what BUILD has. FLAGS: what the build's programs need. NM, READELF: tools. See package/host.cmake, too.
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
 unset(ENV{SWIVEL_FORCE_ISA})  # the library may be built for scalar alone
@@ -50,7 +50,7 @@ if(SHARED)
   include(${CMAKE_CURRENT_LIST_DIR}/package/exports.cmake)
 endif()
 
-# ---- an older C++ is told so in one line
+# ---- an older C++ standard is an error of one line
 file(WRITE ${WORK}/old.cpp "#include <swivel/swivel.hpp>\n")
 execute_process(COMMAND ${CXX} -std=c++17 -fsyntax-only -I${prefix}/include ${WORK}/old.cpp RESULT_VARIABLE result ERROR_VARIABLE said)
 string(REGEX MATCHALL "error:" errors "${said}")
@@ -58,7 +58,7 @@ if(result EQUAL 0 OR NOT said MATCHES "swivel.hpp is C\\+\\+20" OR NOT errors ST
   message(SEND_ERROR "C++17 and swivel.hpp: ${said}")
 endif()
 
-# ---- find_package: where the headers are, the library, and for a static one what it needs
+# ---- find_package gives the place of the headers, the library, and for a static library what it needs
 quote(${prefix} place)
 set(compile "-isystem|-I${place}/include")
 if(SHARED)
@@ -93,7 +93,7 @@ foreach(host find_package find_package_c)
   endforeach()
 endforeach()
 
-# ---- pkg-config, with the strictest look at the headers
+# ---- pkg-config, with the strictest warnings about the headers
 find_program(PKG_CONFIG pkg-config REQUIRED)
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 set(said "-I${prefix}/include" "-L${prefix}/${LIBDIR}" -lswivel)

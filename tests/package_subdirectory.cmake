@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: a host may build swivel as a part of itself, with options of its own that swivel's bits do not depend on, and its own
-# programs get no option of swivel's. Built for scalar alone and hardly optimised, as that takes the time here.
-#   WORK: an own folder; SOURCE: the repository; SHARED, TBB; see package/host.cmake
+# The promise: a host may build swivel as a part of itself. The host's options do not change swivel's bits, and the host's programs get
+# none of swivel's options. This builds for scalar alone and hardly optimises, because the build takes most of the time here.
+#   WORK: an own folder. SOURCE: the repository. SHARED, TBB. See package/host.cmake, too.
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
 unset(ENV{SWIVEL_FORCE_ISA})
@@ -17,7 +17,7 @@ build_host(${CMAKE_CURRENT_LIST_DIR}/package/subdirectory ${WORK} -DSWIVEL=${SOU
 must_print_the_line(${WORK}/arm_c)
 must_print_the_line(${WORK}/arm_cpp)
 
-# What the host's programs are compiled and linked with. -DNDEBUG and -ffast-math are the host's own.
+# The host's programs are compiled and linked with these options. -DNDEBUG and -ffast-math are the host's own.
 quote(${WORK} place)
 must_say_only("the host" "${commands}" "-[IDfm]|-isystem" "-I${place}/[a-z_/-]*/public|-ffast-math|-DNDEBUG")
 must_say_only("the host" "${commands}" "-[lL]|-Wl,|[^ \n]*[.]so|[^ \n]*lib[a-z]*[.]a"

@@ -1,8 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// BVH files by means other than tools/formats: words of the text, and rotation matrices multiplied up in double, so
-// that a mistake of the reader, the writer or the solver cannot hide in its own check. Knows files as exporters write
-// them, with names of one word and line ends of either kind; anything else fails the test.
+// Reads BVH files without tools/formats, by words of the text and by rotation matrices multiplied in double. So a
+// mistake of the reader, the writer or the solver cannot hide in its own check. This knows files as exporters write
+// them, with names of one word and line ends of either kind. Anything else fails the test.
 
 #include <Eigen/Geometry>
 #include <cmath>

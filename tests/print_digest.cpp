@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Prints the digests of the corpus's parts, of the instruction set in use: the part of the bit promise that runs on a
-// CPU of another family, under an emulator. With `golden`, prints the tables of tools/corpus/golden.h instead.
+// Prints the digests of the corpus's parts, with the instruction set in use. Under an emulator, it checks the promise
+// of equal bits on a CPU of another family. With `golden`, prints the tables of tools/corpus/golden.h instead.
 #include <cstdio>
 #include <cstring>
 #include <exception>

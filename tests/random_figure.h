@@ -1,7 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Figures of which everything that matters to a solver is known, as glTF files: the same four limbs under any names,
-// joint axes, scales and mirrors, with twist bones or without, at rest straight or bent, moving at random.
+// Random figures as glTF files, of which everything that matters to a solver is known. They have the same four limbs,
+// under any names, joint axes, scales and mirrors, with or without twist bones. The limbs are straight or bent at rest,
+// and move at random.
 
 #include <Eigen/Geometry>
 #include <array>

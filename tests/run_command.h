@@ -14,7 +14,7 @@ namespace swivel::test {
 // Runs `swivel arguments...` as a function of this process, with `folder` as its working directory.
 Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-// The same as a process of its own: for what only a process has, an environment, a terminal, a peak of memory, a time.
+// The same as a process of its own. Only a process has an environment, a terminal, a peak of memory and a time.
 Outcome spawn_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                       const Surroundings& surroundings = {});
 

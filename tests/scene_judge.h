@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A second reading of FBX and DAE files: assimp's scene as its own documentation has it, whole matrices in double, with
-// FBX pivots as nodes of their own and DAE nodes by their ids, which is not how swivel has assimp read them.
+// A second reading of FBX and DAE files: assimp's scene as its own documentation describes it, with whole matrices in
+// double. FBX pivots are nodes of their own, and DAE nodes have their ids. swivel has assimp read them in another way.
 
 #include <assimp/scene.h>
 #include <catch2/catch.hpp>

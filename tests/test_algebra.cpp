@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: the compile-time algebra is the algebra of D. Hildenbrand, "Inverse Kinematics of a Virtual Character"
-// (TU Darmstadt, 2019). Every identity of the lecture, numbered as there; every product equal to the dense algebra's,
-// which shares no code with it; and a product's type has exactly the blades that can be there.
+// (TU Darmstadt, 2019). It has every identity of the lecture, numbered as there. Every product is equal to the dense
+// algebra's, which shares no code with it. The type of a product has exactly the blades that it can have.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: equal inputs give equal bits, on every instruction set, thread count, block range and number of limbs,
-// in any floating-point environment, whatever lies in padding lanes and in blocks that were not asked for. Checked on
-// the instruction set in use: CTest's label `isa` runs it once for each.
+// The promise: equal inputs give equal bits. It holds for every instruction set, thread count, block range and number
+// of limbs, and in any floating-point environment. Padding lanes and blocks that are not solved may hold anything. This
+// checks the instruction set in use; CTest's label `isa` runs it once for each.
 #include <sys/mman.h>
 
 #include <algorithm>

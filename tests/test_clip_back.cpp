@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The honest end-to-end test on real motion: wrists, elbows and hands of a clip, ankles, knees and feet, go in as
-// targets, and the clip must come back. Both files are posed by plain_motion.h alone.
+// A test on real motion, from end to end. Wrists, elbows and hands of a clip go in as targets, and so do ankles, knees
+// and feet. The clip must come back. plain_motion.h alone poses both files.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -33,14 +33,14 @@ double angle_of(const Matrix3d& turn)
 //
 // The elbow lies at height h over the line from shoulder to wrist, its foot at a from the shoulder and b from the
 // wrist, d = a + b. From h^2 = upper^2 - a^2 and a = (d^2 + upper^2 - fore^2) / 2d follows da/dd = b/d, so |dh^2/dd| =
-// 2ab/d <= 2 upper fore / d. The solver knows d to e, hence h^2 to D = 2 upper fore e / d, hence h to min(sqrt(D),
+// 2ab/d <= 2 upper fore / d. The solver knows d to e. So it knows h^2 to D = 2 upper fore e / d, h to min(sqrt(D),
 // D/h), and a to e.
 //   e: wrist and shoulder are floats relative to the root, each off by 2^-24 of its distance from it (together up
 //   to 3.5 arm lengths: 2.1e-7), bone lengths by 6e-8, d by two roundings: 4e-7 of the arm's length.
-// The direction in which h points is the pole's, known to about 3e-7 of the arm's length; the shoulder's rotation is
-// rounded too: 1e-6 of the arm's length covers both.
-// If sin(pole, target) = h / upper < 1e-3, the swivel is undefined and the elbow may be anywhere on its circle: h of
-// the clip and h of the solver apart. The threshold itself is rounded: 1.001e-3.
+// The direction in which h points is the pole's, known to about 3e-7 of the arm's length. The shoulder's rotation is
+// rounded, too. 1e-6 of the arm's length covers both. If sin(pole, target) = h / upper < 1e-3, the swivel is undefined,
+// and the elbow may be anywhere on its circle. It is then off by the sum of the clip's h and the solver's h. The
+// threshold itself is rounded: 1.001e-3.
 double elbow_allowed(const PlainArm& arm, const PlainArmPose& clip)
 {
     const Vector3d line = clip.wrist - clip.shoulder;
@@ -138,8 +138,8 @@ void require_same_rest(const PlainMotion& clip, const PlainMotion& written, cons
     CHECK(changed == clip.lines.size());  // else nothing was solved
 }
 
-// The writer turns every angle to within half a turn of the frame before, and the first to within half a turn of the
-// clip's own: so no key may jump further, whatever the clip does. 1e-6: the nine decimals.
+// The writer turns every angle to within half a turn of the frame before, and the first angle to within half a turn of
+// the clip's own. So no key may jump further, whatever the clip does. 1e-6: the nine decimals.
 void require_continuous(const PlainMotion& clip, const PlainMotion& written, const Limbs& limbs)
 {
     double worst = 0;

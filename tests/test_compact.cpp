@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: the words of a compact crowd are its results as swivel.h documents them, to the bit on every instruction
-// set and block range, no further from the float results than stated, and nothing else of the crowd changes. Packing
-// and unpacking are held against a second implementation, in long double, made from the documentation.
+// The promise: the words of a compact crowd are its results as swivel.h documents them, to the bit, on every
+// instruction set and block range. They are no further from the float results than stated. Nothing else of the crowd
+// changes. Packing and unpacking are compared with a second implementation, in long double, made from the
+// documentation.
 #include "core/compact.h"
 
 #include <rapidcheck/catch.h>
@@ -114,10 +115,11 @@ double angle_between(const Float4& a, const Float4& b)
     return 4 * std::asin(distance(quat(a).normalized(), quat(b).normalized()) / 2);
 }
 
-// A quaternion's bound, in radians. A component that is kept is off by half a step h = 1/(2 * 16383 * sqrt 2); the one
-// left out, c = sqrt(1 - |s|^2) >= 1/2, by |s|/c <= sqrt 3 times what the three s are off by, at most sqrt 3 h. Both
-// together: sqrt 3 h * sqrt(1 + 3). A rotation turns by twice that. 1.002: the product is rounded in float, by 2^-11 of
-// a step, and so is the result. 3.5e-6: what a length off by 1e-6 does by the same chain.
+// A quaternion's bound, in radians. A component that is kept is off by half a step h = 1/(2 * 16383 * sqrt 2). The
+// three together, s, are off by at most sqrt 3 h. The one left out is c = sqrt(1 - |s|^2) >= 1/2. It is off by |s|/c <=
+// sqrt 3 times the error of s. Both together: sqrt 3 h * sqrt(1 + 3). A rotation turns by twice that. 1.002: the
+// product is rounded in float, by 2^-11 of a step, and so is the result. 3.5e-6: the effect of a length that is off by
+// 1e-6, by the same chain.
 const double kAngle = 1.002 * 4 * std::sqrt(3) / (2 * 16383 * std::sqrt(2)) + 3.5e-6;
 // A half float is off by 2^-11 of its value, so half a flexion by 2 cos sin * 2^-11, and a flexion by at most 2^-10.
 constexpr double kFlexion = 0x1p-10;

@@ -45,8 +45,9 @@ inline bool is_one_line(const std::string& text)
 // Limbs whose joints are the arm frame, with bones of length 1.
 inline swivel_group_def group_of(std::uint32_t limb_count)
 {
-    return group(limb_count,
-                 {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {1, 1}});
+    swivel_chain chain = swivel_default_chain();
+    chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
+    return group(limb_count, bind(chain));
 }
 
 inline swivel_crowd_def def_of(const swivel_group_def& group)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: with a given flexion and a given wrist the hand's ray goes through the target, by the skeleton's own
-// forward kinematics in Eigen; the elbow is bent as asked and on the pole's side; what cannot be aimed at is flagged,
-// and limits of the shoulder hold.
+// The promise: with a given flexion and a given wrist, the hand's ray goes through the target, by the skeleton's own
+// forward kinematics in Eigen. The elbow has the given flexion and is on the pole's side. A target that the hand cannot
+// aim at has a flag. Limits of the shoulder hold.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;

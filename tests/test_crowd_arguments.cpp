@@ -258,8 +258,10 @@ TEST_CASE("results as joints need bindings of unit rotations")
 {
     swivel_group_def group = group_of(3);
     CHECK_NOTHROW(Crowd(SWIVEL_JOINTS, {&group, 1}));
-    for (float* const q : {group.binding.parent_from_arm, group.binding.upper_from_arm, group.binding.fore_from_arm,
-                           group.binding.shoulder_rest, group.binding.elbow_rest, group.binding.wrist_rest}) {
+    swivel_binding& b = group.binding;
+    for (float* const q :
+         {b.parent_from_arm, b.upper_from_arm, b.elbow_parent_from_arm, b.fore_from_arm, b.wrist_parent_from_arm,
+          b.shoulder_rest, b.elbow_rest, b.wrist_rest, b.twist_parent_from_arm[6], b.twist_from_arm[0]}) {
         for (const float w : {0.0f, 1.001f, std::numeric_limits<float>::quiet_NaN()}) {
             q[3] = w;
             const bool is_none = w == 0 && q == group.binding.parent_from_arm;

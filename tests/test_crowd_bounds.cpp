@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a crowd file bounds is bounded in the poses that `swivel solve` writes: joint limits by an oracle of angles,
-// reach by its formula, steps of the swivel, twist bones, budgets. And what does not go together is refused.
+// The bounds of a crowd file hold in the poses that `swivel solve` writes. An oracle of angles judges joint limits, and
+// the formula judges reach. Steps of the swivel, twist bones and budgets are checked, too. Keys that do not go together
+// are refused.
 #include <catch2/catch.hpp>
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: within a budget the most urgent blocks are solved, as a plain list sorted by urgency says; none starves;
-// who is solved depends on priorities and history alone; what is off costs nothing.
+// The promise: within a budget the most urgent blocks are solved, as a plain list sorted by urgency says. No block
+// waits for ever. The choice depends on priorities and history alone. A feature that is off costs nothing.
 #include "tests/solve_jobs.h"
 #include "tests/test_choice.h"
 #include "tests/test_isa_scope.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: limbs that are chosen, by bits or by a list, get the bits that solving all would give them; all others
-// keep theirs; blocks without one are not touched, nothing allocates, and wrong choices change nothing.
+// The promise: limbs that are chosen, by a mask or by a list, get the bits that solving all limbs would give them. All
+// others keep theirs. Blocks without a chosen limb are not touched. Nothing allocates, and wrong choices change
+// nothing.
 #include "tests/allocation_count.h"
 #include "tests/solve_jobs.h"
 #include "tests/test_choice.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: the clavicle turns towards the target by its share, as a curve in Eigen says; the arm hangs from it
-// where it then is, in the skeleton's own forward kinematics; no share, or no position weight, changes nothing.
+// The promise: the clavicle turns towards the target by its share, as a curve in Eigen says. The arm hangs from the
+// turned clavicle, in the skeleton's own forward kinematics. A share of 0, or a position weight of 0, changes nothing.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;

@@ -28,6 +28,39 @@ double number_after(const std::string& text, const std::string& words)
     return std::stod(text.substr(at + words.size()));
 }
 
+// What a limb's joints add to rest, in the arm frame, from the places that swivel_forward() gives.
+struct Added {
+    Quaterniond shoulder, wrist;
+};
+Added added(const Limb& limb, const swivel_binding& bound, const Vector3d& elbow, const Vector3d& wrist,
+            const Quaterniond& hand)
+{
+    const Vector3d upper = (elbow - vec(limb.position)).normalized(), fore = (wrist - elbow).normalized();
+    const Vector3d hinge = fore.cross(upper).normalized();
+    const auto frame = [&](const Vector3d& bone) {
+        Eigen::Matrix3d axes;
+        axes << hinge, bone.cross(hinge), bone;
+        return Quaterniond(axes);
+    };
+    const Quaterniond arm_w = limb.parent().rotation * quat(bound.parent_from_arm);
+    const Quaterniond hand_from_arm = quat(bound.fore_from_arm).conjugate() * quat(bound.wrist_rest);
+    return {arm_w.conjugate() * frame(upper), frame(fore).conjugate() * hand * hand_from_arm.conjugate()};
+}
+
+double off_cone(const Vector3d& a, const Vector3d& b, double most) { return std::acos(a.dot(b)) - most; }
+double off_twist(const Quaterniond& q, const Vector3d& axis, const AngleRange& range)
+{
+    return range.outside(2 * std::atan2(q.vec().dot(axis), q.w()));
+}
+double off_box(const Quaterniond& q, const AngleBox& box)
+{
+    const Vector3d angles = q.toRotationMatrix().eulerAngles(box.axes[0], box.axes[1], box.axes[2]);
+    const auto most = [&](double a, double b, double c) {
+        return std::max({box.range[0].outside(a), box.range[1].outside(b), box.range[2].outside(c)});
+    };
+    return std::min(most(angles[0], angles[1], angles[2]), most(angles[0] + kPi, kPi - angles[1], angles[2] + kPi));
+}
+
 }  // namespace
 
 TEST_CASE("explain names inputs that were never written, or are out of range, and no other")
@@ -138,6 +171,98 @@ TEST_CASE("explain says which limit turned the elbow from its wish, by how much,
     }
     CHECK(turned > 20);
     CHECK(impossible > 20);
+}
+
+TEST_CASE("explain says by how many degrees the pose that violates limits least is outside of each")
+{
+    Random random{8};
+    constexpr std::uint32_t count = 150;
+    const auto narrow = [&] { return AngleRange{random.between(-3, 3), random.between(0.05, 0.6)}; };
+    const auto value_of = [](const AngleBox& box) {
+        Float12 value;
+        for (std::size_t n = 0; n < 3; ++n) std::ranges::copy(range_of(box.range[n]), value.begin() + 4 * n);
+        return value;
+    };
+    int named = 0;
+    for (const std::uint32_t limits :
+         {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
+          SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
+          SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
+        const Chained limb = chained(random);
+        swivel_group_def group = swivel::group(count, limb.bound);
+        swivel_crowd_def def = def_of(group);
+        def.features = kWorldJointsHand | limits;
+        def.shoulder_order = SWIVEL_ZXY;
+        def.wrist_order = SWIVEL_YXZ;
+        Crowd crowd(def);
+        def.features |= SWIVEL_COMPACT;
+        Crowd compact(def);
+        const Vector3d shoulder_axis = random.direction(), hand_axis = random.direction(),
+                       twist_axis = random.direction();
+        const AngleRange humeral = narrow(), forearm = narrow(), hand = narrow();
+        const AngleBox shoulder_box{{2, 0, 1}, {narrow(), narrow(), narrow()}},
+            wrist_box{{1, 0, 2}, {narrow(), narrow(), narrow()}};
+        std::vector<Limb> limbs;
+        for (Crowd* const each : {&crowd, &compact}) {
+            const auto put_all = [&](swivel_field field, const auto& value) {
+                if (swivel_field_row_count(each->get(), field)) each->write_all(field, 0, value);
+            };
+            put_all(SWIVEL_SHOULDER_CONE, cone({shoulder_axis.x(), shoulder_axis.y(), shoulder_axis.z()}, 0.5));
+            put_all(SWIVEL_HAND_CONE, cone({hand_axis.x(), hand_axis.y(), hand_axis.z()}, 0.3));
+            put_all(SWIVEL_HUMERAL_TWIST, range_of(humeral));
+            put_all(SWIVEL_FOREARM_TWIST, range_of(forearm));
+            Float7 twist;
+            std::ranges::copy(floats(twist_axis), twist.begin());
+            std::ranges::copy(range_of(hand), twist.begin() + 3);
+            put_all(SWIVEL_HAND_TWIST, twist);
+            put_all(SWIVEL_SHOULDER_BOX, value_of(shoulder_box));
+            put_all(SWIVEL_WRIST_BOX, value_of(wrist_box));
+            for (std::uint32_t n = 0; n < count; ++n) {
+                if (each == &crowd)
+                    limbs.push_back(
+                        random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
+                write_limb(*each, 0, n, limbs[n]);
+            }
+            each->solve();
+        }
+        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+        std::vector<std::array<double, 3>> elbows(count), wrists(count);
+        std::vector<std::array<double, 4>> hands(count);
+        crowd.elbows(0, elbows);
+        crowd.wrists(0, wrists);
+        crowd.hands(0, hands);
+        for (std::uint32_t n = 0; n < count; ++n) {
+            if (!(flags[n] & SWIVEL_INFEASIBLE)) continue;
+            const std::string text = crowd.explain(0, n);
+            INFO(text);
+            const Added q = added(limbs[n], limb.bound, Vector3d(elbows[n].data()), Vector3d(wrists[n].data()),
+                                  Quaterniond(hands[n].data()));
+            const Vector3d bone = Vector3d::UnitZ();
+            const std::pair<std::uint32_t, std::pair<const char*, double>> off[] = {
+                {SWIVEL_WITH_SHOULDER_CONE, {"shoulder_cone", off_cone(shoulder_axis, q.shoulder * bone, 0.5)}},
+                {SWIVEL_WITH_HUMERAL_TWIST, {"humeral_twist", off_twist(q.shoulder, bone, humeral)}},
+                {SWIVEL_WITH_SHOULDER_BOX, {"shoulder_box", off_box(q.shoulder, shoulder_box)}},
+                {SWIVEL_WITH_HAND_CONE, {"hand_cone", off_cone(bone, q.wrist * hand_axis, 0.3)}},
+                {SWIVEL_WITH_FOREARM_TWIST, {"forearm_twist", off_twist(q.wrist, bone, forearm)}},
+                {SWIVEL_WITH_HAND_TWIST, {"hand_twist", off_twist(q.wrist, twist_axis, hand)}},
+                {SWIVEL_WITH_WRIST_BOX, {"wrist_box", off_box(q.wrist, wrist_box)}},
+            };
+            const std::string pose = text.substr(text.find("Its pose violates"));
+            CHECK(compact.explain(0, n).ends_with(pose));  // words of 16 bits do not matter
+            for (const auto& [limit, named_off] : off) {
+                const auto& [name, angle] = named_off;
+                const double degrees_off = angle / degrees(1);
+                const bool is_named = pose.find(std::string(name) + " by") != std::string::npos;
+                if (!(limits & limit) || degrees_off < -0.03) CHECK_FALSE(is_named);
+                if ((limits & limit) && degrees_off > 0.03) {
+                    REQUIRE(is_named);
+                    CHECK(number_after(pose, std::string(name) + " by") == Approx(degrees_off).margin(0.03));
+                    ++named;
+                }
+            }
+        }
+    }
+    CHECK(named > 500);
 }
 
 TEST_CASE("explain writes no further than it may, changes nothing and refuses what is not there")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: positions in double, taken from an origin before they are rounded, make a crowd far out as exact as one
-// at home, through writes and through frames; plain floats there are not.
+// The promise: a crowd far from the origin is as exact as one near it, through writes and through frames. Its positions
+// are doubles, from which an origin is subtracted before they are rounded. Plain floats there are not exact.
 #include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"

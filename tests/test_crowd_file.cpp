@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowd file: every key is read, wrong ones are refused in one line that says what and where, special tables go
-// before general ones, and documentation and examples know the same keys as the reader.
+// The crowd file. Every key is read. Wrong ones are refused in one line that says what and where. Special tables
+// override general ones. Documentation and examples have the same keys as the reader.
 #include <catch2/catch.hpp>
 
 #include <algorithm>

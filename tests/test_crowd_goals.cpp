@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a crowd file asks of where limbs go is in the poses that `swivel solve` writes: each key by forward kinematics
-// of the written file, or against what the same crowd does without it. Limits and reach are in test_crowd_bounds.cpp.
+// The goals of a crowd file are met in the poses that `swivel solve` writes. Each key is checked by forward kinematics
+// of the written file, or against the same crowd without it. Limits and reach are in test_crowd_bounds.cpp.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -25,15 +25,6 @@ std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
     }
     REQUIRE(seen > 30);
     return seen;
-}
-
-double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
-{
-    REQUIRE(a.size() == b.size());
-    double worst = 0;
-    for (std::size_t n = 0; n < a.size(); ++n)
-        for (std::size_t j = 0; j < 3; ++j) worst = std::max(worst, a[n].joint[j].angularDistance(b[n].joint[j]));
-    return worst;
 }
 
 }  // namespace

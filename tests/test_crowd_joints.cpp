@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: what a crowd says through skeletons is what a walk down the skeleton's joints, by Eigen in double, makes
-// of it; and bindings are made of limbs alone.
+// The promise: a crowd's results for skeletons agree with a walk down the skeleton's joints, by Eigen in double.
+// Bindings are made of limbs alone.
 #include "tests/test_crowd.h"
 #include "tests/test_limb.h"
 

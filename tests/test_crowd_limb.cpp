@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: what swivel.h says of the whole limb holds in crowds, through skeletons and worlds: what is at rest
-// changes nothing, incoming poses and effectors are the skeleton's own, stretch, twist bones, the carried swivel and
-// joint angles are what they say.
+// The promise: what swivel.h says of the whole limb holds in crowds, through skeletons and worlds. Inputs with neutral
+// values change nothing. Incoming poses and effectors are the skeleton's own. Stretch, twist bones, the carried swivel
+// and joint angles mean what swivel.h says.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: limits made of angles are kept as angles through a skeleton, the body's other side is its mirror image,
-// and the arcs that limits allow are where they are kept.
+// The promise: limits made of angles are kept as angles, through a skeleton. The other side of the body is the mirror
+// image. The allowed arcs are where the limits are kept.
 #include <map>
 
 #include "tests/test_whole_limb.h"

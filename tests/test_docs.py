@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The documentation's pages: they build without a warning, every link and anchor within them exists, nothing is fetched from
-elsewhere, the reference has every public name of swivel.h, every feature has its how-to, and pictures are as their script draws
-them."""
+"""The documentation's pages. They build without a warning, every link and anchor within them exists, and nothing is fetched from
+elsewhere. The reference has every public name of swivel.h, and every feature has its how-to. Pictures are as their script draws
+them. What the README points at is there."""
 import os
 import re
 import shutil
@@ -80,6 +80,31 @@ class Programs(unittest.TestCase):
         snippets.check(new, ROOT)
         self.assertIn("swivel::cone(", new)
         self.assertTrue(new.startswith("Text.\n\n") and new.endswith("```\n\nMore.\n"))
+
+
+class Readme(unittest.TestCase):
+    """What the README points at is there, and it stays short."""
+
+    def setUp(self):
+        self.text = (ROOT / "README.md").read_text(encoding="utf-8")
+
+    def test_links_lead_to_files(self):
+        for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples/README.md", ROOT / "bench/results/README.md"):
+            for link in re.findall(r"\]\(([^)#:]+)", page.read_text(encoding="utf-8")):
+                self.assertTrue((page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}")
+
+    def test_the_files_to_the_elbow_have_what_it_says(self):
+        steps = re.findall(r"^\d\. (.*)$", self.text, re.M)
+        self.assertGreater(len(steps), 4)
+        for step in steps:
+            code = "".join((ROOT / file).read_text(encoding="utf-8") for file in re.findall(r"\]\((.*?)\)", step))
+            for name in re.findall(r"`(.*?)`", step):
+                self.assertIn(name, code, step)
+
+    def test_it_is_short(self):
+        lines = self.text.splitlines()
+        self.assertLess(len(lines), 135)
+        self.assertLessEqual(max(map(len, lines)), 120)
 
 
 class Docs(unittest.TestCase):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: hard poses are data. Each gets its flags and a unit pose with the wrist at the nearest reachable point;
-// bad input gets the rest pose and a flag, and no other limb changes by a bit.
+// The promise: hard poses are data. Each gets its flags and a unit pose, with the wrist at the nearest reachable point.
+// Bad input gets the rest pose and a flag, and no other limb changes by a bit.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: a whole frame through the caller's arrays gives the bits of writing, solving and reading, for any stride
-// and alignment, touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
+// and alignment. It touches no byte beside the values, reads a limb before it writes it, and allocates nothing.
 #include "tests/allocation_count.h"
 #include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
@@ -211,6 +211,7 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
         problem.groups.push_back(group_of(1 + random.below(most_limbs)));
         const Quaterniond q = random.rotation();
         std::ranges::copy(floats(q), problem.groups.back().binding.upper_from_arm);
+        std::ranges::copy(floats(q), problem.groups.back().binding.elbow_parent_from_arm);
     }
     const Crowd crowd = problem.crowd();
     for (const swivel_group_def& group : problem.groups) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The reader of glTF: node hierarchies, matrices, mirrors and every kind of key come out as an independent evaluation
-// of the same accessors says, and as three.js plays them; what is wrong is refused in one line.
+// The reader of glTF. Node hierarchies, matrices, mirrors and every kind of key agree with an independent evaluation of
+// the same accessors, and with three.js. A wrong file is refused in one line.
 #include <catch2/catch.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The writer of glTF: new rotations are where they belong, everything else is what it was, value by value and byte by
-// byte; Khronos' validator and three.js read the result.
+// The writer of glTF. New rotations are where they belong. Everything else is as it was, value by value and byte by
+// byte. Khronos' validator and three.js read the result.
 #include <catch2/catch.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: whatever else is asked of a limb, forward kinematics by Eigen finds it done: effectors, hands, turns of
-// the swivel, planes, incoming poses and blends with them.
+// The promise: a limb meets its goals, by forward kinematics in Eigen. These are effectors, hands, turns of the swivel,
+// planes, incoming poses and blends with them.
 #include <catch2/catch.hpp>
 
 #include <rapidcheck/catch.h>

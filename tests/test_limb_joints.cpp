@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Arms and legs are found by the names that exporters give joints: each habit once, as its files spell it, on a
-// skeleton where every limb's joints stand among others.
+// Arms and legs are found by the names that exporters give joints. Each exporter's names appear once, as its files
+// spell them. On each skeleton, the joints of every limb stand among others.
 #include <catch2/catch.hpp>
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: joint limits hold. No swivel that comes back violates a limit by more than 1e-6 where one is allowed, it
-// is as near to the wish as a scan of the whole circle finds, and where none is allowed that is said. The judge works
-// in angles (limit_oracle.h).
+// The promise: joint limits hold. Where a swivel is allowed, the result violates no limit by more than 1e-6. It is as
+// near to the wish as a scan of the whole circle finds. Where no swivel is allowed, a flag says so. The judge works in
+// angles (limit_oracle.h).
 #include <catch2/catch.hpp>
 #include <vector>
 

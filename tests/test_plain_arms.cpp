@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: arms of every valid size, ratio and place are solved, by the formula alone where it says that it holds
-// and through a tame goal where it does not, each to 1e-6 of the arm, and both with the same flags. Forward kinematics
+// The promise: arms of every valid size, ratio and place are solved to 1e-6 of the arm. The formula alone solves those
+// for which it says that it holds. The others go through a tame goal. Both ways give the same flags. Forward kinematics
 // is Eigen's.
 #include <catch2/catch.hpp>
 #include <utility>
@@ -103,8 +103,8 @@ TEST_CASE("everyday arms are plain, so they cost what the benchmarks say")
     });
 }
 
-// A forearm so much shorter than the upper arm, and a pole so far away, that the product of all lengths left the
-// floats: it gave a rotor of zeros once.
+// The forearm is much shorter than the upper arm, and the pole is far away. So the product of all lengths left the
+// range of floats, which once gave a rotor of zeros.
 TEST_CASE("the product of all lengths may not overflow unseen")
 {
     const Arm arm = rounded({{0x1.7982e6p+14, 0x1.fafb84p+10, -0x1.de74f4p-8},

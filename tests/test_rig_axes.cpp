@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What `swivel rig` says for those who write limits: where a limb's own axes point, judged by the figure's nodes, and
-// the limits that a clip fits into, judged by solving under them.
+// What `swivel rig` says to people who write limits. The figure's nodes judge where a limb's own axes point. Solving
+// under the printed limits judges whether the clip fits into them.
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

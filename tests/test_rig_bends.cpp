@@ -16,8 +16,8 @@ TEST_CASE("rig bends: straight arms that point ahead, behind or overhead, and le
     const auto point = [](double degrees, const Vector3d& from, const Vector3d& to) -> Vector3d {
         return 0.3 * (std::cos(degrees * kDegree) * from + std::sin(degrees * kDegree) * to);
     };
-    // Swung forwards and back from hanging, and level out of a T-pose: about the very axis that it bends by, first, and
-    // with the axis, then, which stays upright.
+    // Swings the arm forwards and back from hanging, about its own hinge. Then swings it level out of a T-pose, with a
+    // hinge that stays upright.
     for (const double degrees : {-55.0, -20.0, 0.0, 20.0, 55.0}) {
         for (const auto& [start, hinge] : {std::pair(Vector3d(-kY), kX), std::pair(kX, kY)}) {
             const Vector3d bone = point(degrees, start, kZ);

@@ -12,8 +12,8 @@ using nlohmann::json;
 
 namespace {
 
-// Legs that stand, their shins turned at rest about `axis` by these degrees; the clip bends the knees about +x, as
-// knees bend, to these degrees, where there are any.
+// Standing legs, whose shins are turned at rest about `axis` by these degrees. If degrees are given for the clip, it
+// bends the knees to them about +x, as knees bend.
 GltfRig legs(const Vector3d& axis, double at_rest, const std::vector<double>& clip)
 {
     GltfRig rig;

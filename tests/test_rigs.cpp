@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any skeleton: a binding that gives the clip back, or a refusal that says why. Files are solved by the command and
-// judged by a forward kinematics of the test's own, by Khronos' validator, and where figures are made up by what they
+// Any skeleton gets a binding that gives the clip back, or a refusal that says why. The command solves the files. A
+// forward kinematics of the test's own and Khronos' validator judge them. Made-up figures are also judged by what they
 // were made of.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

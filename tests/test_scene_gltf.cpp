@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes made by hand, of what files seldom have, as glTF: keys without a rate, before 0, out of order or at one time;
-// names that repeat; matrices that no parts say; skins of all kinds. Khronos' validator and the plain reading judge.
+// Scenes made by hand, with parts that files seldom have, become glTF. They have keys without a rate, before 0, out of
+// order or at one time, names that repeat, matrices that cannot be taken apart, and skins of all kinds. Khronos'
+// validator and the plain reading judge.
 #include <assimp/scene.h>
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FBX and DAE files, read by assimp into glTF: every node stands where assimp's own scene has it, at every key; small
-// files whose poses are known by hand; the command from end to end; what Khronos' validator says; files cut short.
+// FBX and DAE files, read by assimp into glTF. Every node is where assimp's own scene has it, at every key. There are
+// small files with poses known by hand, the command from end to end, Khronos' validator, and files cut short.
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -56,8 +56,8 @@ std::vector<fs::path> all_models()
 // The larger error; one that is no number is the worst of all.
 double worse(double worst, double error) { return std::isnan(worst) || error <= worst ? worst : error; }
 
-// What joints and nodes are off by from assimp's scene, in parts of its size, the worst of an animation's frames.
-// metres: the file's own unit, which of FBX files is not in assimp's scene.
+// How far joints and nodes are off from assimp's scene, as a share of its size, in the worst of an animation's frames.
+// metres: the file's own unit. For FBX files, assimp's scene does not have it.
 double worst_against_judge(const fs::path& path, int animation, double metres)
 {
     const TempFolder folder;

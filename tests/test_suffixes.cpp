@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// File names end in any case, as cameras and Windows write them; and what a build without assimp says of FBX and DAE,
-// whose source is linked here in place of the other.
+// Suffixes of file names may be in any case, as cameras and Windows write them. The tests also show what a build
+// without assimp says of FBX and DAE. The source file of such a build is linked here.
 #include <catch2/catch.hpp>
 
 #include "tests/run_command.h"

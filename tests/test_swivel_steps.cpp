@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: with a largest swivel for each frame the elbow never swivels further in one, whatever target and pole
-// do; only joint limits make it jump, and that is said. Without it the elbow jumps where swivel.h says, and only there.
+// The promise: with a largest swivel for each frame, the elbow never swivels further in a frame, whatever target and
+// pole do. Only joint limits make it jump, and a flag says so. Without a largest swivel, the elbow jumps only where
+// swivel.h says.
 #include <catch2/catch.hpp>
 #include <vector>
 

@@ -11,8 +11,8 @@
 
 namespace bench {
 
-// Arrays of floats of one length. Each starts five cache lines past a multiple of its predecessor's length, so that no
-// two of them compete for the same places of a cache, as 4 KiB arrays laid end to end would.
+// Arrays of floats of one length. There are five cache lines between one array and the next. Without them, 4 KiB arrays
+// laid end to end would compete for the same places of a cache.
 template <std::size_t N>
 class Columns {
 public:

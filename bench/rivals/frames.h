@@ -28,8 +28,8 @@ struct CharacterGoal {
     } arm[kArms];
 };
 
-// What all characters share, for each arm: bone lengths in the rig's units, where the next joint is at rest, and how
-// the arm frame lies in the joints: rotations as swivel_binding has them.
+// All characters share these, for each arm: bone lengths in the rig's units, the place of the next joint at rest, and
+// the rotations of swivel_binding, which say how the arm frame lies in the joints.
 struct Rig {
     float upper, fore;
     float elbow_offset[3], wrist_offset[3];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Problem P by the arithmetic of core/solve_arm.h written out by hand, without the algebra: what the kernels would be
-// if someone had done by hand what their types do. It gives the same bits. Compiled once for each instruction set, with
-// the flags of its kernels.
+// Problem P by the arithmetic of core/solve_arm.h, written out by hand and without the algebra. It does by hand what
+// the types of the kernels do. It gives the same bits. Compiled once for each instruction set, with the flags of its
+// kernels.
 #include "bench/rivals/probe.h"
 #include "bench/rivals/wide.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which levels of rivals run here. __builtin_cpu_supports() also asks the operating system; it does not know the
-// levels' names in every compiler, so each is told by the sets that float loops use of it.
+// Which levels of rivals run here. __builtin_cpu_supports() also asks the operating system. Some compilers do not know
+// the levels' names. So this asks for the instruction sets that float loops use of each level.
 #include <iterator>
 
 #include "bench/rivals/level.h"

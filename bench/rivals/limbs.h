@@ -20,9 +20,9 @@ struct Limb {
     bool ordinary;                             // well within reach, the pole well off the target's line
 };
 
-// Upper arms of 0.2 to 0.4, forearms of 0.7 to 1.4 of that, targets in any direction. Seven of ten in the inner 5 to 98
-// % of the shell that the wrist can reach, and ordinary; one nearly straight, one nearly folded or too near, one too
-// far. Every pole is at least sin 0.1 off the target's line.
+// Upper arms are 0.2 to 0.4 long, and forearms 0.7 to 1.4 times that. Targets are in any direction. Of ten arms, seven
+// are ordinary, with targets in the inner 5 to 98 % of the shell that the wrist can reach. One is nearly straight, one
+// nearly folded or too near, and one too far. Every pole is at least sin 0.1 off the target's line.
 std::vector<Limb> random_limbs(std::size_t count);
 
 // A vector of the parent's frame in the world.

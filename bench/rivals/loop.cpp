@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The textbook solver as a plain loop over arrays that the compiler turns into vectors, in three writings; compiled
-// once for each level. Trig: acos and cosines for flexion and lift, as textbooks have it. Light: the fastest we found
-// that still goes through an angle, the flexion's; the lift by its cosine and a root. Roots: half-angle formulas
-// throughout, no angle at all; the fastest loop we found.
+// The textbook solver as a plain loop over arrays, which the compiler vectorises. It is written in three ways, and
+// compiled once for each level.
+// - Trig: acos and cosines for flexion and lift, as textbooks have it.
+// - Light: the fastest way that we found with one angle, that of the flexion. The lift comes from its cosine and a
+//   root.
+// - Roots: half-angle formulas throughout and no angle at all. This is the fastest loop that we found.
 //
-// That g++ 12 vectorises all of them is seen with -fopt-info-vec: it prints "loop vectorized using 64 byte vectors" for
-// the loop below, once for each writing, and `nm` on the object lists _ZGVeN16v_acosf and _ZGVeN16v_cosf, libmvec's.
-// tests/check_rivals.cmake looks at the objects of every build. What it took: ivdep, since 56 alias checks are too many
-// and __restrict on locals is not enough, and a second cosine in place of the sine, since g++ joins sin and cos of one
-// angle into a sincos that it cannot vectorise.
+// g++ 12 vectorises all of them. -fopt-info-vec shows it: g++ prints "loop vectorized using 64 byte vectors" for the
+// loop below, once for each way. `nm` on the object lists _ZGVeN16v_acosf and _ZGVeN16v_cosf of libmvec.
+// tests/check_rivals.cmake looks at the objects of every build. Two things were needed. One is ivdep, because 56 alias
+// checks are too many and __restrict on locals is not enough. The other is a second cosine in place of the sine,
+// because g++ joins the sine and cosine of one angle into a sincos that it cannot vectorise.
 #include <bit>
 #include <cmath>
 

@@ -26,8 +26,8 @@ struct Machine {
     std::string cpu;
     std::array<std::size_t, 3> cache_bytes;  // as the operating system tells, or what is usual
     std::vector<IsaLimits> isas;             // those that run here, best first
-    // Bytes a nanosecond, those read and those written, of a copy within each level by one thread with the best
-    // instruction set; and of one in memory that writes past the caches.
+    // Bytes a nanosecond that a copy reads and writes, within each level, on one thread with the best instruction set.
+    // The second number is for a copy in memory that writes past the caches.
     std::array<double, 4> copy_bytes_per_ns;
     double streamed_bytes_per_ns;
 };

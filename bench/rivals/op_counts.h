@@ -21,9 +21,8 @@ struct OpCounts {
 // Operations of problem P, as kernels do it, on an ordinary arm: solve_arm() and the choice of the quaternion's sign.
 OpCounts count_ops();
 
-// Nanoseconds an arm that no kernel with these operations can go below: the divider works on one root or division at
-// a time, everything else takes its turn on the multipliers and adders. Comparisons, selects, loads and stores are
-// taken as free.
+// The least nanoseconds an arm for a kernel with these operations. The divider works on one root or division at a time.
+// All other operations share the multipliers and adders. Comparisons, selects, loads and stores count as free.
 struct PortBound {
     double divider_ns, arithmetic_ns;
 

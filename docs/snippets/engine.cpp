@@ -28,8 +28,8 @@ Eigen::Vector3d wrist_of(const Character& character)
                     quat(character.forearm) * Eigen::Vector3d(0.26, 0, 0));
 }
 
-// The upper arm's twist about its bone, in degrees, from -180 to 180: a bend the wrong
-// way round, here and in start.cpp, adds half a turn.
+// The upper arm's twist about its bone, in degrees, from -180 to 180. A bend with the
+// wrong sign adds half a turn, here and in start.cpp.
 double twist_of(const Character& character)
 {
     const Eigen::Quaterniond upper = quat(character.upper_arm);

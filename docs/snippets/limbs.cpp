@@ -32,6 +32,62 @@ TEST_CASE("docs: legs")
     CHECK(knee.z() > 0.2);
 }
 
+TEST_CASE("docs: joints of a skeleton")
+{
+    // [skeleton]
+    struct Joint {
+        std::int32_t parent;
+        Float3 place;     // in the parent's frame
+        Float4 rotation;  // relative to the parent
+    };
+    const Float4 none = {0, 0, 0, 1};
+    const std::vector<Joint> joints = {
+        {-1, {0, 1.4f, 0}, none},  // 0: chest
+        {0, {0.2f, 0, 0}, none},   // 1: upper arm
+        {1, {0.15f, 0, 0}, none},  // 2: a roll joint in it, which stays at rest
+        {2, {0.15f, 0, 0}, none},  // 3: forearm
+        {3, {0.13f, 0, 0}, none},  // 4: its twist bone
+        {3, {0.26f, 0, 0}, none},  // 5: hand
+    };
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = 6;
+    skeleton.parents = swivel::stream(joints, &Joint::parent);
+    skeleton.translations = swivel::stream(joints, &Joint::place);
+    skeleton.rotations = swivel::stream(joints, &Joint::rotation);
+
+    swivel_limb_joints left = swivel_default_limb_joints(1, 3, 5);
+    const std::uint32_t twist_bones[] = {4};
+    left.twist_bones = twist_bones;
+    left.twist_bone_count = 1;
+    left.bend[2] = 1;  // the elbow bends forwards
+    const swivel_group_def arms = swivel::group(1, swivel::bind(skeleton, left));
+    // [end]
+    constexpr std::uint32_t features =
+        SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_TWIST_BONES;
+    swivel::Crowd crowd(features, {&arms, 1});
+    const Eigen::Vector3d shoulder(0.2, 1.4, 0), target(0.3, 1.2, 0.35);
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.2f, 1.4f, 0});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.2f, 0.35f});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0.5f, 0, 0});
+    crowd.write_all(SWIVEL_HAND, 0, Float4{0.6f, 0, 0, 0.8f});
+    crowd.solve();
+    std::array<Float4, 1> upper, fore, hand, twist;
+    crowd.read(SWIVEL_SHOULDER, 0, upper);
+    crowd.read(SWIVEL_ELBOW, 0, fore);
+    crowd.read(SWIVEL_WRIST, 0, hand);
+    crowd.read(SWIVEL_TWIST_BONES, 0, twist);
+    const Eigen::Quaterniond elbow_w = quat(upper[0]) * quat(fore[0]);
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX(),
+                          wrist = shoulder + quat(upper[0]) * (0.3 * x) +
+                                  elbow_w * (0.26 * x);
+    CHECK((wrist - target).norm() < 1e-6);
+    CHECK(
+        (elbow_w * quat(hand[0])).angularDistance(Eigen::Quaterniond(0.8, 0.6, 0, 0)) <
+        1e-5);
+    const auto about_x = [](const Float4& q) { return 2 * std::atan2(q[0], q[3]); };
+    CHECK(std::abs(about_x(twist[0]) - about_x(hand[0]) / 2) < 0.0022);
+}
+
 TEST_CASE("docs: mirrored limits")
 {
     // [mirror]

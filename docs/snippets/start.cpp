@@ -6,10 +6,10 @@
 #include <vector>
 
 struct Character {  // your own, as your engine keeps it
-    // In the world: where the wrist goes, a point that the elbow leans to, where the
-    // shoulder joint is, and how its parent joint, the clavicle, is turned: x, y, z, w.
+    // Inputs, in the world. The wrist goes to the grip; the elbow leans to the hint.
+    // The clavicle is the joint above the shoulder. Rotations are x, y, z, w.
     float grip[3], elbow_hint[3], shoulder_position[3], clavicle_rotation[4];
-    // Local joint rotations: what swivel writes.
+    // Results: local joint rotations.
     float upper_arm_rotation[4], forearm_rotation[4];
 };
 

@@ -112,6 +112,14 @@ float& input_at(const swivel_rows& rows, std::uint32_t limb, std::uint32_t row)
     return rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES];
 }
 
+void turn_at_random(Random& random, float (&q)[4])
+{
+    float length2 = 0;
+    for (float& x : q) x = random.share(), length2 += x * x;
+    if (length2 < 1e-3f) return turn_at_random(random, q);
+    for (float& x : q) x /= std::sqrt(length2);
+}
+
 swivel_binding binding_of(Random random)
 {
     swivel_chain chain = swivel_default_chain();
@@ -119,12 +127,17 @@ swivel_binding binding_of(Random random)
         for (float& x : *q) x = random.share();
     for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.bend})
         for (float& x : *v) x = random.share();
-    const float one[4] = {0, 0, 0, 1};
-    swivel_binding binding{};
-    for (auto* q : {&binding.parent_from_arm, &binding.upper_from_arm, &binding.fore_from_arm, &binding.shoulder_rest,
-                    &binding.elbow_rest, &binding.wrist_rest})
-        std::copy_n(one, 4, *q);
-    swivel_bind(&chain, &binding);  // leaves it alone where it fails
+    swivel_binding binding;
+    if (swivel_bind(&chain, &binding) != SWIVEL_OK) {
+        chain = swivel_default_chain();
+        chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
+        swivel_bind(&chain, &binding);
+    }
+    // Joints in between, and twist bones, with any rest rotations.
+    turn_at_random(random, binding.elbow_parent_from_arm);
+    turn_at_random(random, binding.wrist_parent_from_arm);
+    for (auto* frames : {&binding.twist_parent_from_arm, &binding.twist_from_arm})
+        for (auto& frame : *frames) turn_at_random(random, frame);
     return binding;
 }
 

@@ -26,8 +26,8 @@ struct Random {
     std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(bits() >> 32) % limit; }
 };
 
-// A value of a field, of as many floats as it has. kind says how hard: 0 to 5 as such fields should be, 6 with some
-// numbers at which formulas break, 7 any bits.
+// A value of a field, with as many floats as the field has. kind says how hard it is. 0 to 5: as such a field should
+// be. 6: with some numbers at which formulas break. 7: any bits.
 void make_value(Random& random, swivel_field field, std::uint32_t kind, std::span<float> value);
 
 // Writes all inputs of all limbs, padding too: a kind and a seed a field, then single numbers here and there.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// GLB: any bytes are read or refused in one line; see check_gltf.h for the rest. Input that does not start as a GLB
-// does is one byte of the rate of frames, the JSON's length in two, the JSON, and the binary chunk: the sizes in a GLB
-// then fit, so that keys and accessors are reached.
+// GLB: any bytes are read, or refused in one line; see check_gltf.h for the rest. Input that does not start like a GLB
+// is made into one. Its first byte is the rate of frames, and the next two are the length of the JSON. Then come the
+// JSON and the binary chunk. So the sizes in the GLB fit, and the fuzzer reaches keys and accessors.
 #include <cstdint>
 
 #include "tests/fuzz/bytes.h"

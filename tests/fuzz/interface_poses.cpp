@@ -2,8 +2,11 @@
 //
 // Calls of the C interface about single poses, and those that need no crowd.
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include "tests/fuzz/crowd_of_bytes.h"
 #include "tests/fuzz/interface_session.h"
@@ -65,6 +68,56 @@ void call_mirror(Bytes& bytes)
     SWIVEL_REQUIRE(std::memcmp(value.data(), mirrored.data(), sizeof value) == 0);
 }
 
+using BindingNumbers = std::array<float, sizeof(swivel_binding) / sizeof(float)>;
+
+swivel_binding untouched_binding()
+{
+    BindingNumbers numbers;
+    numbers.fill(7);
+    return std::bit_cast<swivel_binding>(numbers);
+}
+void check_binding(swivel_status status, const swivel_binding& bound)
+{
+    constexpr std::size_t lengths = offsetof(swivel_binding, lengths) / sizeof(float),
+                          bones = offsetof(swivel_binding, twist_parent_from_arm) / sizeof(float);
+    const auto numbers = std::bit_cast<BindingNumbers>(bound);
+    bool is_sound = bound.twist_bone_count <= SWIVEL_MOST_TWIST_BONES;
+    for (const float length : bound.lengths) is_sound = is_sound && length > 0 && std::isfinite(length);
+    for (std::size_t n = 0; n < numbers.size(); n += 4) {
+        if (n == lengths) n = bones;
+        is_sound = is_sound && is_near_unit(numbers, n, 4);
+    }
+    check_helper(status, numbers, is_sound);
+}
+
+// Joints as they come: what is no limb must be refused, and nothing outside the arrays be read.
+void call_bind_joints(Bytes& bytes)
+{
+    const std::uint32_t count = bytes.below(12);
+    const bool any_bits = bytes.one_in(4);
+    std::vector<std::int32_t> parents(count);
+    for (std::int32_t& parent : parents)
+        parent = bytes.one_in(32) ? bytes.take<std::int32_t>() : static_cast<std::int32_t>(bytes.below(count + 1)) - 1;
+    std::vector<float> rotations(std::size_t{4} * count), translations(std::size_t{3} * count);
+    for (std::vector<float>* const values : {&rotations, &translations})
+        for (float& x : *values) x = any_bits ? bytes.any_float() : bytes.share();
+    std::vector<std::uint32_t> twist_bones(bytes.below(9));
+    for (std::uint32_t& joint : twist_bones) joint = bytes.below(count + 1);
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = count;
+    skeleton.parents = {parents.data(), sizeof(std::int32_t)};
+    skeleton.translations = {translations.data(), 3 * sizeof(float)};
+    if (bytes.one_in(2)) skeleton.rotations = {rotations.data(), 4 * sizeof(float)};
+    swivel_limb_joints joints =
+        swivel_default_limb_joints(bytes.below(count + 1), bytes.below(count + 1), bytes.below(count + 1));
+    joints.twist_bones = twist_bones.data();
+    joints.twist_bone_count = static_cast<std::uint32_t>(twist_bones.size());
+    for (float& x : joints.bend) x = any_bits ? bytes.any_float() : bytes.share();
+    swivel_binding bound = untouched_binding();
+    const swivel_status status = swivel_bind_joints(&skeleton, &joints, &bound);
+    check_binding(status, bound);
+}
+
 void call_bind(Bytes& bytes)
 {
     std::array<float, 21> numbers;
@@ -75,17 +128,10 @@ void call_bind(Bytes& bytes)
     static_assert(offsetof(swivel_chain, bend) + sizeof chain.bend == first + sizeof numbers);
     std::memcpy(reinterpret_cast<char*>(&chain) + first, numbers.data(), sizeof numbers);
     if (bytes.one_in(4)) chain.size = bytes.take<std::uint8_t>();
-    std::array<float, 26> binding;
-    static_assert(sizeof binding == sizeof(swivel_binding));
-    binding.fill(7);
-    swivel_binding bound;
-    std::memcpy(&bound, binding.data(), sizeof bound);
+    swivel_binding bound = untouched_binding();
     const swivel_status status = swivel_bind(&chain, &bound);
-    std::memcpy(binding.data(), &bound, sizeof bound);
-    bool is_sound = true;
-    for (const float length : bound.lengths) is_sound = is_sound && length > 0 && std::isfinite(length);
-    for (std::size_t n = 0; n < 24; n += 4) is_sound = is_sound && is_near_unit(binding, n, 4);
-    check_helper(status, binding, is_sound);
+    check_binding(status, bound);
+    if (bytes.one_in(2)) call_bind_joints(bytes);
 }
 
 void call_unpack(Bytes& bytes)

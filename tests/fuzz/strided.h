@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A caller's array for the C interface: exactly as long as its values, so that the address sanitizer sees a byte too
-// far on either side, of any alignment and stride, allowed or not.
+// A caller's array for the C interface, of any alignment and stride, allowed or not. It is exactly as long as its
+// values. So the address sanitizer sees an access that is a byte too far on either side.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Breaks swivel on purpose, one mutation of mutations.toml at a time, and tells whether the named test fails then.
+"""Breaks swivel on purpose, one mutation of mutations.toml at a time, and checks that the named test then fails.
 
-The tree is copied, with what is not yet committed, to a folder of its own; only the copy is changed. Kernels are built at -O1:
-for one lane, or where a mutation asks for it also for SSE2. First every test that is named must pass on the copy as it is. Then
-each mutation is applied; what its test runs is built, and nothing else; the test must fail. A pattern that does not stand in its
-file just once, a mutant that does not compile, and a mutant that its test lets pass are failures.
+The script copies the tree, with uncommitted changes, to a folder of its own, and changes only the copy. It builds the kernels at
+-O1, for one lane, and also for SSE2 if a mutation asks for it. First, every named test must pass on the unchanged copy. Then the script
+applies each mutation, builds only what its test runs, and the test must fail. These are failures: a pattern that its file does not
+have exactly once, a mutant that does not compile, and a mutant that its test lets pass.
 """
 import argparse
 import fcntl

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: the shared library exports the functions of swivel.h, each, and nothing else, under a name with its major version.
-#   LIBRARY: libswivel.so; HEADER: swivel.h; MAJOR; NM, READELF: the tools
+# The promise: the shared library exports every function of swivel.h and nothing else. Its name has its major version.
+#   LIBRARY: libswivel.so. HEADER: swivel.h. MAJOR. NM, READELF: the tools.
 file(READ ${HEADER} header)
 string(REGEX REPLACE "//[^\n]*" "" header "${header}")
 string(REPLACE ";" "\n" header "${header}")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 #
-# Building programs outside the tree, and looking at what their compiler and linker are told. Included by the package scripts.
-#   CC, CXX: compilers; GENERATOR; EXPECTED: swivel's own build of arm.c, whose line every program must print
+# The package scripts include this. It builds programs outside the tree, and checks the command lines of their compiler and linker.
+#   CC, CXX: compilers. GENERATOR. EXPECTED: swivel's own build of arm.c, whose line every program must print.
 
-# Runs a command; ends the script with all it said if it fails. Fills `output`.
+# Runs a command and fills `output`. If the command fails, the script ends with everything that it said.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT result EQUAL 0)
@@ -13,8 +13,8 @@ function(run)
   set(output "${said}" PARENT_SCOPE)
 endfunction()
 
-# Configures and builds a project anew; `commands` becomes what compiled and linked arm.c and arm.cpp, line by line. Remaining
-# arguments: for the configuration.
+# Configures and builds a project anew. `commands` becomes the lines that compiled and linked arm.c and arm.cpp. The remaining
+# arguments go to the configuration.
 function(build_host source build)
   file(REMOVE_RECURSE ${build})
   run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${source} -B ${build} -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} ${ARGN})
@@ -24,7 +24,7 @@ function(build_host source build)
   set(commands "${commands}" PARENT_SCOPE)
 endfunction()
 
-# A program of the host's prints the line of swivel's own build: the same bits.
+# A program of the host must print the same line as swivel's own build, so its bits are the same.
 run(${EXPECTED})
 set(expected_line "${output}")
 function(must_print_the_line program)
@@ -34,7 +34,8 @@ function(must_print_the_line program)
   endif()
 endfunction()
 
-# Words of the commands that start as one regex says must each match another, `allowed`, wholly. There must be some.
+# Some words of the commands start as the first regex says. Each of them must match the second regex, `allowed`, as a whole. There must be
+# at least one.
 function(must_say_only what commands words allowed)
   string(REGEX MATCHALL "[ \n](${words})[^ \n]*" found "${commands}")
   if(NOT found)
@@ -49,7 +50,7 @@ function(must_say_only what commands words allowed)
   endforeach()
 endfunction()
 
-# A regex for a text as it is.
+# Makes a regex that matches just this text.
 function(quote text variable)
   string(REGEX REPLACE "([][+.*()^$?|\\])" "\\\\\\1" quoted "${text}")
   set(${variable} "${quoted}" PARENT_SCOPE)

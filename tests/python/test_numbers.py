@@ -67,6 +67,56 @@ class Poses(unittest.TestCase):
             self.assertGreater(reached.sum(), N / 2)
             np.testing.assert_allclose(wrists[reached], sample.targets[reached], atol=1e-6)
 
+    def test_joints_of_a_skeleton(self):
+        """Forward kinematics over the whole skeleton: a joint between the limb's, twist bones, children before parents."""
+        random = np.random.default_rng(5)
+        # wrist, twist, twist, roll of the forearm, elbow, roll of the upper arm, shoulder, chest, root
+        parents = np.array([3, 3, 4, 4, 5, 6, 7, 8, -1])
+        places = random.normal(scale=0.3, size=(9, 3))
+        places[1] = 0.6 * places[0]
+        places[2] = 0.1 * places[3]
+        rest = quaternions(random, 9).astype(np.float64)
+
+        def pose(local):
+            turned, at = [None] * 9, [None] * 9
+            for joint in range(8, -1, -1):
+                above = parents[joint]
+                turned[joint] = local[joint] if above < 0 else times(turned[above], local[joint])
+                at[joint] = np.broadcast_to(places[joint], (N, 3)) if above < 0 else at[above] + rotate(turned[above], places[joint])
+            return turned, at
+
+        still = [np.broadcast_to(each, (N, 4)) for each in rest]
+        turned, at = pose(still)
+        limb = swivel.bind_joints(parents, places, 6, 4, 0, rotations=rest, twist_bones=[2, 1], bend=random.normal(size=3))
+        kept = swivel.Binding(**{name: getattr(limb, name) for name in dir(swivel.Binding) if name[0] != "_"})
+        self.assertEqual(repr(kept), repr(limb))
+        self.assertEqual(limb.twist_from_arm.shape, (2, 4))
+        crowd = swivel.Crowd([(N, kept)], Feature.JOINTS | Feature.WORLD | Feature.WITH_HAND | 2 * Feature.WITH_TWIST_BONES)
+        reach = limb.lengths.sum()
+        line = random.normal(size=(N, 3))
+        line *= random.uniform(0.7, 0.9, (N, 1)) * reach / np.linalg.norm(line, axis=1)[:, None]
+        targets, hands = at[6] + line, quaternions(random, N)
+        for field, values in ((Field.TARGET, targets), (Field.POLE, at[6] + random.normal(size=(N, 3))), (Field.HAND, hands),
+                              (Field.SHOULDER_POSITION, at[6]), (Field.PARENT_ROTATION, turned[7])):
+            crowd.write(field, values)
+        crowd.solve()
+        local = list(still)
+        local[6], local[4], local[0] = crowd.read(Field.SHOULDER), crowd.read(Field.ELBOW), crowd.read(Field.WRIST)
+        twist = crowd.read(Field.TWIST_BONES)
+        local[2], local[1] = twist[:, :4], twist[:, 4:]
+        turned, at = pose(local)
+        reached = (crowd.read(Field.FLAGS) & Flag.REACHED) != 0
+        self.assertGreater(reached.sum(), N / 2)
+        np.testing.assert_allclose(at[0][reached], targets[reached], atol=2e-6)
+        np.testing.assert_allclose(abs(np.sum(turned[0] * hands, axis=1)), 1, atol=2e-6)
+        with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 6, is not below the shoulder, joint 4"):
+            swivel.bind_joints(parents, places, 4, 6, 0, rotations=rest)
+        turned_none = swivel.bind_joints(parents, places, 6, 4, 0, twist_bones=[2, 1], bend=(1, 0, 0))
+        given = swivel.bind_joints(parents, places, 6, 4, 0, np.tile((0, 0, 0, 1), (9, 1)), [2, 1], (1, 0, 0))
+        self.assertEqual(repr(turned_none), repr(given))
+        with self.assertRaisesRegex(ValueError, r"translations: expected shape \(9, 3\)"):
+            swivel.bind_joints(parents, places[1:], 6, 4, 0)
+
     def test_limits_hold_and_arcs_tell_which_swivels_they_leave(self):
         sample = Sample(N)
         arms = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_cone=swivel.cone((0, 0, 1), 1.2),

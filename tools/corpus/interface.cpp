@@ -134,7 +134,11 @@ swivel_binding library_binding(const Binding& own)
     swivel_binding binding{};
     copy(own.parent_from_arm, binding.parent_from_arm);
     copy(own.upper_from_arm, binding.upper_from_arm);
+    copy(own.upper_from_arm, binding.elbow_parent_from_arm);
     copy(own.fore_from_arm, binding.fore_from_arm);
+    copy(own.fore_from_arm, binding.wrist_parent_from_arm);
+    for (auto& frame : binding.twist_parent_from_arm) copy(own.fore_from_arm, frame);
+    for (auto& frame : binding.twist_from_arm) copy(own.fore_from_arm, frame);
     copy(own.shoulder_rest, binding.shoulder_rest);
     copy(own.elbow_rest, binding.elbow_rest);
     copy(own.wrist_rest, binding.wrist_rest);

@@ -38,8 +38,8 @@ struct Random {
 // What the numbers of a field are drawn for.
 enum class Use : std::uint32_t { value = 0, spoil = 1 };
 
-// Each field of each group draws from a stream of its own: what a crowd is given beside moves none of its numbers.
-// frame: 0 but for what is new in each frame.
+// Each field of each group draws from a stream of its own. So its numbers stay the same whatever else a crowd is given.
+// frame: 0, except for values that are new in each frame.
 inline Random stream(std::uint64_t seed, std::uint32_t group, Field field, Use use, std::uint32_t frame)
 {
     Random key{(std::uint64_t{frame} << 32) | (static_cast<std::uint64_t>(use) << 24) | (std::uint64_t{group} << 8) |

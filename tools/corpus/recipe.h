@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a crowd of the corpus is, in words of the corpus alone: features, fields and flags have numbers of their own,
-// which never change, whatever the library calls them. interface.cpp knows the library's.
+// Describes a crowd of the corpus, in words of the corpus alone. Features, fields and flags have numbers of their own
+// here. These never change, whatever the library calls them. interface.cpp knows the library's.
 #pragma once
 
 #include <array>

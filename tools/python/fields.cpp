@@ -10,17 +10,11 @@ namespace swivel::python {
 
 namespace {
 
-constexpr std::array<float, 4> kIdentity{0, 0, 0, 1};
-
 swivel_group_def one_limb()
 {
-    swivel_group_def group = swivel_default_group_def(1);
-    swivel_binding& b = group.binding;
-    for (auto* q :
-         {&b.parent_from_arm, &b.upper_from_arm, &b.fore_from_arm, &b.shoulder_rest, &b.elbow_rest, &b.wrist_rest})
-        std::copy(kIdentity.begin(), kIdentity.end(), *q);
-    b.lengths[0] = b.lengths[1] = 1;
-    return group;
+    swivel_chain chain = swivel_default_chain();
+    chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
+    return group(1, bind(chain));
 }
 
 // Whether a crowd can have just these features.

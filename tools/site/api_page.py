@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The reference page, made of swivel.h as it stands: the head comment's paragraphs and tables, then every declaration below the
-prose above it. Every public name gets an anchor of its own, and every mention in prose a link to it."""
+"""Makes the reference page from swivel.h. First come the paragraphs and tables of the head comment, then every declaration below its
+comment. Every public name gets an anchor, and every mention of it in prose becomes a link."""
 import re
 from html import escape
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What mkdocs is told beyond mkdocs.yml: programs held against docs/snippets, the reference made of batch/swivel.h, links out of
-docs/, and formulas set by KaTeX while building, so that pages fetch nothing and run without scripts."""
+"""What mkdocs does beyond mkdocs.yml. It compares programs on pages with docs/snippets, makes the reference from batch/swivel.h, and
+treats links that leave docs/. KaTeX sets the formulas during the build, so pages fetch nothing and need no scripts."""
 import json
 import posixpath
 import re
@@ -38,7 +38,7 @@ FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>
 
 
 def on_files(files, config):
-    """Programs are shown on pages, not pages of their own."""
+    """Leaves out docs/snippets: programs are parts of pages."""
     for file in [file for file in files if file.src_uri.startswith("snippets/")]:
         files.remove(file)
     return files
@@ -56,7 +56,8 @@ def on_page_markdown(markdown, page, config, files):
 
 
 def repository_links(markdown, source):
-    """Links that leave docs/ are for readers of the repository: swivel.h's go to the reference, others become their text."""
+    """Changes links that leave docs/, which only the repository's readers can follow. A link to swivel.h goes to the reference. Of any
+    other link, the text remains."""
     def replaced(match):
         target = posixpath.normpath(posixpath.join("docs", posixpath.dirname(source), match[2]))
         if target.startswith("docs/") or ":" in match[2]:

@@ -6,8 +6,8 @@
 or
     <!-- docs/snippets/NAME.cpp: PART -->
 
-holds that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`, so that pages read the same in the repository and on
-the site. The files are built and run by the tests docs_snippets and docs_start. Run as a program it writes the lines into the pages."""
+holds that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`. So pages read the same in the repository and on the site.
+The tests docs_snippets and docs_start build and run the files. Run as a program, this script writes the lines into the pages."""
 import re
 import sys
 import textwrap

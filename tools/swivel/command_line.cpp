@@ -140,10 +140,21 @@ void add_solve(CLI::App& app)
         ->add_option("--targets", options->targets,
                      "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
                      "motion, or a CSV "
-                     "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
+                     "file with the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z][,qx,qy,qz,qw], in the "
                      "world; limb is "
-                     "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip")
+                     "left_arm, right_arm, left_leg or right_leg; docs/tables.md says more")
         ->default_str("clip");
+    command
+        ->add_option(
+            "--between", options->between,
+            "In frames between a limb's rows: hold the last row, or go on to the next in a linear way; without "
+            "it the limb follows the clip there")
+        ->check(CLI::IsMember({"hold", "linear"}));
+    command
+        ->add_option("--export-targets", options->export_targets,
+                     "Write the clip's wrists, poles and hands, or those given, as a table to edit and to give back by "
+                     "--targets")
+        ->check(file_name());
     command
         ->add_option(
             "--crowd", options->crowd,

@@ -22,10 +22,11 @@ struct DemoOptions {
 void run_demo(const DemoOptions& options);
 
 struct SolveOptions {
-    std::string clip, crowd, out;
+    std::string clip, crowd, out, export_targets;
     MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;
+    std::string between;                 // hold, linear, or empty: limbs without a row follow the clip
     std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
     std::optional<std::uint32_t> characters;
     std::optional<std::uint64_t> seed;

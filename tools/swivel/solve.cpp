@@ -40,6 +40,7 @@ struct Job {
     std::string doubt;  // of the front
     CrowdPlan plan;
     std::string targets;  // "clip" or a file
+    Between between = Between::clip;
 };
 
 enum class OutKind { none, motion, csv };
@@ -61,28 +62,47 @@ OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
     return OutKind::motion;
 }
 
-// What is read would be lost.
-void require_other_file(const SolveOptions& options, const Job& job)
+// Whether what is written to the one would replace the other.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b)
 {
-    const auto check = [&](const std::string& input, const char* what) {
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(options.out, ignored) &&
-            std::filesystem::equivalent(options.out, input, ignored))
-            throw CommandError(2, fmt::format("--out {}: is {} itself; name another file", options.out, what));
+    std::error_code ignored;
+    if (std::filesystem::exists(a, ignored)) {
+        const bool loses = std::filesystem::is_regular_file(a, ignored);
+        return loses && std::filesystem::equivalent(a, b, ignored);
+    }
+    const auto whole = [&](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
     };
-    check(options.clip, "the clip");
-    if (job.targets != "clip") check(job.targets, "the table of targets");
-    if (job.crowd) check(options.crowd, "the crowd file");
+    return !whole(a).empty() && whole(a) == whole(b);
+}
+
+// Nothing that is read is written over, and nothing that is written.
+void require_own_files(const SolveOptions& options, const Job& job)
+{
+    const auto require = [](const char* option, const std::string& file, const std::string& other, const char* what) {
+        if (!file.empty() && !other.empty() && is_same_file(file, other))
+            throw CommandError(2, fmt::format("{} {}: is {} itself; name another file", option, file, what));
+    };
+    const auto require_not_read = [&](const char* option, const std::string& file) {
+        require(option, file, options.clip, "the clip");
+        if (job.targets != "clip") require(option, file, job.targets, "the table of targets");
+        require(option, file, options.crowd, "the crowd file");
+    };
+    require_not_read("--out", options.out);
+    require_not_read("--export-targets", options.export_targets);
+    require("--export-targets", options.export_targets, options.out, "the file of --out");
 }
 
 Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const Job& job)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
-    GivenTargets given(job.targets, file.clip(), job.limbs, job.plan.characters);
+    GivenTargets given(job.targets, job.between, file.clip(), job.limbs, job.plan.characters);
     ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
+    std::optional<formats::TargetsCsv> exported;
+    if (!options.export_targets.empty()) exported.emplace(options.export_targets);
     MotionKeys keys(job.limbs, job.plan);
     if (kind == OutKind::motion) {  // says so before the work, not after
         keys.require_can_write(file);
@@ -95,6 +115,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
             check_interrupt();
             progress.show(frame);
             crowd.set_frame(frame, given.of_frame(frame));
+            if (exported) exported->append(crowd.targets());
             crowd.solve(statistics);
             crowd.measure(statistics);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
@@ -102,6 +123,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
         }
     }
     if (csv) csv->commit();
+    if (exported) exported->commit();
     if (kind == OutKind::motion) keys.write(options.out, file);
     return statistics;
 }
@@ -127,6 +149,15 @@ LimbChoice choice_of(const SolveOptions& options)
     return choice;
 }
 
+Between between_of(const SolveOptions& options, const std::string& targets)
+{
+    if (options.between.empty()) return Between::clip;
+    if (targets == "clip")
+        throw CommandError(2, fmt::format("--between {}: is about the rows of a table; give one with --targets FILE",
+                                          options.between));
+    return options.between == "hold" ? Between::hold : Between::linear;
+}
+
 // The command line before the crowd file before what is so without both.
 Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip& clip)
 {
@@ -144,6 +175,7 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
+    job.between = between_of(options, job.targets);
     return job;
 }
 
@@ -159,7 +191,7 @@ void run_solve(const SolveOptions& options)
     const MotionFile file(options.clip, options.motion);
     if (!options.out.empty() && formats::lower_suffix(options.out) != ".csv") file.require_can_write(options.out);
     const Job job = make_job(options, choice, file.clip());
-    require_other_file(options, job);
+    require_own_files(options, job);
     const SolveFacts facts{options.clip,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing,     job.doubt};
     if (!options.json) print_clip(facts, file.clip(), job.limbs);
@@ -171,10 +203,12 @@ void run_solve(const SolveOptions& options)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
         nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
+        out["each_character"] = json_of(characters_of(job.plan, job.limbs, file.clip().frame_count));
         out.update(json_of(statistics));
         out["seconds"] = seconds;
         if (mended > 0) out["mended_vertices"] = mended;
         if (!options.out.empty()) out["out"] = options.out;
+        if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
         print_json(out);
         return;
     }
@@ -184,7 +218,8 @@ void run_solve(const SolveOptions& options)
         fmt::print(
             "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
             mended, mended == 1 ? "vertex" : "vertices");
-    if (!options.out.empty()) fmt::print("written  {}\n", options.out);
+    for (const std::string& name : {options.out, options.export_targets})
+        if (!name.empty()) fmt::print("written  {}\n", name);
 }
 
 }  // namespace swivel::tools

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "tools/swivel/limbs.h"
+#include "tools/swivel/characters.h"
 
 namespace swivel::tools {
 
@@ -24,5 +24,7 @@ struct SolveFacts {
 // Lines for people, on stdout.
 void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
+// What makes them differ, in their order.
+nlohmann::ordered_json json_of(std::span<const Character> characters);
 
 }  // namespace swivel::tools

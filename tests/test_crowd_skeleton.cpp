@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a limb bound by joints of a skeleton poses that skeleton. It may have joints in between, which stay at
+// rest, and twist bones. Forward kinematics over all joints, by Eigen in double, finds the wrist on its target.
+#include "tests/rest_skeleton.h"
+#include "tests/test_whole_limb.h"
+
+#include <cstring>
+#include <string>
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+constexpr Between kShapes[] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 0, 1}, {3, 2, 3}};
+
+Quaterniond result_of(const Crowd& crowd, swivel_field field, std::uint32_t n, std::uint32_t component = 0)
+{
+    std::array<float, 28> value{};
+    REQUIRE(swivel_read(crowd.get(), field, 0, n, 1, {value.data(), sizeof value}) == SWIVEL_OK);
+    Float4 q;
+    std::copy_n(value.begin() + component, 4, q.begin());
+    CHECK(is_unit(q));
+    return quat(q).normalized();
+}
+
+// The limb's results in the skeleton's places; all other joints rest.
+Locals posed(const RestSkeleton& skeleton, const Crowd& crowd, std::uint32_t n)
+{
+    Locals locals = rest_locals(skeleton);
+    locals[skeleton.shoulder] = result_of(crowd, SWIVEL_SHOULDER, n);
+    locals[skeleton.elbow] = result_of(crowd, SWIVEL_ELBOW, n);
+    if (swivel_field_row_count(crowd.get(), SWIVEL_WRIST)) locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
+    if (swivel_field_row_count(crowd.get(), SWIVEL_TWIST_BONES))
+        for (std::uint32_t bone = 0; bone < skeleton.twist_bones.size(); ++bone)
+            locals[skeleton.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST_BONES, n, 4 * bone);
+    return locals;
+}
+
+// The root's place in a world in which the limb's shoulder and its parent are as the goal has them; without WORLD that
+// is the arm frame.
+Parent root_of(const RestSkeleton& skeleton, const swivel_binding& bound, const Limb& limb, swivel_features features)
+{
+    Parent parent = limb.parent();
+    if (!(features & SWIVEL_WORLD)) parent.rotation = quat(bound.parent_from_arm).normalized().conjugate();
+    const Locals rest = rest_locals(skeleton);
+    const Parent none{Vector3d::Zero(), Quaterniond::Identity(), 1};
+    const Quaterniond above = place_of_parent(skeleton, rest, none, skeleton.shoulder).rotation;
+    const Vector3d shoulder = place_of(skeleton, rest, none, skeleton.shoulder).position;
+    const Quaterniond root = parent.rotation * above.conjugate();
+    return {parent.position - parent.scale * (root * shoulder), root, parent.scale};
+}
+
+struct Posed {
+    RestSkeleton skeleton;
+    swivel_binding bound;
+    Crowd crowd;
+    std::vector<Limb> limbs;
+    std::vector<Parent> roots;
+
+    Posed(Random& random, const Between& shape, swivel_features features, std::uint32_t count, std::uint32_t bones = 0)
+        : skeleton(random_skeleton(random, shape, bones)),
+          bound(skeleton.bound()),
+          crowd(crowd_of(features | bones * SWIVEL_WITH_TWIST_BONES, count, bound))
+    {
+        for (std::uint32_t n = 0; n < count; ++n) {
+            limbs.push_back(random_limb(random, features, {bound.lengths[0], bound.lengths[1]}));
+            write_limb(crowd, 0, n, limbs[n]);
+            roots.push_back(root_of(skeleton, bound, limbs[n], features));
+        }
+    }
+    JointPlace place(const Locals& locals, std::uint32_t n, std::uint32_t joint) const
+    {
+        return place_of(skeleton, locals, roots[n], joint);
+    }
+    Places places(const Locals& locals, std::uint32_t n) const
+    {
+        const JointPlace wrist = place(locals, n, skeleton.wrist);
+        return {place(locals, n, skeleton.elbow).position, wrist.position, wrist.rotation};
+    }
+};
+
+double turn_about(const Quaterniond& q, const Vector3d& axis)
+{
+    return std::remainder(2 * std::atan2(q.vec().dot(axis), q.w()), 2 * kPi);
+}
+
+}  // namespace
+
+TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, the elbow where pole and bend say")
+{
+    const std::uint32_t j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
+    for (const swivel_features features :
+         {j, j | h, j | w, j | w | h, j | w | h | d, j | w | h | SWIVEL_WITH_ANGLE, j | SWIVEL_WITH_ANGLE})
+        for (const Between& shape : kShapes)
+            for (std::uint64_t seed = 0; seed < 4; ++seed) {
+                Random random{features * 8 + seed};
+                Posed p(random, shape, features, 21);
+                p.crowd.solve();
+                const auto flags = read<std::uint32_t>(p.crowd, SWIVEL_FLAGS);
+                std::vector<Places> places;
+                for (std::uint32_t n = 0; n < 21; ++n) {
+                    INFO("features " << features << ", between " << shape.upper << " and " << shape.fore << ", seed "
+                                     << seed << ", limb " << n);
+                    const Locals locals = posed(p.skeleton, p.crowd, n);
+                    places.push_back(p.places(locals, n));
+                    check_places(p.limbs[n], features, places[n], flags[n]);
+                    // Flexion carries the forearm towards the bend, which goes along with the upper arm.
+                    const JointPlace shoulder = p.place(locals, n, p.skeleton.shoulder);
+                    const Vector3d upper = places[n].elbow - shoulder.position,
+                                   fore = places[n].wrist - places[n].elbow,
+                                   bend = shoulder.rotation * vec(p.skeleton.bend);
+                    CHECK(upper.cross(fore).normalized().dot(upper.cross(bend).normalized()) == Approx(1).margin(1e-6));
+                }
+                check_forward(p.crowd, 0, p.limbs, places, 1e-6);
+            }
+}
+
+TEST_CASE("skeletons by joints: where nothing is in between, the binding is the chain's, bit for bit")
+{
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        Random random{seed};
+        const RestSkeleton s = random_skeleton(random, {seed % 2 == 0 ? 3u : 0u, 0, 0}, 0);
+        swivel_chain chain = swivel_default_chain();
+        std::ranges::copy(s.rotations[s.shoulder], chain.shoulder_rotation);
+        std::ranges::copy(s.rotations[s.elbow], chain.elbow_rotation);
+        std::ranges::copy(s.rotations[s.wrist], chain.wrist_rotation);
+        std::ranges::copy(s.translations[s.elbow], chain.elbow_offset);
+        std::ranges::copy(s.translations[s.wrist], chain.wrist_offset);
+        std::ranges::copy(s.bend, chain.bend);
+        const swivel_binding by_joints = s.bound(), by_chain = bind(chain);
+        CHECK(std::memcmp(&by_joints, &by_chain, sizeof by_chain) == 0);
+        CHECK(std::memcmp(by_chain.elbow_parent_from_arm, by_chain.upper_from_arm, 16) == 0);
+        CHECK(std::memcmp(by_chain.wrist_parent_from_arm, by_chain.fore_from_arm, 16) == 0);
+        CHECK(by_chain.twist_bone_count == 0);
+    }
+}
+
+TEST_CASE("skeletons by joints: the order of joints and how they lie in memory change no bit")
+{
+    Random random{3};
+    const RestSkeleton s = random_skeleton(random, {2, 1, 2}, 3);
+    const swivel_binding whole = s.bound();
+    struct Joint {
+        float place[3];
+        std::int32_t parent;
+        float rotation[4], more;
+    };
+    // The other way round, in structures.
+    const std::uint32_t last = s.size() - 1;
+    std::vector<Joint> joints(s.size());
+    for (std::uint32_t n = 0; n <= last; ++n) {
+        Joint& to = joints[last - n];
+        to.parent = s.parents[n] < 0 ? -1 : static_cast<std::int32_t>(last) - s.parents[n];
+        std::ranges::copy(s.translations[n], to.place);
+        std::ranges::copy(s.rotations[n], to.rotation);
+    }
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.joint_count = s.size();
+    skeleton.parents = swivel::stream(joints, &Joint::parent);
+    skeleton.translations = swivel::stream(joints, &Joint::place);
+    skeleton.rotations = swivel::stream(joints, &Joint::rotation);
+    swivel_limb_joints limb = s.joints();
+    for (std::uint32_t* const joint : {&limb.shoulder, &limb.elbow, &limb.wrist}) *joint = last - *joint;
+    std::vector<std::uint32_t> bones;
+    for (const std::uint32_t bone : s.twist_bones) bones.push_back(last - bone);
+    limb.twist_bones = bones.data();
+    const swivel_binding bound = bind(skeleton, limb);
+    CHECK(std::memcmp(&bound, &whole, sizeof whole) == 0);
+}
+
+TEST_CASE("skeletons by joints: null rotations are joints that are not turned")
+{
+    Random random{5};
+    RestSkeleton s = random_skeleton(random, {1, 1, 1}, 2);
+    std::ranges::fill(s.rotations, Float4{0, 0, 0, 1});
+    const swivel_binding given = s.bound();
+    swivel_skeleton skeleton = s.view();
+    skeleton.rotations = {};
+    const swivel_binding none = bind(skeleton, s.joints());
+    CHECK(std::memcmp(&given, &none, sizeof none) == 0);
+}
+
+TEST_CASE("skeletons by joints: twist bones, wherever they hang, share the hand's twist about the forearm")
+{
+    constexpr std::uint32_t count = 24, features = kWorldJointsHand;
+    for (const Between& shape : kShapes)
+        for (const std::uint32_t bones : {1u, 3u, 7u}) {
+            Random random{bones + 10 * shape.fore};
+            Posed p(random, shape, features, count, bones);
+            p.crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{kNan, 0, 0}}, count - 1);
+            p.crowd.solve();
+            const Locals rest = rest_locals(p.skeleton);
+            for (std::uint32_t n = 0; n < count; ++n) {
+                INFO("between " << shape.fore << ", bones " << bones << ", limb " << n);
+                const Locals locals = posed(p.skeleton, p.crowd, n);
+                Locals carried = locals;  // the forearm as it is, with all that is below it at rest
+                carried[p.skeleton.wrist] = rest[p.skeleton.wrist];
+                for (const std::uint32_t bone : p.skeleton.twist_bones) carried[bone] = rest[bone];
+                const Vector3d axis = (p.places(locals, n).wrist - p.places(locals, n).elbow).normalized();
+                const auto added = [&](std::uint32_t joint) {
+                    return p.place(locals, n, joint).rotation * p.place(carried, n, joint).rotation.conjugate();
+                };
+                const double twist = n == count - 1 ? 0 : turn_about(added(p.skeleton.wrist), axis);
+                if (std::fabs(twist) > 3.1) continue;
+                for (std::uint32_t bone = 0; bone < bones; ++bone) {
+                    const Quaterniond turn = added(p.skeleton.twist_bones[bone]);
+                    CHECK(turn.vec().cross(axis).norm() <= 2e-6);
+                    CHECK(turn_about(turn, axis) == Approx(twist * (bone + 1) / (bones + 1)).margin(2.1e-3));
+                }
+            }
+        }
+}
+
+TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
+{
+    constexpr std::uint32_t count = 20;
+    for (const Between& shape : kShapes) {
+        Random random{shape.above + 20};
+        Posed p(random, shape, kWorldJointsHand, count);
+        p.crowd.solve();
+        // The elbow as in the incoming pose; and with no weight of position and hand all of it.
+        Crowd follow = crowd_of(kWorldJointsHand | SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING, count, p.bound);
+        Crowd keep = crowd_of(kWorldJointsHand | SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS,
+                              count, p.bound);
+        for (Crowd* const crowd : {&follow, &keep}) {
+            for (std::uint32_t n = 0; n < count; ++n) write_limb(*crowd, 0, n, p.limbs[n]);
+            crowd->write(SWIVEL_INCOMING_SHOULDER, 0, read<Float4>(p.crowd, SWIVEL_SHOULDER));
+            crowd->write(SWIVEL_INCOMING_ELBOW, 0, read<Float4>(p.crowd, SWIVEL_ELBOW));
+            crowd->write(SWIVEL_INCOMING_WRIST, 0, read<Float4>(p.crowd, SWIVEL_WRIST));
+        }
+        keep.write_all(SWIVEL_WEIGHTS, 0, Float3{0, 0, 0});
+        for (std::uint32_t n = 0; n < count; ++n) {
+            Limb other = p.limbs[n];
+            other.target = floats(Vector3d(vec(other.position) + 0.9 * (vec(other.target) - vec(other.position))));
+            other.hand = floats(random.rotation());
+            write_limb(keep, 0, n, other);
+        }
+        for (const Crowd* const crowd : {&follow, &keep}) {
+            const_cast<Crowd*>(crowd)->solve();
+            for (std::uint32_t n = 0; n < count; ++n) {
+                INFO("between " << shape.upper << " and " << shape.fore << ", limb " << n);
+                const Locals was = posed(p.skeleton, p.crowd, n), now = posed(p.skeleton, *crowd, n);
+                for (const std::uint32_t joint : {p.skeleton.shoulder, p.skeleton.elbow, p.skeleton.wrist})
+                    CHECK(distance(was[joint], now[joint]) <= 2e-4);
+            }
+        }
+    }
+}
+
+TEST_CASE("skeletons by joints: effectors and aims are the wrist joint's own")
+{
+    constexpr std::uint32_t count = 20;
+    for (const Between& shape : kShapes)
+        for (const swivel_features features :
+             {kWorldJointsHand | SWIVEL_WITH_EFFECTOR, kWorldJointsHand | SWIVEL_WITH_AIM,
+              swivel_features{SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_AIM}}) {
+            Random random{shape.above + features};
+            Posed p(random, shape, features, count);
+            const Vector3d point = random.between(0.1, 0.3) * random.direction(), axis = random.direction();
+            if (features & SWIVEL_WITH_EFFECTOR) p.crowd.write_all(SWIVEL_EFFECTOR, 0, floats(point));
+            if (features & SWIVEL_WITH_AIM) p.crowd.write_all(SWIVEL_AIM, 0, aim({axis.x(), axis.y(), axis.z()}, 0.7));
+            p.crowd.solve();
+            const auto flags = read<std::uint32_t>(p.crowd, SWIVEL_FLAGS);
+            std::vector<double> residuals(count);
+            p.crowd.residuals(0, residuals);
+            for (std::uint32_t n = 0; n < count; ++n) {
+                INFO("features " << features << ", between " << shape.upper << " and " << shape.fore << ", limb " << n);
+                const Locals locals = posed(p.skeleton, p.crowd, n);
+                const JointPlace wrist = p.place(locals, n, p.skeleton.wrist);
+                const double scale = p.roots[n].scale,
+                             length = scale * p.limbs[n].lengths[0] + scale * p.limbs[n].lengths[1];
+                const Vector3d target = vec(p.limbs[n].target), line = wrist.rotation * axis;
+                double off = (wrist.position + scale * (wrist.rotation * point) - target).norm();
+                if (features & SWIVEL_WITH_AIM) off = (target - wrist.position).cross(line).norm();
+                if (flags[n] & SWIVEL_REACHED) CHECK(off <= 3e-6 * length);
+                if (flags[n] & SWIVEL_REACHED)
+                    CHECK((features & SWIVEL_WITH_EFFECTOR || (target - wrist.position).dot(line) > 0));
+                CHECK(residuals[n] == Approx(off / length).margin(flags[n] & SWIVEL_REACHED ? 3e-6 : 100));
+                if (features == (kWorldJointsHand | SWIVEL_WITH_AIM))
+                    CHECK(distance(locals[p.skeleton.wrist], quat(p.limbs[n].hand).normalized()) <= 2e-6);
+            }
+        }
+}
+
+namespace {
+
+// What spoils a limb of this skeleton: joints 0 root, 1 shoulder, 2 between, 3 elbow, 4 between, 5 and 6 twist bones,
+// 7 wrist, 8 a finger, 9 another root.
+struct Figure {
+    std::vector<std::int32_t> parents = {-1, 0, 1, 2, 3, 4, 4, 4, 7, -1};
+    std::vector<Float4> rotations = std::vector<Float4>(10, Float4{0, 0, 0, 1});
+    std::vector<Float3> translations = {{0, 0, 0}, {0, 1, 0},    {0.1f, 0, 0}, {0.2f, 0, 0}, {0.1f, 0, 0},
+                                        {0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0}, {0.1f, 0, 0}, {0, 0, 0}};
+    std::vector<std::uint32_t> twist_bones = {5, 6};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    swivel_limb_joints joints = swivel_default_limb_joints(1, 3, 7);
+
+    Figure()
+    {
+        skeleton.parents = {parents.data(), sizeof parents[0]};
+        skeleton.rotations = {rotations.data(), sizeof rotations[0]};
+        skeleton.translations = {translations.data(), sizeof translations[0]};
+        skeleton.joint_count = 10;
+        joints.twist_bones = twist_bones.data();
+        joints.twist_bone_count = 2;
+        joints.bend[2] = 1;
+    }
+    Figure(const Figure&) = delete;
+};
+
+template <class Spoil>
+void refuse(const std::string& said, Spoil spoil)
+{
+    Figure figure;
+    swivel_binding binding;
+    REQUIRE(swivel_bind_joints(&figure.skeleton, &figure.joints, &binding) == SWIVEL_OK);
+    std::memset(&binding, 0x5a, sizeof binding);
+    const swivel_binding untouched = binding;
+    spoil(figure);
+    INFO(said);
+    CHECK_REFUSED(swivel_bind_joints(&figure.skeleton, &figure.joints, &binding), SWIVEL_INVALID_ARGUMENT);
+    CHECK_THAT(swivel_last_error(), Catch::Matchers::Contains(said));
+    CHECK(std::memcmp(&binding, &untouched, sizeof binding) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("swivel_bind_joints refuses joints that do not exist or are no limb, by name")
+{
+    refuse("the elbow is joint 10, but the skeleton has 10 joints", [](Figure& f) { f.joints.elbow = 10; });
+    refuse("twist bone 1 is joint 4294967295, but", [](Figure& f) { f.twist_bones[1] = ~0u; });
+    refuse("the shoulder is joint 1, but the skeleton has 0 joints", [](Figure& f) { f.skeleton.joint_count = 0; });
+    refuse("joint 2's parent is 99; give -1 for a root", [](Figure& f) { f.parents[2] = 99; });
+    refuse("joint 0's parent is -2; give -1 for a root", [](Figure& f) { f.parents[0] = -2; });
+    refuse("the parents of the shoulder, joint 1, go round in a circle", [](Figure& f) { f.parents[0] = 4; });
+    refuse("the parents of the elbow, joint 3, go round in a circle", [](Figure& f) { f.parents[2] = 2; });
+    refuse("the elbow, joint 9, is not below the shoulder, joint 1", [](Figure& f) { f.joints.elbow = 9; });
+    refuse("the elbow, joint 1, is not below the shoulder, joint 1", [](Figure& f) { f.joints.elbow = 1; });
+    refuse("the wrist, joint 3, is not below the elbow, joint 7",
+           [](Figure& f) { f.joints.elbow = 7, f.joints.wrist = 3; });
+    refuse("twist bone 0, joint 2, is not below the elbow, joint 3", [](Figure& f) { f.twist_bones[0] = 2; });
+    refuse("twist bone 1, joint 8, hangs below the wrist, joint 7, and would turn with it",
+           [](Figure& f) { f.twist_bones[1] = 8; });
+    refuse("the wrist, joint 7, hangs below twist bone 0, joint 4, and would turn with it",
+           [](Figure& f) { f.twist_bones[0] = 4; });
+    refuse("twist bone 1, joint 6, hangs below twist bone 0, joint 5", [](Figure& f) { f.parents[6] = 5; });
+    refuse("twist bone 0 and twist bone 1 are both joint 6", [](Figure& f) { f.twist_bones[0] = 6; });
+    refuse("the wrist and twist bone 1 are both joint 7", [](Figure& f) { f.twist_bones[1] = 7; });
+    refuse("twist bone 1, joint 5, is nearer to the elbow than twist bone 0, joint 6; list them from elbow to wrist",
+           [](Figure& f) { std::swap(f.twist_bones[0], f.twist_bones[1]); });
+    refuse("there are 8 twist bones; a limb has at most 7", [](Figure& f) { f.joints.twist_bone_count = 8; });
+    refuse("twist_bones is null", [](Figure& f) { f.joints.twist_bones = nullptr; });
+}
+
+TEST_CASE("swivel_bind_joints refuses rest poses that are none, and skeletons without their arrays")
+{
+    for (const std::uint32_t joint : {1u, 2u, 3u, 4u, 5u, 7u})
+        for (const float bad : {0.0f, kNan, kInf, 3e38f})
+            refuse("joint " + std::to_string(joint) + "'s rest rotation is zero or not finite",
+                   [&](Figure& f) { f.rotations[joint].fill(bad); });
+    for (const std::uint32_t joint : {2u, 3u, 4u, 6u, 7u})
+        for (const float bad : {kNan, kInf, 3e38f})
+            refuse("joint " + std::to_string(joint) + "'s translation is not finite",
+                   [&](Figure& f) { f.translations[joint][1] = bad; });
+    refuse("swivel_bind_joints: the upper arm has no direction", [](Figure& f) {
+        f.translations[2] = f.translations[3] = {0, 0, 0};
+    });
+    refuse("straight within 10 degrees, so it does not show where the limb bends to; give the bend",
+           [](Figure& f) { f.joints.bend[2] = 0; });
+    refuse("the bend lies along the upper arm", [](Figure& f) { f.joints.bend[0] = 1e6f; });
+    refuse("the skeleton's parents are null", [](Figure& f) { f.skeleton.parents = {}; });
+    refuse("the skeleton's translations are null", [](Figure& f) { f.skeleton.translations = {}; });
+    refuse("parents have stride 2, which is smaller than a value, 4 bytes",
+           [](Figure& f) { f.skeleton.parents.stride = 2; });
+    refuse("translations have stride 0", [](Figure& f) { f.skeleton.translations.stride = 0; });
+    refuse("rotations have stride 12", [](Figure& f) { f.skeleton.rotations.stride = 12; });
+    refuse("skeleton has size 0", [](Figure& f) { f.skeleton.size = 0; });
+    refuse("limb joints has size 4096", [](Figure& f) { f.joints.size = 4096; });
+    Figure figure;
+    swivel_binding binding;
+    const auto bad = SWIVEL_INVALID_ARGUMENT;
+    CHECK_REFUSED(swivel_bind_joints(nullptr, &figure.joints, &binding), bad);
+    CHECK_REFUSED(swivel_bind_joints(&figure.skeleton, nullptr, &binding), bad);
+    CHECK_REFUSED(swivel_bind_joints(&figure.skeleton, &figure.joints, nullptr), bad);
+    CHECK_THROWS_WITH(bind(figure.skeleton, swivel_default_limb_joints(1, 3, 7)), Catch::Contains("give the bend"));
+}
+
+TEST_CASE("a crowd has as many twist bones as its bindings, or bindings that do not know them")
+{
+    Figure figure;
+    const swivel_group_def group = swivel::group(1, bind(figure.skeleton, figure.joints));
+    for (const std::uint32_t bones : {1u, 3u})
+        CHECK_THROWS_WITH(
+            Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}),
+            Catch::Contains("group 0's binding has 2 twist bones, this crowd has " + std::to_string(bones)));
+    for (const std::uint32_t bones : {0u, 2u})
+        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
+    CHECK_NOTHROW(Crowd(SWIVEL_WITH_HAND | 5 * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
+    const swivel_group_def chain = group_of(1);
+    for (std::uint32_t bones = 0; bones <= 7; ++bones)
+        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&chain, 1}));
+}
