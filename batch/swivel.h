@@ -1,182 +1,40 @@
 // SPDX-License-Identifier: MIT
 //
-// swivel: the arms of crowds. Wrist targets and elbow poles go in, joint rotations come out: batched, free of
-// trigonometry, with the same bits on every CPU. This header is the whole binary interface; swivel.hpp wraps it for
-// C++.
+// swivel: the arms and legs of crowds. For each limb, a wrist target and an elbow pole go in, and joint rotations come
+// out. A solve uses no trigonometry, so every CPU gives the same bits. This header is the whole binary interface.
+// swivel.hpp wraps it for C++. Everything here is experimental until release 1.0.
 //
-// Everything here is experimental until release 1.0 keeps it.
+// A whole program, for two arms in their own frames:
+//     float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.0f, 0.2f, 9.0f}};  // for the wrists; the second is out of reach
+//     float pole[3] = {0, -1, 0}, lengths[2] = {0.30f, 0.26f};         // upper arm, forearm
+//     float shoulder[2][4];                                            // x, y, z, w
+//     swivel_group_def arms = swivel_default_group_def(2);
+//     swivel_crowd_def def = swivel_default_crowd_def();
+//     swivel_crowd* crowd;
+//     def.groups = &arms, def.group_count = 1;
+//     if (swivel_crowd_create(&def, &crowd) != SWIVEL_OK) return puts(swivel_last_error());
+//     swivel_write(crowd, SWIVEL_TARGET, 0, 0, 2, (swivel_in){targets, sizeof targets[0]});
+//     swivel_write(crowd, SWIVEL_POLE, 0, 0, 2, (swivel_in){pole, 0});  // stride 0: one value for all
+//     swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, 2, (swivel_in){lengths, 0});
+//     swivel_solve(crowd, NULL);
+//     swivel_read(crowd, SWIVEL_SHOULDER, 0, 0, 2, (swivel_out){shoulder, sizeof shoulder[0]});
+//     swivel_crowd_destroy(crowd);
 //
 // CONVENTIONS. Lengths are in the caller's unit. Quaternions are Hamilton's, stored x, y, z, w; a*b applies b first.
-// The arm frame has the shoulder at its origin; at rest both bones lie along +z (e3), the hinge is +x (e1), and flexion
-// carries the forearm towards +y (e2). The elbow lies on the pole's side of the line from shoulder to wrist.
-//
-// LIFE. swivel_default_crowd_def() -> edit -> swivel_crowd_create() -> each frame: write inputs, swivel_solve(), read
-// results, or swivel_solve() with frames for all three -> swivel_crowd_destroy(). After creation swivel allocates
-// nothing; oneTBB, inside the solves that use it, may.
-//
-// LAYOUT. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes, aligned
-// to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. A crowd is made of groups:
-// limbs that share one binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end
-// are padding.
-//
-// INPUT ROWS, in this order    rows  present with    meaning
-//   SWIVEL_TARGET              3     always          wrist position: arm frame, or world with WORLD
-//   SWIVEL_POLE                3     always          pole point, or a direction with POLE_DIRECTION
-//   SWIVEL_LENGTHS             2     always          upper arm, forearm (before the parent's scale)
-//   SWIVEL_SHOULDER_POSITION   3     WORLD           the shoulder's place in the world
-//   SWIVEL_PARENT_ROTATION     4     WORLD           world rotation of the shoulder's parent joint
-//   SWIVEL_PARENT_SCALE        1     WORLD           uniform scale of the parent, > 0
-//   SWIVEL_HAND                4     WITH_HAND       wanted hand orientation: arm frame, or world with WORLD
-//   and those of THE WHOLE LIMB below
-// RESULT ROWS, in this order
-//   SWIVEL_SHOULDER            4     always          rotation in the arm frame, or the joint's local one with JOINTS
-//   SWIVEL_ELBOW               2     no JOINTS       cos and sin of half the flexion, both >= 0
-//                              4     JOINTS          the joint's local rotation
-//   SWIVEL_WRIST               4     WITH_HAND       hand relative to forearm, or local rotation with JOINTS
-//   SWIVEL_FLAGS               1     always          SWIVEL_REACHED..., as uint32_t
-//   and those of THE WHOLE LIMB
-//
-// THE WHOLE LIMB. What else may be asked of a limb, each part with a feature of its own: what is off costs nothing. All
-// of it is lane by lane, so every limb may have its own. Angles go in as cosines and sines; swivel_range(),
-// swivel_cone(), swivel_flexion() and swivel_turn() make them. FEATURE is SWIVEL_ and the feature's name.
-//
-//   more input rows            rows  FEATURE              meaning
-//   SWIVEL_EFFECTOR            3     WITH_EFFECTOR        the target is for this point of the hand (its own frame)
-//   SWIVEL_ANGLE               2     WITH_ANGLE           cos, sin: turns the elbow on from the pole's side
-//   SWIVEL_INCOMING_SHOULDER   4     WITH_INCOMING        the pose so far: local rotations with JOINTS, else in the
-//   SWIVEL_INCOMING_ELBOW      4     WITH_INCOMING        arm frame, forearm to upper arm, hand to forearm; always
-//   SWIVEL_INCOMING_WRIST      4     and WITH_HAND        whole quaternions
-//   SWIVEL_WEIGHTS             3     WITH_WEIGHTS         of position, hand, pole: 0 the incoming pose's, 1 the goal's
-//   SWIVEL_REACH               4     WITH_REACH           soft zone far, soft zone near, most stretch, least distance
-//   SWIVEL_MOST_SWIVEL         2     WITH_MOST_SWIVEL            cos, sin of how far the swivel may turn in one solve,
-//   0..pi SWIVEL_FLEXION_LIMIT       2     WITH_FLEXION_LIMIT        cos of half the least flexion, cos of half the
-//   largest SWIVEL_SHOULDER_CONE       4     WITH_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
-//   SWIVEL_HUMERAL_TWIST       4     WITH_HUMERAL_TWIST  range of the upper arm's twist about itself
-//   SWIVEL_SHOULDER_BOX        12    WITH_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
-//   SWIVEL_HAND_CONE           4     WITH_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
-//   SWIVEL_FOREARM_TWIST       4     WITH_FOREARM_TWIST  range of the hand's twist about the forearm
-//   SWIVEL_HAND_TWIST          7     WITH_HAND_TWIST     unit axis of the hand; range of its twist about it
-//   SWIVEL_WRIST_BOX           12    WITH_WRIST_BOX      ranges of the wrist's Euler angles
-//   SWIVEL_AIM                 5     WITH_AIM             unit axis of the hand to aim with; cos, sin of half flexion
-//   SWIVEL_CLAVICLE            4     WITH_CLAVICLE        shoulder's place in its parent joint's frame; share 0..1
-//   more result rows
-//   SWIVEL_STRETCH             1     WITH_REACH           factor for both bone lengths, 1 or more
-//   SWIVEL_NORMAL              3     WITH_MOST_SWIVEL            unit normal of the swivel plane, arm frame; kept for
-//   the next SWIVEL_TWIST_BONES               4 n   WITH_TWIST_BONES * n      a quaternion for each of n twist bones,
-//   see below SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation
-//   * this
-//
-// RANGES. A range is cos and sin of its middle, then cos and sin of half its width, which is 0..pi. Axes, cosines with
-// their sines, and ranges are of unit length within 5e-4. Weights are 0..1. Anything else is bad input.
-//
-// EFFECTOR. The target is for this point of the hand instead of the wrist. With JOINTS it is in the wrist joint's own
-// frame, else in the arm frame's axes as the hand carries them. It is in the unit of the bones, before the parent's
-// scale, and no longer than 1e15.
-//
-// POLES. With POLE_NORMAL a pole is the normal of the swivel plane. With POLE_INCOMING there are no poles. The angle
-// turns the elbow on from the pole's side, about the line from shoulder to wrist, by the right hand; its cosine and
-// sine may be of any length in 1e-9..1e9. Where the pole says nothing, the angle is ignored.
-//
-// INCOMING POSE. It says where the elbow goes where the pole does not. Each result has the sign that is nearer to the
-// incoming quaternion, instead of w >= 0; compact results keep w >= 0.
-//
-// REACH. Soft zones and least distance are shares 0..1 of both bones' length, the stretch is 1..1000. At a reach R with
-// a soft zone s, a wanted distance d becomes d - (d - R + s)^2 / (4 s) between R - s and R + s, and R beyond; the near
-// end is the mirror image. Stretch makes up for what is missing, up to the most.
-//
-// LIMITS. They are about the rest pose with the elbow straightened. Their axes, also those of the hand, are the arm
-// frame's there, whatever axes a skeleton's joints have: bones along +z, hinge +x. swivel_arm_axis() turns directions
-// of the character into them. A twist is that of swing and twist: 2 atan2(v . axis, w) of what the joint adds to rest,
-// by the right hand. Its axis is +z, from shoulder to hand, or the one given; it is none of the Euler angles.
-// - Where the wish breaks a limit, the nearest swivel that keeps all of them is taken. The cosine of a limited angle is
-//   off by at most 1e-6.
-// - THE WRIST COMES FIRST. Where no swivel keeps all limits, the one that violates them least is taken, and flagged
-//   SWIVEL_INFEASIBLE. A twist's violation counts (1 + cos swing) / 2 times. To keep a limit even then, move the
-//   target, weigh it down or let the clavicle help.
-// - Joint limits win over MOST_SWIVEL, and that over the wish.
-// - Flexion does not depend on the swivel. Its limit narrows the reach, and the wrist stops short.
-//
-// AIMING. The elbow keeps the flexion given. The wrist keeps the rotation in SWIVEL_HAND, which is relative to the
-// forearm, or with JOINTS the joint's local one; without WITH_HAND the hand is at rest. The shoulder turns so that a
-// ray goes through the target: from the effector, else the wrist, along the axis. The axis is in the frame that
-// effectors are in; swivel_aim() makes the value. The elbow lies on the pole's side of the line from shoulder to
-// target. A target too near for that flexion is SWIVEL_CLAMPED_NEAR: then the ray's nearest point to the shoulder is
-// brought onto the line from shoulder to target. Weights, reach, flexion limits and limits of the hand are refused.
-//
-// CLAVICLE. The parent joint, given as it is without this, turns about its own origin, which is SHOULDER_POSITION less
-// the clavicle: the first three numbers, in the parent joint's axes and the unit of the bones, no longer than 1e15. It
-// turns towards the target by about the share of the angle between clavicle and target, times the weight of position.
-// Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is smooth,
-// and fades for targets on the body's other side.
-//
-// TWIST BONES. The hand's twist about the forearm is shared over n of them, children of the forearm. Bone i of 1..n
-// turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis. With JOINTS and a binding that knows them,
-// SWIVEL_TWIST_BONES is their local rotations. With a binding of a chain, a local rotation is this quaternion times the
-// rest rotation; without JOINTS it is this quaternion in the arm frame.
-//
-// STEPS. With WITH_MOST_SWIVEL the plane's normal is carried from solve to solve, in the arm frame. In each it is first
-// made perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and
-// swivel_reset() forget it; call that after a teleport. Without WITH_MOST_SWIVEL results depend on the frame's own
-// inputs alone.
-//
-// CONTINUITY. The swivel is continuous, but for targets that pass through the shoulder, poles that pass through the
-// line, and limits whose nearest swivel changes sides. With WITH_AIM an elbow that passes through the line rolls the
-// arm over, whatever MOST_SWIVEL says, which bounds the plane's normal.
-//
-// COMPACT RESULTS. With SWIVEL_COMPACT a result row is 16 uint16_t, 32 bytes, word r of limb i at
-// base[((i / 16) * row_count + r) * 16 + i % 16] of swivel_compact_rows(), the fields in the same order:
-//   SWIVEL_SHOULDER, SWIVEL_WRIST, and SWIVEL_ELBOW with JOINTS: 3 words, the quaternion's smallest three components.
-//       The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is
-//       word0 >> 15 | (word1 >> 15) << 1. The other three, in the order x, y, z, w, are
-//       ((word & 32767) - 16384) / (16383 * sqrt 2), of the one of q and -q whose component left out is positive: that
-//       one is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0. Three words of 0, which no solve writes, are
-//       four zeros.
-//   SWIVEL_ELBOW without JOINTS: 2 words, cos and sin as IEEE half floats, rounded to nearest.
-//   SWIVEL_FLAGS: 2 words, the low and the high half of the uint32_t.
-// A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of it, for
-// any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes a core up to half as
-// long as solving, so it pays where memory is short or its bandwidth shared, or where results are sent on.
-//
-// hand = parent * shoulder * elbow * wrist, with JOINTS (the wrist joint's own orientation) and without, where the
-// elbow's quaternion is (-sin, 0, 0, cos). With WORLD and without JOINTS the arm frame is the parent's own; with JOINTS
-// the binding says how it lies there.
-//
-// COST. Ordinary arms are solved fastest. As the parent sees them, their bones are 1e-9..3e7 long and of a ratio below
-// 1e6, their wrists 3e-5..5e3 from the shoulder, and their poles no further than 3e7 and off the target's line. The
-// parent's scale is within 1e-5..1e5, its quaternion's squared length within 0.5..2. Any other arm, one with bad input
-// too, is solved as exactly; but the 4 to 32 limbs of its step take about four times as long.
-// Beside a plain arm, one with any feature of THE WHOLE LIMB takes about three times as long. With cones and twists it
-// takes seven times as long; with a hand, a blend and limits ten; with boxes that leave one limb in eight no swivel
-// thirty.
-//
-// VALID INPUT. Every position and pole is no longer than 1e15, in the world as given and in the arm frame. A bone
-// length is 0 or in 1e-15..1e15. A quaternion's length is in 1e-9..1e9; it need not be 1. A scale is in 1e-15..1e15. A
-// limb with anything else gets its rest pose and SWIVEL_BAD_INPUT, and no other limb changes by a bit. So does a limb
-// that was never given its target, with WORLD its shoulder's place, or, without JOINTS, its bone lengths.
-//
-// Lengths below 1e-15 are not resolved: a target that near to the shoulder counts as on it. No wrist comes nearer to
-// the shoulder than 1e-9 arm lengths; it is reached all the same. A bone under 1e-7 of the other is taken as straight
-// with it.
-//
-// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0 (at w = 0 the first of x, y, z that is not
-// zero is positive). Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
-//
-// FAR FROM THE ORIGIN. Results depend on differences of positions only, but a float 1e7 units out is good to half a
-// unit. So positions may be given as doubles, with an origin near the arm that is taken off in double before they are
-// rounded: swivel_write_doubles(), or swivel_frame's origin. The three fields of a limb that are positions
-// (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_SHOULDER_POSITION) must be given from the same origin. Which
-// one does not matter while it is some arm lengths away: a position is rounded to 6e-8 of its distance from its origin.
-// The shoulder's place, or the character's, will do. Rotations need no origin; swivel_forward()'s positions are from
-// it, too.
+// In the arm frame the shoulder is at the origin. At rest both bones lie along +z, and flexion turns the forearm
+// towards +y, about -x. The elbow lies on the pole's side of the line from shoulder to wrist. In comments, WORLD means
+// SWIVEL_WORLD, and so on.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 //
-// SIZES. Structures that may grow in later releases start with their size, as the caller's header has it. Start from
-// the function that gives the defaults. A library accepts those of its own header and of older ones, which are shorter.
-// In arrays all elements have the size of the first.
+// THREADS. Different threads may use different crowds at once. One crowd is for one thread at a time, but for two
+// cases: calls that take it const, and jobs on_this_thread for blocks that do not overlap.
 //
-// THREADS. Different crowds may be used by different threads at once. One crowd may not, with two exceptions: jobs with
-// on_this_thread on blocks that do not overlap, and calls that take it const while nothing else runs on it.
+// SIZES. Structures that may grow start with their size. Take them from the function that gives the defaults. A library
+// accepts those of its own header and of older ones, which are shorter. In an array, all have the size of the first.
+//
+// READ ON at swivel_field, which says what every value means, at swivel_bind() for skeletons, and at swivel_solve().
+// The folder docs/ has guides with pictures; docs/speed.md says what each feature costs.
 #pragma once
 
 #include <stddef.h>
@@ -198,7 +56,7 @@ extern "C" {
 #define SWIVEL_VERSION_PATCH 0
 #define SWIVEL_VERSION (SWIVEL_VERSION_MAJOR * 10000 + SWIVEL_VERSION_MINOR * 100 + SWIVEL_VERSION_PATCH)
 
-enum { SWIVEL_LANES = 16 };  // limbs in a block
+enum { SWIVEL_LANES = 16 };  // limbs in a block of rows: see swivel_rows
 
 typedef enum swivel_status {
     SWIVEL_OK = 0,
@@ -228,7 +86,7 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last one
     SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
-    SWIVEL_BAD_INPUT = 1u << 30,     // see VALID INPUT, or an input was never given; the limb has its rest pose
+    SWIVEL_BAD_INPUT = 1u << 30,     // an input is not valid or was never given; the limb has its rest pose
     // bits 17 to 29 are kept for later releases and are 0
 } swivel_flag;
 
@@ -261,41 +119,126 @@ typedef uint64_t swivel_features;
 #define SWIVEL_BUDGET (UINT64_C(1) << 23)            // blocks wait their turn: swivel_choose(), jobs with priorities
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7; bits around it stay 0
 
-// Inputs, and from SWIVEL_SHOULDER on results. Both numbers only grow at their ends.
+// What goes into a limb, and what comes out. Each has its number of floats, and the feature that a crowd needs for it.
+// All of them are a limb's own, so every limb may have other values.
+//
+// VALID INPUT. A limb with any value that is not valid gets its rest pose and SWIVEL_BAD_INPUT. No other limb changes
+// by a bit. Positions and poles are no longer than 1e15, in the world as given and in the arm frame. A quaternion is
+// 1e-9..1e9 long; it need not be 1. Axes, cosines with their sines, and ranges are of unit length within 5e-4. Weights
+// and shares are 0..1. Other ranges stand at their fields.
+//
+// RANGES. A range of angles is cos and sin of its middle, then cos and sin of half its width, which is 0..pi.
+// swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make such values from angles.
+//
+// LIMITS are about the rest pose with the elbow straightened. Their axes, also those of the hand, are the arm frame's
+// there, whatever axes a skeleton's joints have. swivel_arm_axis() turns directions of the character into them. A twist
+// is that of swing and twist: 2 atan2(v . axis, w) of what the joint adds to rest, by the right hand. Its axis is +z,
+// from shoulder to hand, or the one given; it is none of the Euler angles.
+// - Where the wish breaks a limit, the solver takes the nearest swivel that keeps all of them. The cosine of a limited
+//   angle is off by at most 1e-6.
+// - The wrist comes first. Where no swivel keeps all limits, the solver takes the one that violates them least, and
+//   flags SWIVEL_INFEASIBLE. A twist's violation counts (1 + cos swing) / 2 times. To keep a limit even then, move the
+//   target, weigh it down or let the clavicle help.
+// - Limits win over SWIVEL_MOST_SWIVEL, and that over the wish.
+//
+// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0. At w = 0 the first of x, y, z that is not
+// zero is positive. Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
+//
+// Inputs and results are numbered apart, so later releases add to the end of either.
 typedef enum swivel_field {
+    // 3: where the wrist goes. In the arm frame, or with WORLD in the world. A target within 1e-15 of the shoulder
+    // counts as on it. No wrist comes nearer to the shoulder than 1e-9 arm lengths; it is reached all the same.
     SWIVEL_TARGET = 0,
+    // 3: a point that the elbow leans towards, where the target is. With POLE_DIRECTION a direction, with POLE_NORMAL
+    // the normal of the swivel plane: cross(line from shoulder to wrist, pole). Not with POLE_INCOMING.
     SWIVEL_POLE,
+    // 2: upper arm and forearm, before the parent's scale. Each is 0 or 1e-15..1e15. A bone under 1e-7 of the other is
+    // taken as straight with it.
     SWIVEL_LENGTHS,
+    // 3, with WORLD: where the shoulder itself is, in the world.
     SWIVEL_SHOULDER_POSITION,
+    // 4, with WORLD: the world rotation of the shoulder's parent joint.
     SWIVEL_PARENT_ROTATION,
+    // 1, with WORLD: the parent's uniform scale, 1e-15..1e15.
     SWIVEL_PARENT_SCALE,
+    // 4, WITH_HAND: the wanted orientation of the hand, where the target is.
     SWIVEL_HAND,
+    // 3, WITH_EFFECTOR: the target is for this point of the hand instead of the wrist. With JOINTS in the wrist joint's
+    // own frame, else in the arm frame's axes as the hand carries them. In the bones' unit, before the parent's scale.
     SWIVEL_EFFECTOR,
+    // 2, WITH_ANGLE: cos and sin of an angle that turns the elbow on from the pole's side, about the line from shoulder
+    // to wrist, by the right hand. The pair is 1e-9..1e9 long. Where the pole says nothing, the angle is ignored.
     SWIVEL_ANGLE,
+    // 4 each, WITH_INCOMING; the wrist also WITH_HAND: the pose so far. With JOINTS local rotations, else in the arm
+    // frame, forearm to upper arm, hand to forearm; always whole quaternions. It says where the elbow goes where the
+    // pole does not. Each result has the sign that is nearer to it, instead of w >= 0; compact results keep w >= 0.
     SWIVEL_INCOMING_SHOULDER,
     SWIVEL_INCOMING_ELBOW,
     SWIVEL_INCOMING_WRIST,
+    // 3, WITH_WEIGHTS: of position, hand and pole. 0 is the incoming pose's, 1 the goal's.
     SWIVEL_WEIGHTS,
+    // 4, WITH_REACH: far soft zone, near soft zone, most stretch 1..1000, least distance. Zones and distance are shares
+    // of both bones' length. At a reach R with a zone s, a wanted distance d becomes d - (d - R + s)^2 / (4 s) between
+    // R - s and R + s, and R beyond; the near end is the mirror image. Stretch makes up for what is missing.
     SWIVEL_REACH,
+    // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL.
     SWIVEL_MOST_SWIVEL,
+    // 2, WITH_FLEXION_LIMIT: cos of half the least flexion, cos of half the largest. Flexion does not depend on the
+    // swivel, so this limit narrows the reach, and the wrist stops short.
     SWIVEL_FLEXION_LIMIT,
+    // 4, WITH_SHOULDER_CONE: unit axis; cos of the upper arm's largest angle to it.
     SWIVEL_SHOULDER_CONE,
+    // 4, WITH_HUMERAL_TWIST: range of the upper arm's twist about itself.
     SWIVEL_HUMERAL_TWIST,
+    // 12, WITH_SHOULDER_BOX: ranges of its three Euler angles, in the crowd's shoulder_order.
     SWIVEL_SHOULDER_BOX,
+    // 4, WITH_HAND_CONE: unit axis of the hand; cos of its largest angle to the forearm.
     SWIVEL_HAND_CONE,
+    // 4, WITH_FOREARM_TWIST: range of the hand's twist about the forearm.
     SWIVEL_FOREARM_TWIST,
+    // 7, WITH_HAND_TWIST: unit axis of the hand; range of its twist about it.
     SWIVEL_HAND_TWIST,
+    // 12, WITH_WRIST_BOX: ranges of the wrist's three Euler angles, in the crowd's wrist_order.
     SWIVEL_WRIST_BOX,
+    // 5, WITH_AIM: unit axis of the hand; cos and sin of half the flexion. The elbow keeps that flexion. The wrist
+    // keeps the rotation in SWIVEL_HAND, which is relative to the forearm, or with JOINTS the joint's local one;
+    // without WITH_HAND the hand is at rest. The shoulder turns so that a ray goes through the target: from the
+    // effector, else the wrist, along the axis, which is in the frame that effectors are in. The elbow lies on the
+    // pole's side of the line from shoulder to target. A target too near for the flexion is SWIVEL_CLAMPED_NEAR. Then
+    // the ray's nearest point to the shoulder comes onto the line from shoulder to target. An elbow that passes through
+    // that line rolls the arm over. Not with weights, reach, flexion limits and limits of the hand.
     SWIVEL_AIM,
+    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. The parent
+    // joint, given as it is without this, turns about its own origin, SHOULDER_POSITION less the clavicle. It turns
+    // towards the target by about the share of the angle between clavicle and target, times the weight of position.
+    // Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is
+    // smooth, and fades for targets on the body's other side.
     SWIVEL_CLAVICLE,
     SWIVEL_INPUT_END,  // one past the last input of this release
+
+    // 4: the shoulder's rotation. In the arm frame, or with JOINTS the joint's local one.
     SWIVEL_SHOULDER = 256,
+    // 2: cos and sin of half the flexion, both >= 0. Their quaternion is (-sin, 0, 0, cos). With JOINTS 4: the elbow
+    // joint's local rotation. Either way, hand = parent * shoulder * elbow * wrist.
     SWIVEL_ELBOW,
+    // 4, WITH_HAND: the hand relative to the forearm, or with JOINTS the wrist joint's local rotation.
     SWIVEL_WRIST,
+    // 1: bits of swivel_flag, as uint32_t.
     SWIVEL_FLAGS,
+    // 1, WITH_REACH: the factor for both bone lengths, 1 or more.
     SWIVEL_STRETCH,
+    // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. It is kept for the next solve, which
+    // first makes it perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input
+    // and swivel_reset() forget it; call that after a teleport. Without this feature, results depend on the frame's own
+    // inputs alone. The swivel is continuous even so, but for targets that pass through the shoulder, poles that pass
+    // through the line, and limits whose nearest swivel changes sides.
     SWIVEL_NORMAL,
+    // 4 n, WITH_TWIST_BONES * n: the rotations of n bones that share the hand's twist about the forearm. Bone i of 1..n
+    // turns by i / (n + 1) of it, within 0.12 degrees. With JOINTS and a binding that knows the bones these are their
+    // local rotations. With a chain's binding, a local rotation is this quaternion times the rest rotation. Without
+    // JOINTS it is this quaternion in the arm frame.
     SWIVEL_TWIST_BONES,
+    // 4, WITH_CLAVICLE: what the parent joint turns by. Its local rotation is the given one times this.
     SWIVEL_CLAVICLE_TURN,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
@@ -395,12 +338,29 @@ typedef struct swivel_out {
     size_t stride;  // bytes; at least the value's size. Any alignment.
 } swivel_out;
 
+// A crowd's memory. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes,
+// aligned to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows follow each
+// other in the order of swivel_field, those that the crowd has. A crowd is made of groups: limbs that share one
+// binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end are padding.
 typedef struct swivel_rows {
     float* base;  // borrowed from the crowd, valid until it is destroyed
     uint32_t block_count;
     uint32_t row_count;
 } swivel_rows;
 
+// Result rows of a crowd with SWIVEL_COMPACT: 16 uint16_t, 32 bytes; word r of limb i is
+// base[((i / 16) * row_count + r) * 16 + i % 16]. The fields have the same order.
+// - SWIVEL_SHOULDER, SWIVEL_WRIST, and SWIVEL_ELBOW with JOINTS: 3 words, the quaternion's smallest three components.
+//   The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is
+//   word0 >> 15 | (word1 >> 15) << 1. The other three, in the order x, y, z, w, are
+//   ((word & 32767) - 16384) / (16383 * sqrt 2), of the one of q and -q whose component left out is positive: that one
+//   is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0. Three words of 0, which no solve writes, are four
+//   zeros.
+// - SWIVEL_ELBOW without JOINTS: 2 words, cos and sin as IEEE half floats, rounded to nearest.
+// - SWIVEL_FLAGS: 2 words, the low and the high half of the uint32_t.
+// A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of it, for
+// any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes a core up to half as
+// long as solving. So it pays where memory is short or its bandwidth shared, or where results are sent on.
 typedef struct swivel_words {
     uint16_t* base;  // borrowed as well
     uint32_t block_count;
@@ -423,10 +383,10 @@ static inline swivel_crowd_def swivel_default_crowd_def(void)
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd. Allocates once. On failure *crowd is null.
-// What has no sensible default starts as NaN, so that a limb which never gets it is SWIVEL_BAD_INPUT: targets, with
-// WORLD the shoulders' places, and bone lengths without JOINTS, where no binding says them. Poles start below the arm
-// frame's or the world's origin, parent and hand as the identity, THE WHOLE LIMB as what changes nothing: no turn,
+// Makes a crowd. Allocates once, and never again; oneTBB, inside the solves that use it, may. On failure *crowd is
+// null. What has no sensible default starts as NaN, so that a limb which never gets it is SWIVEL_BAD_INPUT: targets,
+// with WORLD the shoulders' places, and bone lengths without JOINTS, where no binding says them. Poles start below the
+// arm frame's or the world's origin, parent and hand as the identity, all else as what changes nothing: no turn,
 // weights 1, every limit wide open. Results start as the rest pose, without flags.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed.
@@ -503,8 +463,8 @@ SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_words swivel_compact_rows(swivel_crowd* crowd);
 
-// Words of COMPACT RESULTS as numbers, the same as swivel_read() gives. A rotation's three words lie word_stride words
-// apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0 as under RESULTS, or four zeros. Words
+// Words of swivel_words as numbers, the same as swivel_read() gives. A rotation's three words lie word_stride words
+// apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0, or four zeros. Words
 // that no solve wrote may give a quaternion of another length. Any thread.
 SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
 // The value of any half float, exactly. Any thread.
@@ -520,13 +480,19 @@ SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, u
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                      uint32_t limb_count, swivel_out values);
 
-// The same for positions in double: SWIVEL_TARGET, SWIVEL_POLE and SWIVEL_SHOULDER_POSITION, 3 consecutive doubles for
-// each limb. The limb's origin, 3 doubles as well (stride 0: one for all), is subtracted in double and the difference
-// rounded to the row's float, once, to nearest; see FAR FROM THE ORIGIN. Null data of origins: nothing is subtracted.
-// Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one. A difference no float holds
-// becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each other, but not the crowd's
-// own memory. Fails like swivel_write(), and for fields that are no positions. One thread; no allocation; two to
-// three times as long as swivel_write(). The floating-point environment is restored.
+// Results depend on differences of positions only, but a float 1e7 units from the origin is good to half a unit. So
+// positions far out may be given as doubles, with an origin near the limb that is taken off in double before they are
+// rounded. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_SHOULDER_POSITION) must be
+// given from the same origin. Which one does not matter while it is some arm lengths away: a position is rounded to
+// 6e-8 of its distance from its origin. The shoulder's place, or the character's, will do. Rotations need no origin;
+// swivel_forward()'s positions are from it, too.
+//
+// The field is one of these three: 3 consecutive doubles for each limb. The limb's origin, 3 doubles as well (stride 0:
+// one for all), is subtracted in double and the difference rounded to the row's float, once, to nearest. Null data of
+// origins: nothing is subtracted. Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one.
+// A difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each
+// other, but not the crowd's own memory. Fails like swivel_write(), and for fields that are no positions. One thread;
+// no allocation; two to three times as long as swivel_write(). The floating-point environment is restored.
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
@@ -581,13 +547,13 @@ typedef struct swivel_job {
     // with all others, which keep their results bit for bit; frames of limbs that are not chosen are neither read nor
     // written. Lists and budgets are for the whole crowd, so they exclude blocks and on_this_thread.
     //
-    // By bits: limb i of LAYOUT is bit i % 32 of mask[i / 32]. mask_word_count must be (swivel_block_count() + 1) / 2.
-    // Bits of padding lanes, and past the last block, are ignored.
+    // By bits: limb i of swivel_rows is bit i % 32 of mask[i / 32]. mask_word_count must be (swivel_block_count() + 1)
+    // / 2. Bits of padding lanes, and past the last block, are ignored.
     const uint32_t* mask;
     uint32_t mask_word_count;
-    // By a list of limb indices as in LAYOUT: swivel_group_first_limb() + n. Any order; a limb named twice is solved
-    // once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before anything is
-    // solved. A list in no order costs some nanoseconds an entry more than bits.
+    // By a list of limb indices as in swivel_rows: swivel_group_first_limb() + n. Any order; a limb named twice is
+    // solved once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before
+    // anything is solved. A list in no order costs some nanoseconds an entry more than bits.
     const swivel_limbs* limbs;
     // By urgency, as swivel_choose() has it: at most so many blocks.
     const swivel_in* priorities;

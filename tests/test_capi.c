@@ -22,6 +22,26 @@ static void count_line(const swivel_check* line, void* user)
     ++*(int*)user;
 }
 
+/* As the head of swivel.h shows it; tests/test_docs.py compares them. Returns 0, or what puts() gives. */
+static int head_of_header(void)
+{
+    float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.0f, 0.2f, 9.0f}};  // for the wrists; the second is out of reach
+    float pole[3] = {0, -1, 0}, lengths[2] = {0.30f, 0.26f};         // upper arm, forearm
+    float shoulder[2][4];                                            // x, y, z, w
+    swivel_group_def arms = swivel_default_group_def(2);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    swivel_crowd* crowd;
+    def.groups = &arms, def.group_count = 1;
+    if (swivel_crowd_create(&def, &crowd) != SWIVEL_OK) return puts(swivel_last_error());
+    swivel_write(crowd, SWIVEL_TARGET, 0, 0, 2, (swivel_in){targets, sizeof targets[0]});
+    swivel_write(crowd, SWIVEL_POLE, 0, 0, 2, (swivel_in){pole, 0});  // stride 0: one value for all
+    swivel_write(crowd, SWIVEL_LENGTHS, 0, 0, 2, (swivel_in){lengths, 0});
+    swivel_solve(crowd, NULL);
+    swivel_read(crowd, SWIVEL_SHOULDER, 0, 0, 2, (swivel_out){shoulder, sizeof shoulder[0]});
+    swivel_crowd_destroy(crowd);
+    return !(shoulder[0][3] >= 0 && shoulder[1][0] < 0 && shoulder[0][0] != shoulder[1][0]);
+}
+
 int main(void)
 {
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
@@ -39,6 +59,8 @@ int main(void)
     swivel_words words;
     float shoulder[4];
     int passed = 0, lines = 0, c;
+
+    check(head_of_header() == 0, "the head of swivel.h is a program");
 
     def.group_count = 1;
     def.groups = &group;

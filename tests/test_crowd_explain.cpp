@@ -184,7 +184,7 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
         return value;
     };
     int named = 0;
-    for (const std::uint32_t limits :
+    for (const swivel_features limits :
          {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
           SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
           SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {

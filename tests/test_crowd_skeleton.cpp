@@ -90,7 +90,7 @@ double turn_about(const Quaterniond& q, const Vector3d& axis)
 
 TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, the elbow where pole and bend say")
 {
-    const std::uint32_t j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
+    const swivel_features j = SWIVEL_JOINTS, w = SWIVEL_WORLD, h = SWIVEL_WITH_HAND, d = SWIVEL_POLE_DIRECTION;
     for (const swivel_features features :
          {j, j | h, j | w, j | w | h, j | w | h | d, j | w | h | SWIVEL_WITH_ANGLE, j | SWIVEL_WITH_ANGLE})
         for (const Between& shape : kShapes)

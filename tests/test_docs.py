@@ -143,6 +143,15 @@ class Docs(unittest.TestCase):
                     if parts.fragment and target in self.pages:
                         self.assertIn(unquote(parts.fragment), self.pages[target].anchors, "no such anchor")
 
+    def test_the_program_in_the_header_is_tested(self):
+        def plain(lines):
+            return [re.sub(r"\s+//", " //", line.strip()) for line in lines]
+        head = self.header.partition("#pragma once")[0]
+        shown = plain(re.findall(r"^//     (.*)$", head, re.M))
+        self.assertGreater(len(shown), 10)
+        tested = plain((ROOT / "tests/test_capi.c").read_text(encoding="utf-8").splitlines())
+        self.assertEqual(tested[tested.index(shown[0]):][:len(shown)], shown)
+
     def test_nothing_is_fetched_from_elsewhere(self):
         for path, page in self.pages.items():
             for link in page.fetched:

@@ -62,7 +62,7 @@ TEST_CASE("docs: joints of a skeleton")
     left.bend[2] = 1;  // the elbow bends forwards
     const swivel_group_def arms = swivel::group(1, swivel::bind(skeleton, left));
     // [end]
-    constexpr std::uint32_t features =
+    constexpr swivel_features features =
         SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_TWIST_BONES;
     swivel::Crowd crowd(features, {&arms, 1});
     const Eigen::Vector3d shoulder(0.2, 1.4, 0), target(0.3, 1.2, 0.35);

@@ -85,7 +85,12 @@ def paragraph(lines, names):
     out, item = [], False
     for line in lines:
         indent = len(line) - len(line.lstrip())
-        if indent == 2:  # the start of an entry; its text goes on further in
+        if line.startswith("- "):
+            out.append(("" if item == "dash" else "\n") + linked(line, names))
+            item = "dash"
+        elif item == "dash" and indent == 2:
+            out.append("  " + linked(line.strip(), names))
+        elif indent == 2:  # the start of an entry; its text goes on further in
             out.append(("\n- " if not item else "- ") + linked(line.strip(), names))
             item = True
         elif indent == 4 and not item:  # code
