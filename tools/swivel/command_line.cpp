@@ -1,61 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads the command line: the one file that knows its parser. Options that several subcommands have come first: one
-// name, one wording and one range for each.
+// Reads the command line. Options that several subcommands have come first: one name, one wording and one range for
+// each.
 #include "tools/swivel/command_line.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 
 #include "swivel/swivel.hpp"
+#include "tools/formats/suggestion.h"
 #include "tools/swivel/command_error.h"
+#include "tools/swivel/command_outline.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/completions.h"
+#include "tools/swivel/man_page.h"
+#include "tools/swivel/option_checks.h"
 
 namespace swivel::tools {
 
 namespace {
-
-// ---- values, checked more strictly than by the parser: it wraps negative numbers, saturates large ones and reads a
-// leading zero as octal
-
-// Decimal digits, least to most.
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most)
-{
-    const auto check = [least, most](const std::string& text) -> std::string {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool plain =
-            error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
-        if (plain && value >= least && value <= most) return {};
-        return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
-    };
-    return CLI::Validator(check, fmt::format("{}..{}", least, most));
-}
-
-// A finite number, least to most.
-CLI::Validator number(double least, double most)
-{
-    const auto check = [least, most](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
-        return fmt::format("'{}' is not a number from {} to {}", text, least, most);
-    };
-    return CLI::Validator(check, fmt::format("{}..{}", least, most));
-}
-
-CLI::Validator file_name()
-{
-    const auto check = [](const std::string& text) -> std::string {
-        return text.empty() ? "the file name is empty" : "";
-    };
-    return CLI::Validator(check, "FILE");
-}
 
 // ---- options of several subcommands
 
@@ -82,12 +51,36 @@ CLI::Option* add_threads(CLI::App& command, unsigned& threads)
 
 CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
 
+CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meaning = "Show no progress")
+{
+    return command.add_flag("--quiet", quiet, meaning);
+}
+
+// The positional FILE.
+void add_file(CLI::App& command, std::string& file, const std::string& meaning)
+{
+    command
+        .add_option("FILE", file,
+                    meaning +
+                        ": .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel "
+                        "info); - for standard input, BVH or glTF as its first bytes say")
+        ->required()
+        ->check(file_name());
+}
+
+CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning)
+{
+    return command.add_option("--limbs", kinds, meaning)->check(one_of({"arms", "legs", "all"}));
+}
+
 // --clip and --fps; use: what the animation is there for.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
 {
-    command.add_option(
-        "--clip", motion.clip,
-        "Animation of a glTF, FBX or DAE file, by name or, counted from 0, index; else the first; " + use);
+    command
+        .add_option(
+            "--clip", motion.clip,
+            "Which animation of a glTF, FBX or DAE FILE, by name or, counted from 0, index; else the first; " + use)
+        ->check(name("name an animation, or leave the option out for the first"));
     command
         .add_option("--fps", motion.rate,
                     "Samples a second of a glTF, FBX or DAE animation; without it its keys, or finer where they are "
@@ -120,6 +113,7 @@ void add_demo(CLI::App& app)
         ->check(whole_number(1, 1'000'000));
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
+    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_demo(*options); });
 }
@@ -129,44 +123,49 @@ void add_solve(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "solve", "Solve the arms and legs of a BVH, glTF, FBX or DAE clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
-    command
-        ->add_option(
-            "clip", options->clip,
-            "Motion file: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel info)")
-        ->required()
-        ->check(file_name());
+    add_file(*command, options->file, "Motion file");
     add_motion(*command, options->motion, "a file without animations is solved in its rest pose");
     command
-        ->add_option("--targets", options->targets,
-                     "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
-                     "motion, or a CSV "
-                     "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
-                     "world; limb is "
-                     "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip")
-        ->default_str("clip");
+        ->add_option(
+            "--targets", options->targets,
+            "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
+            "motion, or a CSV "
+            "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
+            "world; limb is "
+            "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip; - for standard input")
+        ->default_str("clip")
+        ->check(file_name());
     command
         ->add_option(
             "--crowd", options->crowd,
             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, reach, limits, "
-            "budget; docs/crowd_file.md has every key. Options given here override it")
+            "budget; docs/crowd_file.md has every key. Options given here override it; - for standard input")
         ->check(file_name());
+    CLI::Option* out =
+        command
+            ->add_option("-o,--out", options->out,
+                         "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
+                         "else of the asset is kept), of an FBX or DAE clip .glb and .gltf, or .csv; - for standard "
+                         "output, and the report then goes to standard error; without it statistics only")
+            ->check(file_name());
     command
-        ->add_option("--out", options->out,
-                     "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
-                     "else of the asset is kept), of an FBX or DAE clip .glb and .gltf, or .csv; without it "
-                     "statistics only")
-        ->check(file_name());
-    command
-        ->add_option("--limbs", options->kinds,
-                     "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
-                     "without it those named alone, or else the arms")
-        ->check(CLI::IsMember({"arms", "legs", "all"}));
+        ->add_option("--format", options->format,
+                     "Format of --out, where its name's suffix does not say it; of -, else csv")
+        ->check(one_of({"csv", "bvh", "glb", "gltf"}))
+        ->needs(out);
+    add_kinds(*command, options->kinds,
+              "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
+              "without it those named alone, or else the arms");
     add_named_limbs(*command, options->arms, options->legs, "the side that is not named is looked for with --limbs");
     add_characters(*command, options->characters,
                    "Characters, differing in arm lengths, place and start; the first is the clip's own")
         ->default_str("1");
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
+    command->add_flag("--strict", options->strict,
+                      "Fail with exit code 1, after writing --out, if limbs have bad input or most are out of reach; "
+                      "without it a note says so");
+    add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_solve(*options); });
 }
@@ -176,21 +175,20 @@ void add_rig(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, bends, and what is missing");
     auto options = std::make_shared<RigOptions>();
-    command
-        ->add_option("file", options->file,
-                     "Skeleton, with or without motion: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built "
-                     "with assimp")
-        ->required()
-        ->check(file_name());
-    command->add_option("--limbs", options->kinds, "Which limbs to look for: arms, legs or all")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"arms", "legs", "all"}));
+    add_file(*command, options->file, "Skeleton, with or without motion");
+    add_kinds(*command, options->kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
     add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
     add_motion(*command, options->motion,
                "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, bends "
                "and axes");
-    command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
-    add_json(*command, options->json);
+    CLI::Option* joints = command->add_flag("--joints", options->joints,
+                                            "List every joint, too: number, place at rest in the world, path");
+    CLI::Option* json = add_json(*command, options->json);
+    command
+        ->add_flag("--toml", options->toml,
+                   "Print the limbs that bind as a crowd file, their joints and bends, for swivel solve --crowd")
+        ->excludes(joints)
+        ->excludes(json);
     command->callback([options] { run_rig(*options); });
 }
 
@@ -203,6 +201,7 @@ void add_verify(CLI::App& app)
         ->capture_default_str()
         ->check(whole_number(1, 1'000'000'000));
     add_seed(*command, options->seed, "the random arms");
+    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_verify(*options); });
 }
@@ -215,6 +214,7 @@ void add_bench(CLI::App& app)
     command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed")
         ->capture_default_str()
         ->check(number(0.1, 3600));
+    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->footer(
         "Takes about two seconds more, and some 500 MB. For figures to keep, leave the machine alone meanwhile.");
@@ -229,13 +229,97 @@ void add_info(CLI::App& app)
     command->callback([options] { run_info(*options); });
 }
 
+// ---- help in all its shapes
+
+std::vector<std::string> command_names(const CLI::App& app)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    return names;
+}
+
+void add_completion(CLI::App& app)
+{
+    using Script = std::string (*)(const Outline&);
+    static const std::map<std::string, Script> scripts = {
+        {"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
+    CLI::App* command = app.add_subcommand("completion", "Print what a shell reads to complete swivel's options");
+    auto shell = std::make_shared<std::string>();
+    command->add_option("SHELL", *shell, "Which shell")->required()->check(one_of({"bash", "fish", "zsh"}));
+    command->footer("In bash: source <(swivel completion bash)");
+    command->callback([&app, shell] { fmt::print("{}", scripts.at(*shell)(outline_of(app))); });
+}
+
+// The last: it knows the others.
+void add_help(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("help", "Print help on the whole or on a command, as COMMAND --help does");
+    struct Wish {
+        std::string command;
+        bool man = false;
+    };
+    auto wish = std::make_shared<Wish>();
+    CLI::Option* name =
+        command->add_option("COMMAND", wish->command, "On which command")->check(one_of(command_names(app)));
+    command->add_flag("--man", wish->man, "Print the manual page instead, for man")->excludes(name);
+    command->callback([&app, wish] {
+        if (wish->man)
+            fmt::print("{}", man_page(outline_of(app)));
+        else if (wish->command.empty())
+            fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+        else
+            fmt::print("{}", app.get_subcommand(wish->command)->help(app.get_name()));
+    });
+}
+
 // ---- failures
 
-// Of the subcommand, once there is one.
-std::string help_command(const CLI::App& app)
+// The subcommand, once there is one.
+const CLI::App& used_command(const CLI::App& app)
 {
     const std::vector<CLI::App*> used = app.get_subcommands();
-    return used.empty() ? "swivel --help" : fmt::format("swivel {} --help", used.front()->get_name());
+    return used.empty() ? app : *used.front();
+}
+
+std::string help_of(const CLI::App& command)
+{
+    return command.get_parent() ? fmt::format("see swivel {} --help", command.get_name()) : "see swivel --help";
+}
+
+// The option meant by a wrong one, dashes left out of the count.
+std::string meant_by(const std::string& wrong, const CLI::App& command)
+{
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options())
+        known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
+    const std::string bare = wrong.substr(std::min(wrong.find_first_not_of('-'), wrong.size()));
+    const auto nearest = formats::nearest_word(bare, known);
+    return nearest ? fmt::format("did you mean --{}?", *nearest) : help_of(command);
+}
+
+// What is wrong with words that nobody takes; empty: there is none.
+std::string unknown_words(const CLI::App& app)
+{
+    const CLI::App& used = used_command(app);
+    for (const CLI::App* command : {&app, &used}) {
+        const std::vector<std::string> words = command->remaining();
+        const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
+        if (option != words.end()) {
+            const std::string bare = option->substr(0, option->find('='));
+            return fmt::format("there is no option {}; {}", bare, meant_by(bare, *command));
+        }
+        if (!words.empty() && &used == &app)
+            return fmt::format("there is no command '{}'; {}", words[0],
+                               formats::suggestion(words[0], command_names(app)));
+        if (!words.empty()) return fmt::format("'{}' is one word too many; {}", words[0], help_of(used));
+    }
+    return {};
+}
+
+std::string cause_of(const CLI::App& app, const CLI::ParseError& error)
+{
+    const std::string unknown = unknown_words(app);
+    return unknown.empty() ? fmt::format("{}; {}", error.what(), help_of(used_command(app))) : unknown;
 }
 
 }  // namespace
@@ -255,6 +339,8 @@ int run_swivel(int argc, const char* const* argv)
     add_verify(app);
     add_bench(app);
     add_info(app);
+    add_completion(app);
+    add_help(app);
     try {
         app.parse(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
@@ -262,13 +348,8 @@ int run_swivel(int argc, const char* const* argv)
         return 0;
     } catch (const CLI::Success& done) {  // --help, --version
         return app.exit(done);
-    } catch (const CLI::RequiredError& error) {
-        const std::vector<std::string> unknown = app.remaining();
-        const std::string cause =
-            unknown.empty() ? error.what() : fmt::format("'{}' is no command or option", unknown[0]);
-        return fail(2, fmt::format("{}; see {}", cause, help_command(app)));
     } catch (const CLI::ParseError& error) {
-        return fail(2, fmt::format("{}; see {}", error.what(), help_command(app)));
+        return fail(2, cause_of(app, error));
     } catch (const CommandError& error) {
         return fail(error.exit_code, error.what());
     } catch (const std::bad_alloc&) {

@@ -29,6 +29,8 @@ void run_rig(const RigOptions& options)
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
         print_json(json_of(motion, options.file, search, options.joints));
+    else if (options.toml)
+        print_crowd_file(motion, options.file, search);
     else
         print_rig(motion, options.file, search, options.joints);
     if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tools/swivel/limbs.h"
+#include "tools/swivel/statistics.h"
 
 namespace swivel::tools {
 
@@ -24,5 +25,9 @@ struct SolveFacts {
 // Lines for people, on stdout.
 void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
+
+// In which way a solve as a whole went wrong, in one line: limbs have bad input, or most of them are out of reach.
+// Empty: it did not. A note for people, and what --strict fails for.
+std::string what_went_wrong(const Statistics& statistics);
 
 }  // namespace swivel::tools
