@@ -3,8 +3,8 @@
 // The table of targets: where each wrist or ankle must be in each frame, and where its elbow or knee should point. The
 // first line names the columns, in any order: frame,character,limb,x,y,z,pole_x,pole_y,pole_z and, all four or none,
 // qx,qy,qz,qw. limb is left_arm, right_arm, left_leg or right_leg; a table of arms may have side, left or right,
-// instead. Comma-separated, no quotes; blank lines and lines starting with # are skipped. Knows no crowd: whether a
-// frame or a character exists is the caller's question, and `line` lets the answer name the place.
+// instead. Comma-separated, cells quoted or not; blank lines and lines starting with # are skipped. Knows no crowd:
+// whether a frame or a character exists is the caller's question, and `line` lets the answer name the place.
 
 #include <Eigen/Geometry>
 #include <cstddef>

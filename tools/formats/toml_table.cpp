@@ -65,10 +65,10 @@ std::string cause_of(std::string_view description)
 toml::table read_toml(const std::filesystem::path& path)
 {
     const std::string text = read_text(path);
-    if (text.size() > kMostBytes)
-        throw InputError(path, fmt::format("has {} bytes; a file of settings has at most {}", text.size(), kMostBytes));
     if (is_bvh_text(text))
         throw InputError(path, "is a BVH file, and a TOML file is needed here; give the clip as FILE");
+    if (text.size() > kMostBytes)
+        throw InputError(path, fmt::format("has {} bytes; a file of settings has at most {}", text.size(), kMostBytes));
     require_flat(path, text);
     try {
         return toml::parse(text);

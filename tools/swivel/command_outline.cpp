@@ -41,7 +41,10 @@ OptionOutline outline_of(const CLI::Option& option)
 
 CommandOutline outline_of_command(const CLI::App& command)
 {
-    CommandOutline outline{command.get_name(), command.get_description(), command.get_footer(), {}};
+    const CLI::App* const whole = command.get_parent();  // whose footer others inherit
+    const bool has_own_footer = !whole || command.get_footer() != whole->get_footer();
+    CommandOutline outline{
+        command.get_name(), command.get_description(), has_own_footer ? command.get_footer() : "", {}};
     for (const CLI::Option* option : command.get_options()) outline.options.push_back(outline_of(*option));
     return outline;
 }

@@ -127,9 +127,10 @@ const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
     if (given == bends.end()) return nullptr;
     const Vector3d& upper = limb.upper_bone;
     if (given->direction.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
-        throw CannotBind(fmt::format("{} is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend that way",
-                                     place_of(*given), upper.x(), upper.y(), upper.z()),
-                         "give a direction across it");
+        throw CannotBind(
+            fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend that way",
+                        place_of(*given), upper.x(), upper.y(), upper.z()),
+            "give a direction across it");
     if (given->key.ends_with(".hinge"))
         throw CannotBind(
             fmt::format("{} is an axis, and a crowd file now says where the limb bends to", place_of(*given)),

@@ -69,7 +69,7 @@ std::string man_page(const Outline& outline)
 {
     std::string text = fmt::format(".TH SWIVEL 1 \"\" \"swivel {}.{}.{}\" \"User Commands\"\n", SWIVEL_VERSION_MAJOR,
                                    SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH);
-    text += ".SH NAME\nswivel \\- solve the arms and legs of crowds\n";
+    text += ".ad l\n.SH NAME\nswivel \\- solve the arms and legs of crowds\n";
     text += ".SH SYNOPSIS\n.B swivel\n.I COMMAND\n.RI [ OPTION ]...\n";
     text += fmt::format(".SH DESCRIPTION\n{}\n", roff(outline.whole.text));
     text += ".SH OPTIONS\n" + options_text(outline.whole) + ".SH COMMANDS\n";

@@ -241,7 +241,7 @@ void print_crowd_file(const MotionFile& motion, const std::string& file, const L
         }
         const Limb& limb = *finding.limb;
         fmt::print("\n[limb.{}]\n{}\n", limb_word(limb.name), joints_line(clip, limb));
-        fmt::print("bend = [{}, {}, {}]  {}\n", limb.bend.x(), limb.bend.y(), limb.bend.z(),
+        fmt::print("bend = [{:#}, {:#}, {:#}]  {}\n", limb.bend.x(), limb.bend.y(), limb.bend.z(),
                    toml_comment(limb.bend_source));
     }
 }
