@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The command in a pipe: clips, tables and crowd files from standard input, poses to standard output with nothing
-// between them, runs that say nothing, and exit codes that say whether a solve went wrong.
+// The command in a pipe. Clips, tables and crowd files come from standard input, poses go to standard output with
+// nothing between them. Runs may say nothing, and exit codes say whether a solve went wrong.
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -146,8 +146,8 @@ TEST_CASE("streams: what cannot be read or written is refused in one line")
     stage.require_refused({"clip.bvh", "--crowd", "clip.bvh"}, 1,
                           "clip.bvh: is a BVH file, and a TOML file is needed here; give the clip as FILE");
     stage.require_refused({"-", "--fps", "30"}, 2, "--fps samples", kTwoArms);
-    stage.require_refused({"clip.bvh", "--targets", "-"}, 1, "standard input:2: column x",
-                          kPipeTable + "0,0,right_arm,,\n");
+    stage.require_refused({"clip.bvh", "--targets", "-", "--json"}, 1, "standard input:3: column x is empty",
+                          kPipeTable + "0,0,right_arm,,8,3,4,8,9\n");
     stage.require_refused({"clip.bvh", "--out", "-", "--format", "glb"}, 2, "this clip is a BVH file");
     stage.require_refused({"clip.bvh", "--out", "-", "--format", "bvh", "--characters", "2"}, 2, "one character");
     stage.require_refused({"clip.bvh", "--format", "csv"}, 2, "--format requires --out");

@@ -139,13 +139,14 @@ void add_solve(CLI::App& app)
     CLI::Option* out =
         command
             ->add_option("-o,--out", options->out,
-                         "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
-                         "else of the asset is kept), of an FBX or DAE clip .glb and .gltf, or .csv; - for standard "
-                         "output, and the report then goes to standard error; without it statistics only")
+                         "Write the poses: to .csv, or to the clip's own format, .bvh or .glb and .gltf (one "
+                         "character; all else of the asset is kept). FBX and DAE clips go to .glb or .gltf. - is "
+                         "standard output, and the report then goes to standard error. Without it there are "
+                         "statistics only")
             ->check(file_name());
     command
         ->add_option("--format", options->format,
-                     "Format of --out, where its name's suffix does not say it; of -, else csv")
+                     "Format of --out, if its suffix is not to say it; - is csv without it")
         ->check(one_of({"csv", "bvh", "glb", "gltf"}))
         ->needs(out);
     add_kinds(*command, options->kinds,

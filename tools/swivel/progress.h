@@ -10,7 +10,7 @@
 
 namespace swivel::tools {
 
-// The bar and its figures, or as much of them as is narrower than a terminal of that many columns; so it never wraps.
+// The bar and its figures, or as much of them as fits into one line of a terminal that has that many columns.
 // done: 0 to total. what: one word, such as "frames". seconds: since the start.
 std::string progress_line(std::uint64_t done, std::uint64_t total, std::string_view what, double seconds,
                           std::size_t columns);
