@@ -177,14 +177,10 @@ void add_rig(CLI::App& app)
     add_motion(*command, options->motion,
                "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, bends "
                "and axes");
-    CLI::Option* joints = command->add_flag("--joints", options->joints,
-                                            "List every joint, too: number, place at rest in the world, path");
-    CLI::Option* json = add_json(*command, options->json);
-    command
-        ->add_flag("--toml", options->toml,
-                   "Print the limbs that bind as a crowd file, their joints and bends, for swivel solve --crowd")
-        ->excludes(joints)
-        ->excludes(json);
+    command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
+    command->add_flag("--toml", options->toml,
+                      "Print the limbs that bind as a crowd file, their joints and bends, for swivel solve --crowd");
+    add_json(*command, options->json);
     command->callback([options] { run_rig(*options); });
 }
 

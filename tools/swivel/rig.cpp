@@ -19,6 +19,8 @@ namespace swivel::tools {
 
 void run_rig(const RigOptions& options)
 {
+    if (options.toml && (options.json || options.joints))
+        throw CommandError(2, "--toml prints a crowd file and nothing else; leave out --json and --joints");
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const MotionFile motion(options.file, options.motion);
     LimbChoice choice;
