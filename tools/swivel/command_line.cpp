@@ -92,8 +92,11 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
                     "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12), where their names do not "
                     "tell; up to twice; left: or right: in front sets the side; " +
                         other_side)
+        ->type_name("JOINTS")
         ->allow_extra_args(false);
-    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")->allow_extra_args(false);
+    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
+        ->type_name("JOINTS")
+        ->allow_extra_args(false);
 }
 
 // ---- the subcommands
