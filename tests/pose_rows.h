@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
@@ -17,7 +18,7 @@ namespace swivel::test {
 
 inline const std::string kPoseHeader =
     "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
-    "wrist_x,wrist_y,wrist_z,wrist_w,flags";
+    "wrist_x,wrist_y,wrist_z,wrist_w,flags,place_x,place_y,place_z,size,start";
 
 struct PoseLine {
     std::size_t frame = 0, character = 0;
@@ -45,7 +46,7 @@ inline std::vector<std::string> cells_of(const std::string& line)
     return cells;
 }
 
-// more: what the header has after the flags.
+// more: what the header has after these columns.
 inline std::vector<PoseLine> pose_lines(const std::string& text, const std::string& more = "")
 {
     std::istringstream in(text);
@@ -66,6 +67,16 @@ inline std::vector<PoseLine> pose_lines(const std::string& text, const std::stri
         to.flags = static_cast<unsigned>(to.number("flags"));
     }
     return lines;
+}
+
+// Of all joints in all rows, the largest angle between the two tables.
+inline double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
+{
+    REQUIRE(a.size() == b.size());
+    double worst = 0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+        for (std::size_t j = 0; j < 3; ++j) worst = std::max(worst, a[n].joint[j].angularDistance(b[n].joint[j]));
+    return worst;
 }
 
 }  // namespace swivel::test

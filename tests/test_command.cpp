@@ -180,6 +180,12 @@ TEST_CASE("command: options that do not go together are refused")
     for (const std::string out : {"x.fbx", "x", "x.", ".csv", "x.csv.gz"})
         require_bad_usage({"solve", "clip.bvh", "--out", out}, "--out " + out);
     require_bad_usage({"solve", "clip.bvh", "--out", ""}, "--out");
+    require_bad_usage({"solve", "clip.bvh", "--between", "hold"},
+                      "--between hold: is about the rows of a table; give one with --targets FILE");
+    require_bad_usage({"solve", "clip.bvh", "--between", "cubic"}, "--between");
+    require_bad_usage({"solve", "clip.bvh", "--export-targets", ""}, "--export-targets");
+    require_bad_usage({"solve", "clip.bvh", "--export-targets", "clip.bvh"}, "clip.bvh: is the clip itself");
+    require_bad_usage({"solve", "clip.bvh", "--export-targets", "./x.csv", "--out", "x.csv"}, "is the file of --out");
 }
 
 TEST_CASE("command: solve without --out writes no file, with it that one")
@@ -214,7 +220,8 @@ TEST_CASE("command: solve --json")
     CHECK(out.at("seconds") >= out.at("solve_seconds"));
     require_statistics(out, 2 * 2 * 3);
     require_error(out.at("errors").at("hand"), 2e-6);
-    require_error(out.at("errors").at("elbow_bent"), 1e-5);
+    require_error(out.at("differences_from_clip").at("elbow_bent"), 1e-5);
+    CHECK(out.at("each_character").size() == 3);
     const Json& left = out.at("arms_bound").at(0);
     CHECK(left.at("side") == "left");
     CHECK(left.at("shoulder") == "LeftArm");

@@ -218,7 +218,7 @@ TEST_CASE("targets: the report says where it is worst, and where a flag comes fi
     };
     stage.write_targets(far(3, stage.arms[1], 2.5) + far(7, stage.arms[0], 4) + far(9, stage.arms[1], 3));
     const nlohmann::json report = nlohmann::json::parse(stage.solve({"--targets", "t.csv", "--json"}));
-    const nlohmann::json& missed = report.at("errors").at("missed");
+    const nlohmann::json& missed = report.at("missed").at("wrist");
     CHECK(missed.at("count") == 3);
     CHECK(missed.at("worst").get<double>() == Approx(3).epsilon(1e-5));
     CHECK(missed.at("worst_pose") == nlohmann::json{{"frame", 7}, {"character", 0}, {"limb", "left_arm"}});
@@ -255,6 +255,10 @@ TEST_CASE("targets: characters stand on the documented grid")
         CHECK(factor > 0.85 - 1e-5);
         CHECK(factor < 1.15 + 1e-5);
         if (row.character == 0) CHECK(factor == Approx(1).epsilon(1e-5));
+        CHECK(row.number("size") == Approx(factor).epsilon(1e-5));
+        CHECK(row.number("place_x") == Approx(3 * span * static_cast<double>(row.character % 3)).epsilon(1e-6));
+        CHECK(row.number("place_y") == 0);
+        CHECK(row.number("place_z") == Approx(3 * span * static_cast<double>(row.character / 3)).epsilon(1e-6));
         factors.insert(static_cast<int>(factor * 1e4));
     }
     CHECK(factors.size() > 4);

@@ -125,6 +125,11 @@ TEST_CASE("input: what is read is never written over")
         CHECK_THAT(outcome.err, Contains(what) && Contains(out));
         CHECK(contents(folder) == before);
     }
+    for (const std::string read : {"clip.bvh", "t.csv", "same.csv"}) {
+        const Words words = {"solve", "clip.bvh", "--targets", "t.csv", "--export-targets", read};
+        CHECK(run_command(folder.path, words).exit_code == 2);
+        CHECK(contents(folder) == before);
+    }
     fs::rename(folder / "c.toml", folder / "c.csv");
     CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.csv", "--out", "c.csv"}).exit_code == 2);
     CHECK(slurp(folder / "c.csv") == "[crowd]\n");
@@ -307,6 +312,8 @@ TEST_CASE("input: tables of targets")
     require_table_refused("", {"t.csv: ", "empty"});
     require_table_refused(kColumns, {"t.csv: ", "no targets"});
     require_table_refused("frame,character,side,x,y,z,pole_x,pole_y\n0,0,left,1,2,3,4,5\n", {"t.csv:1: ", "pole_z"});
+    require_table_refused("frame,character,side,x,y,z,pole_x\n0,0,left,1,2,3,4\n", {"t.csv:1: ", "pole_y,pole_z"});
+    require_table_refused(kColumns + "0,0,left,6,8,3,4,,9\n", {"t.csv:2: ", "column pole_y is empty"});
     require_table_refused(edited(kColumns, "x,y", "x,w") + kGoodRow, {"t.csv:1: ", "'w'"});
     require_table_refused(kColumns + kGoodRow + "1,0,left,6,eight,3,4,8,9\n", {"t.csv:3: ", "column y", "'eight'"});
     require_table_refused(kColumns + kGoodRow + "1,0,left,6,nan,3,4,8,9\n", {"t.csv:3: ", "column y", "'nan'"});

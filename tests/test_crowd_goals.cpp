@@ -27,15 +27,6 @@ std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
     return seen;
 }
 
-double worst_rotation(const std::vector<PoseLine>& a, const std::vector<PoseLine>& b)
-{
-    REQUIRE(a.size() == b.size());
-    double worst = 0;
-    for (std::size_t n = 0; n < a.size(); ++n)
-        for (std::size_t j = 0; j < 3; ++j) worst = std::max(worst, a[n].joint[j].angularDistance(b[n].joint[j]));
-    return worst;
-}
-
 }  // namespace
 
 TEST_CASE("a limb that bends the other way is told of, and an incoming pole keeps its twist")

@@ -91,6 +91,22 @@ TEST_CASE("targets: orientation, where a row has it, is made unit")
     CHECK(targets[1].orientation.coeffs() == Eigen::Vector4d(0, 0, 0, 1));
 }
 
+TEST_CASE("targets: poles, where a row has one")
+{
+    const TempFolder folder;
+    const std::vector<Target> none = read(folder, "frame,character,limb,x,y,z\n0,0,left_arm,1,2,3\n");
+    REQUIRE(none.size() == 1);
+    CHECK_FALSE(none[0].has_pole);
+    CHECK(none[0].position == Eigen::Vector3d(1, 2, 3));
+    const std::vector<Target> some = read(folder, edited(kPlain, "4,5,6", ", ,\t"));
+    CHECK_FALSE(some[0].has_pole);
+    CHECK(some[1].has_pole);
+    const std::vector<Target> turned =
+        read(folder, "qw,qx,qy,qz,frame,character,limb,x,y,z\n1,0,0,0,0,0,left_arm,1,2,3\n");
+    CHECK(turned[0].has_orientation);
+    CHECK_FALSE(turned[0].has_pole);
+}
+
 TEST_CASE("targets: sides of arms, columns in any order, comments, blanks, CRLF, no last line end, sorted result")
 {
     const TempFolder folder;
@@ -140,6 +156,7 @@ TEST_CASE("targets: damaged tables are refused with line, column and cause")
         {",limb,", ",side,", "t.csv:2: column side: 'left_arm' is neither left nor right"},
         {",limb,x", ",limb,side", "t.csv:1: columns limb and side are both there"},
         {",limb,x", ",x", "t.csv:1: column limb is missing"},
+        {",pole_y,pole_z", "", "t.csv:1: columns pole_y,pole_z are missing; the first line must name"},
         {"pole_z", "pole_q", "t.csv:1: unknown column 'pole_q'; known are frame,character,limb"},
         {"pole_z", "pole_y", "t.csv:1: column pole_y is there twice"},
         {",pole_z", "", "t.csv:1: column pole_z is missing"},
@@ -204,13 +221,54 @@ TEST_CASE("targets: mutated tables are read or refused in one line")
     CHECK(read_count < 475);
 }
 
+TEST_CASE("targets: what is written reads the same, bit for bit")
+{
+    const TempFolder folder;
+    rc::prop("random targets", [&](std::uint32_t seed) {
+        std::mt19937_64 random(seed);
+        const auto number = [&] {  // of any size; a pole and a place may be anywhere
+            const double value = std::bit_cast<double>(random());
+            return std::isfinite(value) ? value : 0.0;
+        };
+        std::vector<Target> targets(1 + random() % 20);
+        for (std::size_t n = 0; n < targets.size(); ++n) {
+            Target& t = targets[n];
+            t.frame = static_cast<std::uint32_t>(n);
+            t.character = static_cast<std::uint32_t>(random());
+            t.limb = kLimbNames[random() % 4];
+            t.position = {number(), number(), number()};
+            t.has_pole = random() % 2 == 0;
+            if (t.has_pole) t.pole = {number(), number(), number()};
+            t.has_orientation = random() % 2 == 0;
+            const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+            if (t.has_orientation) t.orientation = Eigen::Quaterniond(unit() + 2, unit(), unit(), unit()).normalized();
+        }
+        TargetsCsv csv(folder / "t.csv");
+        csv.append(std::span(targets).first(targets.size() / 2));
+        csv.append(std::span(targets).subspan(targets.size() / 2));
+        csv.commit();
+        const std::vector<Target> again = read_targets_csv(folder / "t.csv");
+        RC_ASSERT(again.size() == targets.size());
+        for (std::size_t n = 0; n < again.size(); ++n) {
+            const Target &a = again[n], &b = targets[n];
+            RC_ASSERT(a.frame == b.frame && a.character == b.character && a.limb == b.limb);
+            RC_ASSERT(a.position == b.position && a.has_pole == b.has_pole && a.pole == b.pole);
+            RC_ASSERT(a.has_orientation == b.has_orientation);
+            RC_ASSERT(a.orientation.isApprox(b.orientation, 1e-15));  // it is made unit again
+        }
+    });
+}
+
 TEST_CASE("poses: the text of known rows")
 {
     const TempFolder folder;
     PosesCsv csv(folder / "p.csv");
     const float tiny = std::numeric_limits<float>::denorm_min();
-    const PoseRow left = {
-        12, {LimbKind::arm, Side::left}, {0, -0.0f, 0.1f, 1}, {1e-10f, tiny, 0.5f, 3}, {1, 0, 0, 0}, 4294967295u};
+    PoseRow left = {12,         {LimbKind::arm, Side::left}, {0, -0.0f, 0.1f, 1}, {1e-10f, tiny, 0.5f, 3}, {1, 0, 0, 0},
+                    4294967295u};
+    left.place = {-1.5, 0, 1e300};
+    left.size = 0.1;
+    left.start = 18446744073709551615u;
     const PoseRow right = {12, {LimbKind::leg, Side::right}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, 0};
     csv.append(239, {{left, right}});
     csv.append(240, {});
@@ -218,9 +276,9 @@ TEST_CASE("poses: the text of known rows")
     csv.commit();
     CHECK(slurp(folder / "p.csv") ==
           "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,elbow_x,elbow_y,elbow_z,elbow_w,"
-          "wrist_x,wrist_y,wrist_z,wrist_w,flags\n"
-          "239,12,left_arm,0,-0,0.1,1,1e-10,1e-45,0.5,3,1,0,0,0,4294967295\n"
-          "239,12,right_leg,0,0,0,1,0,0,0,1,0,0,0,1,0\n");
+          "wrist_x,wrist_y,wrist_z,wrist_w,flags,place_x,place_y,place_z,size,start\n"
+          "239,12,left_arm,0,-0,0.1,1,1e-10,1e-45,0.5,3,1,0,0,0,4294967295,-1.5,0,1e+300,0.1,18446744073709551615\n"
+          "239,12,right_leg,0,0,0,1,0,0,0,1,0,0,0,1,0,0,0,0,1,0\n");
 }
 
 TEST_CASE("poses: columns for what limbs have beside")
@@ -235,10 +293,10 @@ TEST_CASE("poses: columns for what limbs have beside")
     csv.append(3, {{row, row}}, extras);
     csv.commit();
     const std::string text = slurp(folder / "p.csv");
-    CHECK_THAT(text, Contains(",flags,stretch,clavicle_x,clavicle_y,clavicle_z,clavicle_w,twist1_x,twist1_y,twist1_z,"
+    CHECK_THAT(text, Contains(",start,stretch,clavicle_x,clavicle_y,clavicle_z,clavicle_w,twist1_x,twist1_y,twist1_z,"
                               "twist1_w,twist2_x,twist2_y,twist2_z,twist2_w\n"));
-    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,1.5,1,0,0,0,0,1,0,0,0,0,0.5,0\n"));
-    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,1,,,,,,,,,,,,\n"));
+    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,0,0,0,1,0,1.5,1,0,0,0,0,1,0,0,0,0,0.5,0\n"));
+    CHECK_THAT(text, Contains("3,0,left_arm,0,0,0,1,0,0,0,1,0,0,0,1,1,0,0,0,1,0,1,,,,,,,,,,,,\n"));
 }
 
 TEST_CASE("poses: the longest line fits")
@@ -248,9 +306,15 @@ TEST_CASE("poses: the longest line fits")
     const float longest = -1.17549435e-38f;
     const std::array<float, 4> all = {longest, longest, longest, longest};
     const PoseExtra extra{longest, true, all, 7, {all, all, all, all, all, all, all}};
-    csv.append(4294967295u, {{{4294967295u, {LimbKind::arm, Side::right}, all, all, all, 4294967295u}}}, {{extra}});
+    PoseRow row{4294967295u, {LimbKind::arm, Side::right}, all, all, all, 4294967295u};
+    row.size = -2.2250738585072014e-308;
+    row.place = {row.size, row.size, row.size};
+    row.start = 18446744073709551615u;
+    csv.append(4294967295u, {{row}}, {{extra}});
     csv.commit();
-    CHECK_THAT(slurp(folder / "p.csv"), Contains("\n4294967295,4294967295,right_arm,-1.1754944e-38,"));
+    const std::string text = slurp(folder / "p.csv");
+    CHECK_THAT(text, Contains("\n4294967295,4294967295,right_arm,-1.1754944e-38,"));
+    CHECK_THAT(text, Contains(",-2.2250738585072014e-308,18446744073709551615,-1.1754944e-38,"));
 }
 
 TEST_CASE("poses: every float comes back bit for bit")
@@ -271,7 +335,7 @@ TEST_CASE("poses: every float comes back bit for bit")
         std::getline(in, line);
         std::getline(in, line);
         const std::vector<std::string> words = split(line);
-        RC_ASSERT(words.size() == 16u);
+        RC_ASSERT(words.size() == 21u);
         RC_ASSERT(words[0] == std::to_string(frame));
         RC_ASSERT(words[15] == std::to_string(flags));
         for (std::size_t i = 0; i < 12; ++i) {

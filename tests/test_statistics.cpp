@@ -46,6 +46,29 @@ void add(LimbStatistics& to, const Pose& pose)
 
 }  // namespace
 
+TEST_CASE("statistics: a run went wrong where most limbs are out of reach or have bad input, each counted once")
+{
+    rc::prop("", [](std::uint32_t seed) {
+        std::mt19937 random(seed);
+        constexpr std::uint32_t words[] = {SWIVEL_REACHED, SWIVEL_CLAMPED_FAR, SWIVEL_CLAMPED_NEAR, SWIVEL_BAD_INPUT,
+                                           SWIVEL_BAD_INPUT | SWIVEL_CLAMPED_FAR};
+        Statistics statistics;
+        std::uint64_t lost = 0, count = random() % 12;
+        for (std::uint64_t n = 0; n < count; ++n) {
+            const std::size_t kind = random() % 2 == 0 ? 0 : 1 + random() % 4;
+            const auto limb = kLimbNames[random() % 4];
+            statistics.of(limb.kind).add_flags(words[kind], {n, 0, limb});
+            lost += kind != 0;
+        }
+        Statistics sum;
+        sum.arms.add(statistics.arms);
+        sum.legs.add(statistics.legs);
+        RC_ASSERT(sum.limb_count() == count);
+        RC_ASSERT(sum.unreached() + sum.bad() == lost);
+        RC_ASSERT(went_wrong(sum) == (lost > count - lost));
+    });
+}
+
 TEST_CASE("statistics: in any order, in any parts, the worst and the first are the earliest poses of their kind")
 {
     rc::prop("", [](std::uint32_t seed) {

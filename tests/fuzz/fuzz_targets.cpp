@@ -31,8 +31,9 @@ std::string text_of(const std::vector<Target>& targets)
 {
     std::string text = "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n";
     for (const Target& t : targets) {
-        text += fmt::format("{},{},{},{},{},{},{},{},{},", t.frame, t.character, limb_word(t.limb), t.position.x(),
-                            t.position.y(), t.position.z(), t.pole.x(), t.pole.y(), t.pole.z());
+        text += fmt::format("{},{},{},{},{},{},", t.frame, t.character, limb_word(t.limb), t.position.x(),
+                            t.position.y(), t.position.z());
+        text += t.has_pole ? fmt::format("{},{},{},", t.pole.x(), t.pole.y(), t.pole.z()) : ",,,";
         const Eigen::Quaterniond& q = t.orientation;
         text += t.has_orientation ? fmt::format("{},{},{},{}\n", q.x(), q.y(), q.z(), q.w()) : ",,,\n";
     }
@@ -41,7 +42,7 @@ std::string text_of(const std::vector<Target>& targets)
 
 bool are_same(const Target& a, const Target& b)
 {
-    return place_of(a) == place_of(b) && a.position == b.position && a.pole == b.pole &&
+    return place_of(a) == place_of(b) && a.position == b.position && a.pole == b.pole && a.has_pole == b.has_pole &&
            a.has_orientation == b.has_orientation && a.orientation.isApprox(b.orientation, 1e-15);
 }
 

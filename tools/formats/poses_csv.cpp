@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::string_view kHeader =
     "frame,character,limb,shoulder_x,shoulder_y,shoulder_z,shoulder_w,"
-    "elbow_x,elbow_y,elbow_z,elbow_w,wrist_x,wrist_y,wrist_z,wrist_w,flags";
+    "elbow_x,elbow_y,elbow_z,elbow_w,wrist_x,wrist_y,wrist_z,wrist_w,flags,"
+    "place_x,place_y,place_z,size,start";
 
-// Longest line: three whole numbers of 10 digits, "right_arm", 45 floats such as -1.17549435e-38 (15), 49 separators:
-// 763.
-constexpr std::size_t kMaxLineBytes = 768;
+// Longest line: three whole numbers of 10 digits and one of 20, "right_arm", 45 floats such as -1.17549435e-38 (15), 4
+// doubles such as -2.2250738585072014e-308 (24), 54 separators: 884.
+constexpr std::size_t kMaxLineBytes = 896;
 
 // A line in the making.
 struct Line {
@@ -55,6 +56,14 @@ void put_row(Line& line, std::uint32_t frame, const PoseRow& row)
     put_rotation(line, row.elbow);
     put_rotation(line, row.wrist);
     put_number(line, row.flags);
+    for (const double coordinate : row.place) {
+        put(line, ',');
+        put_number(line, coordinate);
+    }
+    put(line, ',');
+    put_number(line, row.size);
+    put(line, ',');
+    put_number(line, row.start);
 }
 
 void put_cells(Line& line, bool filled, const std::array<float, 4>& rotation)

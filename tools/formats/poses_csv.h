@@ -1,8 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The table of solved poses, written as it is produced: one line per frame, character and limb, with the three local
-// rotations as quaternions x, y, z, w and the flag word as a decimal number. Floats have the fewest digits that give
-// the same float back. Knows no solver: what the flags mean is the caller's affair.
+// The table of solved poses, written as it is produced: one line per frame, character and limb. It has the three local
+// rotations as quaternions x, y, z, w, the flag word as a decimal number, and what makes the character differ. Numbers
+// have the fewest digits that give the same number back. Knows no solver: what the flags mean is the caller's affair.
 
 #include <array>
 #include <cstdint>
@@ -21,6 +21,9 @@ struct PoseRow {
     std::array<float, 4> elbow{};     // or knee
     std::array<float, 4> wrist{};     // or ankle
     std::uint32_t flags = 0;
+    std::array<double, 3> place{};  // of the character: where it stands, its size, the frame it starts at
+    double size = 1;
+    std::uint64_t start = 0;
 };
 
 // What a limb has beside, where it is asked for.
@@ -32,7 +35,7 @@ struct PoseExtra {
     std::array<std::array<float, 4>, 7> twist{};  // x y z w
 };
 
-// The columns for it, after the flags.
+// The columns for it, after those that every table has.
 struct PoseColumns {
     bool stretch = false;      // "stretch"
     bool clavicle = false;     // "clavicle_x" and so on

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -22,11 +23,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr unsigned kColumnCount = 14;
-constexpr unsigned kLimb = 2, kFirstOfQuaternion = 9, kSide = 13;  // side: what tables of arms had instead of limb
+constexpr unsigned kLimb = 2, kSide = 13;  // side: what tables of arms had instead of limb
 constexpr std::array<const char*, kColumnCount> kColumns = {"frame",  "character", "limb", "x",  "y",  "z",  "pole_x",
                                                             "pole_y", "pole_z",    "qx",   "qy", "qz", "qw", "side"};
+// Columns that belong together. Of those that are optional a table has all or none, and so has a row.
+struct Part {
+    unsigned first, count;
+    bool is_optional;
+};
+constexpr Part kPlace = {0, 6, false}, kPole = {6, 3, true}, kOrientation = {9, 4, true};
 constexpr std::string_view kColumnList =
-    "frame,character,limb,x,y,z,pole_x,pole_y,pole_z and all or none of qx,qy,qz,qw";
+    "frame,character,limb,x,y,z, all or none of pole_x,pole_y,pole_z, and all or none of qx,qy,qz,qw";
 constexpr double kMinNorm = 1 / kMaxNorm;
 
 using Csv = io::CSVReader<kColumnCount, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
@@ -106,16 +113,16 @@ Eigen::Vector3d point_at(const Row& row, unsigned column)
     return {number_at(row, column), number_at(row, column + 1), number_at(row, column + 2)};
 }
 
-bool has_orientation(const Row& row)
+bool has_part(const Row& row, Part part)
 {
-    const auto first = row.cell.begin() + kFirstOfQuaternion;
-    return std::any_of(first, first + 4, [](const char* cell) { return *cell != 0; });
+    const auto first = row.cell.begin() + part.first;
+    return std::any_of(first, first + part.count, [](const char* cell) { return *cell != 0; });
 }
 
 Eigen::Quaterniond orientation_of(const Row& row)
 {
-    const Eigen::Vector3d xyz = point_at(row, kFirstOfQuaternion);
-    const Eigen::Quaterniond quaternion(number_at(row, kFirstOfQuaternion + 3), xyz.x(), xyz.y(), xyz.z());
+    const Eigen::Vector3d xyz = point_at(row, kOrientation.first);
+    const Eigen::Quaterniond quaternion(number_at(row, kOrientation.first + 3), xyz.x(), xyz.y(), xyz.z());
     const double norm = quaternion.norm();
     if (!(norm >= kMinNorm && norm <= kMaxNorm)) {
         throw InputError(row.path, row.line, "columns qx to qw: the quaternion's length is zero or absurd");
@@ -130,8 +137,9 @@ Target parse_target(const Row& row)
     target.character = index_at(row, 1);
     target.limb = limb_at(row);
     target.position = point_at(row, 3);
-    target.pole = point_at(row, 6);
-    target.has_orientation = has_orientation(row);
+    target.has_pole = has_part(row, kPole);
+    if (target.has_pole) target.pole = point_at(row, kPole.first);
+    target.has_orientation = has_part(row, kOrientation);
     if (target.has_orientation) target.orientation = orientation_of(row);
     target.line = static_cast<std::uint32_t>(row.line);
     return target;
@@ -171,15 +179,18 @@ void read_column_names(const fs::path& path, Csv& csv)
     const auto is_there = [&](const char* name) { return csv.has_column(name); };
     if (is_there(kColumns[kSide]) && is_there(kColumns[kLimb]))
         throw InputError(path, csv.get_file_line(), "columns limb and side are both there; leave side out");
-    const auto quaternion = kColumns.begin() + kFirstOfQuaternion;
-    const bool has_any = std::any_of(quaternion, quaternion + 4, is_there);
-    const auto needed_end = quaternion + (has_any ? 4 : 0);
-    const auto missing = std::find_if_not(kColumns.begin(), needed_end, [&](const char* name) {
-        return is_there(name) || (name == kColumns[kLimb] && is_there(kColumns[kSide]));
-    });
-    if (missing == needed_end) return;
+    std::vector<std::string_view> missing;
+    for (const Part part : {kPlace, kPole, kOrientation}) {
+        const auto first = kColumns.begin() + part.first, last = first + part.count;
+        if (part.is_optional && std::none_of(first, last, is_there)) continue;
+        std::copy_if(first, last, std::back_inserter(missing), [&](const char* name) {
+            return !is_there(name) && !(name == kColumns[kLimb] && is_there(kColumns[kSide]));
+        });
+    }
+    if (missing.empty()) return;
     throw InputError(path, csv.get_file_line(),
-                     fmt::format("column {} is missing; the first line must name {}", *missing, kColumnList));
+                     fmt::format("column{} {} {} missing; the first line must name {}", missing.size() == 1 ? "" : "s",
+                                 fmt::join(missing, ","), missing.size() == 1 ? "is" : "are", kColumnList));
 }
 
 auto place_of(const Target& target) { return std::tuple(target.frame, target.character, target.limb); }

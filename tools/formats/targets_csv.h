@@ -1,18 +1,22 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The table of targets: where each wrist or ankle must be in each frame, and where its elbow or knee should point. The
-// first line names the columns, in any order: frame,character,limb,x,y,z,pole_x,pole_y,pole_z and, all four or none,
-// qx,qy,qz,qw. limb is left_arm, right_arm, left_leg or right_leg; a table of arms may have side, left or right,
-// instead. Comma-separated, cells quoted or not; blank lines and lines starting with # are skipped. Knows no crowd:
-// whether a frame or a character exists is the caller's question, and `line` lets the answer name the place.
+// The table of targets: where each wrist or ankle must be in each frame, where its elbow or knee should point, and how
+// its hand or foot is turned. The first line names the columns, in any order: frame,character,limb,x,y,z, and as one
+// likes pole_x,pole_y,pole_z and qx,qy,qz,qw. A table has all columns of a pole or none, and a row fills in all of them
+// or none; so too for the orientation. limb is left_arm, right_arm, left_leg or right_leg. A table of arms may have
+// side, left or right, instead. Comma-separated, cells quoted or not; blank lines and lines starting with # are
+// skipped. Knows no crowd: whether a frame or a character exists is the caller's question, and `line` lets the answer
+// name the place.
 
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "tools/formats/limb_name.h"
+#include "tools/formats/output_file.h"
 
 namespace swivel::formats {
 
@@ -20,7 +24,7 @@ struct Target {
     std::uint32_t frame = 0;
     std::uint32_t character = 0;
     LimbName limb;
-    bool has_orientation = false;                        // false too where a row leaves all four of qx to qw empty
+    bool has_pole = false, has_orientation = false;      // false too where a row leaves all their cells empty
     std::uint32_t line = 0;                              // of the file, for messages
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of wrist or ankle, world space, the file's unit
     Eigen::Vector3d pole = Eigen::Vector3d::Zero();      // a point on the elbow's or knee's side, same space
@@ -32,5 +36,22 @@ struct Target {
 // outside 1e-15 to 1e15, a row for the same limb and frame as another, or a table without rows. Holds 96 bytes a row,
 // and a 48 MiB window of the file while reading.
 std::vector<Target> read_targets_csv(const std::filesystem::path& path);
+
+// Writes such a table, with all columns. Numbers have the fewest digits that give the same double back; cells of what a
+// target does not have are empty.
+class TargetsCsv {
+public:
+    // Opens the file and writes the line of column names. Throws InputError as OutputFile does.
+    explicit TargetsCsv(const std::filesystem::path& path);
+
+    // Writes them in the order given. Throws InputError when the disk is full.
+    void append(std::span<const Target> targets);
+
+    // Makes the file appear; without it there is none. To be called once, last.
+    void commit() { out_.commit(); }
+
+private:
+    OutputFile out_;
+};
 
 }  // namespace swivel::formats

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <random>
 
 #include "tools/swivel/parallel.h"
 
@@ -15,19 +13,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using formats::PoleKind;
-
-// Of the first kind that is solved, so that legs beside arms move no one.
-double limb_span(std::span<const Limb> limbs)
-{
-    double most = 0;
-    for (const Limb& limb : limbs)
-        if (limb.name.kind == limbs[0].name.kind)
-            most = std::max(most, double{limb.bound.lengths[0]} + limb.bound.lengths[1]);
-    return 2 * most;
-}
-
-// Uniform in 0..1; std::uniform_real_distribution may differ between libraries.
-double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 void store(const Vector3d& v, float (&to)[3])
 {
@@ -48,29 +33,15 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, con
       motion_(clip, limbs),
       limbs_(limbs),
       plans_(plan.limbs),
-      characters_(plan.characters),
+      characters_(characters_of(plan, limbs, motion_.frame_count())),
       crowds_(limbs, plan, file)
 {
-    place_characters(plan);
     goals_.resize(limbs.size(), std::vector<Goal>(plan.characters));
     inputs_.resize(limbs.size(), std::vector<Input>(plan.characters));
     rows_.resize(limbs.size() * plan.characters);
     const formats::PoseColumns wanted = columns();
     if (wanted.stretch || wanted.clavicle || wanted.twist_count > 0) extras_.resize(rows_.size());
     write_sizes();
-}
-
-void ClipCrowd::place_characters(const CrowdPlan& plan)
-{
-    std::mt19937_64 random(plan.seed);
-    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)));
-    const double spacing = plan.spacing * limb_span(limbs_);
-    for (std::uint32_t n = 1; n < plan.characters; ++n) {
-        const double size = plan.least_size + (plan.most_size - plan.least_size) * unit(random);
-        const auto start = static_cast<std::size_t>(random() % motion_.frame_count());
-        characters_[n] = {size, plan.stagger ? start : 0,
-                          Vector3d(spacing * (n % columns), 0, spacing * (n / columns))};
-    }
 }
 
 // What goes with a character's size and stays the same.
@@ -120,18 +91,37 @@ ClipCrowd::Goal ClipCrowd::goal_from_plan(std::size_t limb, std::uint32_t charac
 ClipCrowd::Goal ClipCrowd::goal_given(std::size_t limb, const formats::Target& target) const
 {
     const LimbPlan& plan = plans_[limb];
-    const Vector3d origin = motion_.origin(clip_frame(target.character), limb) + characters_[target.character].place;
-    const bool is_point = plan.pole == PoleKind::point;
-    const Vector3d pole = plan.pole_fixed ? pole_from_clip(limb, target.character)
-                                          : as_solved(limb, is_point ? target.pole - origin : target.pole);
-    const Quaterniond hand = limbs_[limb].mirrored ? formats::mirrored(target.orientation) : target.orientation;
-    return {as_solved(limb, target.position - origin + plan.target_offset), pole,
-            target.has_orientation ? hand : in_clip(limb, target.character).hand, false};
+    const Vector3d at = origin(limb, target.character);
+    const Vector3d pole = plan.pole == PoleKind::point ? Vector3d(target.pole - at) : target.pole;
+    const bool has_pole = target.has_pole && !plan.pole_fixed;
+    return {as_solved(limb, target.position - at + plan.target_offset),
+            has_pole ? as_solved(limb, pole) : pole_from_clip(limb, target.character),
+            target.has_orientation ? as_solved(limb, target.orientation) : in_clip(limb, target.character).hand, false};
+}
+
+formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) const
+{
+    const Goal& goal = goals_[limb][character];
+    const LimbPlan& plan = plans_[limb];
+    const Vector3d at = origin(limb, character), pole = as_solved(limb, goal.pole);
+    formats::Target target;
+    target.frame = static_cast<std::uint32_t>(frame_);
+    target.character = character;
+    target.limb = limbs_[limb].name;
+    target.has_pole = target.has_orientation = true;
+    target.position = at + (as_solved(limb, goal.target) - plan.target_offset);
+    target.pole = plan.pole == PoleKind::point ? Vector3d(at + pole) : pole;
+    target.orientation = as_solved(limb, goal.hand);
+    return target;
 }
 
 Vector3d ClipCrowd::as_solved(std::size_t limb, const Vector3d& v) const
 {
     return limbs_[limb].mirrored ? formats::mirrored(v) : v;
+}
+Quaterniond ClipCrowd::as_solved(std::size_t limb, const Quaterniond& q) const
+{
+    return limbs_[limb].mirrored ? formats::mirrored(q) : q;
 }
 
 void ClipCrowd::put(std::size_t limb, std::uint32_t character, const Goal& goal)
@@ -217,7 +207,11 @@ formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) cons
 formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row;
+    const Character& who = characters_[character];
     row.character = character;
+    row.place = {who.place.x(), who.place.y(), who.place.z()};
+    row.size = who.size;
+    row.start = who.start;
     row.limb = limbs_[limb].name;
     crowds_.read(limb, SWIVEL_SHOULDER, character, 1, {row.shoulder.data(), sizeof row.shoulder});
     crowds_.read(limb, SWIVEL_ELBOW, character, 1, {row.elbow.data(), sizeof row.elbow});
@@ -259,6 +253,17 @@ formats::PoseColumns ClipCrowd::columns() const
         columns.twist_count = std::max(columns.twist_count, plan.twist_count());
     }
     return columns;
+}
+
+std::span<const formats::Target> ClipCrowd::targets()
+{
+    targets_.resize(rows_.size());
+    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t n = begin; n < end; ++n)
+            for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
+                targets_[n * limbs_.size() + limb] = target(limb, n);
+    });
+    return targets_;
 }
 
 std::span<const formats::PoseRow> ClipCrowd::poses()

@@ -10,6 +10,7 @@
 
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/targets_csv.h"
+#include "tools/swivel/characters.h"
 #include "tools/swivel/clip_motion.h"
 #include "tools/swivel/limb_crowds.h"
 #include "tools/swivel/statistics.h"
@@ -18,26 +19,28 @@ namespace swivel::tools {
 
 class ClipCrowd {
 public:
-    // Character 0 is the clip's own. The others differ by the seed: limb lengths by a factor within the plan's sizes,
-    // and targets taken from the clip reach by the same factor; start anywhere in the clip, if the plan staggers them.
-    // Character n stands the plan's spacing, in arm spans (leg spans where no arm is solved), apart from its neighbours
-    // on a square grid in X and Z: column n % w, row n / w, w = ceil(sqrt(characters)). The incoming pose is the
-    // clip's. limbs and plan must outlive the crowd. file: of the plan, for messages. Memory grows with characters and
-    // with frames, not with their product. The clip must outlive the crowd, too.
+    // Its characters are characters_of() the plan: limb lengths differ by their size, and targets taken from the clip
+    // reach by the same factor. The incoming pose is the clip's. limbs and plan must outlive the crowd. file: of the
+    // plan, for messages. Memory grows with characters and with frames, not with their product. The clip must outlive
+    // the crowd, too.
     ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
               const std::filesystem::path& file);
 
     std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
 
-    // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world; limbs without
-    // one take their plan's point or follow the clip, and hands and feet without an orientation keep the clip's. Every
-    // character and limb in given must exist.
+    // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world. Limbs without
+    // one take their plan's point or follow the clip. Without a pole elbows and knees lean as the clip's do, without an
+    // orientation hands and feet keep the clip's. Every character and limb in given must exist.
     void set_frame(std::size_t frame, std::span<const formats::Target> given);
+
+    // What the frame asks of all limbs, in order of character, then limb: given to set_frame() it asks for the same.
+    std::span<const formats::Target> targets();
 
     // Solves the frame; adds the time it took.
     void solve(Statistics& statistics);
 
-    // Adds what the errors and flags of the limbs solved in this frame are, by forward kinematics in double.
+    // Adds what the errors, differences from the clip and flags of the limbs solved in this frame are, by forward
+    // kinematics in double.
     void measure(Statistics& statistics) const;
 
     // One limb's local rotations as the skeleton stores them: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that
@@ -51,15 +54,10 @@ public:
     formats::PoseColumns columns() const;
 
 private:
-    struct Character {
-        double size = 1;        // factor of limb lengths and of targets
-        std::size_t start = 0;  // frame of the clip it starts at
-        Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    };
     struct Goal {  // what one limb was asked for, relative to its character's root
         Eigen::Vector3d target, pole;
         Eigen::Quaterniond hand;
-        bool from_clip;  // elbow and upper arm may be held against the clip's
+        bool from_clip;  // elbow and upper arm should be the clip's
     };
     struct Input {  // the same as the solver takes it
         float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
@@ -74,15 +72,21 @@ private:
     {
         return motion_.at(clip_frame(character), limb);
     }
-    // What lies in the world, as the limb is solved: mirrored where the limb is.
+    // What lies in the world, as the limb is solved: mirrored where the limb is. And the way back.
     Eigen::Vector3d as_solved(std::size_t limb, const Eigen::Vector3d& v) const;
+    Eigen::Quaterniond as_solved(std::size_t limb, const Eigen::Quaterniond& q) const;
+    // The upper joint of that character in the world: what targets are counted from.
+    Eigen::Vector3d origin(std::size_t limb, std::uint32_t character) const
+    {
+        return motion_.origin(clip_frame(character), limb) + characters_[character].place;
+    }
     // The same rotations between the two bones that the solver knows.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
-    void place_characters(const CrowdPlan& plan);
     void write_sizes();
     Eigen::Vector3d pole_from_clip(std::size_t limb, std::uint32_t character) const;
     Goal goal_from_plan(std::size_t limb, std::uint32_t character) const;
     Goal goal_given(std::size_t limb, const formats::Target& target) const;
+    formats::Target target(std::size_t limb, std::uint32_t character) const;
     void put(std::size_t limb, std::uint32_t character, const Goal& goal);
     void write_inputs(std::size_t limb);
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
@@ -97,6 +101,7 @@ private:
     std::vector<Character> characters_;
     std::vector<std::vector<Goal>> goals_;    // [limb][character]
     std::vector<std::vector<Input>> inputs_;  // [limb][character]
+    std::vector<formats::Target> targets_;
     std::vector<formats::PoseRow> rows_;
     std::vector<formats::PoseExtra> extras_;  // empty unless there are columns for them
     std::size_t frame_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a solved crowd's errors are, by forward kinematics in double.
+// What a solved crowd's errors are, and how far it is from its clip, by forward kinematics in double.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -76,7 +76,7 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
             (flags[n - begin] & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(missed, pose);
         if (hand && !plan.blends_hand && !plan.has(SWIVEL_WITH_AIM))
             statistics.orientation.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)), pose);
-        if (goal.from_clip) measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
+        measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
     }
 }
 
@@ -86,11 +86,12 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
     const Vector3d wanted = from.shoulder + characters_[character].size * (from.elbow - from.shoulder);
-    const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
     const float(&lengths)[2] = inputs_[limb][character].lengths;
+    const double difference = (elbow - wanted).norm() / (double{lengths[0]} + lengths[1]);
+    if (!goals_[limb][character].from_clip) return statistics.given.add(difference, pose);
+    const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
-    (bent ? statistics.bent : statistics.straight)
-        .add((elbow - wanted).norm() / (double{lengths[0]} + lengths[1]), pose);
+    (bent ? statistics.bent : statistics.straight).add(difference, pose);
     if (character != 0) return;
 
     const formats::PoseRow row = solved_pose(limb, character);

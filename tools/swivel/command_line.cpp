@@ -124,14 +124,24 @@ void add_solve(CLI::App& app)
     add_file(*command, options->file, "Motion file");
     add_motion(*command, options->motion, "a file without animations is solved in its rest pose");
     command
-        ->add_option(
-            "--targets", options->targets,
-            "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
-            "motion, or a CSV "
-            "file with the columns\nframe,character,limb,x,y,z,pole_x,pole_y,pole_z[,qx,qy,qz,qw], in the "
-            "world; limb is "
-            "left_arm, right_arm, left_leg or right_leg; limbs without a row follow the clip; - for standard input")
+        ->add_option("--targets", options->targets,
+                     "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
+                     "motion, or a CSV "
+                     "file with the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z][,qx,qy,qz,qw], in the "
+                     "world; limb is "
+                     "left_arm, right_arm, left_leg or right_leg. - is standard input. docs/tables.md says more")
         ->default_str("clip")
+        ->check(file_name());
+    command
+        ->add_option(
+            "--between", options->between,
+            "In frames between a limb's rows: hold the last row, or go on to the next in a linear way; without "
+            "it the limb follows the clip there")
+        ->check(one_of({"hold", "linear"}));
+    command
+        ->add_option("--export-targets", options->export_targets,
+                     "Write the clip's wrists, poles and hands, or those given, as a table to edit and to give back by "
+                     "--targets")
         ->check(file_name());
     command
         ->add_option(
@@ -162,7 +172,7 @@ void add_solve(CLI::App& app)
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
     command->add_flag("--strict", options->strict,
-                      "Fail with exit code 1, after writing --out, if limbs have bad input or most are out of reach; "
+                      "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input; "
                       "without it a note says so");
     add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);

@@ -22,11 +22,12 @@ struct DemoOptions {
 void run_demo(const DemoOptions& options);
 
 struct SolveOptions {
-    std::string file, crowd, out;
+    std::string file, crowd, out, export_targets;
     std::string format;  // of out; empty: its suffix's
     MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;
+    std::string between;                 // hold, linear, or empty: limbs without a row follow the clip
     std::optional<std::string> targets;  // these three: else the crowd file's, else "clip", 1 and 1
     std::optional<std::uint32_t> characters;
     std::optional<std::uint64_t> seed;

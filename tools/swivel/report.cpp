@@ -56,11 +56,6 @@ nlohmann::ordered_json json_of(const PoseName& pose)
     return {{"frame", pose.frame}, {"character", pose.character}, {"limb", limb_word(pose.limb)}};
 }
 
-std::uint64_t limb_count(const Statistics& statistics)
-{
-    return statistics.arms.limb_count + statistics.legs.limb_count;
-}
-
 // What was solved, in one word.
 std::string limbs_solved(const Statistics& statistics)
 {
@@ -70,40 +65,48 @@ std::string limbs_solved(const Statistics& statistics)
 
 double limbs_per_second(const Statistics& statistics)
 {
-    return statistics.solve_seconds > 0 ? static_cast<double>(limb_count(statistics)) / statistics.solve_seconds : 0;
+    return statistics.solve_seconds > 0 ? static_cast<double>(statistics.limb_count()) / statistics.solve_seconds : 0;
 }
 
-// The errors that were measured, each with its name and what it is measured in.
-struct NamedError {
-    std::string key, text, unit;
-    const ErrorStat& error;
+// What a distance says: that the solver is wrong, that a target is out of reach, or that a pose is not the clip's.
+struct Meaning {
+    const char *line, *key;  // in a report, in JSON
 };
-void add_errors(std::vector<NamedError>& to, const LimbStatistics& s, LimbKind kind)
+constexpr Meaning kError{"error", "errors"}, kMissed{"missed", "missed"}, kDiffers{"differs", "differences_from_clip"};
+
+// The distances that were measured, each with its name and what it is measured in.
+struct Distance {
+    Meaning meaning;
+    std::string key, text, unit;
+    const ErrorStat& stat;
+};
+void add_distances(std::vector<Distance>& to, const LimbStatistics& s, LimbKind kind)
 {
     const LimbWords& w = words_of(kind);
     const bool arm = kind == LimbKind::arm;
     const std::string length = fmt::format("of the {}'s length", w.limb), upper = arm ? "upper_arm" : "thigh";
-    const auto add = [&](std::string key, std::string text, std::string unit, const ErrorStat& error) {
-        if (error.count > 0) to.push_back({std::move(key), std::move(text), std::move(unit), error});
+    const auto add = [&](Meaning meaning, std::string key, std::string text, std::string unit, const ErrorStat& stat) {
+        if (stat.count > 0) to.push_back({meaning, std::move(key), std::move(text), std::move(unit), stat});
     };
-    add(std::string(w.end_joint), fmt::format("{} to target", w.end_joint), length, s.reached);
-    add(arm ? "missed" : "leg_missed", fmt::format("{} to target, out of reach", w.end_joint), length, s.missed);
-    add(arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target", w.end), length, s.aimed);
-    add(std::string(w.end), fmt::format("{} to orientation", w.end), "rad", s.orientation);
-    add(fmt::format("{}_bent", w.lower_joint), fmt::format("{} to clip, bent over 5 deg", w.lower_joint), length,
-        s.bent);
-    add(fmt::format("{}_straight", w.lower_joint), fmt::format("{} to clip, straighter", w.lower_joint), length,
-        s.straight);
-    add(upper + "_swing", fmt::format("{} to clip, swing", w.upper), "rad", s.upper_swing);
-    add(upper + "_twist", fmt::format("{} to clip, twist", w.upper), "rad", s.upper_twist);
-    add(std::string(w.lower), fmt::format("{} to clip", w.lower), "rad", s.lower);
+    const auto joint = [&](std::string_view suffix) { return fmt::format("{}_{}", w.lower_joint, suffix); };
+    const std::string end(w.end_joint);
+    add(kError, end, end + " to target", length, s.reached);
+    add(kError, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target", w.end), length, s.aimed);
+    add(kError, std::string(w.end), fmt::format("{} to orientation", w.end), "rad", s.orientation);
+    add(kMissed, end, end + " to target, not reached", length, s.missed);
+    add(kDiffers, joint("given"), fmt::format("{} from clip, goal given", w.lower_joint), length, s.given);
+    add(kDiffers, joint("bent"), fmt::format("{} from clip, bent over 5 deg", w.lower_joint), length, s.bent);
+    add(kDiffers, joint("straight"), fmt::format("{} from clip, straighter", w.lower_joint), length, s.straight);
+    add(kDiffers, upper + "_swing", fmt::format("{} from clip, swing", w.upper), "rad", s.upper_swing);
+    add(kDiffers, upper + "_twist", fmt::format("{} from clip, twist", w.upper), "rad", s.upper_twist);
+    add(kDiffers, std::string(w.lower), fmt::format("{} from clip", w.lower), "rad", s.lower);
 }
-std::vector<NamedError> errors_of(const Statistics& statistics)
+std::vector<Distance> distances_of(const Statistics& statistics)
 {
-    std::vector<NamedError> errors;
-    add_errors(errors, statistics.arms, LimbKind::arm);
-    add_errors(errors, statistics.legs, LimbKind::leg);
-    return errors;
+    std::vector<Distance> distances;
+    add_distances(distances, statistics.arms, LimbKind::arm);
+    add_distances(distances, statistics.legs, LimbKind::leg);
+    return distances;
 }
 
 }  // namespace
@@ -111,12 +114,12 @@ std::vector<NamedError> errors_of(const Statistics& statistics)
 void print_statistics(const Statistics& statistics)
 {
     const std::string limbs = limbs_solved(statistics);
-    fmt::print("solved   {} {}, {:.1f} million {}/s ({}, {} thread{})\n", limb_count(statistics), limbs,
+    fmt::print("solved   {} {}, {:.1f} million {}/s ({}, {} thread{})\n", statistics.limb_count(), limbs,
                limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), thread_count(),
                thread_count() == 1 ? "" : "s");
-    for (const NamedError& e : errors_of(statistics))
-        fmt::print("error    {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", e.text, e.error.max, e.error.rms(),
-                   e.unit, text_of(e.error.worst_pose));
+    for (const Distance& d : distances_of(statistics))
+        fmt::print("{:<8} {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", d.meaning.line, d.text, d.stat.max,
+                   d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
     for (const auto& [flag, name] : kFlagNames)
         if (const FlagStat stat = flag_of(statistics, flag); stat.count > 0)
             fmt::print("flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
@@ -129,22 +132,27 @@ void print_statistics(const Statistics& statistics)
                 "where it may\n",
                 w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs, w.lower_joint);
         }
+    if (went_wrong(statistics))
+        fmt::print(
+            "note     most {} are not where they should be: of {}, {} are out of reach and {} have bad input; are the "
+            "targets in the right place and unit?\n",
+            limbs, statistics.limb_count(), statistics.unreached(), statistics.bad());
 }
 
 nlohmann::ordered_json json_of(const Statistics& statistics)
 {
     nlohmann::ordered_json out;
-    out[limbs_solved(statistics)] = limb_count(statistics);
+    out[limbs_solved(statistics)] = statistics.limb_count();
     out["solve_seconds"] = statistics.solve_seconds;
     out[limbs_solved(statistics) + "_per_second"] = limbs_per_second(statistics);
     out["isa"] = swivel_isa_name();
     out["threads"] = thread_count();
-    for (const NamedError& e : errors_of(statistics))
-        out["errors"][e.key] = {{"worst", e.error.max},
-                                {"worst_pose", json_of(e.error.worst_pose)},
-                                {"rms", e.error.rms()},
-                                {"count", e.error.count},
-                                {"unit", e.unit}};
+    for (const Distance& d : distances_of(statistics))
+        out[d.meaning.key][d.key] = {{"worst", d.stat.max},
+                                     {"worst_pose", json_of(d.stat.worst_pose)},
+                                     {"rms", d.stat.rms()},
+                                     {"count", d.stat.count},
+                                     {"unit", d.unit}};
     for (const auto& [flag, name] : kFlagNames) {
         const FlagStat stat = flag_of(statistics, flag);
         out["flags"][name] = stat.count;
@@ -152,6 +160,9 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     }
     for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
         if (s->upper_twist.count > 0) out["turned_over"][words_of(kind).limbs] = s->turned_over;
+    out["out_of_reach"] = statistics.unreached();
+    out["bad_input"] = statistics.bad();
+    out["went_wrong"] = went_wrong(statistics);
     return out;
 }
 

@@ -9,7 +9,8 @@
 
 namespace swivel::tools {
 
-// Throughput, instruction set, threads, errors, flags: on stdout.
+// Throughput, instruction set, threads, errors, differences from the clip, flags, and a note where went_wrong(): on
+// stdout.
 void print_statistics(const Statistics& statistics);
 nlohmann::ordered_json json_of(const Statistics& statistics);
 

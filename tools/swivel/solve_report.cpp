@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <nlohmann/json.hpp>
 
 #include "tools/swivel/limb_words.h"
@@ -65,18 +64,12 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
     return out;
 }
 
-std::string what_went_wrong(const Statistics& statistics)
+nlohmann::ordered_json json_of(std::span<const Character> characters)
 {
-    const auto count = [&](swivel_flag flag) {
-        const auto bit = static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(flag)));
-        return statistics.arms.flags[bit].count + statistics.legs.flags[bit].count;
-    };
-    const std::uint64_t all = statistics.arms.limb_count + statistics.legs.limb_count;
-    if (const std::uint64_t bad = count(SWIVEL_BAD_INPUT); bad > 0)
-        return fmt::format("{} of {} limbs have bad input", bad, all);
-    if (const std::uint64_t off = count(SWIVEL_CLAMPED_FAR) + count(SWIVEL_CLAMPED_NEAR); 2 * off > all)
-        return fmt::format("{} of {} limbs have targets out of reach", off, all);
-    return {};
+    nlohmann::ordered_json out = nlohmann::ordered_json::array();
+    for (const Character& c : characters)
+        out.push_back({{"place", {c.place.x(), c.place.y(), c.place.z()}}, {"size", c.size}, {"start", c.start}});
+    return out;
 }
 
 }  // namespace swivel::tools

@@ -7,8 +7,7 @@
 #include <span>
 #include <string>
 
-#include "tools/swivel/limbs.h"
-#include "tools/swivel/statistics.h"
+#include "tools/swivel/characters.h"
 
 namespace swivel::tools {
 
@@ -25,9 +24,7 @@ struct SolveFacts {
 // Lines for people, on stdout.
 void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
-
-// In which way a solve as a whole went wrong, in one line: limbs have bad input, or most of them are out of reach.
-// Empty: it did not. A note for people, and what --strict fails for.
-std::string what_went_wrong(const Statistics& statistics);
+// What makes them differ, in their order.
+nlohmann::ordered_json json_of(std::span<const Character> characters);
 
 }  // namespace swivel::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a run of the command measured: errors as worst and root mean square, flags as counts, and where the worst and
+// What a run of the command measured: distances as worst and root mean square, flags as counts, and where the worst and
 // the first of each are. Ties go to the earlier pose, so that threads in any order say the same.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "swivel/swivel.h"
 #include "tools/formats/limb_name.h"
 
 namespace swivel::tools {
@@ -70,16 +71,21 @@ struct LimbStatistics {
     ErrorStat missed;       // the same, of limbs out of reach
     ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim
     ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
-    // Against the motion the targets came from; empty when they came from elsewhere:
-    ErrorStat bent, straight;  // limb lengths, of elbow or knee; bent by more than 5 degrees, and the rest
+    // Differences from the clip, of elbow or knee in limb lengths:
+    ErrorStat given;  // of limbs that were given another goal, pole or aim than the clip's; all others follow it
+    ErrorStat bent, straight;                   // of those that follow it; bent by more than 5 degrees, and the rest
     ErrorStat upper_swing, upper_twist, lower;  // radians; of the first character
     std::uint64_t turned_over = 0;              // poses of the first character with an upper_twist above pi / 2
     std::array<FlagStat, 32> flags{};           // [bit]
     std::uint64_t limb_count = 0;
+    std::uint64_t unreached = 0, bad = 0;  // of them: out of reach, with bad input
 
     void add_flags(std::uint32_t word, const PoseName& pose)
     {
         ++limb_count;
+        const bool is_bad = (word & SWIVEL_BAD_INPUT) != 0;
+        bad += is_bad;
+        unreached += !is_bad && (word & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) != 0;
         for (std::size_t bit = 0; bit < flags.size(); ++bit)
             if (word >> bit & 1u) flags[bit].add({1, pose});
     }
@@ -89,6 +95,7 @@ struct LimbStatistics {
         missed.add(other.missed);
         aimed.add(other.aimed);
         orientation.add(other.orientation);
+        given.add(other.given);
         bent.add(other.bent);
         straight.add(other.straight);
         upper_swing.add(other.upper_swing);
@@ -97,6 +104,8 @@ struct LimbStatistics {
         turned_over += other.turned_over;
         for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit].add(other.flags[bit]);
         limb_count += other.limb_count;
+        unreached += other.unreached;
+        bad += other.bad;
     }
 };
 
@@ -105,6 +114,16 @@ struct Statistics {
     double solve_seconds = 0;
 
     LimbStatistics& of(formats::LimbKind kind) { return kind == formats::LimbKind::arm ? arms : legs; }
+
+    std::uint64_t limb_count() const { return arms.limb_count + legs.limb_count; }
+    std::uint64_t unreached() const { return arms.unreached + legs.unreached; }
+    std::uint64_t bad() const { return arms.bad + legs.bad; }
 };
+
+// Whether most limbs are out of reach or have bad input: the run is then hardly what its user meant.
+inline bool went_wrong(const Statistics& statistics)
+{
+    return 2 * (statistics.unreached() + statistics.bad()) > statistics.limb_count();
+}
 
 }  // namespace swivel::tools

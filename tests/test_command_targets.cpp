@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+//
+// Tables of targets as `swivel solve` writes and takes them. What is exported is the clip, and given back it changes
+// nothing. Poles and orientations may be left out.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "tests/crowd_stage.h"
+#include "tests/random_figure.h"
+#include "tests/target_table.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Words = std::vector<std::string>;
+
+namespace {
+
+const std::string kPlainCrowd = "[crowd]\n";
+
+// When the first animation has keys of a node's rotation.
+std::vector<double> key_times(const PlainGltf& gltf, int node)
+{
+    const auto& animation = gltf.json.at("animations").at(0);
+    for (const auto& channel : animation.at("channels"))
+        if (channel.at("target").value("node", -1) == node && channel.at("target").at("path") == "rotation")
+            return plain_numbers(gltf,
+                                 animation.at("samplers").at(channel.at("sampler").get<std::size_t>()).at("input"));
+    FAIL("node " << node << " has no rotation keys");
+    return {};
+}
+
+// A table of all four limbs has places and orientations that a figure's nodes have in its first animation.
+void require_clips_own(const TargetTable& table, const PlainGltf& clip, const Figure& figure,
+                       const std::vector<double>& times)
+{
+    REQUIRE(table.rows.size() == 4 * times.size());
+    double worst = 0;
+    for (std::size_t n = 0; n < table.rows.size(); ++n) {
+        const auto world = [&](std::size_t joint) {
+            return plain_world(clip, 0, figure.limbs[n % 4][joint], times[n / 4]);
+        };
+        const double length = figure.upper[n % 4] + figure.lower[n % 4];
+        const auto off = [&](const std::string& prefix, std::size_t joint) {
+            return (point(table.rows[n], prefix) - Vector3d(world(joint).translation())).norm() / length;
+        };
+        // The axes of a mirrored node are a rotation's, some of them turned round.
+        const Matrix3d turned = hand_of(table.rows[n]).transpose() * plain_axes(world(2));
+        worst = std::max({worst, off("", 2), off("pole_", 1), (turned.cwiseAbs() - Matrix3d::Identity()).norm()});
+    }
+    CHECK(worst < 1e-5);
+}
+
+}  // namespace
+
+TEST_CASE("exported targets are the clip's wrists, elbows and hands, of legs ankles, knees and feet")
+{
+    const CrowdStage stage;
+    const Outcome outcome =
+        run_command(stage.folder.path, {"solve", "clip.bvh", "--limbs", "all", "--export-targets", "t.csv", "--json"});
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(nlohmann::json::parse(outcome.out).at("export_targets") == "t.csv");
+    CHECK(stage.folder.file_count() == 2);  // no other is written
+    const std::string text = slurp(stage.folder / "t.csv");
+    CHECK_THAT(text, Catch::Matchers::StartsWith(std::string(kTargetHeader) + "\n"));
+    const TargetTable table(text);
+    REQUIRE(table.rows.size() == 4 * stage.clip.lines.size());
+    double worst = 0;
+    for (std::size_t n = 0; n < table.rows.size(); ++n) {
+        const Cells& row = table.rows[n];
+        const bool is_arm = n % 4 < 2;
+        const PlainArm& limb = (is_arm ? stage.arms : stage.legs)[n % 2];
+        REQUIRE(row.at("frame") == std::to_string(n / 4));
+        REQUIRE(row.at("character") == "0");
+        REQUIRE(row.at("limb") == limb.side + (is_arm ? "_arm" : "_leg"));
+        const PlainArmPose at = arm_pose(stage.clip, limb, n / 4);
+        worst = std::max({worst, (point(row, "") - at.wrist).norm(), (point(row, "pole_") - at.elbow).norm(),
+                          (hand_of(row) - at.hand).norm()});
+    }
+    CHECK(worst < 1e-11);  // doubles, of places some 30 units away
+}
+
+TEST_CASE("exported targets, given back unchanged, change nothing")
+{
+    const CrowdStage stage;
+    const auto run = [&](const std::string& toml, const std::string& out, Words more) {
+        more.insert(more.end(), {"--limbs", "all"});
+        return stage.output(toml, out, more);
+    };
+    const std::string plain = run(kPlainCrowd, "own.bvh", {"--export-targets", "t.csv"});
+    CHECK(plain == run(kPlainCrowd, "again.bvh", {"--targets", "t.csv"}));  // to the last bit
+    for (const std::string toml :
+         {"[crowd]\ncharacters = 5\n", "[limb.all.target]\noffset = [0.3, -0.2, 0.1]\n",
+          "[limb.arms]\neffector = [1, 0.5, 0]\n", "[limb.left_arm.target]\npoint = [3, 20, 10]\n",
+          "[limb.arms.pole]\nkind = \"direction\"\n", "[limb.legs.pole]\nkind = \"normal\"\n",
+          "[limb.arms.pole]\nkind = \"incoming\"\n", "[limb.arms.pole]\nkind = \"point\"\nfixed = [0, -9, 1]\n",
+          "[limb.arms.aim]\naxis = [0, 0, 1]\nflexion_deg = 40\n", "[limb.arms]\nhand = false\n"}) {
+        INFO(toml);
+        const std::vector<PoseLine> own = pose_lines(run(toml, "own.csv", {"--export-targets", "t.csv"}));
+        const std::vector<PoseLine> again = pose_lines(run(toml, "again.csv", {"--targets", "t.csv"}));
+        CHECK(worst_rotation(own, again) < 1e-5);
+        CHECK(TargetTable(slurp(stage.folder / "t.csv")).rows.size() == own.size());
+    }
+}
+
+TEST_CASE("exported targets of figures that are mirrored, scaled and have twist bones")
+{
+    const TempFolder folder;
+    std::mt19937 random(11);
+    const FigureWish wish{.twist_bones = 0.5, .scales = 0.5, .mirrors = 0.7};
+    std::size_t mirrored = 0;
+    for (int n = 0; n < 8; ++n) {
+        const Figure figure = random_figure(random, wish, figure_names()[0]);
+        INFO("figure " << n);
+        figure.rig.write(folder / "in.glb");
+        const PlainGltf clip = plain_gltf_of(folder / "in.glb");
+        const auto solved = [&](const std::string& option, const std::string& table) {
+            const Words words = {"solve", "in.glb", "--limbs", "all", "--out", "out.glb", option, table};
+            const Outcome outcome = run_command(folder.path, words);
+            INFO(outcome.err);
+            REQUIRE(outcome.exit_code == 0);
+            return plain_gltf_of(folder / "out.glb");
+        };
+        const auto require_closed_by = [&](const TargetTable& table) {
+            spill(folder / "given.csv", table.text());
+            require_closed(
+                closure(clip, solved("--targets", "given.csv"), 0, {figure.limbs.begin(), figure.limbs.end()}));
+        };
+        const std::vector<double> times = key_times(solved("--export-targets", "t.csv"), figure.limbs[0][0]);
+        TargetTable table(slurp(folder / "t.csv"));
+        require_clips_own(table, clip, figure, times);
+        require_closed_by(table);
+        table.leave_out({"pole_x", "pole_y", "pole_z", "qx", "qy", "qz", "qw"});
+        require_closed_by(table);
+        mirrored += figure.is_mirrored;
+    }
+    CHECK(mirrored > 2);
+    CHECK(mirrored < 7);
+}
+
+TEST_CASE("an edit of one exported row moves that wrist alone")
+{
+    const CrowdStage stage;
+    const std::string own = stage.output(kPlainCrowd, "own.bvh", {"--export-targets", "t.csv"});
+    TargetTable table(slurp(stage.folder / "t.csv"));
+    const PlainArm& left = stage.arms[0];
+    constexpr std::size_t kFrame = 40;
+    const PlainArmPose from = arm_pose(stage.clip, left, kFrame);
+    const Vector3d moved = from.wrist + 0.2 * (from.shoulder - from.wrist);
+    Cells& row = table.rows[2 * kFrame];
+    REQUIRE(row.at("limb") == "left_arm");
+    for (int axis = 0; axis < 3; ++axis) row[std::string(1, "xyz"[axis])] = std::to_string(moved[axis]);
+    spill(stage.folder / "t.csv", table.text());
+    const PlainMotion edited = stage.motion(kPlainCrowd, {"--targets", "t.csv"}), before = plain_motion(own);
+    const PlainArmPose to = arm_pose(edited, left, kFrame);
+    CHECK((to.wrist - moved).norm() < 1e-5 * left.length());
+    CHECK((to.hand - from.hand).norm() < 1e-5);
+    const PlainArmPose other = arm_pose(edited, stage.arms[1], kFrame),
+                       other_before = arm_pose(before, stage.arms[1], kFrame);
+    CHECK((other.wrist - other_before.wrist).norm() == 0);
+    for (std::size_t frame = 0; frame < before.lines.size(); ++frame)
+        if (frame != kFrame) CHECK(edited.lines[frame] == before.lines[frame]);
+    CHECK(edited.lines[kFrame] != before.lines[kFrame]);
+}
+
+TEST_CASE("a row without a pole has the clip's, column or cells left out")
+{
+    const CrowdStage stage;
+    const Words pole = {"pole_x", "pole_y", "pole_z"};
+    stage.output(kPlainCrowd, "own.bvh", {"--export-targets", "t.csv"});
+    TargetTable table(slurp(stage.folder / "t.csv"));
+    for (Cells& row : table.rows) {  // so that an elbow that goes elsewhere would be seen
+        const PlainArmPose at = arm_pose(stage.clip, stage.arms[row.at("limb") == "right_arm"],
+                                         static_cast<std::size_t>(number(row, "frame")));
+        const Vector3d moved = at.wrist + 0.1 * (at.shoulder - at.wrist);
+        for (int axis = 0; axis < 3; ++axis) row[std::string(1, "xyz"[axis])] = std::to_string(moved[axis]);
+    }
+    const auto solved = [&](const TargetTable& given) {
+        spill(stage.folder / "t.csv", given.text());
+        return stage.output(kPlainCrowd, "out.bvh", {"--targets", "t.csv"});
+    };
+    const std::string own = solved(table);  // with the clip's poles, written down
+    TargetTable bare = table;
+    bare.leave_out(pole);
+    CHECK(solved(bare) == own);
+    TargetTable empty = table;
+    for (Cells& row : empty.rows)
+        for (const std::string& column : pole) row[column] = "";
+    CHECK(solved(empty) == own);
+    TargetTable other = table;
+    for (Cells& row : other.rows) row["pole_y"] = "99";
+    CHECK(solved(other) != own);
+}
+
+TEST_CASE("the columns size and start say how a character's poses come from the clip's, in the table and in JSON")
+{
+    const CrowdStage stage;
+    const std::string toml = "[crowd]\ncharacters = 6\nsize = [0.5, 2]\n";
+    const std::vector<PoseLine> rows = stage.rows(toml, "left_arm");
+    const nlohmann::json each = stage.json(toml).at("each_character");
+    REQUIRE(each.size() == 6);
+    const std::size_t frames = stage.clip.lines.size();
+    REQUIRE(rows.size() == 6 * frames);
+    std::size_t bent = 0, starts = 0;
+    for (std::size_t frame = 0; frame < frames; ++frame)
+        for (std::size_t c = 0; c < 6; ++c) {
+            const PoseLine& row = rows[6 * frame + c];
+            const auto start = static_cast<std::size_t>(row.number("start"));
+            CHECK(each.at(c).at("size") == row.number("size"));
+            CHECK(each.at(c).at("start") == start);
+            CHECK(each.at(c).at("place") ==
+                  nlohmann::json({row.number("place_x"), row.number("place_y"), row.number("place_z")}));
+            if (c == 0) CHECK((start == 0 && row.number("size") == 1));
+            starts += frame == 0 && start > 0;
+            const std::size_t clip_frame = (frame + start) % frames;
+            if (arm_pose(stage.clip, stage.arms[0], clip_frame).bend() < 0.1) continue;
+            for (std::size_t j = 0; j < 3; ++j)
+                CHECK(row.joint[j].angularDistance(rows[6 * clip_frame].joint[j]) < 1e-4);
+            ++bent;
+        }
+    CHECK(bent > 100);
+    CHECK(starts > 3);
+}
