@@ -68,7 +68,7 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (!(crowd->features & SWIVEL_WITH_STEP)) return SWIVEL_OK;
+    if (!(crowd->features & SWIVEL_WITH_MOST_SWIVEL)) return SWIVEL_OK;
     const float zero[3] = {};
     copy_in(rows_of(*crowd, crowd->groups[group], SWIVEL_NORMAL), first, limb_count, {zero, 0});
     return SWIVEL_OK;

@@ -18,7 +18,7 @@ namespace swivel {
 namespace {
 
 constexpr std::uint32_t kAllFeatures =
-    (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
+    (8 * SWIVEL_WITH_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
 
 // Features that mean something only beside another, or not beside another.
 struct FeatureRule {
@@ -39,29 +39,30 @@ constexpr FeatureRule kFeatureRules[] = {
     {SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, true,
      "SWIVEL_WITH_WEIGHTS needs SWIVEL_WITH_INCOMING, the pose to blend with"},
     {SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
-    {SWIVEL_LIMIT_HAND_CONE, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_CONE needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_FOREARM_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_HAND_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_HAND_TWIST needs SWIVEL_WITH_HAND"},
-    {SWIVEL_LIMIT_WRIST_BOX, SWIVEL_WITH_HAND, true, "SWIVEL_LIMIT_WRIST_BOX needs SWIVEL_WITH_HAND"},
-    {7 * SWIVEL_TWIST_BONES, SWIVEL_WITH_HAND, true,
-     "SWIVEL_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
+    {SWIVEL_WITH_HAND_CONE, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_HAND_CONE needs SWIVEL_WITH_HAND"},
+    {SWIVEL_WITH_FOREARM_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
+    {SWIVEL_WITH_HAND_TWIST, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_HAND_TWIST needs SWIVEL_WITH_HAND"},
+    {SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_HAND, true, "SWIVEL_WITH_WRIST_BOX needs SWIVEL_WITH_HAND"},
+    {7 * SWIVEL_WITH_TWIST_BONES, SWIVEL_WITH_HAND, true,
+     "SWIVEL_WITH_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
     {SWIVEL_WITH_AIM, SWIVEL_WITH_WEIGHTS, false,
      "SWIVEL_WITH_AIM and SWIVEL_WITH_WEIGHTS exclude each other; blend the poses instead"},
     {SWIVEL_WITH_AIM, SWIVEL_WITH_REACH, false,
      "SWIVEL_WITH_AIM and SWIVEL_WITH_REACH exclude each other; an aim's distance is its flexion's"},
-    {SWIVEL_WITH_AIM, SWIVEL_LIMIT_FLEXION, false,
-     "SWIVEL_WITH_AIM and SWIVEL_LIMIT_FLEXION exclude each other; give a flexion within the limit"},
+    {SWIVEL_WITH_AIM, SWIVEL_WITH_FLEXION_LIMIT, false,
+     "SWIVEL_WITH_AIM and SWIVEL_WITH_FLEXION_LIMIT exclude each other; give a flexion within the limit"},
     {SWIVEL_WITH_AIM,
-     SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX, false,
+     SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX, false,
      "SWIVEL_WITH_AIM excludes limits of the hand; give a wrist rotation within them"},
     {SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, true, "SWIVEL_WITH_CLAVICLE needs SWIVEL_WORLD, where the parent joint is"},
     {SWIVEL_COMPACT, SWIVEL_WITH_CLAVICLE, false,
      "SWIVEL_COMPACT and SWIVEL_WITH_CLAVICLE exclude each other; leave one out"},
-    {SWIVEL_COMPACT, 7 * SWIVEL_TWIST_BONES, false,
-     "SWIVEL_COMPACT and SWIVEL_TWIST_BONES exclude each other; leave one out"},
+    {SWIVEL_COMPACT, 7 * SWIVEL_WITH_TWIST_BONES, false,
+     "SWIVEL_COMPACT and SWIVEL_WITH_TWIST_BONES exclude each other; leave one out"},
     {SWIVEL_COMPACT, SWIVEL_WITH_REACH, false,
      "SWIVEL_COMPACT and SWIVEL_WITH_REACH exclude each other; leave one out"},
-    {SWIVEL_COMPACT, SWIVEL_WITH_STEP, false, "SWIVEL_COMPACT and SWIVEL_WITH_STEP exclude each other; leave one out"},
+    {SWIVEL_COMPACT, SWIVEL_WITH_MOST_SWIVEL, false,
+     "SWIVEL_COMPACT and SWIVEL_WITH_MOST_SWIVEL exclude each other; leave one out"},
 };
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 

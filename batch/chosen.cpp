@@ -88,7 +88,7 @@ struct Aside {
     {
     }
     // What is carried from solve to solve is read from the results.
-    bool reads_results() const { return crowd.features & SWIVEL_WITH_STEP; }
+    bool reads_results() const { return crowd.features & SWIVEL_WITH_MOST_SWIVEL; }
 
     // Calls for the results of a limb's block, which are read and written once they are solved.
     void prefetch(std::size_t limb) const

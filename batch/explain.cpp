@@ -62,7 +62,7 @@ public:
         def.wrist_order = of.wrist_order;
         crowd_ = place_crowd(def, arena_);
         copy_lane(of.input, of.input_row_count, crowd_->input);
-        if (of.features & SWIVEL_WITH_STEP)  // the normal that the next step is from
+        if (of.features & SWIVEL_WITH_MOST_SWIVEL)  // the normal that the next step is from
             copy_lane(of.results, of.result_row_count, crowd_->results);
     }
 
@@ -242,7 +242,7 @@ void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, 
     Probe solved(crowd, group, limb);
     const std::uint32_t flags = solved.solve();
     // A step's results are not those of the next one.
-    if (!(crowd.features & SWIVEL_WITH_STEP) && !solved.has_bits_of(crowd))
+    if (!(crowd.features & SWIVEL_WITH_MOST_SWIVEL) && !solved.has_bits_of(crowd))
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(crowd, group, limb, text);
     explain_reach(solved, flags, text);

@@ -51,7 +51,7 @@ inline constexpr FrameOutput kFrameOutputs[] = {
     {SWIVEL_SHOULDER, &swivel_frame::shoulder}, {SWIVEL_ELBOW, &swivel_frame::elbow},
     {SWIVEL_WRIST, &swivel_frame::wrist},       {SWIVEL_FLAGS, &swivel_frame::flags},
     {SWIVEL_STRETCH, &swivel_frame::stretch},   {SWIVEL_NORMAL, &swivel_frame::normal},
-    {SWIVEL_TWIST, &swivel_frame::twist},       {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
+    {SWIVEL_TWIST_BONES, &swivel_frame::twist}, {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
 static_assert(std::size(kFrameOutputs) == SWIVEL_FIELD_COUNT - SWIVEL_SHOULDER, "every result");
 

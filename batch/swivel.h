@@ -48,22 +48,23 @@
 //   SWIVEL_INCOMING_WRIST      4     and WITH_HAND        whole quaternions
 //   SWIVEL_WEIGHTS             3     WITH_WEIGHTS         of position, hand, pole: 0 the incoming pose's, 1 the goal's
 //   SWIVEL_REACH               4     WITH_REACH           soft zone far, soft zone near, most stretch, least distance
-//   SWIVEL_MOST_SWIVEL         2     WITH_STEP            cos, sin of how far the swivel may turn in one solve, 0..pi
-//   SWIVEL_FLEXION_LIMIT       2     LIMIT_FLEXION        cos of half the least flexion, cos of half the largest
-//   SWIVEL_SHOULDER_CONE       4     LIMIT_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
-//   SWIVEL_HUMERAL_TWIST       4     LIMIT_HUMERAL_TWIST  range of the upper arm's twist about itself
-//   SWIVEL_SHOULDER_BOX        12    LIMIT_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
-//   SWIVEL_HAND_CONE           4     LIMIT_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
-//   SWIVEL_FOREARM_TWIST       4     LIMIT_FOREARM_TWIST  range of the hand's twist about the forearm
-//   SWIVEL_HAND_TWIST          7     LIMIT_HAND_TWIST     unit axis of the hand; range of its twist about it
-//   SWIVEL_WRIST_BOX           12    LIMIT_WRIST_BOX      ranges of the wrist's Euler angles
+//   SWIVEL_MOST_SWIVEL         2     WITH_MOST_SWIVEL            cos, sin of how far the swivel may turn in one solve,
+//   0..pi SWIVEL_FLEXION_LIMIT       2     WITH_FLEXION_LIMIT        cos of half the least flexion, cos of half the
+//   largest SWIVEL_SHOULDER_CONE       4     WITH_SHOULDER_CONE  unit axis; cos of the upper arm's largest angle to it
+//   SWIVEL_HUMERAL_TWIST       4     WITH_HUMERAL_TWIST  range of the upper arm's twist about itself
+//   SWIVEL_SHOULDER_BOX        12    WITH_SHOULDER_BOX   ranges of its Euler angles, in the crowd's order of axes
+//   SWIVEL_HAND_CONE           4     WITH_HAND_CONE      unit axis of the hand; cos of its largest angle to forearm
+//   SWIVEL_FOREARM_TWIST       4     WITH_FOREARM_TWIST  range of the hand's twist about the forearm
+//   SWIVEL_HAND_TWIST          7     WITH_HAND_TWIST     unit axis of the hand; range of its twist about it
+//   SWIVEL_WRIST_BOX           12    WITH_WRIST_BOX      ranges of the wrist's Euler angles
 //   SWIVEL_AIM                 5     WITH_AIM             unit axis of the hand to aim with; cos, sin of half flexion
 //   SWIVEL_CLAVICLE            4     WITH_CLAVICLE        shoulder's place in its parent joint's frame; share 0..1
 //   more result rows
 //   SWIVEL_STRETCH             1     WITH_REACH           factor for both bone lengths, 1 or more
-//   SWIVEL_NORMAL              3     WITH_STEP            unit normal of the swivel plane, arm frame; kept for the next
-//   SWIVEL_TWIST               4 n   TWIST_BONES * n      a quaternion for each of n twist bones, see below
-//   SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation * this
+//   SWIVEL_NORMAL              3     WITH_MOST_SWIVEL            unit normal of the swivel plane, arm frame; kept for
+//   the next SWIVEL_TWIST_BONES               4 n   WITH_TWIST_BONES * n      a quaternion for each of n twist bones,
+//   see below SWIVEL_CLAVICLE_TURN       4     WITH_CLAVICLE        what the parent joint turns by: its local rotation
+//   * this
 //
 // RANGES. A range is cos and sin of its middle, then cos and sin of half its width, which is 0..pi. Axes, cosines with
 // their sines, and ranges are of unit length within 5e-4. Weights are 0..1. Anything else is bad input.
@@ -112,9 +113,10 @@
 // turns by i / (n + 1) of it, within 0.12 degrees, about the forearm's axis, relative to rest. With JOINTS its local
 // rotation is this quaternion times its rest rotation; without, it is this quaternion in the arm frame.
 //
-// STEPS. With WITH_STEP the plane's normal is carried from solve to solve, in the arm frame. In each it is first made
-// perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and swivel_reset()
-// forget it; call that after a teleport. Without WITH_STEP results depend on the frame's own inputs alone.
+// STEPS. With WITH_MOST_SWIVEL the plane's normal is carried from solve to solve, in the arm frame. In each it is first
+// made perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input and
+// swivel_reset() forget it; call that after a teleport. Without WITH_MOST_SWIVEL results depend on the frame's own
+// inputs alone.
 //
 // CONTINUITY. The swivel is continuous, but for targets that pass through the shoulder, poles that pass through the
 // line, and limits whose nearest swivel changes sides. With WITH_AIM an elbow that passes through the line rolls the
@@ -236,7 +238,7 @@ typedef enum swivel_feature {
     SWIVEL_WITH_HAND = 1u << 2,       // a wanted hand orientation goes in, a wrist rotation comes out
     SWIVEL_POLE_DIRECTION = 1u << 3,  // with WORLD: poles are directions, not points
     SWIVEL_COMPACT = 1u << 4,         // results in 16-bit words, half as large or less; not with
-                                      // WITH_REACH, WITH_STEP, TWIST_BONES, WITH_CLAVICLE
+                                      // WITH_REACH, WITH_MOST_SWIVEL, WITH_TWIST_BONES, WITH_CLAVICLE
     // THE WHOLE LIMB
     SWIVEL_WITH_EFFECTOR = 1u << 5,
     SWIVEL_WITH_ANGLE = 1u << 6,
@@ -245,19 +247,19 @@ typedef enum swivel_feature {
     SWIVEL_POLE_INCOMING = 1u << 9,  // no poles: the elbow goes as in the incoming pose. Needs WITH_INCOMING
     SWIVEL_WITH_WEIGHTS = 1u << 10,
     SWIVEL_WITH_REACH = 1u << 11,
-    SWIVEL_WITH_STEP = 1u << 12,
-    SWIVEL_LIMIT_FLEXION = 1u << 13,
-    SWIVEL_LIMIT_SHOULDER_CONE = 1u << 14,
-    SWIVEL_LIMIT_HUMERAL_TWIST = 1u << 15,
-    SWIVEL_LIMIT_SHOULDER_BOX = 1u << 16,
-    SWIVEL_LIMIT_HAND_CONE = 1u << 17,
-    SWIVEL_LIMIT_FOREARM_TWIST = 1u << 18,
-    SWIVEL_LIMIT_HAND_TWIST = 1u << 19,
-    SWIVEL_LIMIT_WRIST_BOX = 1u << 20,
-    SWIVEL_TWIST_BONES = 1u << 21,    // times the number of twist bones, 1 to 7
-    SWIVEL_WITH_AIM = 1u << 24,       // the flexion is given, and the hand points at the target
-    SWIVEL_WITH_CLAVICLE = 1u << 25,  // the shoulder's parent joint takes a share of the reach. Needs WORLD
-    SWIVEL_BUDGET = 1u << 29,         // how long blocks wait is remembered: swivel_choose(), jobs with priorities
+    SWIVEL_WITH_MOST_SWIVEL = 1u << 12,
+    SWIVEL_WITH_FLEXION_LIMIT = 1u << 13,
+    SWIVEL_WITH_SHOULDER_CONE = 1u << 14,
+    SWIVEL_WITH_HUMERAL_TWIST = 1u << 15,
+    SWIVEL_WITH_SHOULDER_BOX = 1u << 16,
+    SWIVEL_WITH_HAND_CONE = 1u << 17,
+    SWIVEL_WITH_FOREARM_TWIST = 1u << 18,
+    SWIVEL_WITH_HAND_TWIST = 1u << 19,
+    SWIVEL_WITH_WRIST_BOX = 1u << 20,
+    SWIVEL_WITH_TWIST_BONES = 1u << 21,  // times the number of twist bones, 1 to 7
+    SWIVEL_WITH_AIM = 1u << 24,          // the flexion is given, and the hand points at the target
+    SWIVEL_WITH_CLAVICLE = 1u << 25,     // the shoulder's parent joint takes a share of the reach. Needs WORLD
+    SWIVEL_BUDGET = 1u << 29,            // how long blocks wait is remembered: swivel_choose(), jobs with priorities
 } swivel_feature;
 
 typedef enum swivel_field {
@@ -292,7 +294,7 @@ typedef enum swivel_field {
     SWIVEL_FLAGS,
     SWIVEL_STRETCH,
     SWIVEL_NORMAL,
-    SWIVEL_TWIST,
+    SWIVEL_TWIST_BONES,
     SWIVEL_CLAVICLE_TURN,
     SWIVEL_FIELD_COUNT
 } swivel_field;
@@ -602,7 +604,7 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
                                        uint32_t* mask, uint32_t mask_word_count, uint32_t* chosen_count);
 
 // Forgets the swivel carried from solve to solve, of limbs of a group: the next one is not limited by
-// SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_STEP.
+// SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_MOST_SWIVEL.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
 // The first limb with any of these flags, looked for from limb *limb of group *group on, through all later groups.

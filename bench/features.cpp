@@ -27,9 +27,9 @@ void add_features(Suite& suite)
           Named{"world+hand", SWIVEL_WORLD | SWIVEL_WITH_HAND}, Named{"joints+hand", SWIVEL_JOINTS | SWIVEL_WITH_HAND},
           Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"compact", SWIVEL_COMPACT},
           Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE},
-          Named{"cone+twist", SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST},
-          Named{"box", SWIVEL_LIMIT_SHOULDER_BOX}, Named{"full_arm", kFullArm},
-          Named{"full_arm+box", kFullArm | SWIVEL_LIMIT_SHOULDER_BOX}})
+          Named{"cone+twist", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST},
+          Named{"box", SWIVEL_WITH_SHOULDER_BOX}, Named{"full_arm", kFullArm},
+          Named{"full_arm+box", kFullArm | SWIVEL_WITH_SHOULDER_BOX}})
         add_solve(suite, std::string("features/") + name + "/" + suite.best_isa(), suite.best_isa(), features,
                   arms_within(1, features));
 }

@@ -54,7 +54,7 @@ void step_game(std::span<Character> characters, double time)
 swivel::Crowd make_crowd(std::span<const Character> characters)
 {
     const swivel_group_def hands[] = {swivel::group(kHandCount)};
-    const std::uint32_t limits = SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
+    const std::uint32_t limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
     swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_BUDGET | limits, hands);
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.0f, -1.0f, 0.0f});  // elbows down
     crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});

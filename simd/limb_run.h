@@ -74,7 +74,7 @@ void solve_limbs(const LimbRun& run)
 {
     if constexpr (lane_count<T> == 1) {  // no neighbour has to wait
         search_limbs<T, Aims>(run);
-    } else if (!(run.features & (SWIVEL_LIMIT_SHOULDER_BOX | SWIVEL_LIMIT_WRIST_BOX))) {  // a short search
+    } else if (!(run.features & (SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX))) {  // a short search
         search_limbs<T, Aims>(run);
     } else {
         LimbsAside aside;

@@ -80,17 +80,17 @@ inline LimbUse limb_use(const LimbRun& run)
     use.incoming = has(SWIVEL_WITH_INCOMING);
     use.weights = has(SWIVEL_WITH_WEIGHTS);
     use.reach = has(SWIVEL_WITH_REACH);
-    use.continuity = has(SWIVEL_WITH_STEP);
+    use.continuity = has(SWIVEL_WITH_MOST_SWIVEL);
     use.aim = has(SWIVEL_WITH_AIM);
     use.wish = has(SWIVEL_POLE_INCOMING) ? Wish::incoming : has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
-    use.limits.flexion = has(SWIVEL_LIMIT_FLEXION);
-    use.limits.shoulder_cone = has(SWIVEL_LIMIT_SHOULDER_CONE);
-    use.limits.humeral_twist = has(SWIVEL_LIMIT_HUMERAL_TWIST);
-    use.limits.shoulder_box = has(SWIVEL_LIMIT_SHOULDER_BOX);
-    use.limits.hand_cone = has(SWIVEL_LIMIT_HAND_CONE);
-    use.limits.forearm_twist = has(SWIVEL_LIMIT_FOREARM_TWIST);
-    use.limits.hand_twist = has(SWIVEL_LIMIT_HAND_TWIST);
-    use.limits.wrist_box = has(SWIVEL_LIMIT_WRIST_BOX);
+    use.limits.flexion = has(SWIVEL_WITH_FLEXION_LIMIT);
+    use.limits.shoulder_cone = has(SWIVEL_WITH_SHOULDER_CONE);
+    use.limits.humeral_twist = has(SWIVEL_WITH_HUMERAL_TWIST);
+    use.limits.shoulder_box = has(SWIVEL_WITH_SHOULDER_BOX);
+    use.limits.hand_cone = has(SWIVEL_WITH_HAND_CONE);
+    use.limits.forearm_twist = has(SWIVEL_WITH_FOREARM_TWIST);
+    use.limits.hand_twist = has(SWIVEL_WITH_HAND_TWIST);
+    use.limits.wrist_box = has(SWIVEL_WITH_WRIST_BOX);
     use.limits.shoulder_order = kEulerOrders[run.shoulder_order];
     use.limits.wrist_order = kEulerOrders[run.wrist_order];
     return use;
@@ -248,7 +248,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
             const Turned<T> share = shared_twist(twist, (n + 1.0) / (bones + 1.0));
             const Rotor<T> q =
                 bind.fore_from_arm * (share.cos * unit<T, kScalar>() + share.sin * unit<T, kK>()) * ~bind.fore_from_arm;
-            rows.store_rotor(SWIVEL_TWIST, hemisphere(q), 4 * n);
+            rows.store_rotor(SWIVEL_TWIST_BONES, hemisphere(q), 4 * n);
         }
     }
     if (rows.has(SWIVEL_WITH_CLAVICLE)) {

@@ -53,15 +53,15 @@ constexpr FieldLayout kFields[] = {
     {"incoming_wrist", 4, SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND},
     {"weights", 3, SWIVEL_WITH_WEIGHTS},
     {"reach", 4, SWIVEL_WITH_REACH},
-    {"most_swivel", 2, SWIVEL_WITH_STEP},
-    {"flexion_limit", 2, SWIVEL_LIMIT_FLEXION},
-    {"shoulder_cone", 4, SWIVEL_LIMIT_SHOULDER_CONE},
-    {"humeral_twist", 4, SWIVEL_LIMIT_HUMERAL_TWIST},
-    {"shoulder_box", 12, SWIVEL_LIMIT_SHOULDER_BOX},
-    {"hand_cone", 4, SWIVEL_LIMIT_HAND_CONE},
-    {"forearm_twist", 4, SWIVEL_LIMIT_FOREARM_TWIST},
-    {"hand_twist", 7, SWIVEL_LIMIT_HAND_TWIST},
-    {"wrist_box", 12, SWIVEL_LIMIT_WRIST_BOX},
+    {"most_swivel", 2, SWIVEL_WITH_MOST_SWIVEL},
+    {"flexion_limit", 2, SWIVEL_WITH_FLEXION_LIMIT},
+    {"shoulder_cone", 4, SWIVEL_WITH_SHOULDER_CONE},
+    {"humeral_twist", 4, SWIVEL_WITH_HUMERAL_TWIST},
+    {"shoulder_box", 12, SWIVEL_WITH_SHOULDER_BOX},
+    {"hand_cone", 4, SWIVEL_WITH_HAND_CONE},
+    {"forearm_twist", 4, SWIVEL_WITH_FOREARM_TWIST},
+    {"hand_twist", 7, SWIVEL_WITH_HAND_TWIST},
+    {"wrist_box", 12, SWIVEL_WITH_WRIST_BOX},
     {"aim", 5, SWIVEL_WITH_AIM},
     {"clavicle", 4, SWIVEL_WITH_CLAVICLE},
     {"shoulder", 4, 0},
@@ -69,7 +69,7 @@ constexpr FieldLayout kFields[] = {
     {"wrist", 4, SWIVEL_WITH_HAND},
     {"flags", 1, 0},
     {"stretch", 1, SWIVEL_WITH_REACH},
-    {"normal", 3, SWIVEL_WITH_STEP},
+    {"normal", 3, SWIVEL_WITH_MOST_SWIVEL},
     {"twist", 0, 0},  // see below
     {"clavicle_turn", 4, SWIVEL_WITH_CLAVICLE},
 };
@@ -91,28 +91,28 @@ constexpr const char* needed_feature(std::uint32_t features, swivel_field field)
         "SWIVEL_POLE_INCOMING",
         "SWIVEL_WITH_WEIGHTS",
         "SWIVEL_WITH_REACH",
-        "SWIVEL_WITH_STEP",
-        "SWIVEL_LIMIT_FLEXION",
-        "SWIVEL_LIMIT_SHOULDER_CONE",
-        "SWIVEL_LIMIT_HUMERAL_TWIST",
-        "SWIVEL_LIMIT_SHOULDER_BOX",
-        "SWIVEL_LIMIT_HAND_CONE",
-        "SWIVEL_LIMIT_FOREARM_TWIST",
-        "SWIVEL_LIMIT_HAND_TWIST",
-        "SWIVEL_LIMIT_WRIST_BOX",
-        nullptr,  // the three bits of SWIVEL_TWIST_BONES
+        "SWIVEL_WITH_MOST_SWIVEL",
+        "SWIVEL_WITH_FLEXION_LIMIT",
+        "SWIVEL_WITH_SHOULDER_CONE",
+        "SWIVEL_WITH_HUMERAL_TWIST",
+        "SWIVEL_WITH_SHOULDER_BOX",
+        "SWIVEL_WITH_HAND_CONE",
+        "SWIVEL_WITH_FOREARM_TWIST",
+        "SWIVEL_WITH_HAND_TWIST",
+        "SWIVEL_WITH_WRIST_BOX",
+        nullptr,  // the three bits of SWIVEL_WITH_TWIST_BONES
         nullptr,
         nullptr,
         "SWIVEL_WITH_AIM",
         "SWIVEL_WITH_CLAVICLE",
     };
-    if (field == SWIVEL_TWIST) return "SWIVEL_TWIST_BONES";
+    if (field == SWIVEL_TWIST_BONES) return "SWIVEL_WITH_TWIST_BONES";
     const FieldLayout& layout = kFields[field];
     const std::uint32_t wrong = (layout.needs & ~features) | (layout.without & features);
     return wrong ? names[std::countr_zero(wrong)] : "";
 }
 
-constexpr std::uint32_t twist_bone_count(std::uint32_t features) { return features / SWIVEL_TWIST_BONES % 8; }
+constexpr std::uint32_t twist_bone_count(std::uint32_t features) { return features / SWIVEL_WITH_TWIST_BONES % 8; }
 
 // Rows of a field; 0 if crowds with these features do not have it.
 constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field field)
@@ -121,7 +121,7 @@ constexpr std::uint32_t field_row_count(std::uint32_t features, swivel_field fie
     if (n >= SWIVEL_FIELD_COUNT) return 0;
     if ((features & SWIVEL_COMPACT) && !is_input(field)) return compact_row_count(features, field);
     if (field == SWIVEL_ELBOW && (features & SWIVEL_JOINTS)) return 4;
-    if (field == SWIVEL_TWIST) return 4 * twist_bone_count(features);
+    if (field == SWIVEL_TWIST_BONES) return 4 * twist_bone_count(features);
     const FieldLayout& layout = kFields[n];
     return (features & layout.needs) == layout.needs && !(features & layout.without) ? layout.row_count : 0;
 }

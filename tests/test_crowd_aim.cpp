@@ -136,7 +136,7 @@ TEST_CASE("a straight arm that aims along itself bends its elbow the way the pol
 TEST_CASE("limits of the shoulder hold for aims")
 {
     constexpr std::uint32_t count = 200;
-    const std::uint32_t features = SWIVEL_WITH_AIM | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
+    const std::uint32_t features = SWIVEL_WITH_AIM | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
     Random random{4};
     Crowd crowd = crowd_of(features, count);
     std::vector<Vector3d> axes;
@@ -186,7 +186,7 @@ TEST_CASE("an aim's pair and axis need be of unit length within 5e-4 only; the r
 
 TEST_CASE("a carried swivel turns an aiming arm no further than its step")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_STEP, 1);
+    Crowd crowd = crowd_of(SWIVEL_WITH_AIM | SWIVEL_WITH_MOST_SWIVEL, 1);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 5});
     const Aim bent{Vector3d::UnitZ(), Vector3d::Zero(), 1};
     crowd.write_all(SWIVEL_AIM, 0, value_of(bent));
@@ -217,8 +217,8 @@ TEST_CASE("an aim that is none is bad input, and features it cannot go with are 
     swivel_crowd_def def = def_of(group);
     for (const std::uint32_t other :
          {std::uint32_t{SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS}, std::uint32_t{SWIVEL_WITH_REACH},
-          std::uint32_t{SWIVEL_LIMIT_FLEXION}, std::uint32_t{SWIVEL_WITH_HAND | SWIVEL_LIMIT_HAND_CONE},
-          std::uint32_t{SWIVEL_WITH_HAND | SWIVEL_LIMIT_WRIST_BOX}}) {
+          std::uint32_t{SWIVEL_WITH_FLEXION_LIMIT}, std::uint32_t{SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_CONE},
+          std::uint32_t{SWIVEL_WITH_HAND | SWIVEL_WITH_WRIST_BOX}}) {
         def.features = SWIVEL_WITH_AIM | other;
         swivel_crowd* none = nullptr;
         CHECK_REFUSED(swivel_crowd_create(&def, &none), SWIVEL_INVALID_ARGUMENT);

@@ -63,12 +63,12 @@ TEST_CASE("a def that breaks its contract makes no crowd")
              int{SWIVEL_POLE_INCOMING},
              int{SWIVEL_WITH_WEIGHTS},
              int{SWIVEL_WITH_EFFECTOR},
-             int{SWIVEL_LIMIT_HAND_CONE},
-             int{SWIVEL_LIMIT_FOREARM_TWIST},
-             int{SWIVEL_LIMIT_HAND_TWIST},
-             int{SWIVEL_LIMIT_WRIST_BOX},
+             int{SWIVEL_WITH_HAND_CONE},
+             int{SWIVEL_WITH_FOREARM_TWIST},
+             int{SWIVEL_WITH_HAND_TWIST},
+             int{SWIVEL_WITH_WRIST_BOX},
              SWIVEL_COMPACT | SWIVEL_WITH_REACH,
-             SWIVEL_COMPACT | SWIVEL_WITH_STEP,
+             SWIVEL_COMPACT | SWIVEL_WITH_MOST_SWIVEL,
          }) {
         def = good;
         def.features = static_cast<std::uint32_t>(features);

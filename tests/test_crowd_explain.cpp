@@ -32,7 +32,7 @@ double number_after(const std::string& text, const std::string& words)
 
 TEST_CASE("explain names inputs that were never written, or are out of range, and no other")
 {
-    constexpr std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_LIMIT_SHOULDER_CONE;
+    constexpr std::uint32_t features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
     const swivel_group_def group = swivel_default_group_def(20);
     for (const std::uint32_t compact : {0u, std::uint32_t{SWIVEL_COMPACT}}) {
         Crowd crowd(features | compact, {&group, 1});
@@ -94,7 +94,7 @@ TEST_CASE("explain measures how far a target is out of reach")
 TEST_CASE("explain says which limit turned the elbow from its wish, by how much, and why none is kept")
 {
     Random random{6};
-    constexpr std::uint32_t count = 300, limits = SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
+    constexpr std::uint32_t count = 300, limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
     const Chained limb = chained(random);
     Crowd limited = crowd_of(kWorldJointsHand | limits, count, limb.bound),
           free = crowd_of(kWorldJointsHand, count, limb.bound);
@@ -141,7 +141,7 @@ TEST_CASE("explain says which limit turned the elbow from its wish, by how much,
 
 TEST_CASE("explain writes no further than it may, changes nothing and refuses what is not there")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_STEP | SWIVEL_LIMIT_SHOULDER_CONE, 20);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE, 20);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.1));
     crowd.solve();

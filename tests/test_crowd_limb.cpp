@@ -12,7 +12,7 @@ TEST_CASE("whole limbs at rest are the plain arms")
 {
     constexpr std::uint32_t count = 200;
     const std::uint32_t at_rest =
-        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | SWIVEL_WITH_EFFECTOR | kLimits;
+        SWIVEL_WITH_ANGLE | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | kLimits;
     for (const std::uint32_t features :
          {0u, kWorldJointsHand & ~std::uint32_t{SWIVEL_WORLD}, kWorldJointsHand,
           kWorldJointsHand | SWIVEL_POLE_DIRECTION, std::uint32_t{SWIVEL_WORLD | SWIVEL_WITH_HAND}})
@@ -184,7 +184,7 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     Random random{11};
     const Chained limb = chained(random);
     const double upper = limb.bound.lengths[0], fore = limb.bound.lengths[1];
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_FLEXION, count, limb.bound);
+    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_FLEXION_LIMIT, count, limb.bound);
     std::vector<double> wanted, least, most;
     for (std::uint32_t n = 0; n < count; ++n) {
         const Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
@@ -219,11 +219,11 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
     constexpr std::uint32_t count = 100, bones = 3;
     Random random{6};
     const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_TWIST_BONES, count, limb.bound);
+    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_WITH_TWIST_BONES, count, limb.bound);
     for (std::uint32_t n = 0; n < count; ++n)
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
-    const auto twists = read<Float12>(crowd, SWIVEL_TWIST);
+    const auto twists = read<Float12>(crowd, SWIVEL_TWIST_BONES);
     const swivel_binding& b = limb.bound;
     const Quaterniond fore = quat(b.fore_from_arm), hand_rest = fore.conjugate() * quat(b.wrist_rest);
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -246,7 +246,7 @@ TEST_CASE("twist bones share the hand's twist about the forearm")
 
 TEST_CASE("the swivel carried from solve to solve is forgotten on reset")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_STEP, 2);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL, 2);
     Float2 most;
     swivel_turn(0.1, most.data());
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);
@@ -269,7 +269,7 @@ TEST_CASE("a step goes towards the wish, whichever way that is")
 {
     constexpr std::uint32_t count = 100;
     Random random{10};
-    Crowd crowd = crowd_of(SWIVEL_WITH_STEP, count);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL, count);
     Float2 most;
     swivel_turn(0.1, most.data());
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, most);

@@ -99,7 +99,7 @@ TEST_CASE("a wish that breaks a limit by more than rounding leaves is not grante
 {
     constexpr std::uint32_t count = 300;
     Random random{9};
-    Crowd free = crowd_of(0, count), crowd = crowd_of(SWIVEL_LIMIT_SHOULDER_CONE, count);
+    Crowd free = crowd_of(0, count), crowd = crowd_of(SWIVEL_WITH_SHOULDER_CONE, count);
     for (std::uint32_t n = 0; n < count; ++n) {
         const Limb limb = random_limb(random, 0, {1, 1.2f});
         write_limb(free, 0, n, limb);
@@ -131,9 +131,9 @@ TEST_CASE("a wish that breaks a limit by more than rounding leaves is not grante
 
 TEST_CASE("a scan of the circle finds no nearer allowed swivel, and none better where none is allowed")
 {
-    constexpr std::uint32_t count = 600, limits = SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST;
+    constexpr std::uint32_t count = 600, limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
     Random random{10};
-    Crowd wished = crowd_of(0, count), crowd = crowd_of(limits | SWIVEL_LIMIT_SHOULDER_BOX, count);
+    Crowd wished = crowd_of(0, count), crowd = crowd_of(limits | SWIVEL_WITH_SHOULDER_BOX, count);
     struct Limited {
         Vector3d line, axis;
         double opening = kPi;
@@ -282,7 +282,7 @@ TEST_CASE("allowed arcs are where the limits are kept, and the solver's choice i
     constexpr std::uint32_t count = 200;
     Random random{8};
     Crowd crowd = crowd_of(
-        SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_SHOULDER_BOX | SWIVEL_WITH_ANGLE, count);
+        SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_ANGLE, count);
     int some = 0, none = 0;
     for (std::uint32_t n = 0; n < count; ++n) {
         write_limb(crowd, 0, n, random_limb(random, 0, {1, 1.2f}));
@@ -336,7 +336,7 @@ TEST_CASE("allowed arcs are where the limits are kept, and the solver's choice i
 
 TEST_CASE("arcs of locked axes are as short as what they allow")
 {
-    Crowd crowd = crowd_of(SWIVEL_LIMIT_SHOULDER_BOX, 441);
+    Crowd crowd = crowd_of(SWIVEL_WITH_SHOULDER_BOX, 441);
     const Float4 free = range(-kPi, kPi), locked = range(0, 0);
     Float12 box;
     for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(k == 2 ? locked : free, box.begin() + 4 * k);
@@ -393,7 +393,7 @@ TEST_CASE("a cone said in the character's axes holds in the character's axes")
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         Random random{seed + 50};
         const Chained limb = chained(random);
-        Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_LIMIT_SHOULDER_CONE, count, limb.bound);
+        Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_SHOULDER_CONE, count, limb.bound);
         const Quaterniond parent = random.rotation();  // at rest, and in every pose here
         const Vector3d direction = random.direction();
         const Vector3d scaled = random.spread(1e-3, 1e3) * direction;

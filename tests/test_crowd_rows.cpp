@@ -103,7 +103,7 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
     };
     const swivel_group_def groups[] = {swivel::group(33, slant(1)), swivel::group(7, slant(-1))};
     constexpr std::uint32_t plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
-                            limb = SWIVEL_WITH_REACH | SWIVEL_WITH_STEP | 3 * SWIVEL_TWIST_BONES |
+                            limb = SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | 3 * SWIVEL_WITH_TWIST_BONES |
                                    SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
     std::vector<std::uint32_t> sets = {plain | limb, SWIVEL_WORLD | SWIVEL_WITH_HAND | limb};
     for (std::uint32_t n = 0; n < 8; ++n)
@@ -132,7 +132,7 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
         const Float4 rest = joints ? Float4{-0.2f, 0.4f, 0.4f, 0.8f} : Float4{0, 0, 0, 1};
         CHECK(distance(quat(shoulder), quat(rest)) <= (features & SWIVEL_COMPACT ? 1.54e-4 : 1e-6));
         if (features & SWIVEL_WITH_REACH) CHECK(read<Float1>(crowd, SWIVEL_STRETCH, 0)[32] == Float1{1});
-        if (features & SWIVEL_WITH_STEP) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
+        if (features & SWIVEL_WITH_MOST_SWIVEL) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
     }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
     const swivel_group_def groups[] = {group_of(5), group_of(37)};
     // Every field there is: all features that go together.
     constexpr std::uint32_t others = SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING;
-    Crowd most(((8 * SWIVEL_TWIST_BONES - 1) & ~others) | SWIVEL_WITH_CLAVICLE, groups),
+    Crowd most(((8 * SWIVEL_WITH_TWIST_BONES - 1) & ~others) | SWIVEL_WITH_CLAVICLE, groups),
         aiming(SWIVEL_WITH_AIM, groups);
     Random random{1};
     for (int f = 0; f < SWIVEL_FIELD_COUNT; ++f) {

@@ -67,7 +67,7 @@ constexpr Member kMember[kMembers] = {
     {SWIVEL_WRIST, "wrist", "SWIVEL_WITH_HAND"},
     {SWIVEL_FLAGS, "flags", ""},
     {SWIVEL_STRETCH, "stretch", "SWIVEL_WITH_REACH"},
-    {SWIVEL_TWIST, "twist", "SWIVEL_TWIST_BONES"},
+    {SWIVEL_TWIST_BONES, "twist", "SWIVEL_WITH_TWIST_BONES"},
     {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "SWIVEL_WITH_CLAVICLE"},
 };
 
@@ -203,7 +203,7 @@ Problem random_problem(Random& random, std::uint32_t most_limbs)
     while ((problem.features & SWIVEL_POLE_DIRECTION) && !(problem.features & SWIVEL_WORLD));
     if (random.below(3) == 0) {
         problem.features |= SWIVEL_WITH_ANGLE | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH;
-        if (problem.features & SWIVEL_WITH_HAND) problem.features |= SWIVEL_WITH_EFFECTOR | 2 * SWIVEL_TWIST_BONES;
+        if (problem.features & SWIVEL_WITH_HAND) problem.features |= SWIVEL_WITH_EFFECTOR | 2 * SWIVEL_WITH_TWIST_BONES;
     }
     if (problem.features < 16 && random.below(4) == 0) problem.features |= SWIVEL_WITH_AIM;
     if ((problem.features & SWIVEL_WORLD) && random.below(4) == 0) problem.features |= SWIVEL_WITH_CLAVICLE;

@@ -11,9 +11,9 @@
 namespace swivel::test {
 
 inline constexpr std::uint32_t kWorldJointsHand = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
-inline constexpr std::uint32_t kLimits =
-    SWIVEL_LIMIT_FLEXION | SWIVEL_LIMIT_SHOULDER_CONE | SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_SHOULDER_BOX |
-    SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
+inline constexpr std::uint32_t kLimits = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE |
+                                         SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_HAND_CONE |
+                                         SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 
 // A skeleton's limb with nothing aligned: random rest rotations, bones and bend.
 inline swivel_chain skewed_chain(Random& random)

@@ -36,7 +36,7 @@ inline constexpr std::uint32_t kResident = SWIVEL_WORLD | SWIVEL_JOINTS;
 
 // Parent frame, hand, cone and flexion limits, and a blend with an incoming pose.
 inline constexpr std::uint32_t kFullArm = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS |
-                                          SWIVEL_LIMIT_FLEXION | SWIVEL_LIMIT_SHOULDER_CONE;
+                                          SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE;
 // Incoming poses, weights and limits of the first limbs of a crowd, where it has them.
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count);
 

@@ -41,7 +41,7 @@ TEST_CASE("docs: mirrored limits")
         swivel_mirror(SWIVEL_HUMERAL_TWIST, SWIVEL_XYZ, left.data(), right.data()));
     // [end]
     const swivel_group_def arms[] = {swivel::group(1), swivel::group(1)};
-    swivel::Crowd crowd(SWIVEL_LIMIT_HUMERAL_TWIST, arms);
+    swivel::Crowd crowd(SWIVEL_WITH_HUMERAL_TWIST, arms);
     for (const std::uint32_t side : {0u, 1u})
         crowd.write_all(SWIVEL_LENGTHS, side, Float2{1, 1});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, left);

@@ -24,7 +24,7 @@ std::uint32_t flags_of(const swivel::Crowd& crowd)
 TEST_CASE("docs: cones")
 {
     // [cone]
-    swivel::Crowd crowd(SWIVEL_LIMIT_SHOULDER_CONE, {&arms, 1});
+    swivel::Crowd crowd(SWIVEL_WITH_SHOULDER_CONE, {&arms, 1});
     // No further than 0.9 radians from the arm at rest.
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     // [end]
@@ -41,8 +41,7 @@ TEST_CASE("docs: cones")
 TEST_CASE("docs: twists")
 {
     // [twist]
-    const std::uint32_t twists =
-        SWIVEL_LIMIT_HUMERAL_TWIST | SWIVEL_LIMIT_FOREARM_TWIST;
+    const std::uint32_t twists = SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_FOREARM_TWIST;
     swivel::Crowd crowd(SWIVEL_WITH_HAND | twists, {&arms, 1});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-1.5, 1.2));
     // Of the hand, about the forearm.
@@ -68,7 +67,7 @@ TEST_CASE("docs: twists")
 TEST_CASE("docs: flexion")
 {
     // [flexion]
-    swivel::Crowd crowd(SWIVEL_LIMIT_FLEXION, {&arms, 1});
+    swivel::Crowd crowd(SWIVEL_WITH_FLEXION_LIMIT, {&arms, 1});
     // Never quite straight.
     crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));
     // [end]
@@ -87,7 +86,7 @@ TEST_CASE("docs: Euler boxes")
 {
     // [box]
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = SWIVEL_LIMIT_SHOULDER_BOX;
+    def.features = SWIVEL_WITH_SHOULDER_BOX;
     def.group_count = 1;
     def.groups = &arms;
     def.shoulder_order = SWIVEL_YXZ;
@@ -116,7 +115,7 @@ TEST_CASE("docs: Euler boxes")
 
 TEST_CASE("docs: allowed arcs")
 {
-    swivel::Crowd crowd(SWIVEL_LIMIT_SHOULDER_CONE, {&arms, 1});
+    swivel::Crowd crowd(SWIVEL_WITH_SHOULDER_CONE, {&arms, 1});
     give_arm(crowd);
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     std::vector<std::array<double, 2>> shown;
@@ -140,7 +139,7 @@ TEST_CASE("docs: limits in the character's axes")
     chain.bend[2] = 1;
     const swivel_binding left = swivel::bind(chain);
     const swivel_group_def group = swivel::group(1, left);
-    swivel::Crowd crowd(SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_LIMIT_SHOULDER_CONE,
+    swivel::Crowd crowd(SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_CONE,
                         {&group, 1});
     // [character]
     // Within 80 degrees of forwards and down: the character faces +z, with y up.

@@ -5,7 +5,7 @@ TEST_CASE("docs: twist bones")
 {
     // [shown]
     const swivel_group_def arms = swivel::group(1);
-    swivel::Crowd crowd(SWIVEL_WITH_HAND | 3 * SWIVEL_TWIST_BONES, {&arms, 1});
+    swivel::Crowd crowd(SWIVEL_WITH_HAND | 3 * SWIVEL_WITH_TWIST_BONES, {&arms, 1});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.1f, 1.6f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
@@ -13,7 +13,7 @@ TEST_CASE("docs: twist bones")
     crowd.solve();
     // Children of the forearm, from elbow to wrist.
     std::array<std::array<Float4, 3>, 1> twist;
-    crowd.read(SWIVEL_TWIST, 0, twist);
+    crowd.read(SWIVEL_TWIST_BONES, 0, twist);
     // [end]
     std::array<Float4, 1> wrist;
     crowd.read(SWIVEL_WRIST, 0, wrist);

@@ -60,7 +60,7 @@ void check_rotations(Reader& reader)
     const bool follows_incoming = (features & SWIVEL_WITH_INCOMING) && !(features & SWIVEL_COMPACT);
     reader.check_quaternions(SWIVEL_SHOULDER, follows_incoming);
     reader.check_quaternions(SWIVEL_WRIST, follows_incoming);
-    reader.check_quaternions(SWIVEL_TWIST, follows_incoming);
+    reader.check_quaternions(SWIVEL_TWIST_BONES, follows_incoming);
     reader.check_quaternions(SWIVEL_CLAVICLE_TURN, follows_incoming);
     if (features & SWIVEL_JOINTS) return reader.check_quaternions(SWIVEL_ELBOW, follows_incoming);
     reader.read(SWIVEL_ELBOW);

@@ -10,11 +10,12 @@ namespace swivel::fuzz {
 namespace {
 
 constexpr std::uint32_t kHandLimits =
-    SWIVEL_LIMIT_HAND_CONE | SWIVEL_LIMIT_FOREARM_TWIST | SWIVEL_LIMIT_HAND_TWIST | SWIVEL_LIMIT_WRIST_BOX;
+    SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
 constexpr std::uint32_t kPlain =
     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET;
-constexpr std::uint32_t kTwist = 7 * SWIVEL_TWIST_BONES;
-constexpr std::uint32_t kAll = (8 * SWIVEL_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
+constexpr std::uint32_t kTwist = 7 * SWIVEL_WITH_TWIST_BONES;
+constexpr std::uint32_t kAll =
+    (8 * SWIVEL_WITH_TWIST_BONES - 1) | SWIVEL_WITH_AIM | SWIVEL_WITH_CLAVICLE | SWIVEL_BUDGET;
 
 // Where a feature of `of` is there, what it needs comes in and what it excludes goes.
 void settle(std::uint32_t& features, std::uint32_t of, std::uint32_t needs, std::uint32_t excludes)
@@ -148,8 +149,9 @@ std::uint32_t features_of(Bytes& bytes)
     settle(features, SWIVEL_POLE_INCOMING, 0, SWIVEL_POLE_NORMAL | SWIVEL_POLE_DIRECTION);
     settle(features, SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, SWIVEL_POLE_NORMAL);
     settle(features, SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, 0);
-    settle(features, SWIVEL_WITH_AIM, 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_LIMIT_FLEXION | kHandLimits);
-    settle(features, SWIVEL_COMPACT, 0, SWIVEL_WITH_CLAVICLE | kTwist | SWIVEL_WITH_REACH | SWIVEL_WITH_STEP);
+    settle(features, SWIVEL_WITH_AIM, 0,
+           SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits);
+    settle(features, SWIVEL_COMPACT, 0, SWIVEL_WITH_CLAVICLE | kTwist | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL);
     settle(features, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, 0);
     settle(features, SWIVEL_WITH_EFFECTOR | kHandLimits | kTwist, SWIVEL_WITH_HAND, 0);
     return features;

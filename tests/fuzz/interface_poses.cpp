@@ -125,7 +125,7 @@ void call_reset(Session& session)
 {
     const Limbs limbs = take_limbs(session);
     check_status(session, swivel_reset(session.crowd, limbs.group, limbs.first, limbs.count), limbs.is_valid);
-    for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count && (session.features & SWIVEL_WITH_STEP); ++n)
+    for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count && (session.features & SWIVEL_WITH_MOST_SWIVEL); ++n)
         session.is_solved[limbs.first_lane + n] = false;  // their normal is none
 }
 

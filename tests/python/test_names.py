@@ -177,10 +177,10 @@ class Words(unittest.TestCase):
         """Every field is a row of docs/python.md, with its shape."""
         rows = dict(re.findall(r"^\| `(\w+)` \| `\((.*?)\)`", DOCS, re.MULTILINE))
         self.assertEqual(list(rows), [field.name.lower() for field in Field])
-        everything = swivel.Feature.WITH_REACH | swivel.Feature.WITH_STEP | swivel.Feature.WITH_HAND | swivel.Feature.WORLD
+        everything = swivel.Feature.WITH_REACH | swivel.Feature.WITH_MOST_SWIVEL | swivel.Feature.WITH_HAND | swivel.Feature.WORLD
         for field in Field:
             crowd = swivel.Crowd(1, swivel.needed_features(field) if field < Field.SHOULDER
-                                 else everything | swivel.Feature.TWIST_BONES | swivel.Feature.WITH_CLAVICLE)
+                                 else everything | swivel.Feature.WITH_TWIST_BONES | swivel.Feature.WITH_CLAVICLE)
             shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 13)}, "n, 4 b": 4}[rows[field.name.lower()]]
             self.assertEqual(shape, crowd.component_count(field), field.name)
             self.assertEqual(np.ndim(crowd.read(field)), 1 if shape == 1 else 2)

@@ -77,7 +77,7 @@ class Poses(unittest.TestCase):
         feasible = (arms.flags & Flag.INFEASIBLE) == 0
         self.assertTrue(np.any(feasible) and np.any(~feasible))
         self.assertTrue(np.all(cosine[feasible] > np.cos(1.2) - 1e-6))
-        crowd = crowd_of(sample, Feature.LIMIT_SHOULDER_CONE)
+        crowd = crowd_of(sample, Feature.WITH_SHOULDER_CONE)
         crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 0, 1), 1.2))
         arcs = [crowd.allowed_arcs(limb) for limb in range(N)]
         crowd.solve()
@@ -180,7 +180,7 @@ class Bits(unittest.TestCase):
             if runs:
                 swivel.use_isa(name)
                 self.assertEqual(swivel.isa_name(), name)
-                crowd = crowd_of(Sample(N), Feature.LIMIT_SHOULDER_CONE)
+                crowd = crowd_of(Sample(N), Feature.WITH_SHOULDER_CONE)
                 crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 1, 1), 1.0))
                 crowd.solve()
                 found.add(self.results(crowd))

@@ -28,15 +28,15 @@ constexpr FeatureName kFeatures[] = {
     {kPoleIncoming, SWIVEL_POLE_INCOMING},
     {kWeights, SWIVEL_WITH_WEIGHTS},
     {kReach, SWIVEL_WITH_REACH},
-    {kStep, SWIVEL_WITH_STEP},
-    {kFlexion, SWIVEL_LIMIT_FLEXION},
-    {kShoulderCone, SWIVEL_LIMIT_SHOULDER_CONE},
-    {kHumeralTwist, SWIVEL_LIMIT_HUMERAL_TWIST},
-    {kShoulderBox, SWIVEL_LIMIT_SHOULDER_BOX},
-    {kHandCone, SWIVEL_LIMIT_HAND_CONE},
-    {kForearmTwist, SWIVEL_LIMIT_FOREARM_TWIST},
-    {kHandTwist, SWIVEL_LIMIT_HAND_TWIST},
-    {kWristBox, SWIVEL_LIMIT_WRIST_BOX},
+    {kStep, SWIVEL_WITH_MOST_SWIVEL},
+    {kFlexion, SWIVEL_WITH_FLEXION_LIMIT},
+    {kShoulderCone, SWIVEL_WITH_SHOULDER_CONE},
+    {kHumeralTwist, SWIVEL_WITH_HUMERAL_TWIST},
+    {kShoulderBox, SWIVEL_WITH_SHOULDER_BOX},
+    {kHandCone, SWIVEL_WITH_HAND_CONE},
+    {kForearmTwist, SWIVEL_WITH_FOREARM_TWIST},
+    {kHandTwist, SWIVEL_WITH_HAND_TWIST},
+    {kWristBox, SWIVEL_WITH_WRIST_BOX},
     {kAim, SWIVEL_WITH_AIM},
     {kClavicle, SWIVEL_WITH_CLAVICLE},
 };
@@ -78,7 +78,7 @@ constexpr FieldName kFields[] = {
     {Field::flags, SWIVEL_FLAGS, 1},
     {Field::stretch, SWIVEL_STRETCH, 1},
     {Field::normal, SWIVEL_NORMAL, 3},
-    {Field::twist, SWIVEL_TWIST, 4},  // for each bone
+    {Field::twist, SWIVEL_TWIST_BONES, 4},  // for each bone
     {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4},
 };
 
@@ -147,7 +147,7 @@ swivel_binding library_binding(const Binding& own)
 
 std::uint32_t library_features(const Recipe& recipe)
 {
-    std::uint32_t features = recipe.twist_bones * SWIVEL_TWIST_BONES;
+    std::uint32_t features = recipe.twist_bones * SWIVEL_WITH_TWIST_BONES;
     for (const FeatureName& name : kFeatures)
         if (recipe.features & name.feature) features |= name.library;
     return features;

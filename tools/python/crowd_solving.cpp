@@ -166,7 +166,7 @@ void add_solving(CrowdClass& crowd)
               "again for those picked, so none starves. Gives a mask for solve(), which chooses and solves in\n"
               "one if it gets the priorities.");
     crowd.def("reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-              "Forgets the swivel carried from solve to solve with Feature.WITH_STEP, after a teleport.");
+              "Forgets the swivel carried from solve to solve with Feature.WITH_MOST_SWIVEL, after a teleport.");
 }
 
 }  // namespace swivel::python

@@ -25,16 +25,16 @@ constexpr Named kFeatures[] = {
     {"POLE_INCOMING", SWIVEL_POLE_INCOMING},
     {"WITH_WEIGHTS", SWIVEL_WITH_WEIGHTS},
     {"WITH_REACH", SWIVEL_WITH_REACH},
-    {"WITH_STEP", SWIVEL_WITH_STEP},
-    {"LIMIT_FLEXION", SWIVEL_LIMIT_FLEXION},
-    {"LIMIT_SHOULDER_CONE", SWIVEL_LIMIT_SHOULDER_CONE},
-    {"LIMIT_HUMERAL_TWIST", SWIVEL_LIMIT_HUMERAL_TWIST},
-    {"LIMIT_SHOULDER_BOX", SWIVEL_LIMIT_SHOULDER_BOX},
-    {"LIMIT_HAND_CONE", SWIVEL_LIMIT_HAND_CONE},
-    {"LIMIT_FOREARM_TWIST", SWIVEL_LIMIT_FOREARM_TWIST},
-    {"LIMIT_HAND_TWIST", SWIVEL_LIMIT_HAND_TWIST},
-    {"LIMIT_WRIST_BOX", SWIVEL_LIMIT_WRIST_BOX},
-    {"TWIST_BONES", SWIVEL_TWIST_BONES},
+    {"WITH_MOST_SWIVEL", SWIVEL_WITH_MOST_SWIVEL},
+    {"WITH_FLEXION_LIMIT", SWIVEL_WITH_FLEXION_LIMIT},
+    {"WITH_SHOULDER_CONE", SWIVEL_WITH_SHOULDER_CONE},
+    {"WITH_HUMERAL_TWIST", SWIVEL_WITH_HUMERAL_TWIST},
+    {"WITH_SHOULDER_BOX", SWIVEL_WITH_SHOULDER_BOX},
+    {"WITH_HAND_CONE", SWIVEL_WITH_HAND_CONE},
+    {"WITH_FOREARM_TWIST", SWIVEL_WITH_FOREARM_TWIST},
+    {"WITH_HAND_TWIST", SWIVEL_WITH_HAND_TWIST},
+    {"WITH_WRIST_BOX", SWIVEL_WITH_WRIST_BOX},
+    {"WITH_TWIST_BONES", SWIVEL_WITH_TWIST_BONES},
     {"WITH_AIM", SWIVEL_WITH_AIM},
     {"WITH_CLAVICLE", SWIVEL_WITH_CLAVICLE},
     {"BUDGET", SWIVEL_BUDGET},
@@ -71,7 +71,7 @@ constexpr Named kFields[] = {
     {"FLAGS", SWIVEL_FLAGS},
     {"STRETCH", SWIVEL_STRETCH},
     {"NORMAL", SWIVEL_NORMAL},
-    {"TWIST", SWIVEL_TWIST},
+    {"TWIST", SWIVEL_TWIST_BONES},
     {"CLAVICLE_TURN", SWIVEL_CLAVICLE_TURN},
 };
 constexpr Named kFlags[] = {
@@ -102,7 +102,7 @@ static_assert(std::size(kFields) == SWIVEL_FIELD_COUNT, "name the header's new f
 
 constexpr const char* kFeatureText =
     "What a crowd takes and gives; fixed at creation, combined with |.\n\n"
-    "Whatever is off costs neither memory nor time. n twist bones are n * Feature.TWIST_BONES, n from 1 to 7.";
+    "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from 1 to 7.";
 constexpr const char* kFieldText =
     "A field of a crowd's limbs: an input up to SHOULDER, from there on a result.\n\n"
     "Crowd.component_count() tells how many numbers its values have; docs/python.md lists units and meanings.";

@@ -240,7 +240,8 @@ formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) c
         store(clavicle(limb, character), extra.clavicle);
     }
     extra.twist_count = plans_[limb].twist_count();
-    if (extra.twist_count > 0) crowds_.read(limb, SWIVEL_TWIST, character, 1, {extra.twist.data(), sizeof extra.twist});
+    if (extra.twist_count > 0)
+        crowds_.read(limb, SWIVEL_TWIST_BONES, character, 1, {extra.twist.data(), sizeof extra.twist});
     return extra;
 }
 

@@ -62,7 +62,8 @@ struct Planner {
             plan.effector = from.effector->value;
             plan.features |= SWIVEL_WITH_EFFECTOR;
         }
-        if (from.twist_bones) plan.features |= static_cast<std::uint32_t>(from.twist_bones->value) * SWIVEL_TWIST_BONES;
+        if (from.twist_bones)
+            plan.features |= static_cast<std::uint32_t>(from.twist_bones->value) * SWIVEL_WITH_TWIST_BONES;
         if (from.priority) plan.priority = static_cast<float>(from.priority->value);
     }
 
@@ -127,7 +128,7 @@ struct Planner {
         if (from.most_swivel_deg_per_second)
             most_deg = std::min(180.0, frame_time * from.most_swivel_deg_per_second->value);
         if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)
-            put(SWIVEL_WITH_STEP, SWIVEL_MOST_SWIVEL, turn(kRadians * most_deg));
+            put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(kRadians * most_deg));
     }
 
     void limits()
@@ -151,19 +152,19 @@ struct Planner {
             put(feature, field, ranges_of(given->value), given->mirrored, order);
         };
         if (from.flexion_deg)
-            put(SWIVEL_LIMIT_FLEXION, SWIVEL_FLEXION_LIMIT,
+            put(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
                 flexion(kRadians * from.flexion_deg->value.least, kRadians * from.flexion_deg->value.most));
-        put_cone(SWIVEL_LIMIT_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, from.shoulder_cone);
-        put_range(SWIVEL_LIMIT_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST, from.humeral_twist_deg);
-        put_box(SWIVEL_LIMIT_SHOULDER_BOX, SWIVEL_SHOULDER_BOX, from.shoulder_box, plan.shoulder_order);
-        put_cone(SWIVEL_LIMIT_HAND_CONE, SWIVEL_HAND_CONE, from.hand_cone);
-        put_range(SWIVEL_LIMIT_FOREARM_TWIST, SWIVEL_FOREARM_TWIST, from.forearm_twist_deg);
-        put_box(SWIVEL_LIMIT_WRIST_BOX, SWIVEL_WRIST_BOX, from.wrist_box, plan.wrist_order);
+        put_cone(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, from.shoulder_cone);
+        put_range(SWIVEL_WITH_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST, from.humeral_twist_deg);
+        put_box(SWIVEL_WITH_SHOULDER_BOX, SWIVEL_SHOULDER_BOX, from.shoulder_box, plan.shoulder_order);
+        put_cone(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, from.hand_cone);
+        put_range(SWIVEL_WITH_FOREARM_TWIST, SWIVEL_FOREARM_TWIST, from.forearm_twist_deg);
+        put_box(SWIVEL_WITH_WRIST_BOX, SWIVEL_WRIST_BOX, from.wrist_box, plan.wrist_order);
         if (from.hand_twist) {
             const Eigen::Vector3f axis = from.hand_twist->value.axis.cast<float>();
             const formats::NumberRange& deg = from.hand_twist->value.range_deg;
             const std::array<float, 4> about = range(kRadians * deg.least, kRadians * deg.most);
-            put(SWIVEL_LIMIT_HAND_TWIST, SWIVEL_HAND_TWIST,
+            put(SWIVEL_WITH_HAND_TWIST, SWIVEL_HAND_TWIST,
                 std::array{axis.x(), axis.y(), axis.z(), about[0], about[1], about[2], about[3]},
                 from.hand_twist->mirrored);
         }

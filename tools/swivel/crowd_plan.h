@@ -37,7 +37,7 @@ struct LimbPlan {
     bool blends_hand = false;
 
     bool has(std::uint32_t feature) const { return (features & feature) != 0; }
-    unsigned twist_count() const { return features / SWIVEL_TWIST_BONES & 7; }
+    unsigned twist_count() const { return features / SWIVEL_WITH_TWIST_BONES & 7; }
 };
 
 struct CrowdPlan {

@@ -11,7 +11,7 @@ namespace {
 
 // Features that a crowd has for all its limbs or for none; the others are at rest where a limb does not use them.
 constexpr std::uint32_t kShared = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
-                                  SWIVEL_POLE_INCOMING | 7 * SWIVEL_TWIST_BONES;
+                                  SWIVEL_POLE_INCOMING | 7 * SWIVEL_WITH_TWIST_BONES;
 
 // A crowd in the making.
 struct Draft {
@@ -23,13 +23,13 @@ struct Draft {
     {
         const auto both = [&](std::uint32_t box) { return (features & plan.features & box) != 0; };
         return (features & kShared) == (plan.features & kShared) &&
-               (!both(SWIVEL_LIMIT_SHOULDER_BOX) || shoulder_order == plan.shoulder_order) &&
-               (!both(SWIVEL_LIMIT_WRIST_BOX) || wrist_order == plan.wrist_order);
+               (!both(SWIVEL_WITH_SHOULDER_BOX) || shoulder_order == plan.shoulder_order) &&
+               (!both(SWIVEL_WITH_WRIST_BOX) || wrist_order == plan.wrist_order);
     }
     void add(const LimbPlan& plan, const swivel_group_def& group)
     {
-        if (plan.has(SWIVEL_LIMIT_SHOULDER_BOX)) shoulder_order = plan.shoulder_order;
-        if (plan.has(SWIVEL_LIMIT_WRIST_BOX)) wrist_order = plan.wrist_order;
+        if (plan.has(SWIVEL_WITH_SHOULDER_BOX)) shoulder_order = plan.shoulder_order;
+        if (plan.has(SWIVEL_WITH_WRIST_BOX)) wrist_order = plan.wrist_order;
         features |= plan.features;
         groups.push_back(group);
     }

@@ -22,7 +22,7 @@ class Arms(NamedTuple):
     wrist           (n, 4) with hand=: hand relative to forearm; with binding= the joint's local rotations
     stretch         (n,) with reach=: factor for both bone lengths
     normal          (n, 3) with most_swivel=: unit normal of the swivel plane
-    twist           (n, 4 b) with features=b * Feature.TWIST_BONES: a quaternion for each of b twist bones
+    twist           (n, 4 b) with features=b * Feature.WITH_TWIST_BONES: a quaternion for each of b twist bones
     clavicle_turn   (n, 4) with clavicle=: what the parent joint turns by, its local rotation * this
     """
 
