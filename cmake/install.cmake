@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# `cmake --install` puts two headers, the library, the command with swivel-race, package files and the licence under the prefix. You
-# may move the whole prefix, because no file names its place.
+# `cmake --install` puts these under the prefix: two headers, the library, the command with swivel-race, its man page and completions,
+# package files and the licence. You may move the whole prefix, because no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,6 +14,21 @@ if(SWIVEL_TOOLS)
     set_target_properties(swivel_command swivel_race PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
   endif()
   install(TARGETS swivel_command swivel_race)
+  # The command prints its man page and completions itself, which takes a machine, or an emulator, that runs it.
+  function(swivel_text folder file)  # remaining arguments: what prints it
+    set(path ${CMAKE_CURRENT_BINARY_DIR}/texts/${file})
+    add_custom_command(OUTPUT ${path} COMMAND swivel_command ${ARGN} > ${path} DEPENDS swivel_command)
+    set(texts ${texts} ${path} PARENT_SCOPE)
+    install(FILES ${path} DESTINATION ${folder})
+  endfunction()
+  if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
+    file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/texts)
+    swivel_text(${CMAKE_INSTALL_MANDIR}/man1 swivel.1 help --man)
+    swivel_text(${CMAKE_INSTALL_DATADIR}/bash-completion/completions swivel completion bash)
+    swivel_text(${CMAKE_INSTALL_DATADIR}/zsh/site-functions _swivel completion zsh)
+    swivel_text(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d swivel.fish completion fish)
+    add_custom_target(swivel_texts ALL DEPENDS ${texts})
+  endif()
 endif()
 
 # ---- find_package(swivel)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: an installed swivel consists of two headers, the library, its command, package files and the licence. You may move it. C11
-# and C++20 programs outside the tree find it through CMake and pkg-config. They get its place and no other options.
-#   BUILD: the build folder to install from. WORK: an own folder. SOURCE: the repository. LIBDIR, BINDIR, DOCDIR, VERSION, MAJOR.
-#   SHARED, TBB, TOOLS: what BUILD has. FLAGS: what the build's programs need. NM, READELF: tools. See package/host.cmake, too.
+# The promise: an installed swivel consists of two headers, the library, its command with man page and completions, package files and the
+# licence. You may move it. C11 and C++20 programs outside the tree find it through CMake and pkg-config. They get its place and no other
+# options.
+#   BUILD: the build folder to install from. WORK: an own folder. SOURCE: the repository. LIBDIR, BINDIR, DOCDIR, MANDIR, DATADIR, VERSION,
+#   MAJOR. SHARED, TBB, TOOLS: what BUILD has. FLAGS: what the build's programs need. NM, READELF: tools. See package/host.cmake, too.
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
 unset(ENV{SWIVEL_FORCE_ISA})  # the library may be built for scalar alone
@@ -20,7 +21,8 @@ else()
   list(APPEND wanted ${LIBDIR}/libswivel.a)
 endif()
 if(TOOLS)
-  list(APPEND wanted ${BINDIR}/swivel ${BINDIR}/swivel-race)
+  list(APPEND wanted ${BINDIR}/swivel ${BINDIR}/swivel-race ${MANDIR}/man1/swivel.1 ${DATADIR}/bash-completion/completions/swivel
+       ${DATADIR}/zsh/site-functions/_swivel ${DATADIR}/fish/vendor_completions.d/swivel.fish)
 endif()
 file(GLOB_RECURSE installed RELATIVE ${WORK}/first ${WORK}/first/*)
 list(SORT wanted)
@@ -43,6 +45,13 @@ foreach(file IN LISTS installed)
 endforeach()
 if(TOOLS)
   run(${prefix}/${BINDIR}/swivel info)
+  run(${prefix}/${BINDIR}/swivel help --man)
+  file(READ ${prefix}/${MANDIR}/man1/swivel.1 page)
+  string(STRIP "${page}" page)
+  string(STRIP "${output}" said)
+  if(NOT page STREQUAL said)
+    message(SEND_ERROR "the man page is not what the command prints")
+  endif()
 endif()
 if(SHARED)
   set(LIBRARY ${prefix}/${LIBDIR}/libswivel.so)

@@ -21,9 +21,14 @@ void flush_all()
     std::fflush(nullptr);
 }
 
-// While it lives, what this process writes to a file descriptor goes to memory.
+// While it lives, what this process writes to a file descriptor goes to memory, and what it reads from one comes from
+// there.
 class Capture {
 public:
+    Capture(int descriptor, const std::string& input) : Capture(descriptor)
+    {
+        REQUIRE(::pwrite(memory_, input.data(), input.size(), 0) == static_cast<ssize_t>(input.size()));
+    }
     explicit Capture(int descriptor)
         : descriptor_(descriptor), before_(::dup(descriptor)), memory_(::memfd_create("capture", 0))
     {
@@ -66,13 +71,14 @@ private:
 
 }  // namespace
 
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments)
+Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                    const std::string& input)
 {
     std::vector<const char*> argv = {"swivel"};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     const InFolder there(folder);
     flush_all();
-    const Capture out(STDOUT_FILENO), err(STDERR_FILENO);
+    const Capture in(STDIN_FILENO, input), out(STDOUT_FILENO), err(STDERR_FILENO);
     Outcome outcome;
     outcome.exit_code = tools::run_swivel(static_cast<int>(argv.size()), argv.data());
     flush_all();

@@ -11,8 +11,10 @@
 
 namespace swivel::test {
 
-// Runs `swivel arguments...` as a function of this process, with `folder` as its working directory.
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+// Runs `swivel arguments...` as a function of this process, with `folder` as its working directory and `input` on its
+// standard input.
+Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                    const std::string& input = {});
 
 // The same as a process of its own. Only a process has an environment, a terminal, a peak of memory and a time.
 Outcome spawn_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,

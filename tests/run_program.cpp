@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <catch2/catch.hpp>
@@ -119,6 +120,8 @@ Outcome run_program(const std::filesystem::path& folder, std::vector<std::string
     Channel out, err;
     open_channel(out, false);
     open_channel(err, surroundings.terminal);
+    const winsize size{24, surroundings.columns, 0, 0};
+    if (surroundings.terminal) REQUIRE(::ioctl(err.writing, TIOCSWINSZ, &size) == 0);
     if (!surroundings.stdout_file.empty()) {
         Channel::close_end(out.writing);
         out.writing = ::open(surroundings.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);

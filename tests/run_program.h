@@ -18,6 +18,7 @@ struct Outcome {
 struct Surroundings {
     std::vector<std::string> environment{};  // "NAME=value" on top of this process's own; "NAME" alone removes it
     bool terminal = false;                   // stderr is a terminal
+    unsigned short columns = 0;              // of that; 0: it does not say
     std::string stdout_file{};               // where stdout goes instead of Outcome::out
     unsigned max_seconds = 300;
 };

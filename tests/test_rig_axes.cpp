@@ -117,16 +117,16 @@ TEST_CASE("rig axes: z runs along the resting limb, y where it bends to, whateve
 
 TEST_CASE("rig axes: directions are said as the figure would")
 {
-    using Words = std::vector<std::array<std::string, 3>>;
-    const Words t_pose = {{"up", "forwards", "left"},
-                          {"down", "forwards", "right"},
-                          {"right", "backwards", "down"},
-                          {"right", "backwards", "down"}};
+    using AxisWords = std::vector<std::array<std::string, 3>>;
+    const AxisWords t_pose = {{"up", "forwards", "left"},
+                              {"down", "forwards", "right"},
+                              {"right", "backwards", "down"},
+                              {"right", "backwards", "down"}};
     const std::array<Vector3d, 4> along = {Vector3d(1, 0, 0), {-1, 0, 0}, {0, -1, 0}, {0, -1, 0}};
     CHECK(words_of(along, Eigen::Quaterniond::Identity()) == t_pose);
     CHECK(words_of(along, Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5)) == t_pose);
     const std::array<Vector3d, 4> a_pose = {Vector3d(0.8, -0.6, 0), {-0.6, -0.8, 0}, {0.1, -1, 0}, {-0.1, -1, 0}};
-    const Words words = words_of(a_pose, Eigen::Quaterniond::Identity());
+    const AxisWords words = words_of(a_pose, Eigen::Quaterniond::Identity());
     CHECK(words[0] == std::array<std::string, 3>{"up and left", "forwards", "left and down"});
     CHECK(words[1] == std::array<std::string, 3>{"left and down", "forwards", "down and right"});
     CHECK(words[2][2] == "down");

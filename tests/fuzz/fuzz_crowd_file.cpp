@@ -67,7 +67,6 @@ void check_settings(const LimbSettings& s)
 {
     check_value(s.joints, [](const std::vector<std::string>& names) { return names.size() == 3; });
     check_value(s.bend, is_axis);
-    check_value(s.hinge, is_axis);
     for (const auto* point : {&s.target_point, &s.target_offset, &s.effector, &s.pole_fixed})
         check_value(*point, is_point);
     check_value(s.aim,

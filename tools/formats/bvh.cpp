@@ -142,20 +142,30 @@ void read_frames(Scanner& scan, BvhFile& file, const MotionHeader& header)
     }
 }
 
+// Some editors put UTF-8's byte order mark in front.
+std::size_t mark_size(std::string_view text) { return text.starts_with("\xEF\xBB\xBF") ? 3 : 0; }
+
 }  // namespace
 
-BvhFile read_bvh(const std::filesystem::path& path)
+BvhFile read_bvh(const std::filesystem::path& path) { return bvh_of(path, read_text(path)); }
+
+BvhFile bvh_of(const std::filesystem::path& path, std::string text)
 {
     BvhFile file;
     file.path = path;
-    file.text = read_text(path);
-    const std::string_view mark = "\xEF\xBB\xBF";  // some editors put UTF-8's byte order mark in front
-    Scanner scan{file.path, file.text, file.text.starts_with(mark) ? mark.size() : 0};
+    file.text = std::move(text);
+    Scanner scan{file.path, file.text, mark_size(file.text)};
     read_hierarchy(scan, file);
     const MotionHeader header = read_motion_header(scan, file);
     reserve_frames(scan, file, header);
     read_frames(scan, file, header);
     return file;
+}
+
+bool is_bvh_text(std::string_view text)
+{
+    text.remove_prefix(mark_size(text));
+    return same_ignoring_case(take_word(text), "HIERARCHY");
 }
 
 }  // namespace swivel::formats

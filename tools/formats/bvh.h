@@ -55,6 +55,12 @@ struct BvhFile {
 // Holds the text once, and 32 bytes a frame and joint; the count a file announces allocates nothing by itself.
 BvhFile read_bvh(const std::filesystem::path& path);
 
+// The same of a text that is in memory already. path: what messages call it.
+BvhFile bvh_of(const std::filesystem::path& path, std::string text);
+
+// Whether a text starts as BVH files do.
+bool is_bvh_text(std::string_view text);
+
 // Writes `file` with the rotation channels of the overridden joints replaced; all other text is copied byte for byte,
 // so without overrides the copy is identical. Angles have nine decimals, which give the rotation back to better than
 // 1e-9 rad. Keys are continuous: each angle triple is the one nearest to the frame before, the first to the file's own.

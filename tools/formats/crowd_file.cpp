@@ -144,7 +144,8 @@ LimbSettings read_limb(TomlTable table, bool is_one)
     if (is_one) {  // others speak of several limbs, which do not share joints
         to.joints = table.texts("joints", 3);
         to.bend = table.axis("bend");
-        to.hinge = table.axis("hinge");
+        if (auto hinge = table.axis("hinge"))
+            to.bend = std::move(hinge);  // refused, with the bend, where bones are known
     }
     TomlTable target = table.table("target");
     to.target_point = target.vector("point");
@@ -200,12 +201,11 @@ void read_root(TomlTable root, CrowdFile& to)
 template <class Settings>
 auto members(Settings& s)
 {
-    return std::tie(s.joints, s.bend, s.hinge, s.target_point, s.target_offset, s.hand, s.effector, s.aim,
-                    s.clavicle_share, s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight,
-                    s.pole_weight, s.soft_far, s.soft_near, s.least_distance, s.most_stretch,
-                    s.most_swivel_deg_per_frame, s.most_swivel_deg_per_second, s.flexion_deg, s.humeral_twist_deg,
-                    s.forearm_twist_deg, s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box,
-                    s.twist_bones, s.priority);
+    return std::tie(s.joints, s.bend, s.target_point, s.target_offset, s.hand, s.effector, s.aim, s.clavicle_share,
+                    s.pole_kind, s.pole_fixed, s.pole_angle_deg, s.position_weight, s.hand_weight, s.pole_weight,
+                    s.soft_far, s.soft_near, s.least_distance, s.most_stretch, s.most_swivel_deg_per_frame,
+                    s.most_swivel_deg_per_second, s.flexion_deg, s.humeral_twist_deg, s.forearm_twist_deg,
+                    s.shoulder_cone, s.hand_cone, s.hand_twist, s.shoulder_box, s.wrist_box, s.twist_bones, s.priority);
 }
 
 void merge(LimbSettings& to, const LimbSettings& from, bool mirrored)

@@ -40,8 +40,7 @@ struct AimGoal {
 // What the file says of a limb; what it does not say is as without a file.
 struct LimbSettings {
     Maybe<std::vector<std::string>> joints;  // three
-    Maybe<Eigen::Vector3d> bend;             // in the upper joint's frame, unit
-    Maybe<Eigen::Vector3d> hinge;            // what `bend` was before 0.2: an axis, refused where the limb is bound
+    Maybe<Eigen::Vector3d> bend;             // in the upper joint's frame, unit; its key may be an old file's `hinge`
 
     Maybe<Eigen::Vector3d> target_point, target_offset;  // world axes
     Maybe<bool> hand;

@@ -10,7 +10,7 @@ namespace {
 
 std::string message(const std::filesystem::path& path, std::size_t line, std::string_view cause)
 {
-    const std::string name = printable(path.string(), std::string::npos);
+    const std::string name = is_standard_stream(path) ? "standard input" : printable(path.string(), std::string::npos);
     return line == 0 ? fmt::format("{}: {}", name, cause) : fmt::format("{}:{}: {}", name, line, cause);
 }
 

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,11 +84,12 @@ void require_can_key(const GltfFile& file, int joint);
 // not add up to 1 are replaced by file.weights, in accessors of their own. All other JSON is kept value by value, all
 // buffers byte by byte; keys and weights no longer used stay in them.
 // Joints whose node has a matrix get translation, rotation and scale instead, as animated nodes must.
-// path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). A .glb takes in the
-// buffers and images that lie in files beside the .gltf; a .gltf holds the new keys itself and goes on using the same
-// files, from wherever it is written.
+// path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). binary: .glb or
+// .gltf, where the path's suffix does not say it. A .glb takes in the buffers and images that lie in files beside the
+// .gltf; a .gltf holds the new keys itself and goes on using the same files, from wherever it is written.
 // Throws InputError on writing, and as require_can_key() does. Throws std::invalid_argument for a joint out of range or
 // named twice, a wrong frame count, a zero or non-finite quaternion.
-void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides);
+void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
+                std::optional<bool> binary = {});
 
 }  // namespace swivel::formats

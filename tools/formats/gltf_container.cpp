@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdint>
 #include <stdexcept>
 
@@ -34,18 +33,6 @@ void append_chunk(std::string& glb, std::uint32_t type, std::string_view content
     append_word(glb, type);
     glb += content;
     while (glb.size() % 4 != 0) glb += padding;
-}
-
-std::string read_bytes(const std::filesystem::path& path)
-{
-    const TextFile file = open_text(path);
-    std::string bytes;
-    std::array<char, 1 << 16> buffer;
-    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file.get()))
-        bytes.append(buffer.data(), count);
-    if (std::ferror(file.get())) throw InputError(path, "cannot be read to its end");
-    if (bytes.empty()) throw InputError(path, "the file is empty");
-    return bytes;
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::string_view cause)
@@ -84,7 +71,11 @@ GltfContainer split(const std::filesystem::path& path, std::string_view file)
 
 GltfContainer read_gltf_container(const std::filesystem::path& path)
 {
-    std::string file = read_bytes(path);
+    return gltf_container_of(path, read_bytes(path));
+}
+
+GltfContainer gltf_container_of(const std::filesystem::path& path, std::string file)
+{
     if (file.starts_with(kMagic)) return split(path, file);
     GltfContainer container;
     container.json = std::move(file);

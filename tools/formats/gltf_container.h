@@ -22,6 +22,9 @@ struct GltfContainer {
 // beyond its end. Bytes after the length that a GLB gives for itself are not read.
 GltfContainer read_gltf_container(const std::filesystem::path& path);
 
+// The same of a file that is in memory. path: what messages call it.
+GltfContainer gltf_container_of(const std::filesystem::path& path, std::string file);
+
 // A GLB of it, chunks padded to four bytes. Throws std::length_error beyond the format's 4 GiB.
 std::string glb_of(const GltfContainer& container);
 

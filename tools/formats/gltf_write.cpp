@@ -80,7 +80,8 @@ void require_can_key(const GltfFile& file, int joint)
                                                 at.number));
 }
 
-void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides)
+void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
+                std::optional<bool> binary)
 {
     GltfChanges changes{file.times, {}, file.animation, file.weights};
     std::set<int> joints;
@@ -94,13 +95,13 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
         changes.tracks[n].is_stepped = movers.all.contains(overrides[n].joint)
                                            ? movers.by_steps.contains(overrides[n].joint)
                                            : !movers.all.empty() && movers.by_steps == movers.all;
-    const bool binary = lower_suffix(path) != ".gltf";
+    const bool is_glb = binary.value_or(lower_suffix(path) != ".gltf");
     OutputFile out(path);
-    const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, binary);
+    const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, is_glb);
     try {
-        out.write(binary ? glb_of(written) : written.json);
+        out.write(is_glb ? glb_of(written) : written.json);
     } catch (const std::length_error& error) {
-        throw InputError(path, error.what());
+        throw InputError(is_standard_stream(path) ? "standard output" : path, error.what());
     }
     out.commit();
 }

@@ -54,12 +54,17 @@ std::string_view advice(const std::error_code& reason)
 
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& path) : named_(path)
+OutputFile::OutputFile(const fs::path& path) : named_(is_standard_stream(path) ? "standard output" : path)
 {
     std::error_code ignored;
     if (path.empty()) throw InputError("(no name)", "an output file needs a name");
-    if (fs::is_directory(path, ignored)) throw InputError(path, "is a directory; name a file in it");
     buffer_.reserve(kBufferBytes);
+    if (is_standard_stream(path)) {
+        descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+        if (descriptor_ < 0) fail("cannot be opened for writing");
+        return;
+    }
+    if (fs::is_directory(path, ignored)) throw InputError(path, "is a directory; name a file in it");
     if (is_written_straight(path)) {
         descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
         if (descriptor_ < 0) fail("cannot be opened for writing");

@@ -1,8 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // A file that appears whole or not at all: bytes go to "NAME.partial-PID" in the same folder, commit() renames it to
-// NAME. An interrupted run leaves the old NAME untouched. What cannot be renamed onto (/dev/stdout, /dev/null,
-// pipes) is written straight. Knows nothing of what is written.
+// NAME. An interrupted run leaves the old NAME untouched. What cannot be renamed onto (standard output as "-",
+// /dev/null, pipes) is written straight. Knows nothing of what is written.
 
 #include <filesystem>
 #include <string>

@@ -36,8 +36,8 @@ constexpr std::string_view kColumnList =
     "frame,character,limb,x,y,z, all or none of pole_x,pole_y,pole_z, and all or none of qx,qy,qz,qw";
 constexpr double kMinNorm = 1 / kMaxNorm;
 
-using Csv = io::CSVReader<kColumnCount, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>, io::throw_on_overflow,
-                          io::single_and_empty_line_comment<'#'>>;
+using Csv = io::CSVReader<kColumnCount, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
+                          io::throw_on_overflow, io::single_and_empty_line_comment<'#'>>;
 
 // Feeds the parser, which takes a read error for the end and a zero byte for the end of a line, and which needs a line
 // end after the last line to be sure of it. Derived from the parser's base because that is its only door.
@@ -154,7 +154,11 @@ auto translated(const fs::path& path, const Csv& csv, Call call)
         return call();
     } catch (const io::error::header_missing&) {
         throw InputError(path, "is empty; its first line must name the columns");
+    } catch (const io::error::escaped_string_not_closed&) {
+        throw error("a quote is opened and not closed; close it or remove it");
     } catch (const io::error::extra_column_in_header& e) {
+        if (std::string_view(e.column_name).find_first_of(";\t") != std::string_view::npos)
+            throw error("its columns are separated by semicolons or tabs; write commas, and points in numbers");
         throw error(fmt::format("unknown column '{}'; known are {}", printable(e.column_name), kColumnList));
     } catch (const io::error::duplicated_column_in_header& e) {
         throw error(fmt::format("column {} is there twice", e.column_name));

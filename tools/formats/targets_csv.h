@@ -4,8 +4,9 @@
 // its hand or foot is turned. The first line names the columns, in any order: frame,character,limb,x,y,z, and as one
 // likes pole_x,pole_y,pole_z and qx,qy,qz,qw. A table has all columns of a pole or none, and a row fills in all of them
 // or none; so too for the orientation. limb is left_arm, right_arm, left_leg or right_leg. A table of arms may have
-// side, left or right, instead. Comma-separated, no quotes; blank lines and lines starting with # are skipped. Knows no
-// crowd: whether a frame or a character exists is the caller's question, and `line` lets the answer name the place.
+// side, left or right, instead. Comma-separated, cells quoted or not; blank lines and lines starting with # are
+// skipped. Knows no crowd: whether a frame or a character exists is the caller's question, and `line` lets the answer
+// name the place.
 
 #include <Eigen/Geometry>
 #include <cstddef>

@@ -2,6 +2,7 @@
 #include "tools/formats/text.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -34,12 +35,39 @@ std::optional<Number> parse_whole(std::string_view text)
     return value;
 }
 
+std::size_t read_some(const std::filesystem::path& path, std::FILE* file, char* buffer, std::size_t size)
+{
+    const std::size_t count = std::fread(buffer, 1, size, file);
+    if (std::ferror(file)) throw InputError(path, "cannot be read to its end; check the disk");
+    return count;
+}
+
+// read: one of the two that read a part.
+template <class Read>
+std::string read_all(const std::filesystem::path& path, Read read)
+{
+    const TextFile file = open_text(path);
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    std::string all;
+    if (!unknown) all.reserve(static_cast<std::size_t>(size));
+    const auto chunk = std::make_unique_for_overwrite<char[]>(kChunkBytes);
+    while (const std::size_t count = read(path, file.get(), chunk.get(), kChunkBytes)) all.append(chunk.get(), count);
+    if (all.empty()) throw InputError(path, "is empty; check how it was written");
+    return all;
+}
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 }  // namespace
 
 TextFile open_text(const std::filesystem::path& path)
 {
+    if (is_standard_stream(path)) {
+        TextFile input(::fdopen(::dup(STDIN_FILENO), "rb"));
+        if (!input) throw InputError(path, "is closed; give a file");
+        return input;
+    }
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
         throw InputError(path, "is a directory; name a file in it");
@@ -54,27 +82,15 @@ TextFile open_text(const std::filesystem::path& path)
 
 std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char* buffer, std::size_t size)
 {
-    const std::size_t count = std::fread(buffer, 1, size, file);
-    if (std::ferror(file)) throw InputError(path, "cannot be read to its end; check the disk");
+    const std::size_t count = read_some(path, file, buffer, size);
     const bool is_binary = std::string_view(buffer, count).find('\0') != std::string_view::npos;
     if (is_binary) throw InputError(path, "is a binary file; a text file is needed");
     return count;
 }
 
-std::string read_text(const std::filesystem::path& path)
-{
-    const TextFile file = open_text(path);
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-    std::string text;
-    if (!unknown) text.reserve(static_cast<std::size_t>(size));
-    const auto chunk = std::make_unique_for_overwrite<char[]>(kChunkBytes);
-    while (const std::size_t count = read_chunk(path, file.get(), chunk.get(), kChunkBytes)) {
-        text.append(chunk.get(), count);
-    }
-    if (text.empty()) throw InputError(path, "is empty; check how it was written");
-    return text;
-}
+std::string read_text(const std::filesystem::path& path) { return read_all(path, read_chunk); }
+
+std::string read_bytes(const std::filesystem::path& path) { return read_all(path, read_some); }
 
 std::string_view take_word(std::string_view& rest)
 {

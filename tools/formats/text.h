@@ -19,7 +19,10 @@ struct CloseFile {
 };
 using TextFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// Opens a file to be read. Throws InputError when it is missing, a directory, or not readable.
+// Whether a name stands for standard input, or for standard output where something is written: "-".
+inline bool is_standard_stream(const std::filesystem::path& path) { return path == "-"; }
+
+// Opens a file, or standard input, to be read. Throws InputError when it is missing, a directory, or not readable.
 TextFile open_text(const std::filesystem::path& path);
 
 // Reads up to `size` bytes into `buffer`; fewer, or none, only at the end of the file. Throws InputError on a read
@@ -29,6 +32,9 @@ std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char*
 // The whole file, every byte as it is. Throws InputError as the two above do, and for an empty file. Holds the file
 // once; reading from a pipe works.
 std::string read_text(const std::filesystem::path& path);
+
+// The same of any file, text or binary.
+std::string read_bytes(const std::filesystem::path& path);
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 

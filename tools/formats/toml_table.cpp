@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "tools/formats/bvh.h"
 #include "tools/formats/error.h"
 #include "tools/formats/limits.h"
+#include "tools/formats/suggestion.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -34,33 +35,6 @@ std::string_view type_name(const toml::node& node)
         default:
             return "a date or time";
     }
-}
-
-// How many letters must be put in, taken out or changed to make one word of the other.
-std::size_t edit_distance(std::string_view a, std::string_view b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t before = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = before + (a[i] != b[j]);
-            before = row[j + 1];
-            row[j + 1] = std::min({changed, before + 1, row[j] + 1});
-        }
-    }
-    return row.back();
-}
-
-// The words, the nearest first where one is near enough to be meant: a third of its letters wrong at most.
-std::string suggestion(std::string_view wrong, std::span<const std::string> words)
-{
-    const auto far = [&](const std::string& word) { return edit_distance(wrong, word); };
-    const auto nearest =
-        std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
-    if (nearest != words.end() && 3 * far(*nearest) <= nearest->size() + 1)
-        return fmt::format("did you mean {}?", *nearest);
-    return fmt::format("known are {}", fmt::join(words, ", "));
 }
 
 // The parser recurses for each part of a dotted key. What stands in a text or comment counts, too: telling it apart
@@ -91,6 +65,8 @@ std::string cause_of(std::string_view description)
 toml::table read_toml(const std::filesystem::path& path)
 {
     const std::string text = read_text(path);
+    if (is_bvh_text(text))
+        throw InputError(path, "is a BVH file, and a TOML file is needed here; give the clip as FILE");
     if (text.size() > kMostBytes)
         throw InputError(path, fmt::format("has {} bytes; a file of settings has at most {}", text.size(), kMostBytes));
     require_flat(path, text);

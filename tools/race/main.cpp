@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// swivel-race SECONDS [--json], which `swivel bench` runs: how fast this machine solves, beside textbook rivals in the
-// same run, and how far that is from what the machine can do. The short version of bench/. A program of its own, so
-// that the command needs no rivals to build.
+// swivel-race SECONDS [--json] [--quiet], which `swivel bench` runs: how fast this machine solves, beside textbook
+// rivals in the same run, and how far that is from what the machine can do. The short version of bench/. A program of
+// its own, so that the command needs no rivals to build.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -18,11 +19,15 @@ int main(int argc, char** argv)
 {
     using namespace swivel::tools;
     const double seconds = argc > 1 ? std::strtod(argv[1], nullptr) : 0;
-    const bool json = argc > 2 && std::strcmp(argv[2], "--json") == 0;
-    if (!(seconds > 0) || argc > 3 || (argc == 3 && !json)) return fail(2, "usage: swivel-race SECONDS [--json]");
+    const auto has = [&](const char* word) {
+        return std::any_of(argv + std::min(argc, 2), argv + argc,
+                           [&](const char* each) { return std::strcmp(each, word) == 0; });
+    };
+    const bool json = has("--json"), quiet = has("--quiet");
+    if (!(seconds > 0) || argc != 2 + json + quiet) return fail(2, "usage: swivel-race SECONDS [--json] [--quiet]");
     try {
         note_interrupts();
-        const Measured measured = measure(seconds);
+        const Measured measured = measure(seconds, quiet);
         if (json)
             print_json(json_of(measured));
         else

@@ -58,7 +58,7 @@ public:
         }
     }
 
-    void run(double seconds) { race_.run(seconds); }
+    void run(double seconds, bool quiet) { race_.run(seconds, quiet); }
 
     std::vector<Pair> pairs() const
     {
@@ -157,14 +157,14 @@ struct KeepIsa {
 
 }  // namespace
 
-Measured measure(double seconds)
+Measured measure(double seconds, bool quiet)
 {
     const char* isa = swivel_isa_name();
     if (!isa) throw CommandError(1, swivel_last_error());
     const KeepIsa keep{isa};
     Bench runners(keep.isa);
     Measured out{bench::measure_machine(), bench::count_ops(), bench::row_bytes(0), 0, keep.isa, {}, {}};
-    runners.run(seconds);
+    runners.run(seconds, quiet);
     out.memory_ns = runners.ns("memory");
     out.pairs = runners.pairs();
     for (const bench::IsaLimits& limits : out.machine.isas)

@@ -36,7 +36,8 @@ struct Measured {
     std::vector<Bound> bounds;  // one for each instruction set that runs here, best first
 };
 
-// Takes about that many seconds and two more. Throws CommandError if someone's results are wrong, or interrupted.
-Measured measure(double seconds);
+// Takes about that many seconds and two more. quiet: shows no progress. Throws CommandError if someone's results are
+// wrong, or interrupted.
+Measured measure(double seconds, bool quiet);
 
 }  // namespace swivel::tools

@@ -22,14 +22,14 @@ void Race::add(std::string name, std::size_t arm_count, std::function<void()> wo
     runners_.push_back({std::move(name), static_cast<double>(arm_count), std::move(work), {}});
 }
 
-void Race::run(double seconds)
+void Race::run(double seconds, bool quiet)
 {
     const std::size_t turns = kRounds * runners_.size();
     const double share_ns = seconds * 1e9 / static_cast<double>(turns);
     std::vector<Runner*> order;
     for (Runner& runner : runners_) order.push_back(&runner);
     std::mt19937 random(1);
-    Progress progress("turns", turns);
+    Progress progress("turns", turns, quiet);
     for (std::size_t turn = 0; turn < turns; ++turn) {
         check_interrupt();
         progress.show(turn);

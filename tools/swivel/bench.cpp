@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
@@ -18,7 +19,11 @@ void run_bench(const BenchOptions& options)
 {
     const std::filesystem::path race = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "swivel-race";
     const std::string seconds = fmt::format("{}", options.seconds);
-    execl(race.c_str(), "swivel-race", seconds.c_str(), options.json ? "--json" : nullptr, nullptr);
+    std::vector<const char*> words = {"swivel-race", seconds.c_str()};
+    if (options.json) words.push_back("--json");
+    if (options.quiet) words.push_back("--quiet");
+    words.push_back(nullptr);
+    execv(race.c_str(), const_cast<char* const*>(words.data()));  // which changes none of them
     if (errno == ENOENT)
         throw CommandError(
             1,

@@ -1,61 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads the command line: the one file that knows its parser. Options that several subcommands have come first: one
-// name, one wording and one range for each.
+// Reads the command line. Options that several subcommands have come first: one name, one wording and one range for
+// each.
 #include "tools/swivel/command_line.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <memory>
 
 #include "swivel/swivel.hpp"
 #include "tools/swivel/command_error.h"
+#include "tools/swivel/command_help.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/option_checks.h"
 
 namespace swivel::tools {
 
 namespace {
-
-// ---- values, checked more strictly than by the parser: it wraps negative numbers, saturates large ones and reads a
-// leading zero as octal
-
-// Decimal digits, least to most.
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most)
-{
-    const auto check = [least, most](const std::string& text) -> std::string {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool plain =
-            error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
-        if (plain && value >= least && value <= most) return {};
-        return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
-    };
-    return CLI::Validator(check, fmt::format("{}..{}", least, most));
-}
-
-// A finite number, least to most.
-CLI::Validator number(double least, double most)
-{
-    const auto check = [least, most](const std::string& text) -> std::string {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
-        return fmt::format("'{}' is not a number from {} to {}", text, least, most);
-    };
-    return CLI::Validator(check, fmt::format("{}..{}", least, most));
-}
-
-CLI::Validator file_name()
-{
-    const auto check = [](const std::string& text) -> std::string {
-        return text.empty() ? "the file name is empty" : "";
-    };
-    return CLI::Validator(check, "FILE");
-}
 
 // ---- options of several subcommands
 
@@ -82,12 +46,36 @@ CLI::Option* add_threads(CLI::App& command, unsigned& threads)
 
 CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
 
+CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meaning = "Show no progress")
+{
+    return command.add_flag("--quiet", quiet, meaning);
+}
+
+// The positional FILE.
+void add_file(CLI::App& command, std::string& file, const std::string& meaning)
+{
+    command
+        .add_option("FILE", file,
+                    meaning +
+                        ": .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel "
+                        "info); - for standard input, BVH or glTF as its first bytes say")
+        ->required()
+        ->check(file_name());
+}
+
+CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning)
+{
+    return command.add_option("--limbs", kinds, meaning)->check(one_of({"arms", "legs", "all"}));
+}
+
 // --clip and --fps; use: what the animation is there for.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
 {
-    command.add_option(
-        "--clip", motion.clip,
-        "Animation of a glTF, FBX or DAE file, by name or, counted from 0, index; else the first; " + use);
+    command
+        .add_option(
+            "--clip", motion.clip,
+            "Which animation of a glTF, FBX or DAE FILE, by name or, counted from 0, index; else the first; " + use)
+        ->check(name("name an animation, or leave the option out for the first"));
     command
         .add_option("--fps", motion.rate,
                     "Samples a second of a glTF, FBX or DAE animation; without it its keys, or finer where they are "
@@ -104,8 +92,11 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
                     "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12), where their names do not "
                     "tell; up to twice; left: or right: in front sets the side; " +
                         other_side)
+        ->type_name("JOINTS")
         ->allow_extra_args(false);
-    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")->allow_extra_args(false);
+    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
+        ->type_name("JOINTS")
+        ->allow_extra_args(false);
 }
 
 // ---- the subcommands
@@ -120,6 +111,7 @@ void add_demo(CLI::App& app)
         ->check(whole_number(1, 1'000'000));
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
+    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_demo(*options); });
 }
@@ -129,12 +121,7 @@ void add_solve(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "solve", "Solve the arms and legs of a BVH, glTF, FBX or DAE clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
-    command
-        ->add_option(
-            "clip", options->clip,
-            "Motion file: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel info)")
-        ->required()
-        ->check(file_name());
+    add_file(*command, options->file, "Motion file");
     add_motion(*command, options->motion, "a file without animations is solved in its rest pose");
     command
         ->add_option("--targets", options->targets,
@@ -142,14 +129,15 @@ void add_solve(CLI::App& app)
                      "motion, or a CSV "
                      "file with the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z][,qx,qy,qz,qw], in the "
                      "world; limb is "
-                     "left_arm, right_arm, left_leg or right_leg; docs/tables.md says more")
-        ->default_str("clip");
+                     "left_arm, right_arm, left_leg or right_leg. - is standard input. docs/tables.md says more")
+        ->default_str("clip")
+        ->check(file_name());
     command
         ->add_option(
             "--between", options->between,
             "In frames between a limb's rows: hold the last row, or go on to the next in a linear way; without "
             "it the limb follows the clip there")
-        ->check(CLI::IsMember({"hold", "linear"}));
+        ->check(one_of({"hold", "linear"}));
     command
         ->add_option("--export-targets", options->export_targets,
                      "Write the clip's wrists, poles and hands, or those given, as a table to edit and to give back by "
@@ -159,25 +147,34 @@ void add_solve(CLI::App& app)
         ->add_option(
             "--crowd", options->crowd,
             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, reach, limits, "
-            "budget; docs/crowd_file.md has every key. Options given here override it")
+            "budget; docs/crowd_file.md has every key. Options given here override it; - for standard input")
         ->check(file_name());
+    CLI::Option* out =
+        command
+            ->add_option("-o,--out", options->out,
+                         "Write the poses: to .csv, or to the clip's own format, .bvh or .glb and .gltf (one "
+                         "character; all else of the asset is kept). FBX and DAE clips go to .glb or .gltf. - is "
+                         "standard output, and the report then goes to standard error. Without it there are "
+                         "statistics only")
+            ->check(file_name());
     command
-        ->add_option("--out", options->out,
-                     "Write the poses: as the clip's own format, .bvh or .glb and .gltf (one character; all "
-                     "else of the asset is kept), of an FBX or DAE clip .glb and .gltf, or .csv; without it "
-                     "statistics only")
-        ->check(file_name());
-    command
-        ->add_option("--limbs", options->kinds,
-                     "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
-                     "without it those named alone, or else the arms")
-        ->check(CLI::IsMember({"arms", "legs", "all"}));
+        ->add_option("--format", options->format,
+                     "Format of --out, if its suffix is not to say it; - is csv without it")
+        ->check(one_of({"csv", "bvh", "glb", "gltf"}))
+        ->needs(out);
+    add_kinds(*command, options->kinds,
+              "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
+              "without it those named alone, or else the arms");
     add_named_limbs(*command, options->arms, options->legs, "the side that is not named is looked for with --limbs");
     add_characters(*command, options->characters,
                    "Characters, differing in arm lengths, place and start; the first is the clip's own")
         ->default_str("1");
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
+    command->add_flag("--strict", options->strict,
+                      "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input; "
+                      "without it a note says so");
+    add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_solve(*options); });
 }
@@ -187,20 +184,15 @@ void add_rig(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, bends, and what is missing");
     auto options = std::make_shared<RigOptions>();
-    command
-        ->add_option("file", options->file,
-                     "Skeleton, with or without motion: .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built "
-                     "with assimp")
-        ->required()
-        ->check(file_name());
-    command->add_option("--limbs", options->kinds, "Which limbs to look for: arms, legs or all")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"arms", "legs", "all"}));
+    add_file(*command, options->file, "Skeleton, with or without motion");
+    add_kinds(*command, options->kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
     add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
     add_motion(*command, options->motion,
                "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, bends "
                "and axes");
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
+    command->add_flag("--toml", options->toml,
+                      "Print the limbs that bind as a crowd file, their joints and bends, for swivel solve --crowd");
     add_json(*command, options->json);
     command->callback([options] { run_rig(*options); });
 }
@@ -214,6 +206,7 @@ void add_verify(CLI::App& app)
         ->capture_default_str()
         ->check(whole_number(1, 1'000'000'000));
     add_seed(*command, options->seed, "the random arms");
+    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_verify(*options); });
 }
@@ -226,6 +219,7 @@ void add_bench(CLI::App& app)
     command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed")
         ->capture_default_str()
         ->check(number(0.1, 3600));
+    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->footer(
         "Takes about two seconds more, and some 500 MB. For figures to keep, leave the machine alone meanwhile.");
@@ -238,15 +232,6 @@ void add_info(CLI::App& app)
     auto options = std::make_shared<InfoOptions>();
     add_json(*command, options->json);
     command->callback([options] { run_info(*options); });
-}
-
-// ---- failures
-
-// Of the subcommand, once there is one.
-std::string help_command(const CLI::App& app)
-{
-    const std::vector<CLI::App*> used = app.get_subcommands();
-    return used.empty() ? "swivel --help" : fmt::format("swivel {} --help", used.front()->get_name());
 }
 
 }  // namespace
@@ -266,6 +251,8 @@ int run_swivel(int argc, const char* const* argv)
     add_verify(app);
     add_bench(app);
     add_info(app);
+    add_completion(app);
+    add_help(app);
     try {
         app.parse(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
@@ -273,13 +260,8 @@ int run_swivel(int argc, const char* const* argv)
         return 0;
     } catch (const CLI::Success& done) {  // --help, --version
         return app.exit(done);
-    } catch (const CLI::RequiredError& error) {
-        const std::vector<std::string> unknown = app.remaining();
-        const std::string cause =
-            unknown.empty() ? error.what() : fmt::format("'{}' is no command or option", unknown[0]);
-        return fail(2, fmt::format("{}; see {}", cause, help_command(app)));
     } catch (const CLI::ParseError& error) {
-        return fail(2, fmt::format("{}; see {}", error.what(), help_command(app)));
+        return fail(2, cause_of(app, error));
     } catch (const CommandError& error) {
         return fail(error.exit_code, error.what());
     } catch (const std::bad_alloc&) {

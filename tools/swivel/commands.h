@@ -17,12 +17,13 @@ struct DemoOptions {
     std::uint32_t characters = 10'000, frames = 240;
     std::uint64_t seed = 1;
     unsigned threads = 0;
-    bool json = false;
+    bool quiet = false, json = false;
 };
 void run_demo(const DemoOptions& options);
 
 struct SolveOptions {
-    std::string clip, crowd, out, export_targets;
+    std::string file, crowd, out, export_targets;
+    std::string format;  // of out; empty: its suffix's
     MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;
@@ -31,7 +32,7 @@ struct SolveOptions {
     std::optional<std::uint32_t> characters;
     std::optional<std::uint64_t> seed;
     unsigned threads = 0;
-    bool json = false;
+    bool strict = false, quiet = false, json = false;
 };
 void run_solve(const SolveOptions& options);
 
@@ -39,19 +40,19 @@ struct RigOptions {
     std::string file, kinds = "all";
     MotionChoice motion;
     std::vector<std::string> arms, legs;
-    bool joints = false, json = false;
+    bool joints = false, toml = false, json = false;
 };
 void run_rig(const RigOptions& options);
 
 struct VerifyOptions {
     std::uint64_t arms = 1'000'000, seed = 1;
-    bool json = false;
+    bool quiet = false, json = false;
 };
 void run_verify(const VerifyOptions& options);
 
 struct BenchOptions {
     double seconds = 8;
-    bool json = false;
+    bool quiet = false, json = false;
 };
 void run_bench(const BenchOptions& options);
 

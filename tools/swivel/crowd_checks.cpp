@@ -30,6 +30,7 @@ template <class T>
 std::string checked_targets(const CrowdFile& file)
 {
     if (!file.targets || file.targets->value == "clip") return "clip";
+    if (formats::is_standard_stream(file.targets->value)) return file.targets->value;
     const std::filesystem::path path = file.path.parent_path() / file.targets->value;
     std::error_code unknown;
     if (std::filesystem::is_fifo(path, unknown)) return path.string();  // opened twice it would lose its writer

@@ -191,14 +191,8 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
         if (joints)
             (is_arm ? choice.arms : choice.legs)
                 .push_back({joints->value, name->side, {joints->key, file.path, joints->line}});
-        const auto take = [&](const formats::Maybe<Eigen::Vector3d>& given, bool is_hinge) {
-            if (given)
-                choice.bends.push_back(
-                    {*name, given->value,
-                     fmt::format("{} of {}", given->key, formats::printable(file.path.string(), 400)), is_hinge});
-        };
-        take(section.settings.hinge, true);
-        take(section.settings.bend, false);
+        if (const auto& bend = section.settings.bend)
+            choice.bends.push_back({*name, bend->value, bend->key, formats::printable(file.path.string(), 400)});
     }
 }
 

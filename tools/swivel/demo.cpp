@@ -140,7 +140,7 @@ void run_demo(const DemoOptions& options)
     DemoCrowd crowd(options);
     Statistics statistics;
     {
-        Progress progress("frames", options.frames);
+        Progress progress("frames", options.frames, options.quiet);
         for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
             check_interrupt();
             progress.show(frame);

@@ -116,6 +116,9 @@ Eigen::Matrix3d axes_of(const swivel_binding& binding, const JointPose& parent_w
     return axes_w;
 }
 
+// Where the user gave a bend, for people.
+std::string place_of(const GivenBend& given) { return fmt::format("{} of {}", given.key, given.file); }
+
 // The bend that the user gave the limb.
 const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
 {
@@ -124,13 +127,14 @@ const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
     if (given == bends.end()) return nullptr;
     const Vector3d& upper = limb.upper_bone;
     if (given->direction.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
-        throw CannotBind(fmt::format("its {}, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend "
-                                     "that way",
-                                     given->is_hinge ? "hinge" : "bend", given->where, upper.x(), upper.y(), upper.z()),
-                         "give a direction across it");
-    if (given->is_hinge)
-        throw CannotBind(fmt::format("{} is an axis, and a crowd file now says where the limb bends to", given->where),
-                         fmt::format("write bend = {} instead", toml_row(bend_of_hinge(upper, given->direction))));
+        throw CannotBind(
+            fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend that way",
+                        place_of(*given), upper.x(), upper.y(), upper.z()),
+            "give a direction across it");
+    if (given->key.ends_with(".hinge"))
+        throw CannotBind(
+            fmt::format("{} is an axis, and a crowd file now says where the limb bends to", place_of(*given)),
+            fmt::format("write bend = {} instead", toml_row(bend_of_hinge(upper, given->direction))));
     return &*given;
 }
 
@@ -270,7 +274,7 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     limb.lower_bone = rest.lower_bone().normalized();
     if (const GivenBend* const given = given_bend(bends, limb)) {
         limb.bend = given->direction;
-        limb.bend_source = given->where;
+        limb.bend_source = place_of(*given);
     } else {
         const Hinge hinge = choose_hinge(clip, name, limb.chain, rest, parent_w, front);
         limb.bend = bend_of_hinge(limb.upper_bone, hinge.axis);

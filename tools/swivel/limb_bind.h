@@ -44,12 +44,12 @@ inline Eigen::Quaterniond quaternion(std::span<const float, 4> q)
     return Eigen::Quaterniond(double{q[3]}, double{q[0]}, double{q[1]}, double{q[2]}).normalized();
 }
 
-// A bend given by the user; or, as crowd files had it before 0.2, the axis that flexion turns about the opposite of.
+// A bend given by the user in a crowd file; or, under the key that files of 0.1 have, `hinge`, the axis that flexion
+// turns about the opposite of.
 struct GivenBend {
     formats::LimbName limb;
     Eigen::Vector3d direction;  // in the upper joint's axes, unit
-    std::string where;          // for people
-    bool is_hinge = false;
+    std::string key, file;      // "limb.left_arm.bend"; for people
 };
 
 // What bind() takes: the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are the

@@ -26,8 +26,8 @@ using formats::LimbName;
 // knock-kneed, carried off the body).
 constexpr double kBarelyBent = 0.5, kSpeaksAgainst = 2, kBent = 5, kSurelyBent = 20;
 
-// The bend of two bones given in one space: the axis, as long as its sine.
-Vector3d bend_of(const Vector3d& upper, const Vector3d& lower) { return lower.normalized().cross(upper.normalized()); }
+// The axis that two bones given in one space are bent about, as long as the bend's sine.
+Vector3d axis_of(const Vector3d& upper, const Vector3d& lower) { return lower.normalized().cross(upper.normalized()); }
 
 // At rest; 0 for a limb that is folded by more than 175 degrees, which tells its axis no better than a straight one.
 double bend_degrees(const ChainPose& rest)
@@ -36,37 +36,37 @@ double bend_degrees(const ChainPose& rest)
     return bend > 175 ? 0 : bend;
 }
 
-// Its bend in the upper joint's axes, the upper bone laid where it is at rest.
-Vector3d bend_of(const ChainPose& pose, const Vector3d& rest_bone)
+// That of a pose in the upper joint's axes, the upper bone laid where it is at rest.
+Vector3d axis_of(const ChainPose& pose, const Vector3d& rest_bone)
 {
     const Vector3d upper = pose.upper_bone(), lower = pose.turn[0].conjugate() * (pose.turn[1] * pose.lower_bone());
-    return aim(rest_bone, upper).conjugate() * bend_of(upper, lower);
+    return aim(rest_bone, upper).conjugate() * axis_of(upper, lower);
 }
 
 Hinge rest_hinge(const ChainPose& rest)
 {
-    return {bend_of(rest, rest.upper_bone().normalized()).normalized(),
+    return {axis_of(rest, rest.upper_bone().normalized()).normalized(),
             fmt::format("bend of the rest pose, {:.1f} degrees", bend_degrees(rest))};
 }
 
-// The mean of the frames' bends, axes as long as their sines; nothing for a clip that hardly bends the limb, or to both
-// sides, or not otherwise than at rest.
-std::optional<Vector3d> mean_bend(const Clip& clip, const LimbChain& chain, const ChainPose& rest)
+// The mean of the frames' axes, each as long as its bend's sine; nothing for a clip that hardly bends the limb, or to
+// both sides, or not otherwise than at rest.
+std::optional<Vector3d> mean_axis(const Clip& clip, const LimbChain& chain, const ChainPose& rest)
 {
     if (clip.frame_count < 2) return std::nullopt;  // one pose is no motion
     constexpr double kOneDegree = 0.02;             // its sine, about
-    const Vector3d rest_bone = rest.upper_bone().normalized(), at_rest = bend_of(rest, rest_bone);
+    const Vector3d rest_bone = rest.upper_bone().normalized(), at_rest = axis_of(rest, rest_bone);
     Vector3d sum = Vector3d::Zero();
     double weight = 0, farthest = 0;
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
-        const Vector3d bend = bend_of(chain_pose(clip, frame, chain), rest_bone);
-        if (!bend.allFinite()) continue;
-        sum += bend;
-        weight += bend.norm();
-        farthest = std::max(farthest, (bend - at_rest).norm());
+        const Vector3d axis = axis_of(chain_pose(clip, frame, chain), rest_bone);
+        if (!axis.allFinite()) continue;
+        sum += axis;
+        weight += axis.norm();
+        farthest = std::max(farthest, (axis - at_rest).norm());
     }
     const bool is_clear = farthest > kOneDegree && weight > kOneDegree * static_cast<double>(clip.frame_count) &&
-                          sum.norm() > 0.5 * weight;  // half: the bends must agree on an axis, not cancel
+                          sum.norm() > 0.5 * weight;  // half: the axes must agree, not cancel
     return is_clear ? std::optional(Vector3d(sum / static_cast<double>(clip.frame_count))) : std::nullopt;
 }
 
@@ -124,11 +124,11 @@ std::string points_anywhere(LimbName limb)
 std::optional<Hinge> own_hinge(const Clip& clip, const LimbChain& chain, const ChainPose& rest)
 {
     const Vector3d upper = rest.upper_bone().normalized();
-    const Vector3d bend = bend_of(rest, upper);
-    const std::optional<Vector3d> mean = mean_bend(clip, chain, rest);
+    const Vector3d axis = axis_of(rest, upper);
+    const std::optional<Vector3d> mean = mean_axis(clip, chain, rest);
     // Knock-knees, or a forearm that hangs, bend at rest across what the clip does; knees pressed through, against it.
     const bool is_sure = bend_degrees(rest) > kSurelyBent;
-    const double more = mean ? mean->norm() / bend.norm() : 0, off = mean ? degrees_between(*mean, bend) : 0;
+    const double more = mean ? mean->norm() / axis.norm() : 0, off = mean ? degrees_between(*mean, axis) : 0;
     const bool clip_differs = (off > 30 && more > 2) || (is_sure ? off > 120 && more > 1 : off > 60);
     if ((is_sure || (mean && bend_degrees(rest) > kBent)) && !clip_differs) return rest_hinge(rest);
     if (mean) return Hinge{mean->normalized(), "mean bend of the clip"};
@@ -169,8 +169,8 @@ std::string doubt_by_bends(const Clip& clip, const std::array<std::optional<Limb
             is_confirmed = is_confirmed || off < 60;
         } else if (bend_degrees(rest) > most_bent) {
             most_bent = bend_degrees(rest);
-            const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
-            against = degrees_between(bend, table->axis) > 120 ? said : "";  // all but the other way round
+            const Vector3d axis = axis_of(rest, rest.upper_bone().normalized());
+            against = degrees_between(axis, table->axis) > 120 ? said : "";  // all but the other way round
         }
     }
     return is_confirmed ? "" : against;
@@ -180,9 +180,9 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
                    const JointPose& parent_w, const Front& front)
 {
     if (const std::optional<Hinge> own = own_hinge(clip, chain, rest)) return *own;
-    const Vector3d bend = bend_of(rest, rest.upper_bone().normalized());
+    const Vector3d axis = axis_of(rest, rest.upper_bone().normalized());
     const std::optional<TableBend> table = bend_by_table(limb, rest, parent_w, front);
-    const double bend_deg = bend_degrees(rest), off = table ? degrees_between(bend, table->axis) : 0;
+    const double bend_deg = bend_degrees(rest), off = table ? degrees_between(axis, table->axis) : 0;
     const bool is_doubted = !front.doubt.empty() && (bend_deg <= kBent || !front.is_told);
     if (is_doubted || !table)
         throw CannotBind(
@@ -192,16 +192,16 @@ Hinge choose_hinge(const Clip& clip, LimbName limb, const LimbChain& chain, cons
                  : "neither rest pose nor clip tells which way it bends") +
                 ", and " + (is_doubted ? front.doubt : points_anywhere(limb)),
             advice_for(limb));
-    const auto row = [&](const Vector3d& axis) { return toml_row(bend_of_hinge(rest.upper_bone(), axis)); };
+    const auto row = [&](const Vector3d& of) { return toml_row(bend_of_hinge(rest.upper_bone(), of)); };
     if (bend_deg > kBent && off > 60)
         throw CannotBind(
             fmt::format("at rest it bends by {:.1f} degrees, {:.0f} degrees off the way that {}, facing by "
                         "{}, and no clip tells which holds",
                         bend_deg, off, table->words, front.source),
-            advice_for(limb) + fmt::format(": {} as at rest, {} as {}", row(bend), row(table->axis), table->words));
+            advice_for(limb) + fmt::format(": {} as at rest, {} as {}", row(axis), row(table->axis), table->words));
     if (bend_deg > kBent) return rest_hinge(rest);
     if (bend_deg > kBarelyBent && off < 45)
-        return {bend.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
+        return {axis.normalized(), fmt::format("slight bend of the rest pose, {:.1f} degrees", bend_deg)};
     const char* why = bend_deg > kBarelyBent ? "as the rest pose bends otherwise and too little to tell"
                                              : "as neither rest pose nor clip tells";
     return {table->axis, fmt::format("{}, facing by {}, {}", table->words, front.source, why)};

@@ -15,43 +15,58 @@ namespace {
 using formats::BvhFile;
 using formats::GltfFile;
 
-std::variant<BvhFile, GltfFile> read(const std::filesystem::path& path, const MotionChoice& choice)
+using Motion = std::variant<BvhFile, GltfFile>;
+
+void require_no_choice(const MotionChoice& choice)
 {
-    if (is_gltf(path)) return formats::read_gltf(path, {choice.clip, choice.rate});
+    if (!choice.clip.empty())
+        throw CommandError(2,
+                           "--clip chooses an animation of a glTF, FBX or DAE file; a BVH file has one; leave it out");
+    if (choice.rate > 0)
+        throw CommandError(2, "--fps samples a glTF, FBX or DAE file; a BVH file has frames of its own; leave it out");
+}
+
+// Told apart by the first bytes.
+Motion read_standard_input(const std::filesystem::path& path, const MotionChoice& choice)
+{
+    std::string bytes = formats::read_bytes(path);
+    const std::string_view start = formats::trimmed(std::string_view(bytes).substr(0, 1000));
+    if (start.starts_with("glTF") || start.starts_with('{'))
+        return formats::read_gltf(path, formats::gltf_container_of(path, std::move(bytes)), {choice.clip, choice.rate});
+    if (!formats::is_bvh_text(bytes) || bytes.find('\0') != std::string::npos)
+        throw formats::InputError(path, "starts neither as BVH nor as glTF does; give other formats as files");
+    require_no_choice(choice);
+    return formats::bvh_of(path, std::move(bytes));
+}
+
+Motion read(const std::filesystem::path& path, const MotionChoice& choice)
+{
+    if (formats::is_standard_stream(path)) return read_standard_input(path, choice);
+    if (is_gltf(formats::lower_suffix(path))) return formats::read_gltf(path, {choice.clip, choice.rate});
     if (formats::is_scene(path))
         return formats::read_gltf(path, formats::import_scene(path), {choice.clip, choice.rate});
-    if (!choice.clip.empty())
-        throw CommandError(2, "--clip chooses an animation of a glTF, FBX or DAE file; a BVH file has one");
-    if (choice.rate > 0)
-        throw CommandError(2, "--fps samples a glTF, FBX or DAE file; a BVH file has frames of its own");
+    require_no_choice(choice);
     try {
         return formats::read_bvh(path);
     } catch (const formats::InputError& fault) {
-        if (is_bvh(path) || !std::filesystem::is_regular_file(path)) throw;
+        if (is_bvh(formats::lower_suffix(path)) || !std::filesystem::is_regular_file(path)) throw;
         throw CommandError(1, fmt::format("{} (read as BVH: names of other formats end in .glb, .gltf, .vrm, .fbx or "
                                           ".dae)",
                                           fault.what()));
     }
 }
 
-const char* format_of(const std::filesystem::path& path)
+const char* format_of(const std::filesystem::path& path, const Motion& motion)
 {
+    if (std::holds_alternative<BvhFile>(motion)) return "BVH";
     const std::string suffix = formats::lower_suffix(path);
-    return is_gltf(path) ? "glTF" : suffix == ".fbx" ? "FBX" : suffix == ".dae" ? "DAE" : "BVH";
+    return suffix == ".fbx" ? "FBX" : suffix == ".dae" ? "DAE" : "glTF";
 }
 
 }  // namespace
 
-bool is_bvh(const std::filesystem::path& path) { return formats::lower_suffix(path) == ".bvh"; }
-
-bool is_gltf(const std::filesystem::path& path)
-{
-    const std::string suffix = formats::lower_suffix(path);
-    return suffix == ".glb" || suffix == ".gltf" || suffix == ".vrm";
-}
-
 MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& choice)
-    : file_(read(path, choice)), format_(format_of(path))
+    : file_(read(path, choice)), format_(format_of(path, file_))
 {
 }
 
@@ -77,13 +92,13 @@ std::size_t MotionFile::mended_vertex_count() const
     return gltf ? formats::mended_vertex_count(*gltf) : 0;
 }
 
-void MotionFile::require_can_write(const std::filesystem::path& path) const
+void MotionFile::require_can_write(const OutPlace& out) const
 {
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
-    if (is_bvh_clip ? !is_bvh(path) : !is_gltf(path))
-        throw CommandError(2,
-                           fmt::format("--out {}: this clip is {} {} file; its poses go to {} or .csv", path.string(),
-                                       format_ == "FBX" ? "an" : "a", format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
+    if (is_bvh_clip ? !is_bvh(out.suffix) : !is_gltf(out.suffix))
+        throw CommandError(
+            2, fmt::format("--out {}: this clip is {} {} file; its poses go to {} or .csv", out.path.string(),
+                           format_ == "FBX" ? "an" : "a", format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
 }
 
 void MotionFile::require_can_key(int joint) const
@@ -91,12 +106,12 @@ void MotionFile::require_can_key(int joint) const
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::require_can_key(*gltf, joint);
 }
 
-void MotionFile::write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const
+void MotionFile::write(const OutPlace& out, std::span<const formats::RotationOverride> overrides) const
 {
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_))
-        formats::write_gltf(path, *gltf, overrides);
+        formats::write_gltf(out.path, *gltf, overrides, out.suffix != ".gltf");
     else
-        formats::write_bvh(path, std::get<BvhFile>(file_), overrides);
+        formats::write_bvh(out.path, std::get<BvhFile>(file_), overrides);
 }
 
 }  // namespace swivel::tools

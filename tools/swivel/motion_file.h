@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "tools/formats/bvh.h"
@@ -14,9 +15,16 @@
 
 namespace swivel::tools {
 
+// Where poses go, and in which format.
+struct OutPlace {
+    std::filesystem::path path;
+    std::string suffix;  // of the format, in lower case: ".csv", ".bvh", ".glb"; mostly the path's own
+};
+
 class MotionFile {
 public:
     // Reads .glb, .gltf and .vrm as glTF, .fbx and .dae into glTF, everything else as BVH; the suffix in any case.
+    // Standard input ("-") is glTF if it starts as such files do, else BVH.
     // Throws InputError as the readers do, and CommandError (bad usage) for a choice that a BVH file does not have.
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
 
@@ -26,18 +34,18 @@ public:
     // Vertices of a glTF file whose skin weights write() mends, see formats::mended_vertex_count().
     std::size_t mended_vertex_count() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
-    void require_can_write(const std::filesystem::path& path) const;
+    void require_can_write(const OutPlace& out) const;
     // Throws InputError for a joint whose rotation that cannot hold.
     void require_can_key(int joint) const;
-    void write(const std::filesystem::path& path, std::span<const formats::RotationOverride> overrides) const;
+    void write(const OutPlace& out, std::span<const formats::RotationOverride> overrides) const;
 
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;
     std::string format_;  // of the file that was read: "BVH", "glTF", "FBX" or "DAE"
 };
 
-// Whether a file of this name, its suffix in any case, holds one character's motion, and of which format.
-bool is_bvh(const std::filesystem::path& path);
-bool is_gltf(const std::filesystem::path& path);
+// Whether a file of this suffix, in lower case, holds one character's motion, and of which format.
+inline bool is_bvh(std::string_view suffix) { return suffix == ".bvh"; }
+inline bool is_gltf(std::string_view suffix) { return suffix == ".glb" || suffix == ".gltf" || suffix == ".vrm"; }
 
 }  // namespace swivel::tools

@@ -3,7 +3,6 @@
 // The first character's solved rotations, kept for a file of motion that is written at the end.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -28,7 +27,7 @@ public:
     void require_can_write(const MotionFile& file) const;
 
     // Writes the clip's file with them; throws as MotionFile::write() does.
-    void write(const std::filesystem::path& path, const MotionFile& file) const;
+    void write(const OutPlace& out, const MotionFile& file) const;
 
 private:
     std::vector<formats::RotationOverride> overrides(const formats::Clip& clip) const;

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// A progress bar on stderr while a person looks on; nothing where stderr is not a terminal.
+// A progress bar on stderr while a person looks on; nothing where stderr is no terminal.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace swivel::tools {
 
+// The bar and its figures, or as much of them as fits into one line of a terminal that has that many columns.
+// done: 0 to total. what: one word, such as "frames". seconds: since the start.
+std::string progress_line(std::uint64_t done, std::uint64_t total, std::string_view what, double seconds,
+                          std::size_t columns);
+
 class Progress {
 public:
-    // what: one word, such as "frames". total: how many there are to do.
-    Progress(std::string what, std::uint64_t total);
+    // what: one word, such as "frames". total: how many there are to do. quiet: shows nothing.
+    Progress(std::string what, std::uint64_t total, bool quiet);
     ~Progress();  // wipes the bar
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

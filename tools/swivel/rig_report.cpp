@@ -61,6 +61,21 @@ void print_axes(const Limb& limb, const Front& front)
     }
 }
 
+// A comment of a TOML file, which is UTF-8 as a whole.
+std::string toml_comment(const std::string& text)
+{
+    const nlohmann::json json = text;
+    return "# " + nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
+                      .get<std::string>();
+}
+
+// Which joints are meant, as a line of a crowd file.
+std::string joints_line(const Clip& clip, const Limb& limb)
+{
+    return fmt::format("joints = [{}, {}, {}]", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
+                       toml_name(clip, limb.end()));
+}
+
 // What the clip fits into, as lines of a crowd file that bind the limb as they were taken.
 void print_range(const Clip& clip, const Limb& limb)
 {
@@ -73,8 +88,7 @@ void print_range(const Clip& clip, const Limb& limb)
     fmt::print("           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
                words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
     fmt::print("           [limb.{}]\n", word);
-    fmt::print("           joints = [{}, {}, {}]\n", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
-               toml_name(clip, limb.end()));
+    fmt::print("           {}\n", joints_line(clip, limb));
     fmt::print("           bend = {}\n", row(range->bend));
     fmt::print("           [limb.{}.limits]\n", word);
     fmt::print("           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", row(range->axis),
@@ -212,6 +226,24 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
                        problem_text(finding));
     }
     if (with_joints) print_joints(clip);
+}
+
+void print_crowd_file(const MotionFile& motion, const std::string& file, const LimbSearch& search)
+{
+    const Clip& clip = motion.clip();
+    fmt::print("{}\n", toml_comment("The limbs of " + printable(file, 400)));
+    for (const LimbFinding& finding : search.findings) {
+        if (!finding.limb) {
+            fmt::print("\n{}\n",
+                       toml_comment(fmt::format("{} {}: {}", plain_name(finding.name),
+                                                finding.has_names ? "refused" : "missing", problem_text(finding))));
+            continue;
+        }
+        const Limb& limb = *finding.limb;
+        fmt::print("\n[limb.{}]\n{}\n", limb_word(limb.name), joints_line(clip, limb));
+        fmt::print("bend = [{:#}, {:#}, {:#}]  {}\n", limb.bend.x(), limb.bend.y(), limb.bend.z(),
+                   toml_comment(limb.bend_source));
+    }
 }
 
 }  // namespace swivel::tools

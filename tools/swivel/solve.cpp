@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -15,7 +14,6 @@
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
-#include "tools/formats/scene_import.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/command_error.h"
 #include "tools/swivel/commands.h"
@@ -26,6 +24,7 @@
 #include "tools/swivel/parallel.h"
 #include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
 
 namespace swivel::tools {
@@ -42,56 +41,6 @@ struct Job {
     std::string targets;  // "clip" or a file
     Between between = Between::clip;
 };
-
-enum class OutKind { none, motion, csv };
-
-OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
-{
-    if (options.out.empty()) return OutKind::none;
-    const std::string suffix = formats::lower_suffix(options.out);
-    if (suffix == ".csv") return OutKind::csv;
-    if (formats::is_scene(options.out))
-        throw CommandError(
-            2, fmt::format("--out {}: FBX and DAE are read, not written; use .glb, .gltf or .csv", options.out));
-    if (!is_bvh(options.out) && !is_gltf(options.out))
-        throw CommandError(
-            2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf or .csv", options.out));
-    if (characters > 1)
-        throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", options.out,
-                                          is_bvh(options.out) ? "BVH" : "glTF", characters));
-    return OutKind::motion;
-}
-
-// Whether what is written to the one would replace the other.
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b)
-{
-    std::error_code ignored;
-    if (std::filesystem::exists(a, ignored)) {
-        const bool loses = std::filesystem::is_regular_file(a, ignored);
-        return loses && std::filesystem::equivalent(a, b, ignored);
-    }
-    const auto whole = [&](const std::filesystem::path& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-    };
-    return !whole(a).empty() && whole(a) == whole(b);
-}
-
-// Nothing that is read is written over, and nothing that is written.
-void require_own_files(const SolveOptions& options, const Job& job)
-{
-    const auto require = [](const char* option, const std::string& file, const std::string& other, const char* what) {
-        if (!file.empty() && !other.empty() && is_same_file(file, other))
-            throw CommandError(2, fmt::format("{} {}: is {} itself; name another file", option, file, what));
-    };
-    const auto require_not_read = [&](const char* option, const std::string& file) {
-        require(option, file, options.clip, "the clip");
-        if (job.targets != "clip") require(option, file, job.targets, "the table of targets");
-        require(option, file, options.crowd, "the crowd file");
-    };
-    require_not_read("--out", options.out);
-    require_not_read("--export-targets", options.export_targets);
-    require("--export-targets", options.export_targets, options.out, "the file of --out");
-}
 
 Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const Job& job)
 {
@@ -110,7 +59,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
     }
     Statistics statistics;
     {
-        Progress progress("frames", file.clip().frame_count);
+        Progress progress("frames", file.clip().frame_count, options.quiet);
         for (std::size_t frame = 0; frame < file.clip().frame_count; ++frame) {
             check_interrupt();
             progress.show(frame);
@@ -124,7 +73,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
     }
     if (csv) csv->commit();
     if (exported) exported->commit();
-    if (kind == OutKind::motion) keys.write(options.out, file);
+    if (kind == OutKind::motion) keys.write(out_place(options), file);
     return statistics;
 }
 
@@ -167,7 +116,7 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
     }
-    FoundLimbs found = find_limbs(clip, options.clip, choice);
+    FoundLimbs found = find_limbs(clip, options.file, choice);
     job.limbs = std::move(found.limbs);
     job.missing = std::move(found.missing);
     job.doubt = std::move(found.doubt);
@@ -175,8 +124,21 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
+    require_one_reader(options, job.targets);
     job.between = between_of(options, job.targets);
     return job;
+}
+
+void print_report(const SolveOptions& options, const Statistics& statistics, double seconds, std::size_t mended)
+{
+    print_statistics(statistics);
+    fmt::print("time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
+    if (mended > 0)
+        fmt::print(
+            "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
+            mended, mended == 1 ? "vertex" : "vertices");
+    for (const std::string& name : {options.out, options.export_targets})
+        if (!name.empty()) fmt::print("written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
 }
 
 }  // namespace
@@ -186,15 +148,18 @@ void run_solve(const SolveOptions& options)
     note_interrupts();
     const auto before = std::chrono::steady_clock::now();
     out_kind(options, options.characters.value_or(1));  // usage errors first
+    require_one_reader(options, options.targets.value_or("clip"));
     const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    const MotionFile file(options.clip, options.motion);
-    if (!options.out.empty() && formats::lower_suffix(options.out) != ".csv") file.require_can_write(options.out);
+    std::optional<ReportsToStderr> data_goes_out;
+    if (writes_to_standard_output(options)) data_goes_out.emplace();
+    const MotionFile file(options.file, options.motion);
+    if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
     const Job job = make_job(options, choice, file.clip());
-    require_own_files(options, job);
-    const SolveFacts facts{options.clip,        options.crowd, file.describe(), job.targets,
+    require_own_files(options, job.targets);
+    const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing,     job.doubt};
-    if (!options.json) print_clip(facts, file.clip(), job.limbs);
+    if (!options.json && !options.quiet) print_clip(facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);
     const Statistics statistics = solve_clip(options, file, job);
@@ -210,16 +175,12 @@ void run_solve(const SolveOptions& options)
         if (!options.out.empty()) out["out"] = options.out;
         if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
         print_json(out);
-        return;
+    } else if (!options.quiet) {
+        print_report(options, statistics, seconds, mended);
     }
-    print_statistics(statistics);
-    fmt::print("time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
-    if (mended > 0)
-        fmt::print(
-            "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
-            mended, mended == 1 ? "vertex" : "vertices");
-    for (const std::string& name : {options.out, options.export_targets})
-        if (!name.empty()) fmt::print("written  {}\n", name);
+    if (options.strict && went_wrong(statistics))
+        throw CommandError(1, fmt::format("--strict: of {} limbs, {} are out of reach and {} have bad input",
+                                          statistics.limb_count(), statistics.unreached(), statistics.bad()));
 }
 
 }  // namespace swivel::tools

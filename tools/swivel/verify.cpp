@@ -88,14 +88,14 @@ void add_digests(const char* isa, std::vector<Digest>& digests)
     }
 }
 
-std::vector<Digest> all_digests()
+std::vector<Digest> all_digests(bool quiet)
 {
     const std::string in_use = swivel_isa_name();
     std::vector<const char*> isas;
     for (std::uint32_t n = 0; const char* name = swivel_isa_at(n); ++n)
         if (swivel_isa_runs(name)) isas.push_back(name);
     std::vector<Digest> digests;
-    Progress progress("instruction sets", isas.size());
+    Progress progress("instruction sets", isas.size(), quiet);
     for (std::size_t n = 0; n < isas.size(); ++n) {
         progress.show(n);
         check(swivel_use_isa(isas[n]));
@@ -171,7 +171,7 @@ void run_verify(const VerifyOptions& options)
     int passed = 0;
     check(swivel_verify(options.arms, options.seed, options.json ? append_check : print_check, &checks, &passed));
 
-    const std::vector<Digest> digests = all_digests();
+    const std::vector<Digest> digests = all_digests(options.quiet);
     const auto wrong = std::ranges::find_if(digests, [](const Digest& d) { return !d.is_right(); });
     const bool equal = wrong == digests.end();
     if (options.json) {

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+//
+// The command in a pipe. Clips, tables and crowd files come from standard input, poses go to standard output with
+// nothing between them. Runs may say nothing, and exit codes say whether a solve went wrong.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/plain_motion.h"
+#include "tests/random_figure.h"
+#include "tests/run_command.h"
+#include "tests/test_data.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+const std::string kPipeTable =
+    "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n"
+    "0,0,left_arm,6,8,3,4,8,9\n";
+
+// A folder with clip.bvh, t.csv and c.toml.
+struct PipeStage {
+    TempFolder folder;
+
+    PipeStage()
+    {
+        spill(folder / "clip.bvh", kTwoArms);
+        spill(folder / "t.csv", kPipeTable);
+        spill(folder / "c.toml", "[limb.arms]\nhand = false\n");
+    }
+    Outcome run(Words words, const std::string& input = {}) const
+    {
+        words.insert(words.begin(), "solve");
+        return run_command(folder.path, words, input);
+    }
+    // What a run that must succeed writes to the file at the end of its words.
+    std::string written(const Words& words) const
+    {
+        const Outcome outcome = run(words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return slurp(folder / words.back());
+    }
+    void require_refused(const Words& words, int code, const std::string& said, const std::string& input = {}) const
+    {
+        const Outcome outcome = run(words, input);
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == code);
+        CHECK(outcome.out.empty());
+        CHECK_THAT(outcome.err, StartsWith("swivel: ") && Contains(said));
+        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("streams: a BVH clip, a table and a crowd file may come from standard input")
+{
+    const PipeStage stage;
+    const std::string plain = stage.written({"clip.bvh", "--out", "a.csv"}),
+                      table = stage.written({"clip.bvh", "--targets", "t.csv", "--out", "b.csv"}),
+                      crowd = stage.written({"clip.bvh", "--crowd", "c.toml", "--out", "c.csv"});
+    CHECK(plain != table);
+    CHECK(stage.run({"-", "--out", "x.csv"}, kTwoArms).exit_code == 0);
+    CHECK(slurp(stage.folder / "x.csv") == plain);
+    CHECK(stage.run({"-", "--out", "x.csv"}, "\xEF\xBB\xBF\n" + kTwoArms).exit_code == 0);
+    CHECK(slurp(stage.folder / "x.csv") == plain);
+    CHECK(stage.run({"clip.bvh", "--targets", "-", "--out", "x.csv"}, kPipeTable).exit_code == 0);
+    CHECK(slurp(stage.folder / "x.csv") == table);
+    CHECK(stage.run({"clip.bvh", "--crowd", "-", "--out", "x.csv"}, "[limb.arms]\nhand = false\n").exit_code == 0);
+    CHECK(slurp(stage.folder / "x.csv") == crowd);
+    spill(stage.folder / "in.toml", "[crowd]\ntargets = \"-\"\n");
+    CHECK(stage.run({"clip.bvh", "--crowd", "in.toml", "--out", "x.csv"}, kPipeTable).exit_code == 0);
+    CHECK(slurp(stage.folder / "x.csv") == table);
+    CHECK_THAT(run_command(stage.folder.path, {"rig", "-"}, kTwoArms).out, Contains("LeftForeArm"));
+}
+
+TEST_CASE("streams: a glTF clip is told by its first bytes, and each format goes out as it goes to a file")
+{
+    const PipeStage stage;
+    std::mt19937 random(7);
+    const Figure figure = random_figure(random, {}, figure_names()[0]);
+    figure.rig.write(stage.folder / "f.glb");
+    const std::string glb = slurp(stage.folder / "f.glb");
+    for (const std::string format : {"glb", "gltf", "csv"}) {
+        const std::string file = stage.written({"f.glb", "--out", "own." + format});
+        const Outcome piped = stage.run({"-", "-o", "-", "--format", format}, glb);
+        INFO(piped.err);
+        CHECK(piped.exit_code == 0);
+        CHECK((piped.out == file));
+    }
+    const std::string gltf = slurp(stage.folder / "own.gltf");
+    const std::string again = stage.written({"own.gltf", "--out", "again.csv"});
+    CHECK((stage.run({"-", "-o", "-"}, gltf).out == again));
+    CHECK(
+        (stage.run({"clip.bvh", "-o", "-", "--format", "bvh"}).out == stage.written({"clip.bvh", "--out", "own.bvh"})));
+}
+
+TEST_CASE("streams: with poses on standard output reports are on standard error, and --quiet leaves none")
+{
+    const PipeStage stage;
+    const std::string csv = stage.written({"clip.bvh", "--out", "a.csv"});
+    const Outcome text = stage.run({"clip.bvh", "--out", "-"});
+    CHECK(text.out == csv);
+    CHECK_THAT(text.err, StartsWith("clip ") && Contains("solved ") && Contains("written  to standard output"));
+    const Outcome json = stage.run({"clip.bvh", "--out", "-", "--json"});
+    CHECK(json.out == csv);
+    CHECK(nlohmann::json::parse(json.err).at("out") == "-");
+    const Outcome quiet = stage.run({"clip.bvh", "--out", "-", "--quiet"});
+    CHECK(quiet.out == csv);
+    CHECK(quiet.err.empty());
+    const Outcome silent = stage.run({"clip.bvh", "--out", "b.csv", "--quiet"});
+    CHECK(silent.out + silent.err == "");
+    CHECK(slurp(stage.folder / "b.csv") == csv);
+    CHECK(nlohmann::json::parse(stage.run({"clip.bvh", "--quiet", "--json"}).out).at("frames") == 2);
+    CHECK_THAT(stage.run({"no.bvh", "--quiet"}).err, StartsWith("swivel: no.bvh: "));
+    CHECK(stage.run({"clip.bvh"}).out.starts_with("clip "));  // as before
+    stage.run({"clip.bvh", "--export-targets", "t2.csv"});
+    const Outcome exported = stage.run({"clip.bvh", "--export-targets", "-", "--out", "b.csv"});
+    CHECK(exported.out == slurp(stage.folder / "t2.csv"));
+    CHECK_THAT(exported.err, Contains("written  b.csv") && Contains("written  to standard output"));
+    CHECK_FALSE(fs::exists(stage.folder / "-"));
+}
+
+TEST_CASE("streams: what cannot be read or written is refused in one line")
+{
+    const PipeStage stage;
+    for (const Words& words : std::vector<Words>{
+             {"-", "--targets", "-"}, {"-", "--crowd", "-"}, {"clip.bvh", "--crowd", "-", "--targets", "-"}})
+        stage.require_refused(words, 2, "more than one of FILE, --crowd and --targets", kTwoArms);
+    spill(stage.folder / "in.toml", "[crowd]\ntargets = \"-\"\n");
+    stage.require_refused({"-", "--crowd", "in.toml"}, 2, "more than one of FILE", kTwoArms);
+    stage.require_refused({"-"}, 1, "standard input: is empty");
+    stage.require_refused({"-"}, 1, "standard input: starts neither as BVH nor as glTF", "a,b,c\n");
+    stage.require_refused({"-"}, 1, "standard input:", "HIERARCHY\nROOT");
+    stage.require_refused({"-"}, 1, "standard input: starts neither", std::string("HIERARCHY\n\0", 11));
+    stage.require_refused({"-"}, 1, "standard input:", "{}");
+    stage.require_refused({"-"}, 1, "standard input:", "glTF");
+    stage.require_refused({"clip.bvh", "--crowd", "clip.bvh"}, 1,
+                          "clip.bvh: is a BVH file, and a TOML file is needed here; give the clip as FILE");
+    stage.require_refused({"-", "--fps", "30"}, 2, "--fps samples", kTwoArms);
+    stage.require_refused({"clip.bvh", "--targets", "-", "--json"}, 1, "standard input:3: column x is empty",
+                          kPipeTable + "0,0,right_arm,,8,3,4,8,9\n");
+    stage.require_refused({"clip.bvh", "--out", "-", "--format", "glb"}, 2, "this clip is a BVH file");
+    stage.require_refused({"clip.bvh", "--out", "-", "--format", "bvh", "--characters", "2"}, 2, "one character");
+    stage.require_refused({"clip.bvh", "--out", "-", "--export-targets", "-"}, 2, "is the file of --out itself");
+    stage.require_refused({"clip.bvh", "--format", "csv"}, 2, "--format requires --out");
+    stage.require_refused({"clip.bvh", "--out", "x", "--format", "fbx"}, 2, "there is no 'fbx'");
+    stage.require_refused({"clip.bvh", "--out", "x"}, 2, "or --format");
+    CHECK(stage.run({"clip.bvh", "--out", "x", "--format", "csv"}).exit_code == 0);
+    CHECK(slurp(stage.folder / "x").starts_with("frame,"));
+}
+
+TEST_CASE("streams: a standard output that is full or closed is a failure")
+{
+    const PipeStage stage;
+    Surroundings full;
+    full.stdout_file = "/dev/full";
+    const Outcome outcome = spawn_command(stage.folder.path, {"solve", "clip.bvh", "--out", "-", "--quiet"}, full);
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, StartsWith("swivel: standard output: cannot be written: "));
+}
+
+TEST_CASE("streams: tables from spreadsheets are read where they can be, and else told what to change")
+{
+    const PipeStage stage;
+    const std::string csv = stage.written({"clip.bvh", "--targets", "t.csv", "--out", "a.csv"});
+    spill(stage.folder / "quoted.csv",
+          "\"frame\",\"character\",limb,x,y,z,\"pole_x\",pole_y,pole_z\r\n0,0,\"left_arm\",\"6\",8,3,4,8,9\r\n");
+    CHECK(stage.written({"clip.bvh", "--targets", "quoted.csv", "--out", "b.csv"}) == csv);
+    const auto refused = [&](const std::string& text, const std::string& said) {
+        const Outcome outcome = stage.run({"clip.bvh", "--targets", "-", "--json"}, text);
+        CHECK(outcome.exit_code == 1);
+        CHECK_THAT(outcome.err, Contains(said));
+    };
+    refused("frame;character;limb;x;y;z;pole_x;pole_y;pole_z\n0;0;left_arm;6;8;3;4;8;9\n",
+            "standard input:1: its columns are separated by semicolons or tabs; write commas");
+    refused("frame\tcharacter\tlimb\tx\n", "separated by semicolons or tabs");
+    refused(kPipeTable + "1,0,\"left_arm,6,8,3,4,8,9\n", "standard input:3: a quote is opened and not closed");
+    refused("\"frame,character\n", "standard input:1: a quote is opened and not closed");
+}
+
+TEST_CASE("streams: --strict is exit code 1 where most limbs are out of reach, after writing")
+{
+    const PipeStage stage;
+    const auto far = [](int count) {
+        std::string text = "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n";
+        for (int n = 0; n < count; ++n)
+            text += std::to_string(n / 2) + ",0," + (n % 2 ? "right_arm" : "left_arm") + ",1000,0,0,0,9,0\n";
+        return text;
+    };
+    for (const int count : {1, 2, 3, 4}) {  // of four
+        const bool goes_wrong = count > 2;
+        const Outcome lax = stage.run({"clip.bvh", "--targets", "-", "--out", "lax.csv"}, far(count));
+        CHECK(lax.exit_code == 0);
+        CHECK(lax.err.empty());
+        CHECK((lax.out.find("\nnote     most arms are not where they should be") != std::string::npos) == goes_wrong);
+        const Outcome strict = stage.run({"clip.bvh", "--targets", "-", "--out", "s.csv", "--strict"}, far(count));
+        CHECK(strict.exit_code == (goes_wrong ? 1 : 0));
+        if (goes_wrong)
+            CHECK(strict.err == "swivel: --strict: of 4 limbs, " + std::to_string(count) +
+                                    " are out of reach and 0 have bad input\n");
+        CHECK(slurp(stage.folder / "s.csv") == slurp(stage.folder / "lax.csv"));
+        const auto json = nlohmann::json::parse(stage.run({"clip.bvh", "--targets", "-", "--json"}, far(count)).out);
+        CHECK(json.at("went_wrong") == goes_wrong);
+    }
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "tools/formats/suggestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace swivel::formats {
+namespace {
+
+// How many letters must be put in, taken out or changed to make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t before = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = before + (a[i] != b[j]);
+            before = row[j + 1];
+            row[j + 1] = std::min({changed, before + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_word(std::string_view wrong, std::span<const std::string> words)
+{
+    const auto far = [&](const std::string& word) { return edit_distance(wrong, word); };
+    const auto nearest =
+        std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
+    if (nearest == words.end() || 3 * far(*nearest) > nearest->size() + 1) return std::nullopt;
+    return *nearest;
+}
+
+std::string suggestion(std::string_view wrong, std::span<const std::string> words)
+{
+    if (const auto nearest = nearest_word(wrong, words)) return fmt::format("did you mean {}?", *nearest);
+    return fmt::format("known are {}", fmt::join(words, ", "));
+}
+
+}  // namespace swivel::formats

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/command_help.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "tools/formats/suggestion.h"
+#include "tools/swivel/command_outline.h"
+#include "tools/swivel/completions.h"
+#include "tools/swivel/man_page.h"
+#include "tools/swivel/option_checks.h"
+
+namespace swivel::tools {
+
+namespace {
+
+std::vector<std::string> command_names(const CLI::App& app)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    return names;
+}
+
+// The subcommand, once there is one.
+const CLI::App& used_command(const CLI::App& app)
+{
+    const std::vector<CLI::App*> used = app.get_subcommands();
+    return used.empty() ? app : *used.front();
+}
+
+std::string help_of(const CLI::App& command)
+{
+    return command.get_parent() ? fmt::format("see swivel {} --help", command.get_name()) : "see swivel --help";
+}
+
+// The option meant by a wrong one, dashes left out of the count.
+std::string meant_by(const std::string& wrong, const CLI::App& command)
+{
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options())
+        known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
+    const std::string bare = wrong.substr(std::min(wrong.find_first_not_of('-'), wrong.size()));
+    const auto nearest = formats::nearest_word(bare, known);
+    return nearest ? fmt::format("did you mean --{}?", *nearest) : help_of(command);
+}
+
+// What is wrong with words that nobody takes; empty: there is none.
+std::string unknown_words(const CLI::App& app)
+{
+    const CLI::App& used = used_command(app);
+    for (const CLI::App* command : {&app, &used}) {
+        const std::vector<std::string> words = command->remaining();
+        const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
+        if (option != words.end()) {
+            const std::string bare = option->substr(0, option->find('='));
+            return fmt::format("there is no option {}; {}", bare, meant_by(bare, *command));
+        }
+        if (!words.empty() && &used == &app)
+            return fmt::format("there is no command '{}'; {}", words[0],
+                               formats::suggestion(words[0], command_names(app)));
+        if (!words.empty()) return fmt::format("'{}' is one word too many; {}", words[0], help_of(used));
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app)
+{
+    using Script = std::string (*)(const Outline&);
+    static const std::map<std::string, Script> scripts = {
+        {"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
+    CLI::App* command = app.add_subcommand("completion", "Print what a shell reads to complete swivel's options");
+    auto shell = std::make_shared<std::string>();
+    command->add_option("SHELL", *shell, "Which shell")->required()->check(one_of({"bash", "fish", "zsh"}));
+    command->footer("In bash: source <(swivel completion bash)");
+    command->callback([&app, shell] { fmt::print("{}", scripts.at(*shell)(outline_of(app))); });
+}
+
+void add_help(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("help", "Print help on the whole or on a command, as COMMAND --help does");
+    struct Wish {
+        std::string command;
+        bool man = false;
+    };
+    auto wish = std::make_shared<Wish>();
+    CLI::Option* name =
+        command->add_option("COMMAND", wish->command, "On which command")->check(one_of(command_names(app)));
+    command->add_flag("--man", wish->man, "Print the manual page instead, for man")->excludes(name);
+    command->callback([&app, wish] {
+        if (wish->man)
+            fmt::print("{}", man_page(outline_of(app)));
+        else if (wish->command.empty())
+            fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+        else
+            fmt::print("{}", app.get_subcommand(wish->command)->help(app.get_name()));
+    });
+}
+
+std::string cause_of(const CLI::App& app, const CLI::ParseError& error)
+{
+    if (const std::string unknown = unknown_words(app); !unknown.empty()) return unknown;
+    const std::string cause = error.what();
+    return cause.ends_with('?') ? cause : fmt::format("{}; {}", cause, help_of(used_command(app)));
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/option_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "tools/formats/suggestion.h"
+#include "tools/formats/text.h"
+
+namespace swivel::tools {
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most)
+{
+    const auto check = [least, most](const std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool plain =
+            error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
+        if (plain && value >= least && value <= most) return {};
+        return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+    };
+    return CLI::Validator(check, fmt::format("{}..{}", least, most));
+}
+
+CLI::Validator number(double least, double most)
+{
+    const auto check = [least, most](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
+        return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+    };
+    return CLI::Validator(check, fmt::format("{}..{}", least, most));
+}
+
+CLI::Validator file_name()
+{
+    const auto check = [](const std::string& text) -> std::string {
+        return text.empty() ? "the file name is empty; give one, or leave the option out" : "";
+    };
+    return CLI::Validator(check, "FILE");
+}
+
+CLI::Validator name(const std::string& advice)
+{
+    const auto check = [advice](const std::string& text) -> std::string {
+        return text.empty() ? "the name is empty; " + advice : "";
+    };
+    return CLI::Validator(check, "NAME");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words)
+{
+    const auto check = [words](const std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+        return fmt::format("there is no '{}'; {}", formats::printable(text), formats::suggestion(text, words));
+    };
+    return CLI::Validator(check, fmt::format("{{{}}}", fmt::join(words, ",")));
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/solve_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "tools/formats/scene_import.h"
+#include "tools/formats/text.h"
+#include "tools/swivel/command_error.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::is_standard_stream;
+
+// Whether what is written to the one would replace the other.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    std::error_code ignored;
+    if (std::filesystem::exists(a, ignored)) {
+        const bool loses = std::filesystem::is_regular_file(a, ignored);
+        return loses && std::filesystem::equivalent(a, b, ignored);
+    }
+    const auto whole = [&](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+    };
+    return !whole(a).empty() && whole(a) == whole(b);
+}
+
+}  // namespace
+
+OutPlace out_place(const SolveOptions& options)
+{
+    if (!options.format.empty()) return {options.out, "." + options.format};
+    return {options.out, is_standard_stream(options.out) ? ".csv" : formats::lower_suffix(options.out)};
+}
+
+OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
+{
+    if (options.out.empty()) return OutKind::none;
+    const std::string suffix = out_place(options).suffix;
+    if (suffix == ".csv") return OutKind::csv;
+    if (formats::is_scene(options.out))
+        throw CommandError(
+            2, fmt::format("--out {}: FBX and DAE are read, not written; use .glb, .gltf or .csv", options.out));
+    if (!is_bvh(suffix) && !is_gltf(suffix))
+        throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf or .csv, or "
+                                          "--format",
+                                          options.out));
+    if (characters > 1)
+        throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", options.out,
+                                          is_bvh(suffix) ? "BVH" : "glTF", characters));
+    return OutKind::motion;
+}
+
+void require_one_reader(const SolveOptions& options, const std::string& targets)
+{
+    if (std::ranges::count_if(std::array{options.file, options.crowd, targets}, is_standard_stream) > 1)
+        throw CommandError(2, "more than one of FILE, --crowd and --targets is -, standard input; name the others");
+}
+
+void require_own_files(const SolveOptions& options, const std::string& targets)
+{
+    const auto require = [](const char* option, const std::string& file, const std::string& other, const char* what) {
+        if (!file.empty() && !other.empty() && is_same_file(file, other))
+            throw CommandError(2, fmt::format("{} {}: is {} itself; name another file", option, file, what));
+    };
+    const auto require_not_read = [&](const char* option, const std::string& file) {
+        if (is_standard_stream(file)) return;  // reading from - is something else
+        require(option, file, options.file, "the clip");
+        if (targets != "clip") require(option, file, targets, "the table of targets");
+        require(option, file, options.crowd, "the crowd file");
+    };
+    require_not_read("--out", options.out);
+    require_not_read("--export-targets", options.export_targets);
+    require("--export-targets", options.export_targets, options.out, "the file of --out");
+}
+
+bool writes_to_standard_output(const SolveOptions& options)
+{
+    return is_standard_stream(options.out) || is_standard_stream(options.export_targets);
+}
+
+}  // namespace swivel::tools
