@@ -176,21 +176,22 @@ template <class Range, class Struct, DoubleValue Value>
 requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
 auto stream_doubles(Range&& values, Value Struct::*member) { return stream_of(values, member); }
 
-// A range that was given, empty or not; or none.
+// A range that was given, empty or not; or none. Two words, so that a job is made in a few steps.
 template <class Each>
 class Given {
 public:
     Given() = default;
-    Given(const Each* first, std::size_t count) : values_(std::span(first, count)) {}
+    Given(const Each* first, std::size_t count) : first_(first), count_and_one_(count + 1) {}
     template <std::convertible_to<std::span<const Each>> Range>
-    Given(const Range& range) : values_(range)
+    Given(const Range& range) : Given(std::span<const Each>(range).data(), std::span<const Each>(range).size())
     {
     }
-    explicit operator bool() const { return values_.has_value(); }
-    std::span<const Each> operator*() const { return *values_; }
+    explicit operator bool() const { return count_and_one_ > 0; }
+    std::span<const Each> operator*() const { return {first_, count_and_one_ - 1}; }
 
 private:
-    std::optional<std::span<const Each>> values_;
+    const Each* first_ = nullptr;
+    std::size_t count_and_one_ = 0;
 };
 
 // What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB. Of mask, limbs and

@@ -39,8 +39,9 @@ void add_solve(Suite& suite, const std::string& name, const std::string& isa, sw
     const auto prepare = [&suite, isa, features, arm_count]() -> Work {
         swivel::check(swivel_use_isa(isa.c_str()));
         swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
-        const std::uint32_t blocks = swivel_block_count(crowd.get());
-        return [&crowd, blocks] { crowd.solve({.blocks = swivel_blocks{0, blocks}, .on_this_thread = true}); };
+        swivel_job job = swivel_default_job();
+        job.on_this_thread = 1;
+        return [&crowd, job] { swivel::check(swivel_solve(crowd.get(), &job)); };
     };
     add(name, arm_count, Clock::cpu, prepare, crowd_bytes);
 }
