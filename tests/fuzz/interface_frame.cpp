@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 
 #include "tests/fuzz/crowd_of_bytes.h"
 #include "tests/fuzz/require.h"
@@ -42,6 +43,7 @@ constexpr Input kInputs[] = {
     {SWIVEL_AIM, &swivel_frame::aim},
     {SWIVEL_CLAVICLE, &swivel_frame::clavicle},
 };
+static_assert(std::size(kInputs) == SWIVEL_INPUT_END);
 struct Output {
     swivel_field field;
     swivel_out swivel_frame::*member;
@@ -56,6 +58,7 @@ constexpr Output kOutputs[] = {
     {SWIVEL_TWIST_BONES, &swivel_frame::twist_bones},
     {SWIVEL_CLAVICLE_TURN, &swivel_frame::clavicle_turn},
 };
+static_assert(std::size(kOutputs) == SWIVEL_RESULT_END - SWIVEL_SHOULDER);
 
 // Whether a member is given: mostly not one that the crowd does not have.
 bool is_given(Session& session, swivel_field field)
