@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // swivel: the arms and legs of crowds. For each limb, a wrist target and an elbow pole go in, and joint rotations come
-// out. A solve uses no trigonometry, so every CPU gives the same bits. This header is the whole binary interface.
-// swivel.hpp wraps it for C++. Everything here is experimental until release 1.0.
+// out. A solve uses only correctly rounded operations and no trigonometry, so every CPU gives the same bits. This
+// header is the whole binary interface. swivel.hpp wraps it for C++. Everything here is experimental until release 1.0.
 //
 // A whole program, for two arms in their own frames:
 //     float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.0f, 0.2f, 9.0f}};  // for the wrists; the second is out of reach
@@ -20,21 +20,24 @@
 //     swivel_read(crowd, SWIVEL_SHOULDER, 0, 0, 2, (swivel_out){shoulder, sizeof shoulder[0]});
 //     swivel_crowd_destroy(crowd);
 //
-// CONVENTIONS. Lengths are in the caller's unit. Quaternions are Hamilton's, stored x, y, z, w; a*b applies b first.
-// In the arm frame the shoulder is at the origin. At rest both bones lie along +z, and flexion turns the forearm
-// towards +y, about -x. The elbow lies on the pole's side of the line from shoulder to wrist. In comments, WORLD means
-// SWIVEL_WORLD, and so on.
+// CONVENTIONS. Lengths are in the caller's unit. Axes are right-handed; docs/engines.md is for engines with others.
+// Quaternions are Hamilton's, stored x, y, z, w; a*b applies b first. In the arm frame the shoulder is at the origin. A
+// straight limb at rest lies along +z. Flexion turns the forearm towards +y, about -x, so the elbow moves towards -y.
+// The elbow lies on the pole's side of the line from shoulder to wrist: a bend and its pole point opposite ways. An arm
+// length is both bones' length, scaled. In comments, WORLD means SWIVEL_WORLD, and so on.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 //
-// THREADS. Different threads may use different crowds at once. One crowd is for one thread at a time, but for two
-// cases: calls that take it const, and jobs on_this_thread for blocks that do not overlap.
+// THREADS. Different threads may use different crowds at once. Use one crowd on one thread at a time, with two
+// exceptions. Calls that take it const may run together while nothing changes it. Jobs on_this_thread may run together
+// on blocks that do not overlap.
 //
-// SIZES. Structures that may grow start with their size. Take them from the function that gives the defaults. A library
-// accepts those of its own header and of older ones, which are shorter. In an array, all have the size of the first.
+// SIZES. Structures that may grow start with their size. Start each from its swivel_default_ function. A library
+// accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
+// first.
 //
-// READ ON at swivel_field, which says what every value means, at swivel_bind() for skeletons, and at swivel_solve().
-// The folder docs/ has guides with pictures; docs/speed.md says what each feature costs.
+// Read next: swivel_field for every value's meaning, swivel_bind() for skeletons, and swivel_solve(). The folder docs/
+// has guides with pictures; docs/speed.md says what each feature costs.
 #pragma once
 
 #include <stddef.h>
@@ -68,41 +71,50 @@ typedef enum swivel_status {
 
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
-    SWIVEL_REACHED = 1u << 0,      // the wrist is at its target or blended target, or the hand aims at it
-    SWIVEL_SOFTENED = 1u << 1,     // in a soft zone of reach, so the wrist is not quite at the target
-    SWIVEL_STRETCHED = 1u << 2,    // SWIVEL_STRETCH is above 1
-    SWIVEL_CLAMPED_FAR = 1u << 3,  // target out of reach: the wrist is at the nearest point that bones and limits allow
-    SWIVEL_CLAMPED_NEAR = 1u << 4,  // target too near: the wrist is at the nearest point that bones and limits allow
-    SWIVEL_SWIVEL_UNDEFINED =
-        1u << 5,  // pole of no length or within sin 1e-3 of the target's line, or target on the shoulder
-    SWIVEL_LIMITED_FLEXION = 1u << 6,        // the elbow's flexion limit keeps the wrist from the target
-    SWIVEL_LIMITED_SHOULDER_CONE = 1u << 7,  // this and the next: the limit forbids the swivel wished for
+    // The wrist is at its target or blended target. With WITH_AIM, the hand's ray goes through the target.
+    SWIVEL_REACHED = 1u << 0,
+    SWIVEL_SOFTENED = 1u << 1,   // in a soft zone of reach, so the wrist is not quite at the target
+    SWIVEL_STRETCHED = 1u << 2,  // SWIVEL_STRETCH is above 1
+    // The target is too far or too near. The wrist is at the nearest point that bones and limits allow.
+    SWIVEL_CLAMPED_FAR = 1u << 3,
+    SWIVEL_CLAMPED_NEAR = 1u << 4,
+    // The pole does not say where the elbow goes. It has no length, or it is on the line to the target: the sine of the
+    // angle between them is below 1e-3. Or the target is on the shoulder.
+    SWIVEL_SWIVEL_UNDEFINED = 1u << 5,
+    SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
+    // This limit forbids the swivel that was wished for.
+    SWIVEL_LIMITED_SHOULDER_CONE = 1u << 7,
     SWIVEL_LIMITED_HUMERAL_TWIST = 1u << 8,
     SWIVEL_LIMITED_SHOULDER_BOX = 1u << 9,
     SWIVEL_LIMITED_HAND_CONE = 1u << 10,
     SWIVEL_LIMITED_FOREARM_TWIST = 1u << 11,
     SWIVEL_LIMITED_HAND_TWIST = 1u << 12,
     SWIVEL_LIMITED_WRIST_BOX = 1u << 13,
-    SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last one
+    SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's
     SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
     SWIVEL_BAD_INPUT = 1u << 30,     // an input is not valid or was never given; the limb has its rest pose
     // bits 17 to 29 are kept for later releases and are 0
 } swivel_flag;
 
-// What a crowd takes and gives: any of these bits together, fixed at creation. Whatever is off costs neither memory nor
-// time. The feature of a field F is SWIVEL_WITH_F; of the three of an incoming pose it is SWIVEL_WITH_INCOMING.
+// The features of a crowd: a combination of these bits, fixed at creation. Whatever is off costs neither memory nor
+// time. SWIVEL_WITH_F adds the field F. SWIVEL_WITH_INCOMING adds the three fields of the incoming pose.
+// - POLE_DIRECTION and WITH_CLAVICLE need WORLD. POLE_INCOMING and WITH_WEIGHTS need WITH_INCOMING. WITH_EFFECTOR,
+//   WITH_TWIST_BONES and limits of the hand need WITH_HAND. At most one of the three kinds of pole is given.
+// - COMPACT excludes WITH_REACH, WITH_MOST_SWIVEL, WITH_TWIST_BONES and WITH_CLAVICLE. WITH_AIM excludes WITH_WEIGHTS,
+//   WITH_REACH, WITH_FLEXION_LIMIT and limits of the hand.
+// Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
-#define SWIVEL_JOINTS (UINT64_C(1) << 1)          // results are the joints' own local rotations, by the binding
+#define SWIVEL_JOINTS (UINT64_C(1) << 1)          // results are local rotations of the skeleton's joints
 #define SWIVEL_WITH_HAND (UINT64_C(1) << 2)       // a wanted hand orientation goes in, a wrist rotation comes out
-#define SWIVEL_POLE_DIRECTION (UINT64_C(1) << 3)  // poles are directions, not points. Needs WORLD
-#define SWIVEL_COMPACT (UINT64_C(1) << 4)         // results in 16-bit words, half as large or less
+#define SWIVEL_POLE_DIRECTION (UINT64_C(1) << 3)  // poles are directions, not points
+#define SWIVEL_COMPACT (UINT64_C(1) << 4)         // results in 16-bit words: see swivel_words
 #define SWIVEL_WITH_EFFECTOR (UINT64_C(1) << 5)
 #define SWIVEL_WITH_ANGLE (UINT64_C(1) << 6)
 #define SWIVEL_POLE_NORMAL (UINT64_C(1) << 7)  // poles are normals of the swivel plane
 #define SWIVEL_WITH_INCOMING (UINT64_C(1) << 8)
-#define SWIVEL_POLE_INCOMING (UINT64_C(1) << 9)  // no poles: elbows go as in the incoming pose. Needs WITH_INCOMING
+#define SWIVEL_POLE_INCOMING (UINT64_C(1) << 9)  // no poles: the incoming pose says where elbows go
 #define SWIVEL_WITH_WEIGHTS (UINT64_C(1) << 10)
 #define SWIVEL_WITH_REACH (UINT64_C(1) << 11)
 #define SWIVEL_WITH_MOST_SWIVEL (UINT64_C(1) << 12)
@@ -115,82 +127,89 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_HAND_TWIST (UINT64_C(1) << 19)
 #define SWIVEL_WITH_WRIST_BOX (UINT64_C(1) << 20)
 #define SWIVEL_WITH_AIM (UINT64_C(1) << 21)          // the flexion is given, and the hand points at the target
-#define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)     // the shoulder's parent joint shares the reach. Needs WORLD
-#define SWIVEL_BUDGET (UINT64_C(1) << 23)            // blocks wait their turn: swivel_choose(), jobs with priorities
-#define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7; bits around it stay 0
+#define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)     // the shoulder's parent joint shares the reach
+#define SWIVEL_BUDGET (UINT64_C(1) << 23)            // for swivel_choose() and jobs with priorities
+#define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
-// What goes into a limb, and what comes out. Each has its number of floats, and the feature that a crowd needs for it.
-// All of them are a limb's own, so every limb may have other values.
+// The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
+// has its own value of each field. A wish is the swivel that pole, angle and incoming pose ask for.
 //
 // VALID INPUT. A limb with any value that is not valid gets its rest pose and SWIVEL_BAD_INPUT. No other limb changes
-// by a bit. Positions and poles are no longer than 1e15, in the world as given and in the arm frame. A quaternion is
-// 1e-9..1e9 long; it need not be 1. Axes, cosines with their sines, and ranges are of unit length within 5e-4. Weights
-// and shares are 0..1. Other ranges stand at their fields.
+// by a bit. The magnitude of positions and poles is at most 1e15, in the world as given and in the arm frame. The norm
+// of a quaternion is 1e-9..1e9; it need not be normalised. Axes have unit length within 5e-4, and so has each pair of
+// cosine and sine, but SWIVEL_ANGLE's. Weights and shares are 0..1. Other bounds are given at their fields.
 //
-// RANGES. A range of angles is cos and sin of its middle, then cos and sin of half its width, which is 0..pi.
-// swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make such values from angles.
+// RANGES. A range of angles is four numbers: cos and sin of its middle, cos and sin of its half-width. The half-width
+// is 0..pi. swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make values from angles.
 //
-// LIMITS are about the rest pose with the elbow straightened. Their axes, also those of the hand, are the arm frame's
-// there, whatever axes a skeleton's joints have. swivel_arm_axis() turns directions of the character into them. A twist
-// is that of swing and twist: 2 atan2(v . axis, w) of what the joint adds to rest, by the right hand. Its axis is +z,
-// from shoulder to hand, or the one given; it is none of the Euler angles.
-// - Where the wish breaks a limit, the solver takes the nearest swivel that keeps all of them. The cosine of a limited
+// LIMITS are measured from the rest pose with the elbow straightened. All their axes, the hand's too, are given in the
+// arm frame; the axes of a skeleton's joints do not matter. swivel_arm_axis() converts a direction of the character. A
+// twist is the one of swing and twist: of a rotation (v, w) from rest the angle 2 atan2(dot(v, axis), w), by the right
+// hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
+// - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
 //   angle is off by at most 1e-6.
-// - The wrist comes first. Where no swivel keeps all limits, the solver takes the one that violates them least, and
-//   flags SWIVEL_INFEASIBLE. A twist's violation counts (1 + cos swing) / 2 times. To keep a limit even then, move the
-//   target, weigh it down or let the clavicle help.
-// - Limits win over SWIVEL_MOST_SWIVEL, and that over the wish.
+// - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
+//   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
+//   the target, lower its weight or use WITH_CLAVICLE.
+// - Limits take precedence over SWIVEL_MOST_SWIVEL, and that over the wish.
 //
-// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0. At w = 0 the first of x, y, z that is not
-// zero is positive. Equal inputs give equal bits on every CPU, instruction set, thread count and block range.
+// RESULTS. Every quaternion is of unit length within 1e-6 and has w >= 0; with WITH_INCOMING it has the sign nearer to
+// the incoming one. At w = 0 the first of x, y, z that is not zero is positive. Equal inputs give equal bits on every
+// CPU, instruction set, thread count and block range.
 //
 // Inputs and results are numbered apart, so later releases add to the end of either.
 typedef enum swivel_field {
-    // 3: where the wrist goes. In the arm frame, or with WORLD in the world. A target within 1e-15 of the shoulder
-    // counts as on it. No wrist comes nearer to the shoulder than 1e-9 arm lengths; it is reached all the same.
+    // 3: where the wrist goes. In the arm frame, or with WORLD in the world. The wrist stays at least 1e-9 arm lengths
+    // from the shoulder. A nearer target still counts as reached; one within 1e-15 counts as on the shoulder.
     SWIVEL_TARGET = 0,
-    // 3: a point that the elbow leans towards, where the target is. With POLE_DIRECTION a direction, with POLE_NORMAL
-    // the normal of the swivel plane: cross(line from shoulder to wrist, pole). Not with POLE_INCOMING.
+    // 3: a point that the elbow leans towards, in the space of the target. With POLE_DIRECTION it is a direction. With
+    // POLE_NORMAL it is the normal of the swivel plane: cross(line from shoulder to wrist, direction to the elbow's
+    // side). Not with POLE_INCOMING.
     SWIVEL_POLE,
-    // 2: upper arm and forearm, before the parent's scale. Each is 0 or 1e-15..1e15. A bone under 1e-7 of the other is
-    // taken as straight with it.
+    // 2: upper arm and forearm, before the parent's scale. Each is 0 or 1e-15..1e15. If one is shorter than 1e-7 of the
+    // other, the elbow counts as straight.
     SWIVEL_LENGTHS,
-    // 3, with WORLD: where the shoulder itself is, in the world.
+    // 3, WORLD: where the shoulder itself is, in the world.
     SWIVEL_SHOULDER_POSITION,
-    // 4, with WORLD: the world rotation of the shoulder's parent joint.
+    // 4, WORLD: the world rotation of the shoulder's parent joint.
     SWIVEL_PARENT_ROTATION,
-    // 1, with WORLD: the parent's uniform scale, 1e-15..1e15.
+    // 1, WORLD: the parent's uniform scale, 1e-15..1e15.
     SWIVEL_PARENT_SCALE,
-    // 4, WITH_HAND: the wanted orientation of the hand, where the target is.
+    // 4, WITH_HAND: the wanted orientation of the hand, in the space of the target. With JOINTS that of the wrist
+    // joint.
     SWIVEL_HAND,
-    // 3, WITH_EFFECTOR: the target is for this point of the hand instead of the wrist. With JOINTS in the wrist joint's
-    // own frame, else in the arm frame's axes as the hand carries them. In the bones' unit, before the parent's scale.
+    // 3, WITH_EFFECTOR: the target is for this point of the hand instead of the wrist. With JOINTS it is in the wrist
+    // joint's own frame. Otherwise it is in the hand's frame, which has the arm frame's axes at rest. It is in the
+    // bones' unit, before the parent's scale.
     SWIVEL_EFFECTOR,
-    // 2, WITH_ANGLE: cos and sin of an angle that turns the elbow on from the pole's side, about the line from shoulder
-    // to wrist, by the right hand. The pair is 1e-9..1e9 long. Where the pole says nothing, the angle is ignored.
+    // 2, WITH_ANGLE: cos and sin of an angle by which the elbow is turned away from the pole's side. The turn is about
+    // the line from shoulder to wrist, by the right hand. The pair's length is 1e-9..1e9. If the pole does not define
+    // the swivel, the angle is ignored.
     SWIVEL_ANGLE,
-    // 4 each, WITH_INCOMING; the wrist also WITH_HAND: the pose so far. With JOINTS local rotations, else in the arm
-    // frame, forearm to upper arm, hand to forearm; always whole quaternions. It says where the elbow goes where the
-    // pole does not. Each result has the sign that is nearer to it, instead of w >= 0; compact results keep w >= 0.
+    // 4 each, WITH_INCOMING; the wrist also WITH_HAND: the pose so far, whole quaternions for the elbow, too. With
+    // JOINTS they are local rotations. Otherwise the shoulder is in the arm frame, the forearm relative to the upper
+    // arm, the hand relative to the forearm. If the pole does not define the swivel, the incoming pose does. Each
+    // result has the sign nearer to its incoming rotation; compact results keep w >= 0.
     SWIVEL_INCOMING_SHOULDER,
     SWIVEL_INCOMING_ELBOW,
     SWIVEL_INCOMING_WRIST,
-    // 3, WITH_WEIGHTS: of position, hand and pole. 0 is the incoming pose's, 1 the goal's.
+    // 3, WITH_WEIGHTS: the weights of position, hand and pole. 0 keeps the incoming pose, 1 takes the goal.
     SWIVEL_WEIGHTS,
     // 4, WITH_REACH: far soft zone, near soft zone, most stretch 1..1000, least distance. Zones and distance are shares
-    // of both bones' length. At a reach R with a zone s, a wanted distance d becomes d - (d - R + s)^2 / (4 s) between
-    // R - s and R + s, and R beyond; the near end is the mirror image. Stretch makes up for what is missing.
+    // of both bones' length. Let R be the far end of the reach and s the far zone. A wanted distance d from R - s to R
+    // + s becomes d - (d - R + s)^2 / (4 s), a larger one R. The near end mirrors this. Stretch then lengthens the
+    // bones to close the gap, up to its most.
     SWIVEL_REACH,
     // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL.
     SWIVEL_MOST_SWIVEL,
     // 2, WITH_FLEXION_LIMIT: cos of half the least flexion, cos of half the largest. Flexion does not depend on the
-    // swivel, so this limit narrows the reach, and the wrist stops short.
+    // swivel. So this limit narrows the reach, and the wrist stops short.
     SWIVEL_FLEXION_LIMIT,
     // 4, WITH_SHOULDER_CONE: unit axis; cos of the upper arm's largest angle to it.
     SWIVEL_SHOULDER_CONE,
     // 4, WITH_HUMERAL_TWIST: range of the upper arm's twist about itself.
     SWIVEL_HUMERAL_TWIST,
-    // 12, WITH_SHOULDER_BOX: ranges of its three Euler angles, in the crowd's shoulder_order.
+    // 12, WITH_SHOULDER_BOX: ranges of the shoulder's three Euler angles, in the crowd's shoulder_order.
     SWIVEL_SHOULDER_BOX,
     // 4, WITH_HAND_CONE: unit axis of the hand; cos of its largest angle to the forearm.
     SWIVEL_HAND_CONE,
@@ -200,53 +219,56 @@ typedef enum swivel_field {
     SWIVEL_HAND_TWIST,
     // 12, WITH_WRIST_BOX: ranges of the wrist's three Euler angles, in the crowd's wrist_order.
     SWIVEL_WRIST_BOX,
-    // 5, WITH_AIM: unit axis of the hand; cos and sin of half the flexion. The elbow keeps that flexion. The wrist
-    // keeps the rotation in SWIVEL_HAND, which is relative to the forearm, or with JOINTS the joint's local one;
-    // without WITH_HAND the hand is at rest. The shoulder turns so that a ray goes through the target: from the
-    // effector, else the wrist, along the axis, which is in the frame that effectors are in. The elbow lies on the
-    // pole's side of the line from shoulder to target. A target too near for the flexion is SWIVEL_CLAMPED_NEAR. Then
-    // the ray's nearest point to the shoulder comes onto the line from shoulder to target. An elbow that passes through
-    // that line rolls the arm over. Not with weights, reach, flexion limits and limits of the hand.
+    // 5, WITH_AIM: unit axis of the hand, in the effector's frame; cos and sin of half the flexion.
+    // - The elbow keeps that flexion. SWIVEL_HAND is then relative to the forearm, or with JOINTS the wrist's local
+    //   rotation, and the wrist keeps it. Without WITH_HAND the hand is at rest.
+    // - The shoulder turns until a ray goes through the target. The ray starts at the effector, or else at the wrist,
+    //   and runs along the axis. The elbow lies on the pole's side of the line from shoulder to target.
+    // - If the target is too near for the flexion, the limb gets SWIVEL_CLAMPED_NEAR. The ray's point nearest to the
+    //   shoulder then lies on the line from shoulder to target.
+    // - If the elbow crosses that line between solves, the arm rolls over, whatever SWIVEL_MOST_SWIVEL says.
     SWIVEL_AIM,
-    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. The parent
-    // joint, given as it is without this, turns about its own origin, SHOULDER_POSITION less the clavicle. It turns
-    // towards the target by about the share of the angle between clavicle and target, times the weight of position.
-    // Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is
-    // smooth, and fades for targets on the body's other side.
+    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Give the
+    // parent's rotation as without this feature. The parent turns about its own origin, which is the shoulder's
+    // position less the clavicle. It turns towards the target by about share * position weight * the angle between
+    // clavicle and target. Limits, rotations and results of the arm are relative to the parent as turned. For shares
+    // below 1 the turn is continuous; it fades for targets on the other side of the body.
     SWIVEL_CLAVICLE,
     SWIVEL_INPUT_END,  // one past the last input of this release
 
     // 4: the shoulder's rotation. In the arm frame, or with JOINTS the joint's local one.
     SWIVEL_SHOULDER = 256,
-    // 2: cos and sin of half the flexion, both >= 0. Their quaternion is (-sin, 0, 0, cos). With JOINTS 4: the elbow
-    // joint's local rotation. Either way, hand = parent * shoulder * elbow * wrist.
+    // Without JOINTS 2: cos and sin of half the flexion, both >= 0, of the quaternion (-sin, 0, 0, cos). With JOINTS 4:
+    // the elbow joint's local rotation.
     SWIVEL_ELBOW,
-    // 4, WITH_HAND: the hand relative to the forearm, or with JOINTS the wrist joint's local rotation.
+    // 4, WITH_HAND: the hand relative to the forearm, or with JOINTS the wrist joint's local rotation. The hand's
+    // orientation is parent * shoulder * elbow * wrist, where no joints are in between.
     SWIVEL_WRIST,
     // 1: bits of swivel_flag, as uint32_t.
     SWIVEL_FLAGS,
     // 1, WITH_REACH: the factor for both bone lengths, 1 or more.
     SWIVEL_STRETCH,
-    // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. It is kept for the next solve, which
-    // first makes it perpendicular to the new line from shoulder to wrist: the step is the turn from there. Bad input
-    // and swivel_reset() forget it; call that after a teleport. Without this feature, results depend on the frame's own
-    // inputs alone. The swivel is continuous even so, but for targets that pass through the shoulder, poles that pass
-    // through the line, and limits whose nearest swivel changes sides.
+    // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. The next solve makes it perpendicular to
+    // its own line from shoulder to wrist; SWIVEL_MOST_SWIVEL limits the turn from there. Bad input and swivel_reset()
+    // clear it; call swivel_reset() after a teleport. Without this feature, results depend on the present inputs alone.
+    // The swivel is still continuous, with three exceptions. The target crosses the shoulder, the pole crosses the line
+    // from shoulder to wrist, or the nearest allowed swivel changes sides.
     SWIVEL_NORMAL,
     // 4 n, WITH_TWIST_BONES * n: the rotations of n bones that share the hand's twist about the forearm. Bone i of 1..n
-    // turns by i / (n + 1) of it, within 0.12 degrees. With JOINTS and a binding that knows the bones these are their
-    // local rotations. With a chain's binding, a local rotation is this quaternion times the rest rotation. Without
-    // JOINTS it is this quaternion in the arm frame.
+    // turns by i / (n + 1) of it, within 0.12 degrees. With JOINTS and a binding of these bones (swivel_bind_joints())
+    // they are local rotations. With a chain's binding, a local rotation is this quaternion times the rest rotation.
+    // Without JOINTS it is this quaternion in the arm frame.
     SWIVEL_TWIST_BONES,
-    // 4, WITH_CLAVICLE: what the parent joint turns by. Its local rotation is the given one times this.
+    // 4, WITH_CLAVICLE: the turn of the parent joint. Its rotation, in the world or local, becomes the old one times
+    // this.
     SWIVEL_CLAVICLE_TURN,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
 enum { SWIVEL_MOST_TWIST_BONES = 7 };  // of one limb
 
-// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w; and how long the
-// bones are. Made by swivel_bind() or swivel_bind_joints().
+// Maps the arm frame to a skeleton's joints. It holds unit quaternions (x, y, z, w), the rest pose and the bone
+// lengths. Made by swivel_bind() or swivel_bind_joints().
 typedef struct swivel_binding {
     float parent_from_arm[4];        // arm frame to the shoulder's parent joint
     float upper_from_arm[4];         // arm frame, bones and hinge at rest, to the shoulder joint's own frame
@@ -255,8 +277,8 @@ typedef struct swivel_binding {
     float wrist_parent_from_arm[4];  // the same, to the wrist's parent: fore_from_arm where that is the elbow joint
     float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations a limb with bad input gets
     float lengths[2];                                      // upper arm, forearm; NaN where they are not known
-    uint32_t twist_bone_count;  // 0: they are not known, and SWIVEL_TWIST_BONES of any number is relative to their rest
-    // The same, to each twist bone's parent and to its own frame; fore_from_arm for those that there are not.
+    uint32_t twist_bone_count;  // 0: none is bound, and SWIVEL_TWIST_BONES is relative to their rest
+    // The same, to each twist bone's parent and to its own frame. Unused entries hold fore_from_arm.
     float twist_parent_from_arm[SWIVEL_MOST_TWIST_BONES][4], twist_from_arm[SWIVEL_MOST_TWIST_BONES][4];
 } swivel_binding;
 
@@ -269,8 +291,9 @@ typedef struct swivel_chain {
     float elbow_offset[3];       // elbow's place in the shoulder joint's frame
     float wrist_offset[3];       // wrist's place in the elbow joint's frame
     // Where flexion carries the forearm, in the shoulder joint's frame: mostly forwards for an arm, backwards for a
-    // leg. Of the joint's world rotation q at rest and forwards f it is ~q f q. It is 1e-15..1e15 long and need not be
-    // across the bones. Shorter than that, such as zero: as the rest pose is bent, by more than 10 degrees.
+    // leg. For a direction f in the world and the joint's world rotation q at rest it is conjugate(q) * f * q. Its
+    // length is 1e-15..1e15. It need not be perpendicular to the bones. A shorter one, such as zero, means that the
+    // rest pose shows it: that must then be bent by more than 10 degrees.
     float bend[3];
     float reserved;  // 0
 } swivel_chain;
@@ -282,7 +305,7 @@ static inline swivel_chain swivel_default_chain(void)
     return chain;
 }
 
-// The axes of three rotations that make one, each about the axis as the ones before have left it: R = Rx Ry Rz is XYZ.
+// Intrinsic Euler angles: SWIVEL_XYZ means R = Rx Ry Rz.
 typedef enum swivel_euler_order {
     SWIVEL_XYZ,
     SWIVEL_XZY,
@@ -339,28 +362,27 @@ typedef struct swivel_out {
 } swivel_out;
 
 // A crowd's memory. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes,
-// aligned to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows follow each
-// other in the order of swivel_field, those that the crowd has. A crowd is made of groups: limbs that share one
-// binding, such as the left arms of one skeleton. Each group starts a block; lanes past its end are padding.
+// aligned to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows lie in the order
+// of swivel_field. Fields that the crowd lacks have no rows. A crowd is made of groups: limbs that share one binding,
+// such as the left arms of one skeleton. Each group starts a block; lanes past its end are padding.
 typedef struct swivel_rows {
     float* base;  // borrowed from the crowd, valid until it is destroyed
     uint32_t block_count;
     uint32_t row_count;
 } swivel_rows;
 
-// Result rows of a crowd with SWIVEL_COMPACT: 16 uint16_t, 32 bytes; word r of limb i is
-// base[((i / 16) * row_count + r) * 16 + i % 16]. The fields have the same order.
+// Result rows of a crowd with SWIVEL_COMPACT: 16 uint16_t, 32 bytes; word r of limb i is base[((i / 16) * row_count +
+// r) * 16 + i % 16]. The fields have the same order.
 // - SWIVEL_SHOULDER, SWIVEL_WRIST, and SWIVEL_ELBOW with JOINTS: 3 words, the quaternion's smallest three components.
-//   The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is
-//   word0 >> 15 | (word1 >> 15) << 1. The other three, in the order x, y, z, w, are
-//   ((word & 32767) - 16384) / (16383 * sqrt 2), of the one of q and -q whose component left out is positive: that one
-//   is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0. Three words of 0, which no solve writes, are four
-//   zeros.
+//   The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is word0 >> 15 |
+//   (word1 >> 15) << 1. The other three follow in the order x, y, z, w; each is ((word & 32767) - 16384) / (16383 *
+//   sqrt 2). The sign of the quaternion makes the component left out positive: it is sqrt(1 - the sum of their
+//   squares). Bit 15 of word2 is 0. Three words of 0 are four zeros; no solve writes them.
 // - SWIVEL_ELBOW without JOINTS: 2 words, cos and sin as IEEE half floats, rounded to nearest.
 // - SWIVEL_FLAGS: 2 words, the low and the high half of the uint32_t.
-// A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of it, for
-// any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes a core up to half as
-// long as solving. So it pays where memory is short or its bandwidth shared, or where results are sent on.
+// A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of the one
+// without, for any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes up to half
+// as long as solving. It pays where memory or its bandwidth is short, or where results are sent to another machine.
 typedef struct swivel_words {
     uint16_t* base;  // borrowed as well
     uint32_t block_count;
@@ -383,18 +405,18 @@ static inline swivel_crowd_def swivel_default_crowd_def(void)
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd. Allocates once, and never again; oneTBB, inside the solves that use it, may. On failure *crowd is
-// null. What has no sensible default starts as NaN, so that a limb which never gets it is SWIVEL_BAD_INPUT: targets,
-// with WORLD the shoulders' places, and bone lengths without JOINTS, where no binding says them. Poles start below the
-// arm frame's or the world's origin, parent and hand as the identity, all else as what changes nothing: no turn,
-// weights 1, every limit wide open. Results start as the rest pose, without flags.
+// Makes a crowd. It allocates memory once. Later calls allocate nothing, but oneTBB may inside solves that use it. On
+// failure *crowd is null. What has no sensible default starts as NaN: a limb that never gets it is SWIVEL_BAD_INPUT.
+// These are targets, shoulder positions, and bone lengths where no binding has them. Poles start as (0, -1, 0), parent
+// and hand as the identity. All else starts neutral: no turn, weights 1, every limit wide open. Results start as the
+// rest pose, without flags.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
 // The alignments of a limb from its rest pose, and its two bone lengths. Any thread; no allocation. It fails for a zero
-// or non-finite quaternion and a bone of no length. It fails for a bend along the upper arm, or one that turns about
-// the forearm, and for a rest pose bent by 10 degrees or less without a bend.
+// or non-finite quaternion and a bone of no length. It fails for a bend parallel to the upper arm, and for one that
+// turns the forearm about itself. Without a bend it fails for a rest pose bent by 10 degrees or less.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // A skeleton at rest. Joints are named by index, in any order; every stride is at least a value's size.
@@ -402,7 +424,7 @@ typedef struct swivel_skeleton {
     size_t size;             // sizeof(swivel_skeleton), set by swivel_default_skeleton()
     swivel_in parents;       // an int32_t for each joint: its parent, or -1 for a root
     swivel_in rotations;     // x, y, z, w relative to the parent; null data: no joint is turned at rest
-    swivel_in translations;  // 3 floats: the joint's place in its parent's frame. Scales are to be in them already
+    swivel_in translations;  // 3 floats: the joint's place in its parent's frame. Scales must already be applied
     uint32_t joint_count;
     uint32_t reserved;  // 0
 } swivel_skeleton;
@@ -420,8 +442,8 @@ static inline swivel_skeleton swivel_default_skeleton(void)
 typedef struct swivel_limb_joints {
     size_t size;  // sizeof(swivel_limb_joints), set by swivel_default_limb_joints()
     uint32_t shoulder, elbow, wrist;
-    // Joints that share the hand's twist, from elbow to wrist, at most SWIVEL_MOST_TWIST_BONES. Each is below the elbow
-    // and not below the wrist. None of them, and not the wrist, is below another: it would be turned along.
+    // Joints that share the hand's twist, listed from elbow to wrist, at most SWIVEL_MOST_TWIST_BONES. Each is below
+    // the elbow and not below the wrist. None of them is above another or above the wrist, which would be turned along.
     uint32_t twist_bone_count;
     const uint32_t* twist_bones;
     float bend[3];   // as swivel_chain's: in the shoulder joint's frame
@@ -440,57 +462,58 @@ static inline swivel_limb_joints swivel_default_limb_joints(uint32_t shoulder, u
 }
 
 // swivel_bind() of a limb in a skeleton. Local rotations are relative to the joint's own parent, as the skeleton has
-// them. Reads the joints from wrist and twist bones up to the shoulder, and parents up to the root: others may hold
-// anything. Any thread; no allocation. It fails as swivel_bind() does. It also fails for joints that do not exist or
-// are no limb, for parents that do not exist or go round in a circle, and for twist bones that are not in order.
+// them. It reads the joints from wrist and twist bones up to the shoulder, and parents up to the root. Other joints are
+// ignored. Any thread; no allocation. It fails as swivel_bind() does. It also fails for joints that do not exist or are
+// no limb, for parents that do not exist or go round in a circle, and for twist bones that are not in order.
 SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                             swivel_binding* binding);
 
 // The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. A group that
-// does not exist has 0 limbs. Of a null crowd everything is 0 here and in the next five calls. Any thread.
+// does not exist has 0 limbs. For a null crowd these three calls and the next five give 0. Any thread.
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
-// First row of a field in its blocks, and its number of rows: 0 if this crowd does not have the field. Rows of words,
-// for results of a crowd with SWIVEL_COMPACT.
+// The first row of a field within each block, and its number of rows. Both are 0 if this crowd does not have the field.
+// For results of a crowd with SWIVEL_COMPACT these are rows of words.
 SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field);
 SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field);
 
 // Direct access to rows: the fast way in and out. Padding lanes of inputs may hold anything and are left alone; those
-// of results are overwritten and mean nothing. With SWIVEL_COMPACT results are compact rows, otherwise result rows; the
-// other has a null base and no rows.
+// of results are overwritten and mean nothing. Results are in swivel_compact_rows() with SWIVEL_COMPACT, otherwise in
+// swivel_result_rows(). The other one has a null base and no rows.
 SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
 SWIVEL_API swivel_words swivel_compact_rows(swivel_crowd* crowd);
 
 // Words of swivel_words as numbers, the same as swivel_read() gives. A rotation's three words lie word_stride words
-// apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0, or four zeros. Words
-// that no solve wrote may give a quaternion of another length. Any thread.
+// apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0, or four zeros. Words that no solve wrote
+// may give a quaternion of another length. Any thread.
 SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
 // The value of any half float, exactly. Any thread.
 SWIVEL_API float swivel_unpack_half(uint16_t word);
 
-// Copies a field of limb_count limbs of one group in from, or out to, the caller's strided data. Each limb has
-// consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write takes input fields, read
-// takes any. Values must not overlap the crowd's own memory. All fields together cost up to about a solve, less while
-// the values are in cache. Rows cost nothing, and a solve with frames does not fetch values twice. Results of a crowd
-// with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb after the other.
+// swivel_write() copies a field of limb_count limbs of one group from the caller's strided data; swivel_read() copies
+// it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write
+// takes input fields, read takes any. Values must not overlap the crowd's own memory. Copying all fields takes up to
+// about as long as a solve, less while the values are in cache. Writing to rows needs no copy, and a solve with frames
+// fetches each value once. Results of a crowd with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb
+// after the other.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                      uint32_t limb_count, swivel_out values);
 
 // Results depend on differences of positions only, but a float 1e7 units from the origin is good to half a unit. So
-// positions far out may be given as doubles, with an origin near the limb that is taken off in double before they are
-// rounded. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction, SWIVEL_SHOULDER_POSITION) must be
-// given from the same origin. Which one does not matter while it is some arm lengths away: a position is rounded to
-// 6e-8 of its distance from its origin. The shoulder's place, or the character's, will do. Rotations need no origin;
-// swivel_forward()'s positions are from it, too.
+// positions far from the origin may be given as doubles. An origin near the limb is subtracted in double before they
+// are rounded to floats. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction,
+// SWIVEL_SHOULDER_POSITION) must be given from the same origin. Any origin within some arm lengths of the limb will do,
+// such as the character's place: a position is rounded to 6e-8 of its distance from its origin. Rotations need no
+// origin; swivel_forward()'s positions are from it, too.
 //
 // The field is one of these three: 3 consecutive doubles for each limb. The limb's origin, 3 doubles as well (stride 0:
 // one for all), is subtracted in double and the difference rounded to the row's float, once, to nearest. Null data of
-// origins: nothing is subtracted. Poles of a crowd with SWIVEL_POLE_DIRECTION have no origin and are refused with one.
-// A difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each
+// origins: nothing is subtracted. Poles that are directions or normals have no origin and are refused with one. A
+// difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each
 // other, but not the crowd's own memory. Fails like swivel_write(), and for fields that are no positions. One thread;
 // no allocation; two to three times as long as swivel_write(). The floating-point environment is restored.
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
@@ -501,10 +524,11 @@ SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field 
 // and meanings are the fields'. A stride beside null data is ignored.
 typedef struct swivel_frame {
     size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
-    // With data: target, pole and shoulder_position hold 3 doubles each and are taken from this origin, 3 doubles as
-    // well, as by swivel_write_doubles(). A pole that is a direction is doubles, too, but has no origin. A position
-    // left out keeps its rows, which must be from the same origin. It may be shoulder_position itself: then all is from
-    // the shoulder. Null data: positions are floats. Stride 0: one origin for the whole group.
+    // Null data: positions are floats. With data, target, pole and shoulder_position are 3 doubles each, and this
+    // origin, 3 doubles as well, is subtracted as by swivel_write_doubles(). A pole that is a direction is doubles,
+    // too, but has no origin. A position with null data keeps its rows, which must be from the same origin. origin may
+    // be the same array as shoulder_position; all is then relative to the shoulder. Stride 0: one origin for the whole
+    // group.
     swivel_in origin;
     // Inputs, in the order of the fields. Null data: the rows keep what they hold. Stride 0: one value for the group.
     swivel_in target, pole, lengths, shoulder_position, parent_rotation, parent_scale, hand;
@@ -535,17 +559,18 @@ typedef struct swivel_limbs {
     uint32_t count;
 } swivel_limbs;
 
-// What a call of swivel_solve() does. Null means all, or nothing to do; a job of null pointers solves every limb.
+// What a call of swivel_solve() does. A null choice means all limbs, a null output is not written. A job of null
+// pointers solves every limb.
 typedef struct swivel_job {
     size_t size;  // sizeof(swivel_job), set by swivel_default_job()
 
-    // Which blocks; null for all. Others are neither read nor written. Frames of groups without a block among them are
-    // not looked at, but for the first one's size.
+    // Which blocks; null for all. Other blocks are neither read nor written. Frames of groups outside these blocks are
+    // ignored, but for the first one's size.
     const swivel_blocks* blocks;
 
-    // Which limbs, by at most one of the three; by none, all of these blocks. They get the bits that they would get
-    // with all others, which keep their results bit for bit; frames of limbs that are not chosen are neither read nor
-    // written. Lists and budgets are for the whole crowd, so they exclude blocks and on_this_thread.
+    // Which limbs: by at most one of mask, limbs and priorities; without any, all limbs of these blocks. Chosen limbs
+    // get the same bits as in a solve of all. Other limbs keep their results, and their values in frames are neither
+    // read nor written. limbs and priorities are for the whole crowd, so they exclude blocks and on_this_thread.
     //
     // By bits: limb i of swivel_rows is bit i % 32 of mask[i / 32]. mask_word_count must be (swivel_block_count() + 1)
     // / 2. Bits of padding lanes, and past the last block, are ignored.
@@ -555,7 +580,7 @@ typedef struct swivel_job {
     // solved once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before
     // anything is solved. A list in no order costs some nanoseconds an entry more than bits.
     const swivel_limbs* limbs;
-    // By urgency, as swivel_choose() has it: at most so many blocks.
+    // The most urgent blocks, at most most_blocks of them, as swivel_choose() picks them.
     const swivel_in* priorities;
     uint32_t most_blocks;
 
@@ -563,9 +588,9 @@ typedef struct swivel_job {
     // Null: values are in the crowd's rows.
     const swivel_frame* frames;
 
-    // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Such calls may run on several threads
-    // at once, for blocks that do not overlap, with the same mask and frames.
-    // 0: on the calling thread's oneTBB arena, if built with it and there is enough to do. oneTBB may allocate.
+    // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Several threads may make such calls
+    // at once, on blocks that do not overlap. They may share a mask and frames. 0: on the calling thread's oneTBB
+    // arena, if built with it and there is enough to do. oneTBB may allocate.
     int on_this_thread;
 
     // Unless null, becomes how many limbs were solved.
@@ -583,15 +608,15 @@ static inline swivel_job swivel_default_job(void)
 
 // Solves limbs; job may be null, for every limb from and to rows. The caller's floating-point environment is restored.
 //
-// With frames it is a whole frame in one pass: swivel_write() of every input given, the solve, swivel_read() of every
-// result given, with the same bits. It takes a few blocks at a time, so that their rows stay in the nearest cache from
-// copy to copy. Rows hold inputs and results afterwards. No byte beside the values is read or written. Inputs may
+// With frames, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
+// given. The bits are the same. It takes a few blocks at a time, so that their rows stay in the nearest cache from copy
+// to copy. Rows hold inputs and results afterwards. Only the bytes of the values are read or written. Inputs may
 // overlap each other. A limb's inputs are read before its results are written, so its results may overlap its own
-// inputs: a pose may be read and written in place. Another limb's inputs may be read later, on any thread. So no limb's
-// result may overlap another's input; an input of stride 0 is every limb's. Nor may a result overlap another result, or
-// any value the crowd's own memory. It fails for a field that this crowd does not have and for a stride smaller than a
-// value. It also fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or where they lie.
-// For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
+// inputs: a pose may be read and written in place. Inputs of other limbs may be read later, by any thread. So a limb's
+// result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each other. No value
+// may overlap the crowd's own memory. It fails for a field that this crowd does not have and for a stride smaller than
+// a value. It also fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or where they
+// lie. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
 //     swivel_frame frame = swivel_default_frame();
 //     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
 //     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
@@ -601,34 +626,34 @@ static inline swivel_job swivel_default_job(void)
 //     job.frames = &frame;
 //     status = swivel_solve(crowd, &job);
 //
-// The cost of some limbs goes with their blocks. A block chosen whole takes as long as in a solve of all, one chosen in
-// part 1.2 to 3 times as long, one or two limbs of it up to once. So neighbours take their share of the crowd, or
-// little more. Picked one by one at random, half of a crowd costs more than all of it. One in ten costs 0.5 to 1 times
-// as much as all, up to 2.5 times where few rows come from memory; one in a hundred 0.1 to 0.4 times.
+// The cost of some limbs goes with their blocks. A block chosen whole takes its usual time. A block chosen in part
+// takes 1.2 to 3 times that; one or two limbs of it take at most that. So neighbours cost their share of a solve of
+// all, or little more. Half of a crowd, picked at random, costs more than all of it. A random tenth costs 0.5 to 1
+// times as much as all, up to 2.5 times where rows are in cache. A random hundredth costs 0.1 to 0.4 times.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
-// Chooses limbs by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Blocks are picked, whole, since a limb
-// costs about as much as its block: at most most_blocks of them, SWIVEL_LANES limbs each, fewer at a group's end. Each
-// call adds the largest priority among a block's limbs to the block's urgency, 0 at creation, and picks the most urgent
-// blocks, of equals the lower; the urgency of those picked is 0 again. So over time a block is picked about as often as
-// its priority says, blocks of equal priority take turns, and none starves: urgency only grows until it is the largest.
-// Limbs of characters that matter together belong side by side. A block whose limbs all have priority 0 is not picked
-// in this call and keeps its urgency. Solves without priorities change no urgency.
+// Chooses limbs by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Whole blocks are picked, because one limb
+// costs about as much as its block: at most most_blocks of them. Each call adds the largest priority among a block's
+// limbs to the block's urgency, which starts at 0. It picks the most urgent blocks, of equals the lower index. The
+// urgency of a picked block returns to 0. So over time a block is picked about as often as its priority says, and
+// blocks of equal priority take turns. No block with a priority starves, because its urgency grows until it is picked.
+// Place limbs of equal importance side by side. A block whose limbs all have priority 0 is not picked in this call and
+// keeps its urgency. Solves without priorities change no urgency.
 //
 // priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
 // one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
 // and NaN as 0. Not kept; must not overlap the crowd's own memory.
 //
-// Sets the bits of the picked blocks' limbs in mask, which is a job's, and clears all others: for the caller's own
-// threads; a job with priorities chooses and solves in one. *chosen_count, unless null, becomes how many limbs these
-// are. Who is picked depends on the priorities of this and earlier calls alone: on no CPU, thread or clock. On the
+// It sets the bits of the picked blocks' limbs in mask and clears all others. Give that mask to jobs on your own
+// threads. A job with priorities does both steps in one call. *chosen_count, unless null, becomes how many limbs these
+// are. The choice depends on the priorities of this and earlier calls alone, not on CPU, threads or time. On the
 // calling thread, which takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails
 // without SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
 SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
                                        uint32_t* mask, uint32_t mask_word_count, uint32_t* chosen_count);
 
-// Forgets the swivel carried from solve to solve, of limbs of a group: the next one is not limited by
-// SWIVEL_MOST_SWIVEL. Nothing to do in crowds without SWIVEL_WITH_MOST_SWIVEL.
+// Clears the swivel that these limbs keep between solves. SWIVEL_MOST_SWIVEL then does not limit their next solve.
+// Nothing to do in crowds without SWIVEL_WITH_MOST_SWIVEL.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
 // The first limb with any of these flags, looked for from limb *limb of group *group on, through all later groups.
@@ -638,49 +663,49 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 //         printf("limb %u of group %u has bad input\n", limb, group);
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
-// Says in a sentence or two why a limb is as it is, of its inputs as they are now. It names the input that is bad, how
-// far out of reach the target is, which limit turned the elbow from its wish and by how much. Where no elbow keeps the
-// limits, it says by how many degrees the pose violates each. Where the limb's results are not those of its inputs, it
-// says so. It cannot know the step that a swivel carried was from. limb is counted within the group. text gets at most
-// size bytes, the 0 at its end among them. For people and logs: the words may change, and the last digits differ
-// between C libraries. Takes up to a millisecond; no allocation.
+// Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, how far out of
+// reach the target is, which limit turned the elbow from its wish and by how much. Where no elbow keeps the limits, it
+// says by how many degrees the pose violates each. It says so if the results do not match the present inputs. It cannot
+// know the swivel from which the last step started. limb is counted within the group. text gets at most size bytes, the
+// 0 at its end among them. For people and logs: the words may change, and the last digits differ between C libraries.
+// Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
 // An arc of swivels, as cos and sin of its ends. It turns from one to the other by the right hand about the line from
-// shoulder to wrist. 0 is the swivel wished for, as far as SWIVEL_MOST_SWIVEL lets it. The whole circle is one arc with
+// shoulder to wrist. Angle 0 is the wish, as far as SWIVEL_MOST_SWIVEL allows it. The whole circle is one arc with
 // equal ends.
 typedef struct swivel_arc {
     float from[2], to[2];
 } swivel_arc;
 
-// The swivels that a limb's limits allow for its inputs as they are now, which are the next solve's. They are in their
-// order around the circle. At most capacity of them are stored, *arc_count says how many there are. None for bad input.
-// limb is counted within the group. Takes some microseconds; no allocation.
+// The swivels that the limits of a limb allow for its present inputs, as the next solve will use them. They are in
+// their order around the circle. At most capacity of them are stored, *arc_count says how many there are. None for bad
+// input. limb is counted within the group. Takes some microseconds; no allocation.
 SWIVEL_API swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                              uint32_t capacity, uint32_t* arc_count);
 
 // The joint angles of the results in radians, about the rest pose and the arm frame's axes. Each limb has 7 doubles:
-// three of the shoulder in its order, the flexion, three of the wrist, which are 0 without SWIVEL_WITH_HAND. Two
-// triples give a rotation. Family 0 has the middle angle within -pi/2..pi/2, family 1 is the other; at its ends the
-// last angle is 0. This is an output for people and files: no solve uses it, and its last digits may differ between C
-// libraries.
+// three of the shoulder in its order, the flexion, three of the wrist, which are 0 without SWIVEL_WITH_HAND. Each
+// rotation has two sets of Euler angles. Family 0 has a middle angle within -pi/2..pi/2, family 1 is the other. In
+// gimbal lock the last angle is 0. This is an output for people and files: no solve uses it, and its last digits may
+// differ between C libraries.
 SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                              uint32_t limb_count, swivel_euler_order shoulder_order,
                                              swivel_euler_order wrist_order, int family, swivel_out angles);
 
-// Values of limit and step fields, from angles in radians. Any thread; no allocation. All but swivel_turn() fail with
-// SWIVEL_INVALID_ARGUMENT, and leave the values alone, for what is not finite or not in the range given here.
-// A range from least to most, least <= most, no wider than 2 pi: one of the three of a box, or a twist's.
+// Values of limit and step fields, from angles in radians. Any thread; no allocation. These functions, except
+// swivel_turn(), fail for values that are not finite or out of range; outputs then stay unchanged. A range from least
+// to most, least <= most, no wider than 2 pi: one of the three of a box, or a twist's.
 SWIVEL_API swivel_status swivel_range(double least, double most, float range[4]);
 // An axis of any length but zero and the largest angle to it, 0 to pi.
 SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
-// A direction of the character as the axes of limits take it, which are the arm frame's: "forwards and down" becomes
-// the axis of a cone. direction: in the world of the rest pose, 1e-15..1e15 long. parent_rotation: of the shoulder's
-// parent joint in that world, x, y, z, w. axis becomes unit, and may be direction itself. Fails for a binding that is
-// none. The limit then turns with the parent joint. To keep it fixed to the character, call this with the parent's
-// rotation of each frame, in the character's axes. A cone within 80 degrees of forwards and down, for one that faces
-// +z:
+// Converts a direction of the character into the arm frame, which the axes of limits are in: "forwards and down"
+// becomes the axis of a cone. direction: in the world of the rest pose, 1e-15..1e15 long. parent_rotation: of the
+// shoulder's parent joint in that world, x, y, z, w. axis becomes unit, and may be direction itself. Fails if the
+// binding is not valid. The limit then turns with the parent joint. To fix the limit to the character instead, call
+// this in every frame, with the parent's rotation relative to the character. A cone of 80 degrees about forwards and
+// down, for a character that faces +z with +y up:
 //     const double down_ahead[3] = {0, -1, 1};
 //     double axis[3];
 //     float cone[4];
@@ -694,15 +719,16 @@ SWIVEL_API swivel_status swivel_flexion(double least, double most, float flexion
 SWIVEL_API swivel_status swivel_aim(const double axis[3], double flexion, float aim[5]);
 // Cosine and sine of an angle, for SWIVEL_ANGLE and SWIVEL_MOST_SWIVEL.
 SWIVEL_API void swivel_turn(double angle, float turn[2]);
-// The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side. Mirrored in x, a skeleton's
-// offsets and bends are (-x, y, z), its rotations (x, -y, -z, w). swivel_bind() makes an arm frame of it that is the
-// mirror image with its x axis turned over. order: of boxes, else ignored. from and to have the field's components and
-// may be the same. Values of other input fields are copied: places, hands, effectors, aims and poses are for the caller
-// to mirror. Fails for results and for an order that does not exist. Any thread; no allocation.
+// The value of SWIVEL_ANGLE or of a limit for the same limb on the body's other side. A skeleton mirrored in x has
+// offsets and bends (-x, y, z) and rotations (x, -y, -z, w). Its arm frame from swivel_bind() is the mirror image with
+// the x axis negated. order: of boxes, else ignored. from and to have the field's components and may be the same.
+// Values of other input fields are copied: places, hands, effectors, aims and poses are for the caller to mirror. Fails
+// for results and for an order that does not exist. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to);
 
-// Forward kinematics of the results, in double, in the space of the targets, clavicles turned: for each limb 3 doubles
-// (elbow, wrist) or 4 (hand rotation; with SWIVEL_WITH_HAND). Outputs whose data is null are left out.
+// Forward kinematics of the results, in double. Positions are in the space of the targets, after the clavicle's turn.
+// For each limb, elbow and wrist are 3 doubles, hand is a rotation of 4, with SWIVEL_WITH_HAND. Outputs whose data is
+// null are left out.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far the wrist, or the effector, of each limb is from its target; with WITH_AIM, how far the target is from the
@@ -711,11 +737,11 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
-// The instruction set in use; chosen on first need: the environment's SWIVEL_FORCE_ISA, else the best this CPU runs.
-// Null, with swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails the same
-// way. Any thread.
+// The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this
+// CPU runs. Null, with swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails
+// the same way. Any thread.
 SWIVEL_API const char* swivel_isa_name(void);
-// Changes it for the whole process, from the next solve on. Any thread.
+// Selects the instruction set for the whole process, from the next solve on. Any thread.
 SWIVEL_API swivel_status swivel_use_isa(const char* name);
 // The built-in instruction sets, best first; null past the last.
 SWIVEL_API const char* swivel_isa_at(uint32_t index);
@@ -731,10 +757,11 @@ typedef struct swivel_check {
     double max_limit, rms_limit;  // an rms_limit of 0: not limited
 } swivel_check;
 
-// Checks the formulas against each other: the lecture's steps against the dense oracle, production in float against its
-// target through forward kinematics, on arm_count random arms in each of five reach bands, ratios 1:1 to 1000:1. Calls
-// report once for each check, and for hard poses. *passed becomes 1 if every limit was kept, else 0. Takes about
-// a microsecond an arm on one thread; allocates nothing. The same seed gives the same arms everywhere.
+// Checks the formulas. It compares the lecture's steps with a slow reference implementation, and the solver's wrists
+// with their targets by forward kinematics. Each check takes arm_count random arms in each of five bands of reach, with
+// bone ratios from 1:1 to 1000:1. It calls report once for each check, and for hard poses. *passed becomes 1 if every
+// limit was kept, else 0. Takes about a microsecond an arm on one thread; allocates nothing. The same seed gives the
+// same arms everywhere.
 SWIVEL_API swivel_status swivel_verify(uint64_t arm_count, uint64_t seed,
                                        void (*report)(const swivel_check* check, void* user), void* user, int* passed);
 
