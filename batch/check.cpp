@@ -41,7 +41,7 @@ constexpr FeatureRule kFeatureRules[] = {
     {feature::forearm_twist, feature::hand, true, "SWIVEL_WITH_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
     {feature::hand_twist, feature::hand, true, "SWIVEL_WITH_HAND_TWIST needs SWIVEL_WITH_HAND"},
     {feature::wrist_box, feature::hand, true, "SWIVEL_WITH_WRIST_BOX needs SWIVEL_WITH_HAND"},
-    {7 * feature::twist_bones, feature::hand, true,
+    {kMostTwistBones * feature::twist_bones, feature::hand, true,
      "SWIVEL_WITH_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
     {feature::aim, feature::weights, false,
      "SWIVEL_WITH_AIM and SWIVEL_WITH_WEIGHTS exclude each other; blend the poses instead"},
@@ -54,7 +54,7 @@ constexpr FeatureRule kFeatureRules[] = {
     {feature::clavicle, feature::world, true, "SWIVEL_WITH_CLAVICLE needs SWIVEL_WORLD, where the parent joint is"},
     {feature::compact, feature::clavicle, false,
      "SWIVEL_COMPACT and SWIVEL_WITH_CLAVICLE exclude each other; leave one out"},
-    {feature::compact, 7 * feature::twist_bones, false,
+    {feature::compact, kMostTwistBones* feature::twist_bones, false,
      "SWIVEL_COMPACT and SWIVEL_WITH_TWIST_BONES exclude each other; leave one out"},
     {feature::compact, feature::reach, false, "SWIVEL_COMPACT and SWIVEL_WITH_REACH exclude each other; leave one out"},
     {feature::compact, feature::most_swivel, false,
@@ -79,8 +79,9 @@ swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, 
             group);
     if (twist_bones > 0 && binding.twist_bone_count > 0 && binding.twist_bone_count != twist_bones)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding has %u twist bones, this crowd has %u; give it as many", group,
-                    binding.twist_bone_count, twist_bones);
+                    "group %u's binding has %u twist bones, this crowd has %u; bind that many, or create the crowd "
+                    "with as many as are bound",
+                    group, binding.twist_bone_count, twist_bones);
     return SWIVEL_OK;
 }
 
@@ -96,7 +97,7 @@ swivel_status check(const swivel_crowd_def* given)
     const swivel_crowd_def def = full_def(given);
     if (const FeatureSet unknown = def.features & ~kKnownFeatures)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "crowd def has unknown feature bits 0x%llx; twist bones are at most 7 * SWIVEL_WITH_TWIST_BONES",
+                    "crowd def asks for more than 7 twist bones, or has unknown feature bits: 0x%llx",
                     static_cast<unsigned long long>(unknown));
     for (const FeatureRule& rule : kFeatureRules)
         if ((def.features & rule.feature) && !(def.features & rule.other) == rule.together)

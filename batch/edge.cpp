@@ -72,7 +72,7 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
     const Vector<double> elbow_w = shoulder + (size * read(Field::lengths, 0)) * sandwich(upper_w, e3);
     const Vector<double> wrist_w = elbow_w + (size * read(Field::lengths, 1)) * sandwich(fore_w, e3);
     const bool with_hand = crowd.features & feature::hand;
-    return {elbow_w, wrist_w, with_hand ? wrist_parent_w * read.rotor_of(Field::wrist) : wrist_parent_w};
+    return {shoulder, elbow_w, wrist_w, with_hand ? wrist_parent_w * read.rotor_of(Field::wrist) : wrist_parent_w};
 }
 
 ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb)
@@ -92,14 +92,12 @@ ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t 
             hand ? hemisphere(~wrist_parent * wrist * ~hand_from_arm) : one};
 }
 
-double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
+double distance_missed(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
     const Reader read{crowd, limb};
     if (std::bit_cast<std::uint32_t>(read.lane(Field::flags, 0)) & SWIVEL_BAD_INPUT)
         return std::numeric_limits<double>::quiet_NaN();
     const double scale = crowd.features & feature::world ? read(Field::parent_scale, 0) : 1.0;
-    const double length = scale * (read(Field::lengths, 0) + read(Field::lengths, 1));
-    if (!(length > 0)) return 0;
     const LimbPose pose = forward(crowd, group, limb);
     Vector<double> miss = read.vector_of(Field::target) - pose.wrist;
     if (crowd.features & feature::effector) miss = miss - scale * sandwich(pose.hand, read.vector_of(Field::effector));
@@ -107,7 +105,16 @@ double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
         const Vector<double> axis = normalise(aim_axis(crowd, group, limb, pose.hand));
         miss = miss - std::fmax(scalar_product(miss, axis), 0) * axis;
     }
-    return std::sqrt(len2(miss)) / length;
+    return std::sqrt(len2(miss));
+}
+
+double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
+{
+    const Reader read{crowd, limb};
+    const double missed = distance_missed(crowd, group, limb);
+    const double scale = crowd.features & feature::world ? read(Field::parent_scale, 0) : 1.0;
+    const double length = scale * (read(Field::lengths, 0) + read(Field::lengths, 1));
+    return length > 0 || std::isnan(missed) ? missed / length : 0;
 }
 
 }  // namespace swivel

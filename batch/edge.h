@@ -9,8 +9,8 @@
 namespace swivel {
 
 struct LimbPose {
-    Vector<double> elbow, wrist;  // in the space of the targets
-    Rotor<double> hand;           // without SWIVEL_WITH_HAND that of the wrist's parent joint
+    Vector<double> shoulder, elbow, wrist;  // in the space of the targets
+    Rotor<double> hand;                     // without SWIVEL_WITH_HAND that of the wrist's parent joint
 };
 
 LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb);
@@ -21,8 +21,9 @@ struct ArmRotors {
 };
 ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
-// |wrist - target| / (scale * (upper + fore)), or the effector's distance; 0 for a limb of no length, NaN for one
-// with bad input.
+// How far the wrist, or the effector, is from the target, or with an aim the target from the hand's ray. residual() is
+// that over scale * (upper + fore): 0 for a limb of no length. NaN for a limb with bad input.
+double distance_missed(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
 }  // namespace swivel

@@ -10,6 +10,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <initializer_list>
 #include <numbers>
 
 #include "batch/edge.h"
@@ -79,17 +80,13 @@ public:
         const ArmRotors arm = arm_rotors(*crowd_, crowd_->groups[0], 0);
         return count == 0 ? 0 : outside_limit(arm, limit, values, order) * 180 / std::numbers::pi;
     }
-    double residual_length() const
+    double missed() const { return distance_missed(*crowd_, crowd_->groups[0], 0); }
+    bool is(Field field, std::initializer_list<float> wanted) const
     {
-        const double lengths = double{value(Field::lengths, 0)} + double{value(Field::lengths, 1)};
-        return residual(*crowd_, crowd_->groups[0], 0) * scale() * lengths;
-    }
-    double scale() const { return crowd_->features & feature::world ? double{value(Field::parent_scale, 0)} : 1.0; }
-    Vector<double> shoulder() const
-    {
-        if (!(crowd_->features & feature::world)) return vector(0.0, 0.0, 0.0);
-        const auto at = [&](std::uint32_t c) { return double{value(Field::shoulder_position, c)}; };
-        return vector(at(0), at(1), at(2));
+        std::uint32_t c = 0;
+        for (const float x : wanted)
+            if (component_count(field) == 0 || value(field, c++) != x) return false;
+        return true;
     }
     std::uint32_t component_count(Field field) const { return field_row_count(crowd_->features, field); }
     float value(Field field, std::uint32_t component) const
@@ -144,6 +141,49 @@ private:
     std::size_t from_;
 };
 
+// What a value must be to be in its range.
+const char* range_of(Field field)
+{
+    switch (field) {
+        case Field::lengths:
+            return "0 or 1e-15 to 1e15 each";
+        case Field::parent_scale:
+            return "1e-15 to 1e15";
+        case Field::parent_rotation:
+        case Field::hand:
+        case Field::incoming_shoulder:
+        case Field::incoming_elbow:
+        case Field::incoming_wrist:
+            return "a quaternion of length 1e-9 to 1e9";
+        case Field::angle:
+            return "cos and sin, 1e-9 to 1e9 long; swivel_turn() makes them";
+        case Field::weights:
+            return "0 to 1 each";
+        case Field::reach:
+            return "0 to 1 each, the stretch 1 to 1000";
+        case Field::most_swivel:
+            return "cos and sin of 0 to pi; swivel_turn() makes them";
+        case Field::flexion_limit:
+            return "cosines of half angles; swivel_flexion() makes them";
+        case Field::shoulder_cone:
+        case Field::hand_cone:
+            return "a unit axis and a cosine; swivel_cone() makes them";
+        case Field::humeral_twist:
+        case Field::forearm_twist:
+        case Field::shoulder_box:
+        case Field::wrist_box:
+            return "ranges of angles; swivel_range() makes them";
+        case Field::hand_twist:
+            return "a unit axis and a range of angles; swivel_range() makes it";
+        case Field::aim:
+            return "a unit axis, cos and sin; swivel_aim() makes them";
+        case Field::clavicle:
+            return "a place no further than 1e15 and a share of 0 to 1";
+        default:
+            return "no further than 1e15";
+    }
+}
+
 // Inputs that are bad whatever the others are.
 void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
 {
@@ -162,7 +202,10 @@ void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint3
             text.add("%s%g", c == 0 ? "" : ", ", x);
             is_number = is_number && !std::isnan(x);
         }
-        text.add(") is %s", is_number ? "out of its range" : "not a number: was it ever written?");
+        if (is_number)
+            text.add(") is out of its range, %s", range_of(field));
+        else
+            text.add(") is not a number: was it ever written?");
         is_found = true;
     }
     text.add("%s", is_found
@@ -173,11 +216,18 @@ void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint3
 
 void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
 {
-    const double missed = solved.residual_length();
-    const Vector<double> line = solved.pose().wrist - solved.shoulder();
-    const double reached = std::sqrt(len2(line));
-    const char* const by = flags & SWIVEL_LIMITED_FLEXION ? "its bones and its flexion limit" : "its bones";
-    if (flags & SWIVEL_CLAMPED_FAR)
+    const double missed = solved.missed();
+    const LimbPose pose = solved.pose();
+    const double reached = std::sqrt(len2(pose.wrist - pose.shoulder));
+    const bool aims = solved.component_count(Field::aim) > 0, has_length = !solved.is(Field::lengths, {0, 0});
+    const char* const by = !has_length                      ? "bones of no length"
+                           : flags & SWIVEL_LIMITED_FLEXION ? "its bones and its flexion limit"
+                                                            : "its bones";
+    if (aims && flags & SWIVEL_CLAMPED_NEAR)
+        text.add("The target is too near to aim at with this flexion: the hand's ray passes it by %.4g.", missed);
+    else if (aims)
+        text.add("The hand aims at the target, to within %.2g.", missed);
+    else if (flags & SWIVEL_CLAMPED_FAR)
         text.add("The target is %.4g out of reach: the wrist is %.4g from the shoulder, as far as %s let it.", missed,
                  reached, by);
     else if (flags & SWIVEL_CLAMPED_NEAR)
@@ -190,6 +240,8 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
     if (flags & SWIVEL_SWIVEL_UNDEFINED)
         text.add(" The pole does not say where the elbow goes: it is of no length or on the target's line.");
+    for (const Field field : {Field::parent_rotation, Field::hand})
+        if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
 }
 
 struct Limit {
@@ -213,10 +265,10 @@ bool forbids_all(const swivel_crowd& crowd, const Group& group, std::uint32_t li
 }
 
 // By how many degrees the elbow of one pose is turned from that of another, about the line to the wrist.
-double swivel_between(const Vector<double>& shoulder, const LimbPose& a, const LimbPose& b)
+double swivel_between(const LimbPose& a, const LimbPose& b)
 {
-    const Vector<double> n = cross(a.wrist - shoulder, a.elbow - shoulder),
-                         m = cross(b.wrist - shoulder, b.elbow - shoulder);
+    const Vector<double> n = cross(a.wrist - a.shoulder, a.elbow - a.shoulder),
+                         m = cross(b.wrist - b.shoulder, b.elbow - b.shoulder);
     return std::atan2(std::sqrt(len2(cross(n, m))), scalar_product(n, m)) * 180 / std::numbers::pi;
 }
 
@@ -258,7 +310,7 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
     }
     wished.solve();
     text.add(" Where the elbow was wished it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
-             room[0], swivel_between(solved.shoulder(), solved.pose(), wished.pose()));
+             room[0], swivel_between(solved.pose(), wished.pose()));
 }
 
 }  // namespace

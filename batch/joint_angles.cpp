@@ -11,6 +11,15 @@ namespace swivel {
 
 namespace {
 
+// The public orders are indices into the kernels' table.
+constexpr bool is_order(swivel_euler_order order, int first, int middle, int last)
+{
+    const EulerOrder& own = kEulerOrders[order];
+    return own.first == first && own.middle == middle && own.last == last;
+}
+static_assert(is_order(SWIVEL_XYZ, 0, 1, 2) && is_order(SWIVEL_XZY, 0, 2, 1) && is_order(SWIVEL_YZX, 1, 2, 0) &&
+              is_order(SWIVEL_YXZ, 1, 0, 2) && is_order(SWIVEL_ZXY, 2, 0, 1) && is_order(SWIVEL_ZYX, 2, 1, 0));
+
 // The three angles of R = R_p(first) R_q(middle) R_r(last); limits.h has the entries they are read from.
 void euler_angles(const Rotor<double>& q, const EulerOrder& order, int family, double (&angles)[3])
 {

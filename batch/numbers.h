@@ -73,6 +73,8 @@ static_assert([] {
     return true;
 }());
 
+static_assert(SWIVEL_INPUT_END == kInputCount && SWIVEL_RESULT_END - SWIVEL_SHOULDER == kFieldCount - kInputCount);
+
 // The bits of features are equal in both.
 struct FeatureName {
     FeatureSet number, own;
@@ -113,7 +115,7 @@ static_assert([] {
 
 // Every feature, with the number of twist bones at its largest.
 inline constexpr FeatureSet kKnownFeatures = [] {
-    FeatureSet known = 7 * feature::twist_bones;
+    FeatureSet known = kMostTwistBones * feature::twist_bones;
     for (const FeatureName& feature : kFeatureNames) known |= feature.own;
     return known;
 }();

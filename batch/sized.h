@@ -19,8 +19,8 @@ inline std::size_t size_of(const void* given)
     return size;
 }
 
-// Checks that some header gave the structure this size: it cuts no member in two. name: the structure's name in the
-// error message.
+// Checks that a header may have given the structure this size: whole words, and no more than this header's. name: the
+// structure's name in the error message.
 template <class Struct>
 swivel_status check_size(const char* name, std::size_t size)
 {

@@ -12,6 +12,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -182,6 +183,7 @@ class Given {
 public:
     Given() = default;
     Given(const Each* first, std::size_t count) : first_(first), count_and_one_(count + 1) {}
+    Given(std::initializer_list<Each> values) : Given(values.begin(), values.size()) {}  // for one call
     template <std::convertible_to<std::span<const Each>> Range>
     Given(const Range& range) : Given(std::span<const Each>(range).data(), std::span<const Each>(range).size())
     {
@@ -218,6 +220,12 @@ public:
         def.groups = groups.data();
         check(swivel_crowd_create(&def, &crowd_));
     }
+    // Groups in braces: {left_arms, right_arms}. Their addresses would be taken for the ends of a range.
+    Crowd(swivel_features features, std::initializer_list<swivel_group_def> groups)
+        : Crowd(features, std::span(groups.begin(), groups.size()))
+    {
+    }
+    Crowd(swivel_features features, std::initializer_list<const swivel_group_def*> groups) = delete;
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
     Crowd& operator=(Crowd&& other) noexcept

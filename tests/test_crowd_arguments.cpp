@@ -44,10 +44,17 @@ TEST_CASE("a def that breaks its contract makes no crowd")
         refuse(&def);
         groups[0].size = sizeof groups[0];
     }
-    for (std::uint32_t bit = 26; bit < 32; ++bit) {
-        if (1u << bit == SWIVEL_BUDGET) continue;
+    for (int bit = 0; bit < 64; ++bit) {  // those between the features and around the number of twist bones
+        const swivel_features feature = UINT64_C(1) << bit;
+        if (feature <= SWIVEL_BUDGET || (feature >= SWIVEL_WITH_TWIST_BONES && feature < 8 * SWIVEL_WITH_TWIST_BONES))
+            continue;
         def = good;
-        def.features = 1u << bit;
+        def.features = SWIVEL_WITH_HAND | feature;
+        refuse(&def);
+    }
+    for (const swivel_features bones : {8, 9, 15, 255}) {
+        def = good;
+        def.features = SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES;
         refuse(&def);
     }
     for (const swivel_features features :
@@ -60,18 +67,18 @@ TEST_CASE("a def that breaks its contract makes no crowd")
              SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL,
              SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
              SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING,
-             int{SWIVEL_POLE_INCOMING},
-             int{SWIVEL_WITH_WEIGHTS},
-             int{SWIVEL_WITH_EFFECTOR},
-             int{SWIVEL_WITH_HAND_CONE},
-             int{SWIVEL_WITH_FOREARM_TWIST},
-             int{SWIVEL_WITH_HAND_TWIST},
-             int{SWIVEL_WITH_WRIST_BOX},
+             SWIVEL_POLE_INCOMING,
+             SWIVEL_WITH_WEIGHTS,
+             SWIVEL_WITH_EFFECTOR,
+             SWIVEL_WITH_HAND_CONE,
+             SWIVEL_WITH_FOREARM_TWIST,
+             SWIVEL_WITH_HAND_TWIST,
+             SWIVEL_WITH_WRIST_BOX,
              SWIVEL_COMPACT | SWIVEL_WITH_REACH,
              SWIVEL_COMPACT | SWIVEL_WITH_MOST_SWIVEL,
          }) {
         def = good;
-        def.features = static_cast<swivel_features>(features);
+        def.features = features;
         refuse(&def);
     }
     def = good;
@@ -512,4 +519,21 @@ TEST_CASE("C++: ranges have a value for each limb, or say from which limb on; fr
     for (const std::size_t count : {std::size_t{1}, std::size_t{3}})
         CHECK_THROWS_WITH(crowd.solve({.frames = std::span(frames).first(count)}),
                           std::to_string(count) + " frames for 2 groups; give one for each");
+}
+
+TEST_CASE("groups and frames in braces")
+{
+    const swivel_group_def left = group_of(3), right = group_of(20);
+    const Crowd two(0, {left, right}), one(0, {&right, 1});
+    CHECK(swivel_group_limb_count(two.get(), 0) == 3);
+    CHECK(swivel_group_limb_count(two.get(), 1) == 20);
+    CHECK(swivel_group_limb_count(one.get(), 0) == 20);
+    CHECK(swivel_group_limb_count(one.get(), 1) == 0);
+    Crowd crowd(0, {left, right});
+    const Float3 target{0.2f, 0.3f, 0.4f};
+    swivel_frame frame = swivel_default_frame();
+    frame.target = {target.data(), 0};
+    CHECK(crowd.solve({.frames = {frame, frame}}) == 23);
+    CHECK(read<Float3>(crowd, SWIVEL_TARGET, 1)[19] == target);
+    CHECK(crowd.solve({.limbs = {0u, 17u}}) == 2);
 }

@@ -82,8 +82,9 @@ TEST_CASE("explain names inputs that were never written, or are out of range, an
         crowd.write(SWIVEL_HAND, 0, std::vector<Float4>{{0, 0, 0, 0}}, 8);
         CHECK(says(crowd, 1, "Its inputs changed since it was solved"));
         crowd.solve();
-        CHECK(crowd.explain(0, 7) == "Bad input: pole (inf, 0, 0) is out of its range. The limb has its rest pose.");
-        CHECK(says(crowd, 8, "hand (0, 0, 0, 0) is out of its range"));
+        CHECK(crowd.explain(0, 7) ==
+              "Bad input: pole (inf, 0, 0) is out of its range, no further than 1e15. The limb has its rest pose.");
+        CHECK(says(crowd, 8, "hand (0, 0, 0, 0) is out of its range, a quaternion of length 1e-9 to 1e9"));
         CHECK(crowd.explain(0, 1).starts_with("The target is reached, to within "));
         crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{1e14f, 0, 0}}, 9);
         crowd.write(SWIVEL_PARENT_SCALE, 0, std::vector<Float1>{{1e-3f}}, 9);
@@ -122,6 +123,53 @@ TEST_CASE("explain measures how far a target is out of reach")
         CHECK(number_after(text, "The target is ") == Approx(missed).epsilon(1e-3));
         CHECK(number_after(text, "the wrist is ") == Approx(end).epsilon(1e-3));
     }
+}
+
+TEST_CASE("explain measures from the shoulder as the clavicle has turned it")
+{
+    Random random{5};
+    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 40);
+    for (std::uint32_t n = 0; n < 40; ++n) {
+        const Vector3d shoulder = 3 * random.direction(), bone = 0.3 * random.direction();
+        crowd.write(SWIVEL_SHOULDER_POSITION, 0, std::vector{floats(shoulder)}, n);
+        crowd.write(SWIVEL_TARGET, 0, std::vector{floats(Vector3d(shoulder + 4 * random.direction()))}, n);
+        crowd.write(SWIVEL_LENGTHS, 0, std::vector<Float2>{{0.5f, 0.4f}}, n);
+        const Float3 clavicle = floats(bone);
+        crowd.write(SWIVEL_CLAVICLE, 0, std::vector<Float4>{{clavicle[0], clavicle[1], clavicle[2], 0.5f}}, n);
+    }
+    crowd.solve();
+    for (std::uint32_t n = 0; n < 40; ++n)  // straight arms
+        CHECK(number_after(crowd.explain(0, n), "the wrist is ") == Approx(0.9).epsilon(1e-3));
+}
+
+TEST_CASE("explain of bones without a length, of aims, and of inputs left as they start")
+{
+    Crowd crowd = crowd_of(SWIVEL_WORLD, 2);
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{1, 0, 0});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{1, 0, 2});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0, 0});
+    crowd.solve();
+    CHECK(number_after(crowd.explain(0, 0), "The target is ") == 2);
+    CHECK(says(crowd, 0, "bones of no length"));
+    CHECK(says(crowd, 0, "Its parent_rotation is the identity"));
+    crowd.write_all(SWIVEL_PARENT_ROTATION, 0, Float4{0, 0, 0.6f, 0.8f});
+    CHECK(!says(crowd, 0, "parent_rotation"));
+
+    Crowd aiming = crowd_of(SWIVEL_WITH_AIM, 2);
+    aiming.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    float aim[5];
+    const double axis[3] = {0, 0.3, 1};
+    REQUIRE(swivel_aim(axis, 1.2, aim) == SWIVEL_OK);
+    aiming.write_all(SWIVEL_AIM, 0, aim);
+    aiming.write(SWIVEL_TARGET, 0, std::vector<Float3>{{0.3f, 2, 3}, {0, 0, 0.01f}});
+    aiming.solve();
+    const auto flags = read<std::uint32_t>(aiming, SWIVEL_FLAGS);
+    CHECK(flags[0] & SWIVEL_REACHED);
+    CHECK(says(aiming, 0, "The hand aims at the target"));
+    CHECK(flags[1] & SWIVEL_CLAMPED_NEAR);
+    std::array<double, 2> off;
+    aiming.residuals(0, off);
+    CHECK(number_after(aiming.explain(0, 1), "the hand's ray passes it by ") == Approx(2 * off[1]).epsilon(1e-3));
 }
 
 TEST_CASE("explain says which limit turned the elbow from its wish, by how much, and why none is kept")

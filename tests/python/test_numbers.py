@@ -159,7 +159,7 @@ class Poses(unittest.TestCase):
         crowd.write(Field.TARGET, (0, 0, 9), 1, first=33, count=1)
         crowd.write(Field.POLE, (np.nan, 0, 0), 0, first=4, count=1)
         self.assertIsNone(crowd.find(~0 & 0xffffffff))
-        self.assertIn("target (nan, nan, nan) is not a number", swivel.Crowd([2, 3]).explain(1, group=1))
+        self.assertIn("target (nan, nan, nan) is not a number", swivel.Crowd([2, 3]).explain(limb=1, group=1))
         crowd.solve()
         self.assertEqual(crowd.find(Flag.CLAMPED_FAR | Flag.BAD_INPUT), (0, 4))
         self.assertEqual(crowd.find(Flag.CLAMPED_FAR | Flag.BAD_INPUT, 0, 5), (1, 33))

@@ -115,8 +115,10 @@ void add_answers(CrowdClass& crowd)
             const Limbs one = limbs_of(held, group, limb, 1);
             return run(held, Way::kReading, [&] { return held.crowd.explain(one.group, one.first); });
         },
-        py::arg("limb"), py::arg("group") = 0,
-        "Why a limb is as it is, of its inputs as they are now, in a sentence or two.");
+        py::kw_only(), py::arg("limb"), py::arg("group") = 0,
+        "Why a limb is as it is, from its present inputs, in a sentence or two.\n\n"
+        "By keywords, as find() gives the group first: group, limb = crowd.find(Flag.BAD_INPUT);\n"
+        "crowd.explain(limb=limb, group=group).");
     crowd.def("allowed_arcs", &allowed_arcs, py::arg("limb"), py::arg("group") = 0,
               "The swivels that one limb's limits allow for its inputs as they are: (arcs, 2, 2) float32.\n\n"
               "For each arc its two ends, for each end cos and sin of the angle about the line from shoulder to\n"
