@@ -28,8 +28,8 @@ struct CharacterGoal {
     } arm[kArms];
 };
 
-// All characters share these, for each arm: bone lengths in the rig's units, the place of the next joint at rest, and
-// the rotations of swivel_binding, which say how the arm frame lies in the joints.
+// All characters share these for each arm: bone lengths in the rig's units, the place of the next joint at rest, and
+// rotations of swivel_binding. The rotations map the arm frame to the joints.
 struct Rig {
     float upper, fore;
     float elbow_offset[3], wrist_offset[3];

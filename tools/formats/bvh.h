@@ -4,13 +4,13 @@
 // byte as it was. Conventions:
 // - Rotation channels are degrees, multiplied in the order listed: Zrotation Yrotation Xrotation is Rz Ry Rx.
 // - A position channel takes the place of that component of OFFSET, at roots and inner joints alike, as Blender and
-//   assimp read it. (An old note on the format adds the two at the root. Files in use have a zero offset there, where
-//   both agree, or repeat the first frame's position in it, where adding would double it.)
-// - One frame is one line, as the format says. A line with another number of values is refused, not joined: wrapping
-//   cannot be told from lost values. Blank lines are skipped. One line more than "Frames:" announces is left out, as
-//   other readers do (exporters that count the steps between frames make such files); two are refused.
-// - Keywords in any case; LF or CRLF; names may repeat and hold anything but braces; several ROOTs; joints without
-// CHANNELS.
+//   assimp read it. An old note on the format adds the two at the root. In files in use, the offset there is zero, or
+//   it repeats the first frame's position.
+// - One frame is one line, as the format says. A line with another number of values is refused, because wrapped lines
+//   look like lost values. Blank lines are skipped. One line more than "Frames:" announces is left out, as other
+//   readers do: some exporters count the steps between frames. Two lines more are refused.
+// - Keywords may be in any case, and lines may end in LF or CRLF. Names may repeat and hold anything but braces. There
+//   may be several ROOTs, and joints without CHANNELS.
 
 #include <array>
 #include <cstddef>

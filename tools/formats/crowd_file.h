@@ -85,8 +85,9 @@ struct CrowdFile {
     std::vector<LimbSection> sections;  // those in the file, the general before the special
 };
 
-// Throws InputError naming line and key for what is no TOML, an unknown key (and the known one that looks like it), a
-// wrong type, a value out of its range, an axis of no length, two keys that exclude each other.
+// Throws InputError that names line and key. It does for what is no TOML, for an unknown key, with the known one that
+// looks like it, and for a wrong type. It also does for a value out of its range, an axis of no length, and two keys
+// that exclude each other.
 CrowdFile read_crowd_file(const std::filesystem::path& path);
 
 // What the file says of one limb: of each key the most special table's value. Values of tables that speak of both sides

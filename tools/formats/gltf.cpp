@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// tinygltf reads a reduced document (skeleton_json()), so that neither images nor meshes get in the way, and no
-// buffers: it looks for them in the current folder, too, and wants files of just the length that a buffer has. It does
-// not write: it would drop or reorder what it does not know. The writer edits the text itself, so that untouched values
-// stay as they are and buffers stay byte for byte.
+// tinygltf reads a reduced document (skeleton_json()), without images and meshes. It gets no buffers either: it would
+// look for them in the current folder, too, and wants files of exactly a buffer's length. It does not write, because it
+// would drop or reorder what it does not know. The writer edits the text itself. So untouched values stay as they are,
+// and buffers stay byte for byte.
 #include "tools/formats/gltf.h"
 
 #include <fmt/format.h>

@@ -1,15 +1,17 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its clip, and keeps the rest
-// of the asset as it is; writing puts new rotations into that animation, makes skin weights add up as they must, and
-// leaves everything else alone. Conventions:
-// - Every node is a joint, so that what lies above a skeleton (an armature with its scale) counts. Nodes that a skin
-//   names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is "#12".
-// - The rest pose is the nodes' own transforms. A matrix is taken apart into translation, rotation and scale.
-// - Frames are the keys of nodes where these lie on an even grid of up to 1000 a second that is fine enough for what
-//   moves: 24 a second or more, 60 or more for CUBICSPLINE, any for STEP. A coarser grid is divided into equal parts,
-//   60 a second or more. Keys on no grid are sampled 60 times a second, and all keys at the rate asked for, if any is.
-// - No animation: the clip is one frame, the rest pose, and writing adds an animation of one key.
+// glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its clip. Writing puts new
+// rotations into that animation, and makes skin weights add up as they must. Everything else of the asset stays as it
+// is. Conventions:
+// - Every node is a joint, so that what lies above a skeleton counts, such as an armature with its scale. Nodes that a
+//   skin names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is
+//   "#12".
+// - The rest pose is the nodes' own transforms. A matrix becomes translation, rotation and scale.
+// - Frames are the keys of nodes, if these lie on an even grid of up to 1000 a second that is fine enough for what
+//   moves. That is 24 a second or more, 60 or more for CUBICSPLINE, and any rate for STEP.
+// - A coarser grid is divided into equal parts, 60 a second or more. Keys on no grid are sampled 60 times a second. A
+//   rate that is asked for samples all keys.
+// - Without an animation the clip is one frame, the rest pose. Writing then adds an animation of one key.
 // Of images and meshes only skin weights are read; of animations only nodes' own poses. All else is kept.
 
 #include <cstddef>
@@ -63,13 +65,16 @@ struct GltfChoice {
 };
 inline double gibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 0x1p30; }
 
-// Reads and checks a whole file. Throws InputError for anything malformed that concerns the skeleton or the chosen
-// animation; for buffers that are missing, compressed, shorter than they say, or elsewhere than in the file or in plain
-// files at addresses relative to it; for numbers that are not finite, an animation that does not exist or whose name is
-// not unique, and buffers beyond 8 GiB, poses or keys beyond the choice's most. Meshes make it fail only if an
-// accessor, buffer view or buffer has members of a wrong type. Holds the file about twice, its JSON thrice while it
-// reads, 40 bytes a key (104 with CUBICSPLINE; keys that channels share once) and 8 more while it looks for frames, 32
-// a frame and joint, 24 a frame for each translation and scale that has keys, and the skin weights that must be mended.
+// Reads and checks a whole file. It throws InputError for:
+// - anything malformed that concerns the skeleton or the chosen animation, and numbers that are not finite;
+// - buffers that are missing, compressed or shorter than they say, and buffers that are neither in the file nor in
+//   plain files at addresses relative to it;
+// - an animation that does not exist, or whose name is not unique;
+// - buffers beyond 8 GiB, and poses or keys beyond the choice's most.
+// Meshes make it fail only if an accessor, buffer view or buffer has members of a wrong type.
+// It holds the file about twice, and its JSON three times while it reads. A key takes 40 bytes, with CUBICSPLINE 104;
+// channels may share keys. Looking for frames takes 8 more a key. A frame takes 32 bytes a joint, and 24 for each
+// translation and scale that has keys. Skin weights that must be mended are held, too.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
 // The same of a file that is in memory already. path: what messages call it, and what its files lie beside.
@@ -84,11 +89,11 @@ void require_can_key(const GltfFile& file, int joint);
 // not add up to 1 are replaced by file.weights, in accessors of their own. All other JSON is kept value by value, all
 // buffers byte by byte; keys and weights no longer used stay in them.
 // Joints whose node has a matrix get translation, rotation and scale instead, as animated nodes must.
-// path: .glb or .gltf, may be the file that was read; appears whole or not at all (see OutputFile). binary: .glb or
-// .gltf, where the path's suffix does not say it. A .glb takes in the buffers and images that lie in files beside the
-// .gltf; a .gltf holds the new keys itself and goes on using the same files, from wherever it is written.
+// path: .glb or .gltf; may be the file that was read; appears whole or not at all (see OutputFile). binary: whether it
+// is a .glb, where the path's suffix does not say it. A .glb takes in the buffers and images that lie in files beside
+// the .gltf. A .gltf holds the new keys itself and goes on using the same files, from wherever it is written.
 // Throws InputError on writing, and as require_can_key() does. Throws std::invalid_argument for a joint out of range or
-// named twice, a wrong frame count, a zero or non-finite quaternion.
+// named twice, a wrong frame count, and a zero or non-finite quaternion.
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
                 std::optional<bool> binary = {});
 

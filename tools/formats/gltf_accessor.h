@@ -22,10 +22,10 @@ struct GltfData {
     std::span<const std::string_view> buffers;
 };
 
-// An accessor's components, element after element, normalised integers as what they stand for.
+// The components of an accessor, element after element. Normalised integers become the numbers that they stand for.
 // type: the TINYGLTF_TYPE_ that it must have. expected: how many elements there must be, so that no file makes more
-// room than its keys need; 0: any number, but then they must be bytes of the file. Throws InputError for an accessor
-// that does not exist, has another type or count, reads beyond its buffer view, or holds a number that is not finite.
+// room than its keys need. 0: any number, but they must then be bytes of the file. Throws InputError for an accessor
+// that does not exist, has another type or count, or reads beyond its buffer view, and for numbers that are not finite.
 std::vector<double> read_accessor(const GltfData& data, int index, int type, std::size_t expected);
 
 }  // namespace swivel::formats

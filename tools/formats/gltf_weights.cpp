@@ -92,8 +92,8 @@ bool adds_up(const Sets& sets, std::size_t vertex)
     return std::abs(static_cast<double>(sum) - 1) <= tolerance;
 }
 
-// Divides a vertex' weights by their sum. n quotients are off by 2^-25 each at most and so are the n - 1 sums of two,
-// or by 2^-24 where above 1: less than 9e-8 n together, so that the result adds up.
+// Divides a vertex' weights by their sum. Each of n quotients is off by 2^-25 at most. So is each of their n - 1 sums,
+// or by 2^-24 where it is above 1. Together that is less than 9e-8 n, so the result adds up.
 bool mend(Sets& sets, std::size_t vertex)
 {
     if (adds_up(sets, vertex)) return false;

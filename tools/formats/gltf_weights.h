@@ -21,11 +21,11 @@ struct GltfWeights {
     std::size_t mended_count = 0;          // vertices; above 0
 };
 
-// What primitives of `document` need new weights, and which. Weights are divided by their sum; a vertex of zeros
-// follows its first joint, as in three.js; a vertex that adds up, or has a negative weight, keeps its own. Never throws
-// for what a file says: weights that cannot be read (compressed, broken, of no legal type) are none that need new ones,
-// nor are those beyond the first GiB that it looks at, 16 bytes for each vertex and set. Takes these and 32 for each
-// vertex while it looks, and keeps the 16 of those that it mends.
+// The primitives of `document` that need new weights, and these weights. Weights are divided by their sum. A vertex of
+// zeros follows its first joint, as in three.js. A vertex that adds up, or has a negative weight, keeps its own. Never
+// throws for what a file says. Weights that cannot be read (compressed, broken, of no legal type) are left alone, and
+// so are those beyond the first GiB. While it looks, it takes 16 bytes for each vertex and set, and 32 for each vertex.
+// It keeps the 16 of those that it mends.
 std::vector<GltfWeights> mended_weights(const GltfData& data, const nlohmann::ordered_json& document);
 
 }  // namespace swivel::formats

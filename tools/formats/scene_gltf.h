@@ -1,12 +1,12 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// An assimp scene as glTF 2.0. assimp's own exporter is not used: 5.2 fails on some scenes (box_nested_animation.dae of
-// its models), leaves an FBX file's axes and unit as they are, has one skin for all meshes, and writes weights and
-// texture names that Khronos' validator calls errors. Kept are:
+// An assimp scene as glTF 2.0. assimp's own exporter is not used. Version 5.2 fails on some scenes, such as
+// box_nested_animation.dae of its models. It leaves an FBX file's axes and unit as they are, and has one skin for all
+// meshes. Khronos' validator calls its weights and texture names errors. Kept are:
 // - nodes with their names and rest poses, in glTF's axes and metres;
-// - every animation of nodes: LINEAR keys at assimp's own times, in seconds. assimp says no other interpolation. Keys
-//   before 0 move the whole animation to start there; of keys at one time the later comes a float's last digit later;
-//   no ticks per second: 25;
+// - every animation of nodes, as LINEAR keys at assimp's own times, in seconds. assimp says no other interpolation.
+//   Keys before 0 move the whole animation to start there. Of two keys at one time the later comes a float's last digit
+//   later. Without a number of ticks per second it is 25;
 // - triangles with normals, one set of texture coordinates, skins, and a material's colour and its PNG or JPEG.
 // Cameras, lights, morph targets, lines, points and everything else of the file are not kept.
 

@@ -22,10 +22,11 @@ inline bool is_scene(const std::filesystem::path& path)
 // What reads them, "assimp 5.2"; empty: this build does not.
 std::string scene_importer();
 
-// Reads and converts a whole file. DAE nodes are known by their names; where these repeat and animations or skins need
-// them, by their ids. Throws InputError, with assimp's own reason where it has one, for a file that cannot be read or
-// is of another format, for what gltf_of() refuses, and for every file where this build does not read them. assimp is
-// trusted with the file: what makes it crash, or ask for more memory than there is, does so to the caller.
+// Reads and converts a whole file. DAE nodes are known by their names. If these repeat and animations or skins need
+// them, nodes are known by their ids. Throws InputError, with assimp's own reason where it has one, for a file that
+// cannot be read or is of another format. It also does for what gltf_of() refuses, and for every file where this build
+// does not read them. assimp is trusted with the file: a file that makes it crash, or ask for too much memory, does so
+// to the caller.
 GltfContainer import_scene(const std::filesystem::path& path);
 
 }  // namespace swivel::formats

@@ -3,10 +3,10 @@
 // The table of targets: where each wrist or ankle must be in each frame, where its elbow or knee should point, and how
 // its hand or foot is turned. The first line names the columns, in any order: frame,character,limb,x,y,z, and as one
 // likes pole_x,pole_y,pole_z and qx,qy,qz,qw. A table has all columns of a pole or none, and a row fills in all of them
-// or none; so too for the orientation. limb is left_arm, right_arm, left_leg or right_leg. A table of arms may have
-// side, left or right, instead. Comma-separated, cells quoted or not; blank lines and lines starting with # are
-// skipped. Knows no crowd: whether a frame or a character exists is the caller's question, and `line` lets the answer
-// name the place.
+// or none. The same holds for the orientation. limb is left_arm, right_arm, left_leg or right_leg. A table of arms may
+// have side, left or right, instead. Commas stand between cells, which may be quoted. Blank lines and lines starting
+// with # are skipped. This file knows no crowd: whether a frame or a character exists is the caller's question. `line`
+// lets its answer name the place.
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -31,10 +31,10 @@ struct Target {
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of hand or foot, world space, made unit
 };
 
-// All targets, sorted by frame, then character, then limb. Throws InputError naming line and column for a missing,
-// unknown or repeated column, a value that is missing, too many or not a finite number, an unknown limb, a quaternion
-// outside 1e-15 to 1e15, a row for the same limb and frame as another, or a table without rows. Holds 96 bytes a row,
-// and a 48 MiB window of the file while reading.
+// All targets, sorted by frame, then character, then limb. Throws InputError that names line and column: for a missing,
+// unknown or repeated column, and for a value that is missing, too many or not a finite number. It also does for an
+// unknown limb, a quaternion outside 1e-15 to 1e15, a second row for a limb and frame, and a table without rows. Holds
+// 96 bytes a row, and a window of 48 MiB of the file while reading.
 std::vector<Target> read_targets_csv(const std::filesystem::path& path);
 
 // Writes such a table, with all columns. Numbers have the fewest digits that give the same double back; cells of what a
