@@ -62,7 +62,7 @@ def swivel_circle():
     labels(picture, view, [(SHOULDER, (-14, 30), "shoulder", BLUE, "end"), (WRIST, (16, 22), "wrist", GREEN, "start"),
                            (elbow, (18, -2), "elbow", ORANGE, "start"), (pole, (14, 4), "pole", RED, "start"),
                            (plus(centre, normal, 0.62), (10, 12), "normal n = line × pole", VIOLET, "start")])
-    picture.words((748, 30), "swivel plane: through shoulder, wrist and pole", "#4a73b5", anchor="end")
+    picture.words((748, 30), "swivel plane: through shoulder, elbow and wrist", "#4a73b5", anchor="end")
     picture.words((748, 386), "elbow's circle: the one freedom a wrist target leaves", ORANGE, anchor="end")
     return picture
 
@@ -78,7 +78,7 @@ def arm_frame():
     view = View((-0.95, 0.42, -0.5), (0, 1, 0), 215, (150, 245))
     rest_elbow, rest_wrist = (0, 0, 1.0), (0, 0, 1.95)
     bent = (0, 0.95 * math.sin(1.0), 1 + 0.95 * math.cos(1.0))
-    for axis, end, text, fill, shift in (((1, 0, 0), 0.8, "x: the hinge", RED, (-20, -10)), ((0, 1, 0), 0.85, "y", GREEN, (10, 2)),
+    for axis, end, text, fill, shift in (((1, 0, 0), 0.8, "x", RED, (-20, -10)), ((0, 1, 0), 0.85, "y", GREEN, (10, 2)),
                                          ((0, 0, 1), 2.4, "z: along the bones", BLUE, (-40, -12))):
         tip = tuple(end * part for part in axis)
         picture.arrow(view(SHOULDER), view(tip), fill, 2)
@@ -96,7 +96,7 @@ def arm_frame():
     labels(picture, view, [(SHOULDER, (0, 32), "shoulder", BLUE, "middle"), (bent, (14, 4), "wrist, bent", GREEN, "start"),
                            (rest_wrist, (0, 32), "wrist at rest", SOFT, "middle"), (rest_elbow, (0, 32), "elbow", ORANGE, "middle")])
     x, y = view(circle(rest_elbow, (-1, 0, 0), (0, 0, 1), 0.66, 26, 27, 1)[0])
-    picture.words((x + 10, y), "flexion, 0 to π", ORANGE)
+    picture.words((x + 10, y - 8), "flexion about −x, 0 to π", ORANGE)
     return picture
 
 
