@@ -41,7 +41,8 @@ TEST_CASE("docs: cones")
 TEST_CASE("docs: twists")
 {
     // [twist]
-    const swivel_features twists = SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_FOREARM_TWIST;
+    const swivel_features twists =
+        SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_FOREARM_TWIST;
     swivel::Crowd crowd(SWIVEL_WITH_HAND | twists, {&arms, 1});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-1.5, 1.2));
     // Of the hand, about the forearm.
