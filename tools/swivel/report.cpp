@@ -94,6 +94,7 @@ void add_distances(std::vector<Distance>& to, const LimbStatistics& s, LimbKind 
     add(kError, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target", w.end), length, s.aimed);
     add(kError, std::string(w.end), fmt::format("{} to orientation", w.end), "rad", s.orientation);
     add(kMissed, end, end + " to target, not reached", length, s.missed);
+    add(kMissed, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target, not reached", w.end), length, s.aim_missed);
     add(kDiffers, joint("given"), fmt::format("{} from clip, goal given", w.lower_joint), length, s.given);
     add(kDiffers, joint("bent"), fmt::format("{} from clip, bent over 5 deg", w.lower_joint), length, s.bent);
     add(kDiffers, joint("straight"), fmt::format("{} from clip, straighter", w.lower_joint), length, s.straight);
