@@ -155,6 +155,10 @@ TEST_CASE("streams: what cannot be read or written is refused in one line")
     stage.require_refused({"clip.bvh", "--format", "csv"}, 2, "--format requires --out");
     stage.require_refused({"clip.bvh", "--out", "x", "--format", "fbx"}, 2, "there is no 'fbx'");
     stage.require_refused({"clip.bvh", "--out", "x"}, 2, "or --format");
+    stage.require_refused({"clip.bvh", "--out", "x.fbx"}, 2, "FBX and DAE are read, not written");
+    stage.require_refused({"clip.bvh", "--out", "x.fbx", "--format", "glb"}, 2, "this clip is a BVH file");
+    CHECK(stage.run({"clip.bvh", "--out", "x.fbx", "--format", "csv"}).exit_code == 0);  // its suffix does not count
+    CHECK(slurp(stage.folder / "x.fbx").starts_with("frame,"));
     CHECK(stage.run({"clip.bvh", "--out", "x", "--format", "csv"}).exit_code == 0);
     CHECK(slurp(stage.folder / "x").starts_with("frame,"));
 }
@@ -239,8 +243,8 @@ TEST_CASE("streams: --strict is exit code 1 where most limbs are out of reach, a
         const Outcome strict = stage.run({"clip.bvh", "--targets", "-", "--out", "s.csv", "--strict"}, far(count));
         CHECK(strict.exit_code == (goes_wrong ? 1 : 0));
         if (goes_wrong)
-            CHECK(strict.err == "swivel: --strict: of 4 limbs, " + std::to_string(count) +
-                                    " are out of reach and 0 have bad input\n");
+            CHECK(strict.err == "swivel: --strict: of 4 arms, " + std::to_string(count) +
+                                    " are out of reach; are the targets in the right place and unit?\n");
         CHECK(slurp(stage.folder / "s.csv") == slurp(stage.folder / "lax.csv"));
         const auto json = nlohmann::json::parse(stage.run({"clip.bvh", "--targets", "-", "--json"}, far(count)).out);
         CHECK(json.at("went_wrong") == goes_wrong);

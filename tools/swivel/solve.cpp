@@ -178,9 +178,7 @@ void run_solve(const SolveOptions& options)
     } else if (!options.quiet) {
         print_report(options, statistics, seconds, mended);
     }
-    if (options.strict && went_wrong(statistics))
-        throw CommandError(1, fmt::format("--strict: of {} limbs, {} are out of reach and {} have bad input",
-                                          statistics.limb_count(), statistics.unreached(), statistics.bad()));
+    if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }
 
 }  // namespace swivel::tools

@@ -44,7 +44,7 @@ OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = out_place(options).suffix;
     if (suffix == ".csv") return OutKind::csv;
-    if (formats::is_scene(options.out))
+    if (options.format.empty() && formats::is_scene(options.out))
         throw CommandError(
             2, fmt::format("--out {}: FBX and DAE are read, not written; use .glb, .gltf or .csv", options.out));
     if (!is_bvh(suffix) && !is_gltf(suffix))
