@@ -150,8 +150,7 @@ TEST_CASE("input: the buffers and images that a clip uses are never written over
     const std::string buffer = nlohmann::json::parse(slurp(folder / "f.gltf")).at("buffers")[0].at("uri");
     fs::create_symlink(buffer, folder / "link");
     const auto before = contents(folder);
-    for (const std::string file :
-         {buffer, std::string("./link"), std::string("art/../art/s kin.png"), std::string("gone.csv")})
+    for (const std::string& file : Words{buffer, "./link", "art/../art/s kin.png", "gone.csv"})
         for (const char* const option : {"--out", "--export-targets"}) {
             Words words = {"solve", "f.gltf", option, file};
             if (option == std::string("--out")) words.insert(words.end(), {"--format", "csv"});
