@@ -136,6 +136,7 @@ Outcome run_program(const std::filesystem::path& folder, std::vector<std::string
         ::alarm(surroundings.max_seconds);
         if (::chdir(folder.c_str()) == 0 && ::dup2(out.writing, STDOUT_FILENO) >= 0 &&
             ::dup2(err.writing, STDERR_FILENO) >= 0) {
+            for (const int descriptor : surroundings.closed) ::close(descriptor);
             ::execve(argv[0], argv.data(), envp.data());
         }
         ::_exit(127);

@@ -20,6 +20,7 @@ struct Surroundings {
     bool terminal = false;                   // stderr is a terminal
     unsigned short columns = 0;              // of that; 0: it does not say
     std::string stdout_file{};               // where stdout goes instead of Outcome::out
+    std::vector<int> closed{};               // descriptors that the program does not get, such as 1 for stdout
     unsigned max_seconds = 300;
 };
 

@@ -230,9 +230,10 @@ TEST_CASE("a note says so where most limbs are out of reach or have bad input, w
         CHECK(outcome.exit_code == 0);
         return outcome.out;
     };
-    CHECK_THAT(
-        solve(far + beyond_floats, {}),
-        Contains("note     most arms are not where they should be: of 4, 2 are out of reach and 1 have bad input"));
+    CHECK_THAT(solve(far + beyond_floats, {}),
+               Contains("note     most arms are not where they should be: of 4 arms, 2 are out of reach; are the "
+                        "targets in the right place and unit? 1 has bad "
+                        "input;"));
     CHECK_THAT(solve(far, {}), !Contains("most arms"));  // half of them
     CHECK_THAT(solve(beyond_floats, {}), Contains("flag     bad input 1") && !Contains("most arms"));
     const nlohmann::json wrong = nlohmann::json::parse(solve(far + beyond_floats, {"--json"}));

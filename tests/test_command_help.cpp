@@ -92,6 +92,26 @@ TEST_CASE("help: help COMMAND says what COMMAND --help says")
     CHECK(wrong.err == "swivel: COMMAND: there is no 'slove'; did you mean solve?\n");
 }
 
+TEST_CASE("help: what options take is said in a word, and nothing takes many to say")
+{
+    Words texts = {output({"--help"})};
+    for (const std::string& command : listed(texts[0], "Subcommands")) texts.push_back(output({command, "--help"}));
+    for (const std::string& text : texts) {
+        INFO(text);
+        for (const char* const type : {"TEXT", "UINT", "INT:", "FLOAT", "{", ".."}) CHECK_THAT(text, !Contains(type));
+        std::istringstream words(text);
+        int count = 0;
+        for (std::string word; words >> word; ++count) {
+            const bool begins = word.starts_with("-") || word.ends_with(":");  // an option or a heading
+            if (begins || (count > 0 && std::isupper(static_cast<unsigned char>(word[0])) && word.size() < 3))
+                count = 0;
+            CHECK(count <= 25);
+            if (word.ends_with('.') || word.ends_with(';')) count = 0;
+        }
+    }
+    CHECK_THAT(texts[2], Contains("--characters NUMBER=1 ") && Contains("--limbs arms|legs|all"));
+}
+
 TEST_CASE("help: a slip in a command or an option is told")
 {
     const auto said = [](const Words& words) {
@@ -106,6 +126,14 @@ TEST_CASE("help: a slip in a command or an option is told")
     CHECK(said({"solve", "x", "--foo"}) == "swivel: there is no option --foo; see swivel solve --help\n");
     CHECK(said({"solve", "x", "--trgets=y"}) == "swivel: there is no option --trgets; did you mean --targets?\n");
     CHECK(said({"solve", "x", "y"}) == "swivel: 'y' is one word too many; see swivel solve --help\n");
+    for (const Words& early :
+         std::vector<Words>{{"--characters", "5", "demo"}, {"--characters=5", "demo"}, {"--characters", "5"}})
+        CHECK(said(early) == "swivel: --characters is an option of a command; write it after the command\n");
+    CHECK(said({"-o", "y", "solve", "x"}) == "swivel: -o is an option of a command; write it after the command\n");
+    CHECK(said({"--toml", "demo"}) == "swivel: there is no option --toml; see swivel --help\n");  // demo has none
+    CHECK(said({"solve", "x", "--limbs", "arms", "--limbs", "legs"}) ==
+          "swivel: --limbs is given twice; give it once\n");
+    CHECK(said({"solve", "x", "-o", "a.csv", "--out", "b.csv"}) == "swivel: --out is given twice; give it once\n");
     CHECK(said({"solve", "x", "--limbs", "arm"}) == "swivel: --limbs: there is no 'arm'; did you mean arms?\n");
     for (const auto& [command, options] : options_of_commands())
         for (const std::string& option : options) {
@@ -167,10 +195,13 @@ TEST_CASE("help: man and the shells accept what is made for them")
     const TempFolder folder;
     spill(folder / "swivel.1", output({"help", "--man"}));
     for (const char* shell : {"bash", "zsh", "fish"}) spill(folder / shell, output({"completion", shell}));
-    if (fs::exists("/usr/bin/groff"))
-        CHECK(complaints(folder, {"/usr/bin/groff", "-man", "-ww", "-Tutf8", "swivel.1"}).empty());
+    for (const std::string program : {"groff", "bash", "zsh", "fish"}) {
+        INFO(program << " is one of test_packages in tools/packages");
+        REQUIRE(fs::exists("/usr/bin/" + program));
+    }
+    CHECK(complaints(folder, {"/usr/bin/groff", "-man", "-ww", "-Tutf8", "swivel.1"}).empty());
     for (const std::string shell : {"bash", "zsh", "fish"})
-        if (fs::exists("/usr/bin/" + shell)) CHECK(complaints(folder, {"/usr/bin/" + shell, "-n", shell}).empty());
+        CHECK(complaints(folder, {"/usr/bin/" + shell, "-n", shell}).empty());
 }
 
 TEST_CASE("help: bash completes commands, options and their values")

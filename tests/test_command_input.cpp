@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <random>
 
 #include "tests/plain_motion.h"
+#include "tests/random_figure.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
 
@@ -133,6 +136,31 @@ TEST_CASE("input: what is read is never written over")
     fs::rename(folder / "c.toml", folder / "c.csv");
     CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.csv", "--out", "c.csv"}).exit_code == 2);
     CHECK(slurp(folder / "c.csv") == "[crowd]\n");
+}
+
+TEST_CASE("input: the buffers and images that a clip uses are never written over")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "art");
+    std::mt19937 random(7);
+    Figure figure = random_figure(random, {}, figure_names()[0]);
+    figure.rig.json["images"] = {{{"uri", "art/s%20kin.png"}}, {{"uri", "gone.csv"}}};
+    figure.rig.write(folder / "f.gltf");
+    spill(folder / "art/s kin.png", "a picture");
+    const std::string buffer = nlohmann::json::parse(slurp(folder / "f.gltf")).at("buffers")[0].at("uri");
+    fs::create_symlink(buffer, folder / "link");
+    const auto before = contents(folder);
+    for (const std::string& file : Words{buffer, "./link", "art/../art/s kin.png", "gone.csv"})
+        for (const char* const option : {"--out", "--export-targets"}) {
+            Words words = {"solve", "f.gltf", option, file};
+            if (option == std::string("--out")) words.insert(words.end(), {"--format", "csv"});
+            const Outcome outcome = run_command(folder.path, words);
+            INFO(option << " " << file << ": " << outcome.err);
+            CHECK(outcome.exit_code == 2);
+            CHECK_THAT(outcome.err, Contains(file + ": is a buffer or image of the clip itself; name another file"));
+            CHECK(contents(folder) == before);
+        }
+    CHECK(run_command(folder.path, {"solve", "f.gltf", "--out", "art/out.csv"}).exit_code == 0);
 }
 
 TEST_CASE("input: the files that the others here are broken from are good")

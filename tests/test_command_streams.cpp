@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <random>
+#include <tuple>
 
 #include "tests/plain_motion.h"
 #include "tests/random_figure.h"
@@ -154,6 +155,10 @@ TEST_CASE("streams: what cannot be read or written is refused in one line")
     stage.require_refused({"clip.bvh", "--format", "csv"}, 2, "--format requires --out");
     stage.require_refused({"clip.bvh", "--out", "x", "--format", "fbx"}, 2, "there is no 'fbx'");
     stage.require_refused({"clip.bvh", "--out", "x"}, 2, "or --format");
+    stage.require_refused({"clip.bvh", "--out", "x.fbx"}, 2, "FBX and DAE are read, not written");
+    stage.require_refused({"clip.bvh", "--out", "x.fbx", "--format", "glb"}, 2, "this clip is a BVH file");
+    CHECK(stage.run({"clip.bvh", "--out", "x.fbx", "--format", "csv"}).exit_code == 0);  // its suffix does not count
+    CHECK(slurp(stage.folder / "x.fbx").starts_with("frame,"));
     CHECK(stage.run({"clip.bvh", "--out", "x", "--format", "csv"}).exit_code == 0);
     CHECK(slurp(stage.folder / "x").starts_with("frame,"));
 }
@@ -166,6 +171,39 @@ TEST_CASE("streams: a standard output that is full or closed is a failure")
     const Outcome outcome = spawn_command(stage.folder.path, {"solve", "clip.bvh", "--out", "-", "--quiet"}, full);
     CHECK(outcome.exit_code == 1);
     CHECK_THAT(outcome.err, StartsWith("swivel: standard output: cannot be written: "));
+
+    const std::string csv = stage.written({"clip.bvh", "--out", "a.csv"}),
+                      table = stage.written({"clip.bvh", "--export-targets", "t2.csv"});
+    const auto spawn = [&](Words words, std::vector<int> closed) {
+        Surroundings without;
+        without.closed = std::move(closed);
+        words.insert(words.begin(), {"solve", "clip.bvh"});
+        return spawn_command(stage.folder.path, words, without);
+    };
+    for (const auto& [data, other, whole] :
+         {std::tuple("--out", "--export-targets", table), {"--export-targets", "--out", csv}}) {
+        const Outcome closed = spawn({data, "-", other, "b.csv", "--quiet"}, {1});
+        CHECK(closed.exit_code == 1);
+        CHECK_THAT(closed.err, StartsWith("swivel: standard output: cannot be written: "));
+        // Nothing else may be in the other file, where it is there.
+        CHECK((!fs::exists(stage.folder / "b.csv") || slurp(stage.folder / "b.csv") == whole));
+        fs::remove(stage.folder / "b.csv");
+    }
+    for (const std::vector<int>& descriptors : std::vector<std::vector<int>>{{0}, {1}, {2}, {0, 1, 2}}) {
+        const Outcome closed = spawn({"--out", "b.csv", "--export-targets", "t3.csv", "--strict"}, descriptors);
+        INFO(descriptors.size() << " closed, " << descriptors[0] << " first");
+        CHECK(slurp(stage.folder / "b.csv") == csv);
+        CHECK(slurp(stage.folder / "t3.csv") == table);
+        const bool says_all = descriptors == std::vector{0} || descriptors == std::vector{2};
+        CHECK(closed.exit_code == (says_all ? 0 : 1));  // the report is lost with standard output
+        fs::remove(stage.folder / "b.csv");
+        fs::remove(stage.folder / "t3.csv");
+    }
+    Surroundings without;
+    without.closed = {0};
+    const Outcome unread = spawn_command(stage.folder.path, {"solve", "-"}, without);
+    CHECK(unread.exit_code == 1);
+    CHECK_THAT(unread.err, StartsWith("swivel: standard input: "));
 }
 
 TEST_CASE("streams: tables from spreadsheets are read where they can be, and else told what to change")
@@ -205,10 +243,52 @@ TEST_CASE("streams: --strict is exit code 1 where most limbs are out of reach, a
         const Outcome strict = stage.run({"clip.bvh", "--targets", "-", "--out", "s.csv", "--strict"}, far(count));
         CHECK(strict.exit_code == (goes_wrong ? 1 : 0));
         if (goes_wrong)
-            CHECK(strict.err == "swivel: --strict: of 4 limbs, " + std::to_string(count) +
-                                    " are out of reach and 0 have bad input\n");
+            CHECK(strict.err == "swivel: --strict: of 4 arms, " + std::to_string(count) +
+                                    " are out of reach; are the targets in the right place and unit?\n");
         CHECK(slurp(stage.folder / "s.csv") == slurp(stage.folder / "lax.csv"));
         const auto json = nlohmann::json::parse(stage.run({"clip.bvh", "--targets", "-", "--json"}, far(count)).out);
         CHECK(json.at("went_wrong") == goes_wrong);
     }
+}
+
+TEST_CASE("streams: straight arms that are where they should be are not out of reach, though rounding clamps some")
+{
+    const PipeStage stage;
+    std::string clip = kTwoArms.substr(0, kTwoArms.find("Frames: ")) + "Frames: 10\nFrame Time: .01\n";
+    for (const auto& [from, to] : {std::pair("OFFSET 5 0 0", "OFFSET 4.7 0 0"),
+                                   {"OFFSET -5 0 0", "OFFSET -4.7 0 0"},
+                                   {"OFFSET 3 0 0", "OFFSET 3.1 0 0"},
+                                   {"OFFSET -3 0 0", "OFFSET -3.1 0 0"}})
+        clip.replace(clip.find(from), std::string(from).size(), to);
+    for (int frame = 0; frame < 10; ++frame) {
+        clip += "1.1 2.3 4.7 0 " + std::to_string(7 * frame) + " 0";
+        for (int n = 0; n < 18; ++n) clip += " 0";
+        clip += "\n";
+    }
+    const Outcome strict = stage.run({"-", "--strict"}, clip);
+    CHECK(strict.exit_code == 0);
+    CHECK(strict.err.empty());
+    CHECK_THAT(strict.out, !Contains("\nnote "));
+    const auto json = nlohmann::json::parse(stage.run({"-", "--json"}, clip).out);
+    CHECK(json.at("flags").at("clamped far") > 10);  // of 20: the flags alone would say that most are lost
+    CHECK(json.at("out_of_reach") == 0);
+    CHECK(json.at("missed").at("wrist").at("worst") < 1e-6);
+}
+
+TEST_CASE("streams: aims that are too near miss, and are no errors")
+{
+    const PipeStage stage;
+    spill(stage.folder / "aim.toml", "[limb.arms.aim]\naxis = [0, 0, 1]\nflexion_deg = 40\n");
+    // The left shoulder is at (2.97, 7, 2.65) in the first frame: its ray cannot pass so near.
+    const std::string near_one = "frame,character,limb,x,y,z\n0,0,left_arm,2.97,7.1,2.65\n0,0,right_arm,-4,9,30\n";
+    const Outcome outcome = stage.run({"clip.bvh", "--crowd", "aim.toml", "--targets", "-", "--json"}, near_one);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    const std::uint64_t count = json.at("missed").at("aim").at("count");
+    CHECK(count >= 1);
+    CHECK(count == json.at("flags").at("clamped near"));
+    CHECK(json.at("missed").at("aim").at("worst") > 1e-3);
+    CHECK(json.at("errors").at("aim").at("count") == 4 - count);
+    CHECK(json.at("errors").at("aim").at("worst") < 1e-5);
 }

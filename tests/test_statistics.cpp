@@ -41,7 +41,7 @@ std::vector<Pose> random_poses(std::mt19937& random)
 void add(LimbStatistics& to, const Pose& pose)
 {
     to.reached.add(pose.error, pose.name);
-    to.add_flags(pose.flags, pose.name);
+    to.add_flags(pose.flags, pose.error, pose.name);
 }
 
 }  // namespace
@@ -57,8 +57,9 @@ TEST_CASE("statistics: a run went wrong where most limbs are out of reach or hav
         for (std::uint64_t n = 0; n < count; ++n) {
             const std::size_t kind = random() % 2 == 0 ? 0 : 1 + random() % 4;
             const auto limb = kLimbNames[random() % 4];
-            statistics.of(limb.kind).add_flags(words[kind], {n, 0, limb});
-            lost += kind != 0;
+            const bool is_near = random() % 2 == 0;  // clamped by rounding at the end of the reach
+            statistics.of(limb.kind).add_flags(words[kind], is_near ? 1e-6 : 1e-3, {n, 0, limb});
+            lost += (words[kind] & SWIVEL_BAD_INPUT) != 0 || (kind != 0 && !is_near);
         }
         Statistics sum;
         sum.arms.add(statistics.arms);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tools/formats/error.h"
+#include "tools/formats/limits.h"
 
 namespace swivel::formats {
 namespace {
@@ -162,7 +163,7 @@ LimbSettings read_limb(TomlTable table, bool is_one)
     read_reach(table.table("reach"), to);
     read_swivel(table.table("swivel"), to);
     read_limits(table.table("limits"), to);
-    to.twist_bones = table.whole("twist_bones", 0, 7);
+    to.twist_bones = table.whole("twist_bones", 0, kMostTwistBones);
     to.priority = table.number("priority", 0, kMostPriority);
     table.finish();
     return to;

@@ -260,6 +260,7 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     file.path = path;
     file.container = std::move(container);
     const nlohmann::ordered_json document = gltf_document(path, file.container.json);
+    file.files_beside = files_beside(path, document);
     GltfBuffers buffers = read_gltf_buffers(path, document, file.container);
     file.buffers = std::move(buffers.bytes);
     file.contents = std::move(buffers.contents);

@@ -41,6 +41,7 @@ struct GltfChannel {
 
 struct GltfFile {
     std::filesystem::path path;                                // where it was read
+    std::vector<std::filesystem::path> files_beside;           // of its buffers and images, there or not
     GltfContainer container;                                   // the whole file
     std::vector<std::string_view> buffers;                     // contents of the file's buffers, wherever they are kept
     std::vector<std::shared_ptr<const std::string>> contents;  // what `buffers` lie in

@@ -137,7 +137,12 @@ struct Asset {
 
 std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + base64_of(bytes); }
 
-bool is_beside(const Json& object) { return object.contains("uri") && !is_data_uri(object["uri"].get<std::string>()); }
+bool is_beside(const Json& object)
+{
+    if (!object.is_object()) return false;
+    const auto uri = object.find("uri");
+    return uri != object.end() && uri->is_string() && !is_data_uri(uri->get<std::string>());
+}
 
 // Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
 void settle_text(Asset& asset, std::span<const std::string_view> buffers, const fs::path& from, const fs::path& to)
@@ -169,7 +174,7 @@ void settle_images(Asset& asset, const fs::path& from, const fs::path& to, bool 
     const auto found = asset.document.find("images");
     if (found == asset.document.end() || !found->is_array()) return;
     for (Json& image : asset.list("images")) {
-        if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string() || !is_beside(image)) continue;
+        if (!is_beside(image)) continue;
         const std::string uri = image["uri"];
         const std::string bytes = binary ? picture_at(file_at(uri, from)) : std::string();
         const std::string_view kind = picture_kind(bytes);
@@ -263,6 +268,19 @@ Json gltf_document(const fs::path& path, std::string_view json)
     refuse_compression(path, document);
     check_members(path, document);
     return document;
+}
+
+std::vector<fs::path> files_beside(const fs::path& path, const Json& document)
+{
+    std::vector<fs::path> files;
+    for (const char* const kind : {"buffers", "images"}) {
+        const auto list = document.find(kind);
+        if (list == document.end() || !list->is_array()) continue;
+        for (const Json& each : *list)
+            if (is_beside(each)) files.push_back(file_at(each["uri"].get<std::string>(), path));
+    }
+    std::erase(files, fs::path());  // addresses that name no file
+    return files;
 }
 
 std::string skeleton_json(const Json& whole)

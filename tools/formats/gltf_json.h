@@ -20,6 +20,10 @@ namespace swivel::formats {
 // members that check_members() refuses, and if the document says that its buffers are compressed.
 nlohmann::ordered_json gltf_document(const std::filesystem::path& path, std::string_view json);
 
+// The files beside a glTF file that its buffers and images lie in, there or not. path: of the glTF file.
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& path,
+                                                const nlohmann::ordered_json& document);
+
 // What of the document concerns nodes, skins and animations, as text and without buffers: no broken image or mesh gets
 // in the reader's way.
 std::string skeleton_json(const nlohmann::ordered_json& document);

@@ -7,4 +7,7 @@ namespace swivel::formats {
 // The longest target or axis that the engine solves; none in CSV and TOML may be longer.
 constexpr double kMaxNorm = 1e15;
 
+// The most twist bones of one limb.
+constexpr unsigned kMostTwistBones = 7;
+
 }  // namespace swivel::formats

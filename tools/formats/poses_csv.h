@@ -10,6 +10,7 @@
 #include <span>
 
 #include "tools/formats/limb_name.h"
+#include "tools/formats/limits.h"
 #include "tools/formats/output_file.h"
 
 namespace swivel::formats {
@@ -30,9 +31,9 @@ struct PoseRow {
 struct PoseExtra {
     float stretch = 1;  // factor of both bone lengths
     bool has_clavicle = false;
-    std::array<float, 4> clavicle{};              // local rotation of the joint above, x y z w
-    unsigned twist_count = 0;                     // bones of those below that there are; the others' cells stay empty
-    std::array<std::array<float, 4>, 7> twist{};  // x y z w
+    std::array<float, 4> clavicle{};  // local rotation of the joint above, x y z w
+    unsigned twist_count = 0;         // bones of those below that there are; the others' cells stay empty
+    std::array<std::array<float, 4>, kMostTwistBones> twist{};  // x y z w
 };
 
 // The columns for it, after those that every table has.

@@ -14,6 +14,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using formats::PoleKind;
 
+static_assert(formats::kMostTwistBones == SWIVEL_MOST_TWIST_BONES);  // a format knows no solver
+
 void store(const Vector3d& v, float (&to)[3])
 {
     for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(v[n]);

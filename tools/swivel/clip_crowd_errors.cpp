@@ -53,12 +53,12 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
     std::vector<Reached> reached(end - begin);
     std::vector<std::uint32_t> flags(end - begin);
     const LimbPlan& plan = plans_[limb];
-    const bool hand = plan.has(SWIVEL_WITH_HAND);
+    const bool hand = plan.has(SWIVEL_WITH_HAND), aims = plan.has(SWIVEL_WITH_AIM);
     crowds_.forward(limb, begin, end - begin, {reached[0].elbow, sizeof(Reached)}, {reached[0].wrist, sizeof(Reached)},
                     {hand ? reached[0].hand : nullptr, sizeof(Reached)});
     crowds_.read(limb, SWIVEL_FLAGS, begin, end - begin, {flags.data(), sizeof flags[0]});
     std::vector<double> residuals(end - begin);
-    if (plan.has(SWIVEL_WITH_AIM)) crowds_.residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
+    if (aims) crowds_.residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
     for (std::uint32_t n = begin; n < end; ++n) {
         if (!crowds_.solved(limb, n)) continue;
         const Reached& at = reached[n - begin];
@@ -66,15 +66,17 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         const float(&lengths)[2] = inputs_[limb][n].lengths;
         const double length = double{lengths[0]} + lengths[1];
         const PoseName pose{frame_, n, limbs_[limb].name};
-        statistics.add_flags(flags[n - begin], pose);
-        if (flags[n - begin] & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
         const Vector3d effector = characters_[n].size * (Quaterniond(at.hand) * plan.effector);
-        const double missed = (Vector3d(at.wrist) + effector - goal.target).norm() / length;
-        if (plan.has(SWIVEL_WITH_AIM))
-            statistics.aimed.add(residuals[n - begin], pose);
+        const double distance =
+            aims ? residuals[n - begin] : (Vector3d(at.wrist) + effector - goal.target).norm() / length;
+        const std::uint32_t word = flags[n - begin];
+        statistics.add_flags(word, distance, pose);
+        if (word & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
+        if (aims)
+            (word & SWIVEL_REACHED ? statistics.aimed : statistics.aim_missed).add(distance, pose);
         else if (!plan.blends_position)
-            (flags[n - begin] & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(missed, pose);
-        if (hand && !plan.blends_hand && !plan.has(SWIVEL_WITH_AIM))
+            (word & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(distance, pose);
+        if (hand && !plan.blends_hand && !aims)
             statistics.orientation.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)), pose);
         measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
     }

@@ -47,6 +47,22 @@ std::string meant_by(const std::string& wrong, const CLI::App& command)
     return nearest ? fmt::format("did you mean --{}?", *nearest) : help_of(command);
 }
 
+// Whether an option that was not taken stands before the command that has it. Without a command any may have it.
+bool is_misplaced(const std::string& option, const CLI::App& app)
+{
+    const CLI::App& used = used_command(app);
+    const auto has = [&](const CLI::App* command) { return command->get_option_no_throw(option) != nullptr; };
+    return &used == &app ? std::ranges::any_of(app.get_subcommands({}), has) : has(&used);
+}
+
+// An option that was given more often than it may be, as one word of the command line; empty: there is none.
+std::string repeated_option(const CLI::App& command)
+{
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_expected_max() == 1 && option->count() > 1) return option->get_name();
+    return {};
+}
+
 // What is wrong with words that nobody takes; empty: there is none.
 std::string unknown_words(const CLI::App& app)
 {
@@ -56,6 +72,8 @@ std::string unknown_words(const CLI::App& app)
         const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
         if (option != words.end()) {
             const std::string bare = option->substr(0, option->find('='));
+            if (is_misplaced(bare, app))
+                return fmt::format("{} is an option of a command; write it after the command", bare);
             return fmt::format("there is no option {}; {}", bare, meant_by(bare, *command));
         }
         if (!words.empty() && &used == &app)
@@ -75,8 +93,14 @@ void add_completion(CLI::App& app)
         {"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
     CLI::App* command = app.add_subcommand("completion", "Print what a shell reads to complete swivel's options");
     auto shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "Which shell")->required()->check(one_of({"bash", "fish", "zsh"}));
-    command->footer("In bash: source <(swivel completion bash)");
+    takes(command->add_option("SHELL", *shell, "Which shell: bash, fish or zsh"), one_of({"bash", "fish", "zsh"}))
+        ->required()
+        ->option_text(" ");
+    command->footer(
+        "Shells find it in these files from their next start on; make the folders where there are none.\n"
+        "bash: swivel completion bash > ~/.local/share/bash-completion/completions/swivel\n"
+        "zsh: swivel completion zsh > ~/.zfunc/_swivel, with fpath+=~/.zfunc before compinit in ~/.zshrc\n"
+        "fish: swivel completion fish > ~/.config/fish/completions/swivel.fish");
     command->callback([&app, shell] { fmt::print("{}", scripts.at(*shell)(outline_of(app))); });
 }
 
@@ -89,7 +113,8 @@ void add_help(CLI::App& app)
     };
     auto wish = std::make_shared<Wish>();
     CLI::Option* name =
-        command->add_option("COMMAND", wish->command, "On which command")->check(one_of(command_names(app)));
+        takes(command->add_option("COMMAND", wish->command, "On which command"), one_of(command_names(app)))
+            ->option_text(" ");
     command->add_flag("--man", wish->man, "Print the manual page instead, for man")->excludes(name);
     command->callback([&app, wish] {
         if (wish->man)
@@ -104,6 +129,8 @@ void add_help(CLI::App& app)
 std::string cause_of(const CLI::App& app, const CLI::ParseError& error)
 {
     if (const std::string unknown = unknown_words(app); !unknown.empty()) return unknown;
+    if (const std::string repeated = repeated_option(used_command(app)); !repeated.empty())
+        return fmt::format("{} is given twice; give it once", repeated);
     const std::string cause = error.what();
     return cause.ends_with('?') ? cause : fmt::format("{}; {}", cause, help_of(used_command(app)));
 }

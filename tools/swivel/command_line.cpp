@@ -27,21 +27,22 @@ namespace {
 template <class Value>
 CLI::Option* add_characters(CLI::App& command, Value& characters, const std::string& meaning)
 {
-    return command.add_option("--characters", characters, meaning)->check(whole_number(1, 10'000'000));
+    return takes(command.add_option("--characters", characters, "Characters, 1 to 10 million" + meaning),
+                 whole_number(1, 10'000'000));
 }
 
 // Value: std::uint64_t, or an optional of it; 1 where it is not given.
 template <class Value>
 CLI::Option* add_seed(CLI::App& command, Value& seed, const std::string& of)
 {
-    return command.add_option("--seed", seed, "Seed of " + of)->default_str("1")->check(whole_number(0, UINT64_MAX));
+    return takes(command.add_option("--seed", seed, "Seed of " + of)->default_str("1"), whole_number(0, UINT64_MAX));
 }
 
 CLI::Option* add_threads(CLI::App& command, unsigned& threads)
 {
-    return command.add_option("--threads", threads, "Threads at most; 0 for all")
-        ->capture_default_str()
-        ->check(whole_number(0, 1024));
+    return takes(
+        command.add_option("--threads", threads, "Threads at most, up to 1024; 0 for all")->capture_default_str(),
+        whole_number(0, 1024));
 }
 
 CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
@@ -54,33 +55,32 @@ CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meanin
 // The positional FILE.
 void add_file(CLI::App& command, std::string& file, const std::string& meaning)
 {
-    command
-        .add_option("FILE", file,
-                    meaning +
-                        ": .bvh, .glb, .gltf or .vrm; .fbx and .dae where swivel is built with assimp (swivel "
-                        "info); - for standard input, BVH or glTF as its first bytes say")
+    takes(command.add_option("FILE", file,
+                             meaning +
+                                 ": .bvh, .glb, .gltf or .vrm. Where swivel is built with assimp (swivel info says "
+                                 "so), .fbx and .dae, too. - is standard input, BVH or glTF as its first bytes say"),
+          file_name())
         ->required()
-        ->check(file_name());
+        ->option_text(" ");
 }
 
 CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning)
 {
-    return command.add_option("--limbs", kinds, meaning)->check(one_of({"arms", "legs", "all"}));
+    return takes(command.add_option("--limbs", kinds, meaning), one_of({"arms", "legs", "all"}));
 }
 
 // --clip and --fps; use: what the animation is there for.
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
 {
-    command
-        .add_option(
-            "--clip", motion.clip,
-            "Which animation of a glTF, FBX or DAE FILE, by name or, counted from 0, index; else the first; " + use)
-        ->check(name("name an animation, or leave the option out for the first"));
-    command
-        .add_option("--fps", motion.rate,
-                    "Samples a second of a glTF, FBX or DAE animation; without it its keys, or finer where they are "
-                    "coarse or uneven (docs/rigs.md)")
-        ->check(number(0.001, 10'000));
+    takes(command.add_option("--clip", motion.clip,
+                             "Which animation of a glTF, FBX or DAE FILE, by name or, counted from 0, by index. "
+                             "Without it the first. " +
+                                 use),
+          name("name an animation, or leave the option out for the first"));
+    takes(command.add_option("--fps", motion.rate,
+                             "Samples a second of a glTF, FBX or DAE animation, 0.001 to 10000. Without it its keys, "
+                             "or finer where they are coarse or uneven (docs/rigs.md)"),
+          number(0.001, 10'000));
 }
 
 // --arm and --leg; other_side: what becomes of the one that is not named.
@@ -89,8 +89,8 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
 {
     command
         .add_option("--arm", arms,
-                    "Joints of an arm, SHOULDER,ELBOW,WRIST, by name, path or number (#12), where their names do not "
-                    "tell; up to twice; left: or right: in front sets the side; " +
+                    "Joints of an arm, SHOULDER,ELBOW,WRIST, where their names do not tell. Each is a name, a path or "
+                    "a number (#12). left: or right: in front sets the side. May be given twice. " +
                         other_side)
         ->type_name("JOINTS")
         ->allow_extra_args(false);
@@ -105,10 +105,9 @@ void add_demo(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("demo", "Solve a made-up crowd and report throughput, errors and flags");
     auto options = std::make_shared<DemoOptions>();
-    add_characters(*command, options->characters, "Characters, two arms each")->capture_default_str();
-    command->add_option("--frames", options->frames, "Frames")
-        ->capture_default_str()
-        ->check(whole_number(1, 1'000'000));
+    add_characters(*command, options->characters, ", two arms each")->capture_default_str();
+    takes(command->add_option("--frames", options->frames, "Frames, 1 to 1 million")->capture_default_str(),
+          whole_number(1, 1'000'000));
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
     add_quiet(*command, options->quiet);
@@ -122,58 +121,51 @@ void add_solve(CLI::App& app)
         "solve", "Solve the arms and legs of a BVH, glTF, FBX or DAE clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
     add_file(*command, options->file, "Motion file");
-    add_motion(*command, options->motion, "a file without animations is solved in its rest pose");
-    command
-        ->add_option("--targets", options->targets,
-                     "Where wrists, elbows and hands (ankles, knees and feet) must be: 'clip' for the clip's own "
-                     "motion, or a CSV "
-                     "file with the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z][,qx,qy,qz,qw], in the "
-                     "world; limb is "
-                     "left_arm, right_arm, left_leg or right_leg. - is standard input. docs/tables.md says more")
-        ->default_str("clip")
-        ->check(file_name());
-    command
-        ->add_option(
-            "--between", options->between,
-            "In frames between a limb's rows: hold the last row, or go on to the next in a linear way; without "
-            "it the limb follows the clip there")
-        ->check(one_of({"hold", "linear"}));
-    command
-        ->add_option("--export-targets", options->export_targets,
-                     "Write the clip's wrists, poles and hands, or those given, as a table to edit and to give back by "
-                     "--targets")
-        ->check(file_name());
-    command
-        ->add_option(
-            "--crowd", options->crowd,
-            "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, reach, limits, "
-            "budget; docs/crowd_file.md has every key. Options given here override it; - for standard input")
-        ->check(file_name());
-    CLI::Option* out =
-        command
-            ->add_option("-o,--out", options->out,
-                         "Write the poses: to .csv, or to the clip's own format, .bvh or .glb and .gltf (one "
-                         "character; all else of the asset is kept). FBX and DAE clips go to .glb or .gltf. - is "
-                         "standard output, and the report then goes to standard error. Without it there are "
-                         "statistics only")
-            ->check(file_name());
-    command
-        ->add_option("--format", options->format,
-                     "Format of --out, if its suffix is not to say it; - is csv without it")
-        ->check(one_of({"csv", "bvh", "glb", "gltf"}))
+    add_motion(*command, options->motion, "A file without animations is solved in its rest pose");
+    takes(command
+              ->add_option("--targets", options->targets,
+                           "Where wrists, elbows and hands (ankles, knees and feet) must be. 'clip' is the clip's own "
+                           "motion. A CSV file has the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z]"
+                           "[,qx,qy,qz,qw], in the world. limb is left_arm, right_arm, left_leg or right_leg. - is "
+                           "standard input. docs/tables.md says more")
+              ->default_str("clip"),
+          file_name());
+    takes(command->add_option("--between", options->between,
+                              "In frames between a limb's rows, hold the last row, or go on to the next in a linear "
+                              "way. Without it the limb follows the clip there"),
+          one_of({"hold", "linear"}));
+    takes(command->add_option("--export-targets", options->export_targets,
+                              "Write the clip's wrists, poles and hands, or those given, as a table to edit and to "
+                              "give back by --targets"),
+          file_name());
+    takes(command->add_option("--crowd", options->crowd,
+                              "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
+                              "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
+                              "it. - is standard input"),
+          file_name());
+    CLI::Option* out = takes(
+        command->add_option("-o,--out", options->out,
+                            "Write the poses to .csv, or to the clip's own format, .bvh or .glb and .gltf. A motion "
+                            "file holds one character and keeps all else of the asset. FBX and DAE clips go to .glb "
+                            "or .gltf. - is standard output, and the report then goes to standard error. Without it "
+                            "there are statistics only"),
+        file_name());
+    takes(command->add_option("--format", options->format,
+                              "Format of --out. Without it the suffix says it; standard output is CSV"),
+          one_of({"csv", "bvh", "glb", "gltf"}))
         ->needs(out);
     add_kinds(*command, options->kinds,
-              "Which limbs to solve: arms, legs or all, each by --arm and --leg or else by the names in use; "
-              "without it those named alone, or else the arms");
-    add_named_limbs(*command, options->arms, options->legs, "the side that is not named is looked for with --limbs");
+              "Which limbs to solve: arms, legs or all. Each is named by --arm or --leg, or found by the names in use. "
+              "Without it those named alone, or else the arms");
+    add_named_limbs(*command, options->arms, options->legs, "With --limbs the side that is not named is looked for");
     add_characters(*command, options->characters,
-                   "Characters, differing in arm lengths, place and start; the first is the clip's own")
+                   ", differing in arm lengths, place and start; the first is the clip's own")
         ->default_str("1");
     add_seed(*command, options->seed, "the characters' differences");
     add_threads(*command, options->threads);
     command->add_flag("--strict", options->strict,
-                      "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input; "
-                      "without it a note says so");
+                      "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input. "
+                      "Without it a note says so");
     add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_solve(*options); });
@@ -186,10 +178,10 @@ void add_rig(CLI::App& app)
     auto options = std::make_shared<RigOptions>();
     add_file(*command, options->file, "Skeleton, with or without motion");
     add_kinds(*command, options->kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
-    add_named_limbs(*command, options->arms, options->legs, "the other side is still looked for");
+    add_named_limbs(*command, options->arms, options->legs, "The other side is still looked for");
     add_motion(*command, options->motion,
-               "it decides the limits that are printed and, where the rest pose is straight or bends otherwise, bends "
-               "and axes");
+               "It decides the limits that are printed. Where the rest pose is straight or bends otherwise, it decides "
+               "bends and axes, too");
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
     command->add_flag("--toml", options->toml,
                       "Print the limbs that bind as a crowd file, their joints and bends, for swivel solve --crowd");
@@ -202,9 +194,9 @@ void add_verify(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("verify", "Check oracle, double, float and every instruction set against each other");
     auto options = std::make_shared<VerifyOptions>();
-    command->add_option("--arms", options->arms, "Random arms in each reach band")
-        ->capture_default_str()
-        ->check(whole_number(1, 1'000'000'000));
+    takes(command->add_option("--arms", options->arms, "Random arms in each reach band, 1 to 1000 million")
+              ->capture_default_str(),
+          whole_number(1, 1'000'000'000));
     add_seed(*command, options->seed, "the random arms");
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
@@ -216,9 +208,9 @@ void add_bench(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("bench", "Time solves on this machine beside rivals, copies and the machine's limits");
     auto options = std::make_shared<BenchOptions>();
-    command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed")
-        ->capture_default_str()
-        ->check(number(0.1, 3600));
+    takes(command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed, 0.1 to 3600")
+              ->capture_default_str(),
+          number(0.1, 3600));
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->footer(
@@ -238,7 +230,9 @@ void add_info(CLI::App& app)
 
 int run_swivel(int argc, const char* const* argv)
 {
-    CLI::App app{"Solves the arms of crowds: wrist targets in, joint rotations out, the same bits on every CPU."};
+    CLI::App app{
+        "Solves the arms and legs of crowds: wrist and ankle targets in, joint rotations out, the same bits on every "
+        "CPU."};
     app.name("swivel");
     app.set_version_flag(
         "--version", fmt::format("swivel {}.{}.{}", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH));

@@ -8,18 +8,10 @@ namespace swivel::tools {
 
 namespace {
 
-// The parser's text is "TEXT:FILE", the type and what checks it.
-std::string value_of(const CLI::Option& option)
-{
-    if (option.get_expected_max() == 0) return {};
-    const std::string type = option.get_type_name();
-    return type.substr(type.find(':') + 1);
-}
-
 std::vector<std::string> words_of(const std::string& value)
 {
-    if (!value.starts_with('{')) return {};
-    return CLI::detail::split(value.substr(1, value.size() - 2), ',');
+    if (value.find('|') == std::string::npos) return {};
+    return CLI::detail::split(value, '|');
 }
 
 OptionOutline outline_of(const CLI::Option& option)
@@ -31,7 +23,7 @@ OptionOutline outline_of(const CLI::Option& option)
     for (const std::string& name : option.get_lnames()) outline.names.push_back("--" + name);
     outline.is_required = option.get_required();
     outline.repeats = option.get_expected_max() == CLI::detail::expected_max_vector_size;
-    outline.value = value_of(option);
+    if (option.get_expected_max() > 0) outline.value = option.get_type_name();
     outline.words = words_of(outline.value);
     outline.otherwise = option.get_default_str();
     outline.text = option.get_description();

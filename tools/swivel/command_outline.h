@@ -16,7 +16,7 @@ namespace swivel::tools {
 struct OptionOutline {
     std::vector<std::string> names;  // "-o", "--out"; a positional's own, "FILE"
     bool is_positional = false, is_required = false, repeats = false;
-    std::string value;               // what it takes, "FILE" or "1..100"; empty: nothing
+    std::string value;               // what it takes, "FILE" or "arms|legs"; empty: nothing
     std::vector<std::string> words;  // that it takes, where only these do
     std::string otherwise;           // the value without it; may be empty
     std::string text;                // what it is for

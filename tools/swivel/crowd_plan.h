@@ -37,7 +37,10 @@ struct LimbPlan {
     bool blends_hand = false;
 
     bool has(swivel_features feature) const { return (features & feature) != 0; }
-    unsigned twist_count() const { return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES); }
+    unsigned twist_count() const
+    {
+        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
+    }
 };
 
 struct CrowdPlan {

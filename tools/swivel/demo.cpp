@@ -108,7 +108,7 @@ public:
             crowd_.read(SWIVEL_FLAGS, group, flags_);
             for (std::uint32_t n = 0; n < flags_.size(); ++n) {
                 const PoseName pose{frame, n, formats::kLimbNames[group]};
-                statistics.arms.add_flags(flags_[n], pose);
+                statistics.arms.add_flags(flags_[n], residuals_[n], pose);
                 (flags_[n] & SWIVEL_REACHED ? statistics.arms.reached : statistics.arms.missed)
                     .add(residuals_[n], pose);
             }

@@ -11,7 +11,7 @@ namespace {
 
 // Features that a crowd has for all its limbs or for none; the others are at rest where a limb does not use them.
 constexpr swivel_features kShared = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
-                                    SWIVEL_POLE_INCOMING | 7 * SWIVEL_WITH_TWIST_BONES;
+                                    SWIVEL_POLE_INCOMING | SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
 
 // A crowd in the making.
 struct Draft {

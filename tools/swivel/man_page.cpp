@@ -9,7 +9,8 @@ namespace swivel::tools {
 
 namespace {
 
-// Text as roff takes it: a hyphen stays one that can be copied, and no line starts a request.
+// Text as roff takes it: hyphens and tildes stay such as can be copied, lines stay lines, and the first starts no
+// request.
 std::string roff(const std::string& text)
 {
     std::string out = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
@@ -18,6 +19,10 @@ std::string roff(const std::string& text)
             out += "\\e";
         else if (c == '-')
             out += "\\-";
+        else if (c == '~')
+            out += "\\(ti";
+        else if (c == '\n')
+            out += "\n.br\n";
         else
             out += c;
     }
@@ -27,18 +32,12 @@ std::string roff(const std::string& text)
 std::string bold(const std::string& text) { return fmt::format("\\fB{}\\fR", roff(text)); }
 std::string italic(const std::string& text) { return fmt::format("\\fI{}\\fR", roff(text)); }
 
-// "{arms,legs,all}" as "arms|legs|all".
-std::string value_of(const OptionOutline& option)
-{
-    return option.words.empty() ? option.value : fmt::format("{}", fmt::join(option.words, "|"));
-}
-
 std::string option_text(const OptionOutline& option)
 {
     std::string names;
     for (const std::string& name : option.names)
         names += (names.empty() ? "" : ", ") + (option.is_positional ? italic(name) : bold(name));
-    if (!option.is_positional && !option.value.empty()) names += " " + italic(value_of(option));
+    if (!option.is_positional && !option.value.empty()) names += " " + italic(option.value);
     std::string text = roff(option.text);
     if (!option.otherwise.empty()) text += fmt::format(". Default: {}", roff(option.otherwise));
     return fmt::format(".TP\n{}\n{}.\n", names, text);

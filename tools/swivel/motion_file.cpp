@@ -75,6 +75,12 @@ const formats::Clip& MotionFile::clip() const
     return std::visit([](const auto& file) -> const formats::Clip& { return file.clip; }, file_);
 }
 
+std::span<const std::filesystem::path> MotionFile::files_beside() const
+{
+    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
+    return gltf ? std::span<const std::filesystem::path>(gltf->files_beside) : std::span<const std::filesystem::path>();
+}
+
 std::string MotionFile::describe() const
 {
     const GltfFile* gltf = std::get_if<GltfFile>(&file_);

@@ -29,6 +29,8 @@ public:
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
 
     const formats::Clip& clip() const;
+    // The files beside it that it uses: a glTF file's buffers and images.
+    std::span<const std::filesystem::path> files_beside() const;
     // What the clip is, for people: "FBX, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
     // Vertices of a glTF file whose skin weights write() mends, see formats::mended_vertex_count().

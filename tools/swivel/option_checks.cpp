@@ -11,7 +11,12 @@
 
 namespace swivel::tools {
 
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most)
+CLI::Option* takes(CLI::Option* option, const OptionValue& value)
+{
+    return option->type_name(value.word)->check(CLI::Validator(value.check, ""));
+}
+
+OptionValue whole_number(std::uint64_t least, std::uint64_t most)
 {
     const auto check = [least, most](const std::string& text) -> std::string {
         std::uint64_t value = 0;
@@ -21,10 +26,10 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most)
         if (plain && value >= least && value <= most) return {};
         return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
     };
-    return CLI::Validator(check, fmt::format("{}..{}", least, most));
+    return {"NUMBER", check};
 }
 
-CLI::Validator number(double least, double most)
+OptionValue number(double least, double most)
 {
     const auto check = [least, most](const std::string& text) -> std::string {
         double value = 0;
@@ -32,32 +37,32 @@ CLI::Validator number(double least, double most)
         if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
         return fmt::format("'{}' is not a number from {} to {}", text, least, most);
     };
-    return CLI::Validator(check, fmt::format("{}..{}", least, most));
+    return {"NUMBER", check};
 }
 
-CLI::Validator file_name()
+OptionValue file_name()
 {
     const auto check = [](const std::string& text) -> std::string {
         return text.empty() ? "the file name is empty; give one, or leave the option out" : "";
     };
-    return CLI::Validator(check, "FILE");
+    return {"FILE", check};
 }
 
-CLI::Validator name(const std::string& advice)
+OptionValue name(const std::string& advice)
 {
     const auto check = [advice](const std::string& text) -> std::string {
         return text.empty() ? "the name is empty; " + advice : "";
     };
-    return CLI::Validator(check, "NAME");
+    return {"NAME", check};
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words)
+OptionValue one_of(const std::vector<std::string>& words)
 {
     const auto check = [words](const std::string& text) -> std::string {
         if (std::find(words.begin(), words.end(), text) != words.end()) return {};
         return fmt::format("there is no '{}'; {}", formats::printable(text), formats::suggestion(text, words));
     };
-    return CLI::Validator(check, fmt::format("{{{}}}", fmt::join(words, ",")));
+    return {fmt::format("{}", fmt::join(words, "|")), check};
 }
 
 }  // namespace swivel::tools

@@ -6,20 +6,30 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace swivel::tools {
 
+// What an option takes.
+struct OptionValue {
+    std::string word;                                      // for it in help; "arms|legs" where only these are taken
+    std::function<std::string(const std::string&)> check;  // what is wrong with a text; empty: nothing
+};
+
+// The option takes that; help calls it by its word alone.
+CLI::Option* takes(CLI::Option* option, const OptionValue& value);
+
 // Decimal digits, least to most.
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
+OptionValue whole_number(std::uint64_t least, std::uint64_t most);
 // A finite number, least to most.
-CLI::Validator number(double least, double most);
+OptionValue number(double least, double most);
 // Anything but nothing.
-CLI::Validator file_name();
+OptionValue file_name();
 // The same. advice: what to do instead of giving nothing.
-CLI::Validator name(const std::string& advice);
+OptionValue name(const std::string& advice);
 // One of these words; another is refused with the one that looks like it.
-CLI::Validator one_of(const std::vector<std::string>& words);
+OptionValue one_of(const std::vector<std::string>& words);
 
 }  // namespace swivel::tools

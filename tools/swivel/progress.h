@@ -11,13 +11,13 @@
 namespace swivel::tools {
 
 // The bar and its figures, or as much of them as fits into one line of a terminal that has that many columns.
-// done: 0 to total. what: one word, such as "frames". seconds: since the start.
+// done: 0 to total. total: 1 or more. what: their name, such as "frames". seconds: since the start.
 std::string progress_line(std::uint64_t done, std::uint64_t total, std::string_view what, double seconds,
                           std::size_t columns);
 
 class Progress {
 public:
-    // what: one word, such as "frames". total: how many there are to do. quiet: shows nothing.
+    // what: their name, such as "frames". total: how many there are to do. quiet: shows nothing.
     Progress(std::string what, std::uint64_t total, bool quiet);
     ~Progress();  // wipes the bar
     Progress(const Progress&) = delete;

@@ -94,6 +94,7 @@ void add_distances(std::vector<Distance>& to, const LimbStatistics& s, LimbKind 
     add(kError, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target", w.end), length, s.aimed);
     add(kError, std::string(w.end), fmt::format("{} to orientation", w.end), "rad", s.orientation);
     add(kMissed, end, end + " to target, not reached", length, s.missed);
+    add(kMissed, arm ? "aim" : "leg_aim", fmt::format("{}'s ray to target, not reached", w.end), length, s.aim_missed);
     add(kDiffers, joint("given"), fmt::format("{} from clip, goal given", w.lower_joint), length, s.given);
     add(kDiffers, joint("bent"), fmt::format("{} from clip, bent over 5 deg", w.lower_joint), length, s.bent);
     add(kDiffers, joint("straight"), fmt::format("{} from clip, straighter", w.lower_joint), length, s.straight);
@@ -110,6 +111,18 @@ std::vector<Distance> distances_of(const Statistics& statistics)
 }
 
 }  // namespace
+
+std::string what_went_wrong(const Statistics& statistics)
+{
+    std::string text = fmt::format("of {} {}", statistics.limb_count(), limbs_solved(statistics));
+    if (const std::uint64_t count = statistics.unreached(); count > 0)
+        text += fmt::format(", {} {} out of reach; are the targets in the right place and unit?", count,
+                            count == 1 ? "is" : "are");
+    if (const std::uint64_t count = statistics.bad(); count > 0)
+        text += fmt::format("{} {} {} bad input; are positions below 1e15 and bones longer than 0?",
+                            statistics.unreached() > 0 ? "" : ",", count, count == 1 ? "has" : "have");
+    return text;
+}
 
 void print_statistics(const Statistics& statistics)
 {
@@ -133,10 +146,7 @@ void print_statistics(const Statistics& statistics)
                 w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs, w.lower_joint);
         }
     if (went_wrong(statistics))
-        fmt::print(
-            "note     most {} are not where they should be: of {}, {} are out of reach and {} have bad input; are the "
-            "targets in the right place and unit?\n",
-            limbs, statistics.limb_count(), statistics.unreached(), statistics.bad());
+        fmt::print("note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
 
 nlohmann::ordered_json json_of(const Statistics& statistics)

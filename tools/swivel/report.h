@@ -11,6 +11,8 @@ namespace swivel::tools {
 
 // Throughput, instruction set, threads, errors, differences from the clip, flags, and a note where went_wrong(): on
 // stdout.
+// What is wrong with the limbs of a run that went_wrong(), and what to look at: one line for people, without its end.
+std::string what_went_wrong(const Statistics& statistics);
 void print_statistics(const Statistics& statistics);
 nlohmann::ordered_json json_of(const Statistics& statistics);
 

@@ -156,7 +156,7 @@ void run_solve(const SolveOptions& options)
     const MotionFile file(options.file, options.motion);
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
     const Job job = make_job(options, choice, file.clip());
-    require_own_files(options, job.targets);
+    require_own_files(options, file, job.targets);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing,     job.doubt};
     if (!options.json && !options.quiet) print_clip(facts, file.clip(), job.limbs);
@@ -178,9 +178,7 @@ void run_solve(const SolveOptions& options)
     } else if (!options.quiet) {
         print_report(options, statistics, seconds, mended);
     }
-    if (options.strict && went_wrong(statistics))
-        throw CommandError(1, fmt::format("--strict: of {} limbs, {} are out of reach and {} have bad input",
-                                          statistics.limb_count(), statistics.unreached(), statistics.bad()));
+    if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }
 
 }  // namespace swivel::tools

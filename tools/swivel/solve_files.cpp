@@ -44,7 +44,7 @@ OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = out_place(options).suffix;
     if (suffix == ".csv") return OutKind::csv;
-    if (formats::is_scene(options.out))
+    if (options.format.empty() && formats::is_scene(options.out))
         throw CommandError(
             2, fmt::format("--out {}: FBX and DAE are read, not written; use .glb, .gltf or .csv", options.out));
     if (!is_bvh(suffix) && !is_gltf(suffix))
@@ -63,7 +63,7 @@ void require_one_reader(const SolveOptions& options, const std::string& targets)
         throw CommandError(2, "more than one of FILE, --crowd and --targets is -, standard input; name the others");
 }
 
-void require_own_files(const SolveOptions& options, const std::string& targets)
+void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
 {
     const auto require = [](const char* option, const std::string& file, const std::string& other, const char* what) {
         if (!file.empty() && !other.empty() && is_same_file(file, other))
@@ -72,6 +72,8 @@ void require_own_files(const SolveOptions& options, const std::string& targets)
     const auto require_not_read = [&](const char* option, const std::string& file) {
         if (is_standard_stream(file)) return;  // reading from - is something else
         require(option, file, options.file, "the clip");
+        for (const std::filesystem::path& beside : clip.files_beside())
+            require(option, file, beside.string(), "a buffer or image of the clip");
         if (targets != "clip") require(option, file, targets, "the table of targets");
         require(option, file, options.crowd, "the crowd file");
     };

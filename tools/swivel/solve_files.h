@@ -24,7 +24,7 @@ OutKind out_kind(const SolveOptions& options, std::uint32_t characters);
 void require_one_reader(const SolveOptions& options, const std::string& targets);
 
 // Nothing that is read is written over, and nothing that is written. Throws CommandError.
-void require_own_files(const SolveOptions& options, const std::string& targets);
+void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets);
 
 bool writes_to_standard_output(const SolveOptions& options);
 

@@ -65,11 +65,16 @@ struct FlagStat {
     }
 };
 
+// Limbs that miss their target by more, in limb lengths, are out of reach. A straight limb at the very end of its reach
+// may be clamped by rounding, and then misses by about 1e-7. A miss of 1e-4 is a tenth of a millimetre of a metre.
+constexpr double kLostDistance = 1e-4;
+
 // Of the limbs of one kind.
 struct LimbStatistics {
     ErrorStat reached;      // limb lengths, between wrist or ankle and target, of limbs that reach it
-    ErrorStat missed;       // the same, of limbs out of reach
-    ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim
+    ErrorStat missed;       // the same, of the others
+    ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim and hit it
+    ErrorStat aim_missed;   // the same, of limbs that aim and do not
     ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
     // Differences from the clip, of elbow or knee in limb lengths:
     ErrorStat given;  // of limbs that were given another goal, pole or aim than the clip's; all others follow it
@@ -80,12 +85,14 @@ struct LimbStatistics {
     std::uint64_t limb_count = 0;
     std::uint64_t unreached = 0, bad = 0;  // of them: out of reach, with bad input
 
-    void add_flags(std::uint32_t word, const PoseName& pose)
+    // distance: in limb lengths, between what was to reach the target and the target.
+    void add_flags(std::uint32_t word, double distance, const PoseName& pose)
     {
         ++limb_count;
         const bool is_bad = (word & SWIVEL_BAD_INPUT) != 0;
+        const bool is_clamped = (word & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) != 0;
         bad += is_bad;
-        unreached += !is_bad && (word & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) != 0;
+        unreached += !is_bad && is_clamped && distance > kLostDistance;
         for (std::size_t bit = 0; bit < flags.size(); ++bit)
             if (word >> bit & 1u) flags[bit].add({1, pose});
     }
@@ -94,6 +101,7 @@ struct LimbStatistics {
         reached.add(other.reached);
         missed.add(other.missed);
         aimed.add(other.aimed);
+        aim_missed.add(other.aim_missed);
         orientation.add(other.orientation);
         given.add(other.given);
         bent.add(other.bent);
