@@ -199,6 +199,7 @@ TEST_CASE("streams: a standard output that is full or closed is a failure")
         fs::remove(stage.folder / "b.csv");
         fs::remove(stage.folder / "t3.csv");
     }
+    CHECK(spawn({"--clip", "x"}, {2}).exit_code == 2);  // what cannot be said is no crash
     Surroundings without;
     without.closed = {0};
     const Outcome unread = spawn_command(stage.folder.path, {"solve", "-"}, without);

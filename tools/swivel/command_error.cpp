@@ -11,7 +11,7 @@ namespace swivel::tools {
 int fail(int code, std::string line)
 {
     std::replace(line.begin(), line.end(), '\n', ' ');
-    fmt::print(stderr, "swivel: {}\n", line);
+    std::fputs(fmt::format("swivel: {}\n", line).c_str(), stderr);  // fmt::print() throws where nobody can be told
     return code;
 }
 

@@ -69,6 +69,9 @@ std::string unknown_words(const CLI::App& app)
     const CLI::App& used = used_command(app);
     for (const CLI::App* command : {&app, &used}) {
         const std::vector<std::string> words = command->remaining();
+        if (&used == &app && !words.empty() && !words[0].starts_with('-'))
+            return fmt::format("there is no command '{}'; {}", words[0],
+                               formats::suggestion(words[0], command_names(app)));
         const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
         if (option != words.end()) {
             const std::string bare = option->substr(0, option->find('='));
@@ -76,9 +79,6 @@ std::string unknown_words(const CLI::App& app)
                 return fmt::format("{} is an option of a command; write it after the command", bare);
             return fmt::format("there is no option {}; {}", bare, meant_by(bare, *command));
         }
-        if (!words.empty() && &used == &app)
-            return fmt::format("there is no command '{}'; {}", words[0],
-                               formats::suggestion(words[0], command_names(app)));
         if (!words.empty()) return fmt::format("'{}' is one word too many; {}", words[0], help_of(used));
     }
     return {};

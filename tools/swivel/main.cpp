@@ -7,12 +7,13 @@
 namespace {
 
 // A file opened later would get the number of a standard stream that is closed, and the stream's text. /dev/null takes
-// that number first. It is opened the wrong way round, so that the stream still cannot be read or written.
+// that number first. For input and output it is opened the wrong way round, so that these still cannot be read or
+// written. Messages get lost.
 bool open_closed_streams()
 {
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
         const bool is_closed = ::fcntl(stream, F_GETFD) < 0;
-        if (is_closed && ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) return false;
+        if (is_closed && ::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_WRONLY) != stream) return false;
     }
     return true;
 }
