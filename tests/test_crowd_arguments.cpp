@@ -4,6 +4,7 @@
 #include "tests/solve_jobs.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
+#include "tests/test_random.h"
 
 #include <array>
 #include <limits>
