@@ -53,7 +53,7 @@ TEST_CASE("a def that breaks its contract makes no crowd")
         def.features = SWIVEL_WITH_HAND | feature;
         refuse(&def);
     }
-    for (const swivel_features bones : {8, 9, 15, 255}) {
+    for (const swivel_features bones : std::initializer_list<swivel_features>{8, 9, 15, 255}) {
         def = good;
         def.features = SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES;
         refuse(&def);
