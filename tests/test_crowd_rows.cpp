@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: groups and fields lie in rows as swivel.h's table says, and data goes in and out whole.
+#include <map>
+
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tests/test_random.h"
