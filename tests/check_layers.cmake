@@ -123,12 +123,14 @@ may_include(tools/corpus "" "${standard}|\"swivel/swivel[.]hpp\"|\"tools/corpus/
 must_not_say(tools/corpus "[^a-zA-Z_](SWIVEL|swivel)_[a-zA-Z_]+" "tools/corpus/interface[.]cpp$" "the library's names are known to interface.cpp alone")
 must_not_say(tools/corpus "[^a-zA-Z_](std::)?(a?(sin|cos|tan)h?|atan2|sincos|exp2?|log(2|10)?|pow|cbrt|hypot|fma)f?[ \t]*[(]" ${nowhere}
              "the corpus's numbers are the same everywhere: + - * / and sqrt")
-must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/swivel)[^\n]*" ${nowhere} "a format knows no solver")
+must_not_say(tools/formats "#[ \t]*include[ \t]*[\"<](swivel/|tools/(rig|crowd|cli|swivel))[^\n]*" ${nowhere} "a format knows no solver")
+must_not_say(tools/rig "#[ \t]*include[ \t]*\"tools/(crowd|cli|swivel|corpus)/[^\n]*" ${nowhere} "a rig knows skeletons and the library alone")
+must_not_say(tools/crowd "#[ \t]*include[ \t]*\"tools/(cli|swivel|corpus)/[^\n]*" ${nowhere} "a crowd knows no command")
+must_not_say(tools/cli "#[ \t]*include[ \t]*\"tools/(rig|crowd|swivel|corpus)/[^\n]*" ${nowhere} "a command line knows no subcommand")
 must_not_say(tools "[^a-zA-Z_]toml::" "tools/formats/(toml_table|crowd_file)[.](h|cpp)$" "TOML is read in tools/formats/toml_table alone")
 must_not_say(tools/swivel "#[ \t]*include[ \t]*\"bench/[a-z_]+[.]h[^\n]*" ${nowhere} "the command does not know the suite")
 must_not_say(tools/formats "#[ \t]*include[ \t]*\"bench/[^\n]*" ${nowhere} "a format knows no benchmark")
 must_not_say(bench/rivals "#[ \t]*include[ \t]*(\"bench/[a-z_]+[.]h|<benchmark/)[^\n]*" ${nowhere} "the rivals do not know the suite")
-must_not_say(tools "#[ \t]*include[ \t]*<assimp/[^\n]*" "tools/formats/scene_[a-z]+[.]cpp$" "assimp is known to tools/formats/scene_* alone")
 must_not_say(tools "pybind11" "tools/python/" "the binding is in tools/python alone")
 must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmarks do not know the tools")
 

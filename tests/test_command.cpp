@@ -13,7 +13,7 @@
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
-#include "tools/swivel/progress.h"
+#include "tools/cli/progress.h"
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;

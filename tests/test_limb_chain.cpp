@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "tools/swivel/limb_chain.h"
+#include "tools/rig/limb_chain.h"
 
 using namespace swivel;
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/swivel/joint_names.h"
-#include "tools/swivel/limb_joints.h"
+#include "tools/rig/joint_names.h"
+#include "tools/rig/limb_joints.h"
 
 using namespace swivel;
 using formats::Clip;

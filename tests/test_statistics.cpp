@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "tools/swivel/statistics.h"
+#include "tools/crowd/statistics.h"
 
 namespace {
 

@@ -48,7 +48,7 @@ class Build:
     def __init__(self, folder, tree, isa, with_python):
         self.folder = folder
         options = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_CXX_FLAGS_RELEASE": "-O1", "CMAKE_C_FLAGS_RELEASE": "-O1",
-                   "SWIVEL_ISAS": isa, "SWIVEL_ASSIMP": "OFF", "SWIVEL_PYTHON_MODULE": "ON" if with_python else "OFF"}
+                   "SWIVEL_ISAS": isa, "SWIVEL_PYTHON_MODULE": "ON" if with_python else "OFF"}
         configured = subprocess.run(["cmake", "-S", tree, "-B", folder, "-G", "Ninja", *(f"-D{k}={v}" for k, v in options.items())],
                                     capture_output=True, text=True)
         if configured.returncode != 0:

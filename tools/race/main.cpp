@@ -10,9 +10,9 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "tools/cli/command_error.h"
+#include "tools/cli/interrupt.h"
 #include "tools/race/report.h"
-#include "tools/swivel/command_error.h"
-#include "tools/swivel/interrupt.h"
 #include "tools/swivel/report.h"
 
 int main(int argc, char** argv)

@@ -13,9 +13,9 @@
 #include "bench/rivals/contenders.h"
 #include "bench/rivals/probe.h"
 #include "bench/rivals/whole_frame.h"
+#include "tools/cli/command_error.h"
+#include "tools/crowd/parallel.h"
 #include "tools/race/race.h"
-#include "tools/swivel/command_error.h"
-#include "tools/swivel/parallel.h"
 
 namespace swivel::tools {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "bench/rivals/timing.h"
-#include "tools/swivel/interrupt.h"
-#include "tools/swivel/progress.h"
+#include "tools/cli/interrupt.h"
+#include "tools/cli/progress.h"
 
 namespace swivel::tools {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/swivel/command_error.h"
+#include "tools/cli/command_error.h"
 #include "tools/swivel/commands.h"
 
 namespace swivel::tools {

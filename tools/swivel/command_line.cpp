@@ -12,10 +12,10 @@
 #include <memory>
 
 #include "swivel/swivel.hpp"
-#include "tools/swivel/command_error.h"
-#include "tools/swivel/command_help.h"
+#include "tools/cli/command_error.h"
+#include "tools/cli/command_help.h"
+#include "tools/cli/option_checks.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/option_checks.h"
 
 namespace swivel::tools {
 
@@ -55,10 +55,9 @@ CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meanin
 // The positional FILE.
 void add_file(CLI::App& command, std::string& file, const std::string& meaning)
 {
-    takes(command.add_option("FILE", file,
-                             meaning +
-                                 ": .bvh, .glb, .gltf or .vrm. Where swivel is built with assimp (swivel info says "
-                                 "so), .fbx and .dae, too. - is standard input, BVH or glTF as its first bytes say"),
+    takes(command.add_option(
+              "FILE", file,
+              meaning + ": .bvh, .glb, .gltf or .vrm. - is standard input, BVH or glTF as its first bytes say"),
           file_name())
         ->required()
         ->option_text(" ");
@@ -73,12 +72,12 @@ CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string&
 void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
 {
     takes(command.add_option("--clip", motion.clip,
-                             "Which animation of a glTF, FBX or DAE FILE, by name or, counted from 0, by index. "
+                             "Which animation of a glTF FILE, by name or, counted from 0, by index. "
                              "Without it the first. " +
                                  use),
           name("name an animation, or leave the option out for the first"));
     takes(command.add_option("--fps", motion.rate,
-                             "Samples a second of a glTF, FBX or DAE animation, 0.001 to 10000. Without it its keys, "
+                             "Samples a second of a glTF animation, 0.001 to 10000. Without it its keys, "
                              "or finer where they are coarse or uneven (docs/rigs.md)"),
           number(0.001, 10'000));
 }
@@ -117,8 +116,8 @@ void add_demo(CLI::App& app)
 
 void add_solve(CLI::App& app)
 {
-    CLI::App* command = app.add_subcommand(
-        "solve", "Solve the arms and legs of a BVH, glTF, FBX or DAE clip, or of a crowd that performs it");
+    CLI::App* command =
+        app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
     add_file(*command, options->file, "Motion file");
     add_motion(*command, options->motion, "A file without animations is solved in its rest pose");
@@ -146,8 +145,8 @@ void add_solve(CLI::App& app)
     CLI::Option* out = takes(
         command->add_option("-o,--out", options->out,
                             "Write the poses to .csv, or to the clip's own format, .bvh or .glb and .gltf. A motion "
-                            "file holds one character and keeps all else of the asset. FBX and DAE clips go to .glb "
-                            "or .gltf. - is standard output, and the report then goes to standard error. Without it "
+                            "file holds one character and keeps all else of the asset. - is standard output, and the "
+                            "report then goes to standard error. Without it "
                             "there are statistics only"),
         file_name());
     takes(command->add_option("--format", options->format,

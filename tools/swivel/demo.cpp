@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
-#include "tools/swivel/command_error.h"
+#include "tools/cli/command_error.h"
+#include "tools/cli/interrupt.h"
+#include "tools/cli/progress.h"
+#include "tools/crowd/parallel.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/interrupt.h"
-#include "tools/swivel/parallel.h"
-#include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {

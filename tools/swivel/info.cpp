@@ -9,8 +9,7 @@
 
 #include "bench/rivals/cpu_model.h"
 #include "swivel/swivel.hpp"
-#include "tools/formats/scene_import.h"
-#include "tools/swivel/command_error.h"
+#include "tools/cli/command_error.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
 
@@ -38,8 +37,6 @@ nlohmann::ordered_json describe()
 #else
     out["threads"] = "none";
 #endif
-    const std::string importer = formats::scene_importer();
-    out["fbx_dae"] = importer.empty() ? "not read by this build" : "read by " + importer;
     return out;
 }
 

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "tools/cli/command_error.h"
 #include "tools/formats/error.h"
-#include "tools/formats/scene_import.h"
 #include "tools/formats/text.h"
-#include "tools/swivel/command_error.h"
 
 namespace swivel::tools {
 
@@ -20,10 +19,9 @@ using Motion = std::variant<BvhFile, GltfFile>;
 void require_no_choice(const MotionChoice& choice)
 {
     if (!choice.clip.empty())
-        throw CommandError(2,
-                           "--clip chooses an animation of a glTF, FBX or DAE file; a BVH file has one; leave it out");
+        throw CommandError(2, "--clip chooses an animation of a glTF file; a BVH file has one; leave it out");
     if (choice.rate > 0)
-        throw CommandError(2, "--fps samples a glTF, FBX or DAE file; a BVH file has frames of its own; leave it out");
+        throw CommandError(2, "--fps samples a glTF file; a BVH file has frames of its own; leave it out");
 }
 
 // Told apart by the first bytes.
@@ -43,30 +41,25 @@ Motion read(const std::filesystem::path& path, const MotionChoice& choice)
 {
     if (formats::is_standard_stream(path)) return read_standard_input(path, choice);
     if (is_gltf(formats::lower_suffix(path))) return formats::read_gltf(path, {choice.clip, choice.rate});
-    if (formats::is_scene(path))
-        return formats::read_gltf(path, formats::import_scene(path), {choice.clip, choice.rate});
+    if (const std::string suffix = formats::lower_suffix(path); suffix == ".fbx" || suffix == ".dae")
+        throw formats::InputError(path,
+                                  "swivel reads no FBX and DAE; export the file as glTF, for example from Blender");
     require_no_choice(choice);
     try {
         return formats::read_bvh(path);
     } catch (const formats::InputError& fault) {
         if (is_bvh(formats::lower_suffix(path)) || !std::filesystem::is_regular_file(path)) throw;
-        throw CommandError(1, fmt::format("{} (read as BVH: names of other formats end in .glb, .gltf, .vrm, .fbx or "
-                                          ".dae)",
-                                          fault.what()));
+        throw CommandError(
+            1, fmt::format("{} (read as BVH: names of other formats end in .glb, .gltf or .vrm)", fault.what()));
     }
 }
 
-const char* format_of(const std::filesystem::path& path, const Motion& motion)
-{
-    if (std::holds_alternative<BvhFile>(motion)) return "BVH";
-    const std::string suffix = formats::lower_suffix(path);
-    return suffix == ".fbx" ? "FBX" : suffix == ".dae" ? "DAE" : "glTF";
-}
+const char* format_of(const Motion& motion) { return std::holds_alternative<BvhFile>(motion) ? "BVH" : "glTF"; }
 
 }  // namespace
 
 MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& choice)
-    : file_(read(path, choice)), format_(format_of(path, file_))
+    : file_(read(path, choice)), format_(format_of(file_))
 {
 }
 
@@ -102,9 +95,8 @@ void MotionFile::require_can_write(const OutPlace& out) const
 {
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
     if (is_bvh_clip ? !is_bvh(out.suffix) : !is_gltf(out.suffix))
-        throw CommandError(
-            2, fmt::format("--out {}: this clip is {} {} file; its poses go to {} or .csv", out.path.string(),
-                           format_ == "FBX" ? "an" : "a", format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
+        throw CommandError(2, fmt::format("--out {}: this clip is a {} file; its poses go to {} or .csv",
+                                          out.path.string(), format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
 }
 
 void MotionFile::require_can_key(int joint) const

@@ -23,7 +23,7 @@ struct OutPlace {
 
 class MotionFile {
 public:
-    // Reads .glb, .gltf and .vrm as glTF, .fbx and .dae into glTF, everything else as BVH; the suffix in any case.
+    // Reads .glb, .gltf and .vrm as glTF, everything else as BVH; the suffix in any case.
     // Standard input ("-") is glTF if it starts as such files do, else BVH.
     // Throws InputError as the readers do, and CommandError (bad usage) for a choice that a BVH file does not have.
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
@@ -31,7 +31,7 @@ public:
     const formats::Clip& clip() const;
     // The files beside it that it uses: a glTF file's buffers and images.
     std::span<const std::filesystem::path> files_beside() const;
-    // What the clip is, for people: "FBX, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
+    // What the clip is, for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
     // Vertices of a glTF file whose skin weights write() mends, see formats::mended_vertex_count().
     std::size_t mended_vertex_count() const;
@@ -43,7 +43,7 @@ public:
 
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;
-    std::string format_;  // of the file that was read: "BVH", "glTF", "FBX" or "DAE"
+    std::string format_;  // of the file that was read: "BVH" or "glTF"
 };
 
 // Whether a file of this suffix, in lower case, holds one character's motion, and of which format.

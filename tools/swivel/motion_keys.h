@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/swivel/clip_crowd.h"
+#include "tools/crowd/clip_crowd.h"
 #include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "swivel/swivel.h"
-#include "tools/swivel/limb_words.h"
-#include "tools/swivel/parallel.h"
+#include "tools/crowd/parallel.h"
+#include "tools/rig/limb_words.h"
 
 namespace swivel::tools {
 

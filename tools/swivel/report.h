@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "tools/swivel/statistics.h"
+#include "tools/crowd/statistics.h"
 
 namespace swivel::tools {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/swivel/command_error.h"
+#include "tools/cli/command_error.h"
+#include "tools/rig/limbs.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/limbs.h"
 #include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/rig_report.h"

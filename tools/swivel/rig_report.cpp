@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "tools/formats/text.h"
-#include "tools/swivel/limb_axes.h"
-#include "tools/swivel/limb_words.h"
+#include "tools/rig/limb_axes.h"
+#include "tools/rig/limb_words.h"
+#include "tools/rig/vectors.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 

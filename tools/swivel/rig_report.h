@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "tools/swivel/limbs.h"
+#include "tools/rig/limbs.h"
 #include "tools/swivel/motion_file.h"
 
 namespace swivel::tools {

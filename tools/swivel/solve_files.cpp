@@ -7,9 +7,8 @@
 #include <array>
 #include <filesystem>
 
-#include "tools/formats/scene_import.h"
+#include "tools/cli/command_error.h"
 #include "tools/formats/text.h"
-#include "tools/swivel/command_error.h"
 
 namespace swivel::tools {
 
@@ -44,9 +43,6 @@ OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
     if (options.out.empty()) return OutKind::none;
     const std::string suffix = out_place(options).suffix;
     if (suffix == ".csv") return OutKind::csv;
-    if (options.format.empty() && formats::is_scene(options.out))
-        throw CommandError(
-            2, fmt::format("--out {}: FBX and DAE are read, not written; use .glb, .gltf or .csv", options.out));
     if (!is_bvh(suffix) && !is_gltf(suffix))
         throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf or .csv, or "
                                           "--format",

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/swivel/limb_words.h"
+#include "tools/rig/limb_words.h"
+#include "tools/rig/vectors.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/vectors.h"
 
 namespace swivel::tools {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "tools/swivel/characters.h"
+#include "tools/crowd/characters.h"
 
 namespace swivel::tools {
 

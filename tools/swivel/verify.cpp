@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "swivel/swivel.hpp"
+#include "tools/cli/command_error.h"
+#include "tools/cli/progress.h"
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/golden.h"
-#include "tools/swivel/command_error.h"
+#include "tools/crowd/parallel.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/parallel.h"
-#include "tools/swivel/progress.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cli/command_help.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "tools/cli/command_outline.h"
+#include "tools/cli/completions.h"
+#include "tools/cli/man_page.h"
+#include "tools/cli/option_checks.h"
+#include "tools/formats/suggestion.h"
+
+namespace swivel::tools {
+
+namespace {
+
+std::vector<std::string> command_names(const CLI::App& app)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    return names;
+}
+
+// The subcommand, once there is one.
+const CLI::App& used_command(const CLI::App& app)
+{
+    const std::vector<CLI::App*> used = app.get_subcommands();
+    return used.empty() ? app : *used.front();
+}
+
+std::string help_of(const CLI::App& command)
+{
+    return command.get_parent() ? fmt::format("see swivel {} --help", command.get_name()) : "see swivel --help";
+}
+
+// The option meant by a wrong one, dashes left out of the count.
+std::string meant_by(const std::string& wrong, const CLI::App& command)
+{
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options())
+        known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
+    const std::string bare = wrong.substr(std::min(wrong.find_first_not_of('-'), wrong.size()));
+    const auto nearest = formats::nearest_word(bare, known);
+    return nearest ? fmt::format("did you mean --{}?", *nearest) : help_of(command);
+}
+
+// Whether an option that was not taken stands before the command that has it. Without a command any may have it.
+bool is_misplaced(const std::string& option, const CLI::App& app)
+{
+    const CLI::App& used = used_command(app);
+    const auto has = [&](const CLI::App* command) { return command->get_option_no_throw(option) != nullptr; };
+    return &used == &app ? std::ranges::any_of(app.get_subcommands({}), has) : has(&used);
+}
+
+// An option that was given more often than it may be, as one word of the command line; empty: there is none.
+std::string repeated_option(const CLI::App& command)
+{
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_expected_max() == 1 && option->count() > 1) return option->get_name();
+    return {};
+}
+
+// What is wrong with words that nobody takes; empty: there is none.
+std::string unknown_words(const CLI::App& app)
+{
+    const CLI::App& used = used_command(app);
+    for (const CLI::App* command : {&app, &used}) {
+        const std::vector<std::string> words = command->remaining();
+        if (&used == &app && !words.empty() && !words[0].starts_with('-'))
+            return fmt::format("there is no command '{}'; {}", words[0],
+                               formats::suggestion(words[0], command_names(app)));
+        const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
+        if (option != words.end()) {
+            const std::string bare = option->substr(0, option->find('='));
+            if (is_misplaced(bare, app))
+                return fmt::format("{} is an option of a command; write it after the command", bare);
+            return fmt::format("there is no option {}; {}", bare, meant_by(bare, *command));
+        }
+        if (!words.empty()) return fmt::format("'{}' is one word too many; {}", words[0], help_of(used));
+    }
+    return {};
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app)
+{
+    using Script = std::string (*)(const Outline&);
+    static const std::map<std::string, Script> scripts = {
+        {"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
+    CLI::App* command = app.add_subcommand("completion", "Print what a shell reads to complete swivel's options");
+    auto shell = std::make_shared<std::string>();
+    takes(command->add_option("SHELL", *shell, "Which shell: bash, fish or zsh"), one_of({"bash", "fish", "zsh"}))
+        ->required()
+        ->option_text(" ");
+    command->footer(
+        "Shells find it in these files from their next start on; make the folders where there are none.\n"
+        "bash: swivel completion bash > ~/.local/share/bash-completion/completions/swivel\n"
+        "zsh: swivel completion zsh > ~/.zfunc/_swivel, with fpath+=~/.zfunc before compinit in ~/.zshrc\n"
+        "fish: swivel completion fish > ~/.config/fish/completions/swivel.fish");
+    command->callback([&app, shell] { fmt::print("{}", scripts.at(*shell)(outline_of(app))); });
+}
+
+void add_help(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand("help", "Print help on the whole or on a command, as COMMAND --help does");
+    struct Wish {
+        std::string command;
+        bool man = false;
+    };
+    auto wish = std::make_shared<Wish>();
+    CLI::Option* name =
+        takes(command->add_option("COMMAND", wish->command, "On which command"), one_of(command_names(app)))
+            ->option_text(" ");
+    command->add_flag("--man", wish->man, "Print the manual page instead, for man")->excludes(name);
+    command->callback([&app, wish] {
+        if (wish->man)
+            fmt::print("{}", man_page(outline_of(app)));
+        else if (wish->command.empty())
+            fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+        else
+            fmt::print("{}", app.get_subcommand(wish->command)->help(app.get_name()));
+    });
+}
+
+std::string cause_of(const CLI::App& app, const CLI::ParseError& error)
+{
+    if (const std::string unknown = unknown_words(app); !unknown.empty()) return unknown;
+    if (const std::string repeated = repeated_option(used_command(app)); !repeated.empty())
+        return fmt::format("{} is given twice; give it once", repeated);
+    const std::string cause = error.what();
+    return cause.ends_with('?') ? cause : fmt::format("{}; {}", cause, help_of(used_command(app)));
+}
+
+}  // namespace swivel::tools

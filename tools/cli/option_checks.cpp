@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cli/option_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "tools/formats/suggestion.h"
+#include "tools/formats/text.h"
+
+namespace swivel::tools {
+
+CLI::Option* takes(CLI::Option* option, const OptionValue& value)
+{
+    return option->type_name(value.word)->check(CLI::Validator(value.check, ""));
+}
+
+OptionValue whole_number(std::uint64_t least, std::uint64_t most)
+{
+    const auto check = [least, most](const std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool plain =
+            error == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');
+        if (plain && value >= least && value <= most) return {};
+        return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+    };
+    return {"NUMBER", check};
+}
+
+OptionValue number(double least, double most)
+{
+    const auto check = [least, most](const std::string& text) -> std::string {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most) return {};
+        return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+    };
+    return {"NUMBER", check};
+}
+
+OptionValue file_name()
+{
+    const auto check = [](const std::string& text) -> std::string {
+        return text.empty() ? "the file name is empty; give one, or leave the option out" : "";
+    };
+    return {"FILE", check};
+}
+
+OptionValue name(const std::string& advice)
+{
+    const auto check = [advice](const std::string& text) -> std::string {
+        return text.empty() ? "the name is empty; " + advice : "";
+    };
+    return {"NAME", check};
+}
+
+OptionValue one_of(const std::vector<std::string>& words)
+{
+    const auto check = [words](const std::string& text) -> std::string {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+        return fmt::format("there is no '{}'; {}", formats::printable(text), formats::suggestion(text, words));
+    };
+    return {fmt::format("{}", fmt::join(words, "|")), check};
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// A crowd that performs a clip: every character has the clip's skeleton, its own limb lengths, place and start, and
+// targets for wrists, elbows and hands, ankles, knees and feet for each frame, taken from the clip or given. Knows
+// clips and the public interface; no file format.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/crowd/characters.h"
+#include "tools/crowd/clip_motion.h"
+#include "tools/crowd/limb_crowds.h"
+#include "tools/crowd/statistics.h"
+#include "tools/formats/poses_csv.h"
+#include "tools/formats/targets_csv.h"
+
+namespace swivel::tools {
+
+class ClipCrowd {
+public:
+    // Its characters are characters_of() the plan: limb lengths differ by their size, and targets taken from the clip
+    // reach by the same factor. The incoming pose is the clip's. limbs and plan must outlive the crowd. file: of the
+    // plan, for messages. Memory grows with characters and with frames, not with their product. The clip must outlive
+    // the crowd, too.
+    ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
+              const std::filesystem::path& file);
+
+    std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
+
+    // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world. Limbs without
+    // one take their plan's point or follow the clip. Without a pole elbows and knees lean as the clip's do, without an
+    // orientation hands and feet keep the clip's. Every character and limb in given must exist.
+    void set_frame(std::size_t frame, std::span<const formats::Target> given);
+
+    // What the frame asks of all limbs, in order of character, then limb: given to set_frame() it asks for the same.
+    std::span<const formats::Target> targets();
+
+    // Solves the frame; adds the time it took.
+    void solve(Statistics& statistics);
+
+    // Adds what the errors, differences from the clip and flags of the limbs solved in this frame are, by forward
+    // kinematics in double.
+    void measure(Statistics& statistics) const;
+
+    // One limb's local rotations as the skeleton stores them: shoulder, elbow, wrist, or hip, knee, ankle. A wrist that
+    // is not solved is the clip's.
+    formats::PoseRow pose(std::size_t limb, std::uint32_t character) const;
+    // The local rotation of the joint above a limb whose plan has a clavicle.
+    Eigen::Quaterniond clavicle(std::size_t limb, std::uint32_t character) const;
+    // All of them, in order of character, then limb, and the columns that the plan asks for beside.
+    std::span<const formats::PoseRow> poses();
+    std::span<const formats::PoseExtra> extras();
+    formats::PoseColumns columns() const;
+
+private:
+    struct Goal {  // what one limb was asked for, relative to its character's root
+        Eigen::Vector3d target, pole;
+        Eigen::Quaterniond hand;
+        bool from_clip;  // elbow and upper arm should be the clip's
+    };
+    struct Input {  // the same as the solver takes it
+        float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
+        float shoulder[4], elbow[4], wrist[4];  // the incoming pose
+    };
+
+    std::size_t clip_frame(std::uint32_t character) const
+    {
+        return (frame_ + characters_[character].start) % motion_.frame_count();
+    }
+    const LimbInClip& in_clip(std::size_t limb, std::uint32_t character) const
+    {
+        return motion_.at(clip_frame(character), limb);
+    }
+    // What lies in the world, as the limb is solved: mirrored where the limb is. And the way back.
+    Eigen::Vector3d as_solved(std::size_t limb, const Eigen::Vector3d& v) const;
+    Eigen::Quaterniond as_solved(std::size_t limb, const Eigen::Quaterniond& q) const;
+    // The upper joint of that character in the world: what targets are counted from.
+    Eigen::Vector3d origin(std::size_t limb, std::uint32_t character) const
+    {
+        return motion_.origin(clip_frame(character), limb) + characters_[character].place;
+    }
+    // The same rotations between the two bones that the solver knows.
+    formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
+    void write_sizes();
+    Eigen::Vector3d pole_from_clip(std::size_t limb, std::uint32_t character) const;
+    Goal goal_from_plan(std::size_t limb, std::uint32_t character) const;
+    Goal goal_given(std::size_t limb, const formats::Target& target) const;
+    formats::Target target(std::size_t limb, std::uint32_t character) const;
+    void put(std::size_t limb, std::uint32_t character, const Goal& goal);
+    void write_inputs(std::size_t limb);
+    formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
+    void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
+    void measure_against_clip(std::size_t limb, const PoseName& pose, const Eigen::Vector3d& elbow,
+                              LimbStatistics& statistics) const;
+
+    const formats::Clip& clip_;
+    ClipMotion motion_;
+    std::span<const Limb> limbs_;
+    std::span<const LimbPlan> plans_;
+    std::vector<Character> characters_;
+    std::vector<std::vector<Goal>> goals_;    // [limb][character]
+    std::vector<std::vector<Input>> inputs_;  // [limb][character]
+    std::vector<formats::Target> targets_;
+    std::vector<formats::PoseRow> rows_;
+    std::vector<formats::PoseExtra> extras_;  // empty unless there are columns for them
+    std::size_t frame_ = 0;
+    LimbCrowds crowds_;
+};
+
+}  // namespace swivel::tools

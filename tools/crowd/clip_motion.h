@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// Where a clip has its limbs in each of its frames. Knows clips alone.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/rig/limbs.h"
+
+namespace swivel::tools {
+
+// One limb in one frame, as the solver sees it: two bones that at rest point where the limb's do. Places relative to
+// the limb's origin, rotations in the world, both in the world's mirror image (x turned over) for a mirrored limb.
+// Words are an arm's.
+struct LimbInClip {
+    Eigen::Vector3d shoulder, elbow, wrist;
+    Eigen::Quaterniond parent, hand, upper, fore;
+    Eigen::Quaterniond local_parent = Eigen::Quaterniond::Identity();  // of the joint above
+    Eigen::Quaterniond upper_aim, fore_aim;  // the bone's direction at rest to this frame's, in its joint's axes
+
+    double upper_length() const { return (elbow - shoulder).norm(); }
+    double fore_length() const { return (wrist - elbow).norm(); }
+
+    Eigen::Quaterniond local_shoulder() const { return parent.conjugate() * upper; }
+    Eigen::Quaterniond local_elbow() const { return upper.conjugate() * fore; }
+    Eigen::Quaterniond local_wrist() const { return fore.conjugate() * hand; }
+};
+
+class ClipMotion {
+public:
+    // Takes what it needs from the clip; limbs are joints of it. Memory: 640 bytes a frame for two limbs.
+    ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs);
+
+    std::size_t frame_count() const { return frame_count_; }
+    const LimbInClip& at(std::size_t frame, std::size_t limb) const { return limbs_[frame * limb_count_ + limb]; }
+    // The limb's origin in the world, its shoulder: near it single precision is finest.
+    const Eigen::Vector3d& origin(std::size_t frame, std::size_t limb) const
+    {
+        return origins_[frame * limb_count_ + limb];
+    }
+    // Whether the clip stretches the limb's bones: by more than 1e-7 of their length.
+    bool stretches(std::size_t limb) const { return stretches_[limb]; }
+
+private:
+    std::size_t limb_count_;
+    std::vector<LimbInClip> limbs_;         // [frame * limbs + limb]
+    std::vector<Eigen::Vector3d> origins_;  // the same
+    std::vector<bool> stretches_;
+    std::size_t frame_count_;
+};
+
+}  // namespace swivel::tools

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/crowd_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
+#include "tools/rig/limb_words.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::CrowdFile;
+using formats::Given;
+using formats::InputError;
+using formats::LimbSettings;
+using formats::PoleKind;
+
+template <class T>
+[[noreturn]] void refuse(const CrowdFile& file, const Given<T>& given, std::string_view cause)
+{
+    throw InputError(file.path, given.line, fmt::format("{}: {}", given.key, cause));
+}
+
+}  // namespace
+
+std::string checked_targets(const CrowdFile& file)
+{
+    if (!file.targets || file.targets->value == "clip") return "clip";
+    if (formats::is_standard_stream(file.targets->value)) return file.targets->value;
+    const std::filesystem::path path = file.path.parent_path() / file.targets->value;
+    std::error_code unknown;
+    if (std::filesystem::is_fifo(path, unknown)) return path.string();  // opened twice it would lose its writer
+    try {
+        formats::open_text(path);
+    } catch (const InputError& error) {
+        refuse(file, *file.targets, error.what());
+    }
+    return path.string();
+}
+
+void require_sense(const CrowdFile& file, const LimbSettings& s)
+{
+    const auto needs_hand = [&](const auto& given) {
+        if (given && s.hand && !s.hand->value)
+            refuse(file, *given,
+                   fmt::format("means nothing beside {} = false in line {}; take one of them out", s.hand->key,
+                               s.hand->line));
+    };
+    needs_hand(s.effector);
+    needs_hand(s.hand_weight);
+    needs_hand(s.hand_cone);
+    needs_hand(s.forearm_twist_deg);
+    needs_hand(s.hand_twist);
+    needs_hand(s.wrist_box);
+    needs_hand(s.twist_bones);
+    needs_hand(s.aim);
+    const auto not_aiming = [&](const auto& given) {
+        if (given && s.aim)
+            refuse(file, *given,
+                   fmt::format("means nothing beside {} in line {}; take one of them out", s.aim->key, s.aim->line));
+    };
+    for (const auto* number : {&s.position_weight, &s.hand_weight, &s.pole_weight, &s.soft_far, &s.soft_near,
+                               &s.least_distance, &s.most_stretch})
+        not_aiming(*number);
+    not_aiming(s.flexion_deg);
+    not_aiming(s.hand_cone);
+    not_aiming(s.forearm_twist_deg);
+    not_aiming(s.hand_twist);
+    not_aiming(s.wrist_box);
+    const auto needs_pole = [&](const auto& given) {
+        if (given && s.pole_kind && s.pole_kind->value == PoleKind::incoming)
+            refuse(file, *given,
+                   fmt::format("means nothing beside {} = \"incoming\" in line {}; take one of them out",
+                               s.pole_kind->key, s.pole_kind->line));
+    };
+    const bool points =
+        s.pole_kind && (s.pole_kind->value == PoleKind::direction || s.pole_kind->value == PoleKind::normal);
+    if (points && s.pole_fixed && !(s.pole_fixed->value.stableNorm() > 1e-15))
+        refuse(file, *s.pole_fixed,
+               fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
+                           "them 0",
+                           s.pole_kind->key, s.pole_kind->line));
+    needs_pole(s.pole_fixed);
+    needs_pole(s.pole_weight);
+    if (s.priority && !file.budget_blocks)
+        refuse(file, *s.priority, "means nothing without budget.blocks; give that, or take this out");
+}
+
+void require_solved(const CrowdFile& file, std::span<const Limb> limbs)
+{
+    for (const formats::LimbSection& section : file.sections) {
+        const auto is_meant = [&](const Limb& limb) { return selects(section.selector, limb.name); };
+        if (std::any_of(limbs.begin(), limbs.end(), is_meant)) continue;
+        throw InputError(file.path, section.line,
+                         fmt::format("limb.{}: no such limb is solved; see crowd.limbs and limb.*.joints, or --limbs",
+                                     section.selector));
+    }
+}
+
+void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
+{
+    if (!s.clavicle_share) return;
+    const int above = formats::joint_at(clip, limb.upper()).parent;
+    if (above < 0)
+        refuse(file, *s.clavicle_share, fmt::format("there is no joint above the {}", plain_name(limb.name)));
+    if (formats::child_joints(clip, above).size() > 1)
+        refuse(file, *s.clavicle_share,
+               fmt::format("the joint above the {}, {}, carries other joints, which would turn along",
+                           plain_name(limb.name), formats::printable_name(formats::joint_at(clip, above))));
+    if (formats::joint_at(clip, limb.upper()).offset.isZero(0))
+        refuse(
+            file, *s.clavicle_share,
+            fmt::format("the {} starts where the joint above it is; there is no bone to turn", plain_name(limb.name)));
+    const formats::Joint& joint = formats::joint_at(clip, above);
+    if (limb.mirrored || joint.rest_scale.minCoeff() < 0 || joint.scale_track >= 0)
+        refuse(file, *s.clavicle_share,
+               fmt::format("the joint above the {}, {}, is mirrored or changes its scale; such a joint is not turned",
+                           plain_name(limb.name), formats::printable_name(joint)));
+}
+
+void require_fits_motion(const CrowdFile& file, std::span<const Limb> limbs)
+{
+    for (const Limb& limb : limbs) {
+        const LimbSettings settings = settings_of(file, limb.name);
+        if (settings.most_stretch && settings.most_stretch->value > 1)
+            refuse(
+                file, *settings.most_stretch,
+                "the bones of a written clip keep their length; write a .csv, which has the stretch, or take this out");
+        if (settings.twist_bones && settings.twist_bones->value > 0)
+            refuse(file, *settings.twist_bones,
+                   "a written clip keeps the joints it has; write a .csv, which has the twist bones, or take this out");
+    }
+}
+
+}  // namespace swivel::tools

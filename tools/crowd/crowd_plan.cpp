@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/crowd_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tools/crowd/crowd_checks.h"
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::CrowdFile;
+using formats::LimbSettings;
+using formats::Maybe;
+using formats::PoleKind;
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+static_assert(static_cast<int>(formats::EulerOrder::zyx) == SWIVEL_ZYX &&
+              static_cast<int>(formats::EulerOrder::yxz) == SWIVEL_YXZ);
+swivel_euler_order order_of(const formats::BoxLimit& box) { return static_cast<swivel_euler_order>(box.order); }
+
+// Ranges about x, y and z in the order's own sequence.
+std::array<float, 12> ranges_of(const formats::BoxLimit& box)
+{
+    constexpr int kAxes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+    std::array<float, 12> value{};
+    for (std::size_t n = 0; n < 3; ++n) {
+        const formats::NumberRange& range = box.about_deg[static_cast<std::size_t>(kAxes[order_of(box)][n])];
+        check(swivel_range(kRadians * range.least, kRadians * range.most, &value[4 * n]));
+    }
+    return value;
+}
+
+// Fills in one limb's plan, key by key.
+struct Planner {
+    const LimbSettings& from;
+    LimbPlan plan{};
+
+    template <std::size_t Count>
+    void put(swivel_features feature, swivel_field field, const std::array<float, Count>& value, bool mirrored = false,
+             swivel_euler_order order = SWIVEL_XYZ)
+    {
+        FixedField fixed{field, {}};
+        std::copy(value.begin(), value.end(), fixed.value.begin());
+        if (mirrored) check(swivel_mirror(field, order, fixed.value.data(), fixed.value.data()));
+        plan.features |= feature;
+        plan.fields.push_back(fixed);
+    }
+
+    void goal()
+    {
+        if (from.target_point) plan.target_point = from.target_point->value;
+        if (from.target_offset) plan.target_offset = from.target_offset->value;
+        if (from.hand && !from.hand->value) plan.features &= ~SWIVEL_WITH_HAND;
+        if (from.effector) {
+            plan.effector = from.effector->value;
+            plan.features |= SWIVEL_WITH_EFFECTOR;
+        }
+        if (from.twist_bones)
+            plan.features |= static_cast<swivel_features>(from.twist_bones->value) * SWIVEL_WITH_TWIST_BONES;
+        if (from.priority) plan.priority = static_cast<float>(from.priority->value);
+    }
+
+    void pole()
+    {
+        if (from.pole_kind) plan.pole = from.pole_kind->value;
+        if (from.pole_fixed) plan.pole_fixed = from.pole_fixed->value;
+        if (plan.pole == PoleKind::direction) plan.features |= SWIVEL_POLE_DIRECTION;
+        if (plan.pole == PoleKind::normal) plan.features |= SWIVEL_POLE_NORMAL;
+        if (plan.pole == PoleKind::incoming) plan.features |= SWIVEL_POLE_INCOMING | SWIVEL_WITH_INCOMING;
+        if (from.pole_angle_deg)
+            put(SWIVEL_WITH_ANGLE, SWIVEL_ANGLE, turn(kRadians * from.pole_angle_deg->value),
+                from.pole_angle_deg->mirrored);
+        plan.follows_pole = !from.aim && !from.clavicle_share && !from.pole_fixed && !from.pole_angle_deg &&
+                            plan.pole != PoleKind::incoming;
+    }
+
+    void aim()
+    {
+        if (!from.aim) return;
+        const Eigen::Vector3d& axis = from.aim->value.axis;
+        std::array<float, 5> value;
+        check(swivel_aim(axis.data(), kRadians * from.aim->value.flexion_deg, value.data()));
+        put(SWIVEL_WITH_AIM, SWIVEL_AIM, value);
+    }
+
+    void clavicle(const formats::Clip& clip, const Limb& limb)
+    {
+        if (!from.clavicle_share) return;
+        const Eigen::Vector3d& offset = formats::joint_at(clip, limb.upper()).offset;
+        const Eigen::Vector3f bone = (limb.scale * offset).cast<float>();
+        put(SWIVEL_WITH_CLAVICLE, SWIVEL_CLAVICLE,
+            std::array{bone.x(), bone.y(), bone.z(), static_cast<float>(from.clavicle_share->value)});
+    }
+
+    void weights()
+    {
+        if (!from.position_weight && !from.hand_weight && !from.pole_weight) return;
+        const auto weight = [](const Maybe<double>& given) { return given ? static_cast<float>(given->value) : 1.0f; };
+        const std::array value{weight(from.position_weight), weight(from.hand_weight), weight(from.pole_weight)};
+        plan.features |= SWIVEL_WITH_INCOMING;
+        put(SWIVEL_WITH_WEIGHTS, SWIVEL_WEIGHTS, value);
+        plan.blends_position = value[0] < 1;
+        plan.blends_hand = value[1] < 1;
+    }
+
+    void reach()
+    {
+        if (!from.soft_far && !from.soft_near && !from.most_stretch && !from.least_distance) return;
+        const auto number = [](const Maybe<double>& given, float otherwise) {
+            return given ? static_cast<float>(given->value) : otherwise;
+        };
+        put(SWIVEL_WITH_REACH, SWIVEL_REACH,
+            std::array{number(from.soft_far, 0), number(from.soft_near, 0), number(from.most_stretch, 1),
+                       number(from.least_distance, 0)});
+    }
+
+    void swivel(double frame_time)
+    {
+        double most_deg = 180;
+        if (from.most_swivel_deg_per_frame) most_deg = from.most_swivel_deg_per_frame->value;
+        if (from.most_swivel_deg_per_second)
+            most_deg = std::min(180.0, frame_time * from.most_swivel_deg_per_second->value);
+        if (from.most_swivel_deg_per_frame || from.most_swivel_deg_per_second)
+            put(SWIVEL_WITH_MOST_SWIVEL, SWIVEL_MOST_SWIVEL, turn(kRadians * most_deg));
+    }
+
+    void limits()
+    {
+        const auto put_range = [&](swivel_features feature, swivel_field field,
+                                   const Maybe<formats::NumberRange>& given) {
+            if (given)
+                put(feature, field, range(kRadians * given->value.least, kRadians * given->value.most),
+                    given->mirrored);
+        };
+        const auto put_cone = [&](swivel_features feature, swivel_field field, const Maybe<formats::ConeLimit>& given) {
+            if (!given) return;
+            const Eigen::Vector3d& axis = given->value.axis;
+            put(feature, field, cone({axis.x(), axis.y(), axis.z()}, kRadians * given->value.opening_deg),
+                given->mirrored);
+        };
+        const auto put_box = [&](swivel_features feature, swivel_field field, const Maybe<formats::BoxLimit>& given,
+                                 swivel_euler_order& order) {
+            if (!given) return;
+            order = order_of(given->value);
+            put(feature, field, ranges_of(given->value), given->mirrored, order);
+        };
+        if (from.flexion_deg)
+            put(SWIVEL_WITH_FLEXION_LIMIT, SWIVEL_FLEXION_LIMIT,
+                flexion(kRadians * from.flexion_deg->value.least, kRadians * from.flexion_deg->value.most));
+        put_cone(SWIVEL_WITH_SHOULDER_CONE, SWIVEL_SHOULDER_CONE, from.shoulder_cone);
+        put_range(SWIVEL_WITH_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST, from.humeral_twist_deg);
+        put_box(SWIVEL_WITH_SHOULDER_BOX, SWIVEL_SHOULDER_BOX, from.shoulder_box, plan.shoulder_order);
+        put_cone(SWIVEL_WITH_HAND_CONE, SWIVEL_HAND_CONE, from.hand_cone);
+        put_range(SWIVEL_WITH_FOREARM_TWIST, SWIVEL_FOREARM_TWIST, from.forearm_twist_deg);
+        put_box(SWIVEL_WITH_WRIST_BOX, SWIVEL_WRIST_BOX, from.wrist_box, plan.wrist_order);
+        if (from.hand_twist) {
+            const Eigen::Vector3f axis = from.hand_twist->value.axis.cast<float>();
+            const formats::NumberRange& deg = from.hand_twist->value.range_deg;
+            const std::array<float, 4> about = range(kRadians * deg.least, kRadians * deg.most);
+            put(SWIVEL_WITH_HAND_TWIST, SWIVEL_HAND_TWIST,
+                std::array{axis.x(), axis.y(), axis.z(), about[0], about[1], about[2], about[3]},
+                from.hand_twist->mirrored);
+        }
+    }
+};
+
+}  // namespace
+
+void add_choice(const CrowdFile& file, LimbChoice& choice)
+{
+    if (choice.kinds.empty() && file.limbs) {
+        choice.kinds = file.limbs->value;
+        choice.kinds_source = {file.limbs->key, file.path, file.limbs->line};
+    }
+    for (const formats::LimbSection& section : file.sections) {
+        const auto name = formats::limb_of_word(section.selector);
+        if (!name) continue;
+        const bool is_arm = name->kind == formats::LimbKind::arm;
+        const auto& joints = section.settings.joints;
+        if (joints && choice.kinds == (is_arm ? "legs" : "arms"))
+            throw formats::InputError(file.path, joints->line,
+                                      fmt::format("{}: {} solves no {}; solve \"all\", or take this out", joints->key,
+                                                  kinds_words(choice), is_arm ? "arms" : "legs"));
+        if (joints)
+            (is_arm ? choice.arms : choice.legs)
+                .push_back({joints->value, name->side, {joints->key, file.path, joints->line}});
+        if (const auto& bend = section.settings.bend)
+            choice.bends.push_back({*name, bend->value, bend->key, formats::printable(file.path.string(), 400)});
+    }
+}
+
+CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs)
+{
+    CrowdPlan plan;
+    plan.limbs.resize(limbs.size());
+    if (!file) return plan;
+    require_solved(*file, limbs);
+    if (file->characters) plan.characters = static_cast<std::uint32_t>(file->characters->value);
+    if (file->seed) plan.seed = static_cast<std::uint64_t>(file->seed->value);
+    if (file->spacing) plan.spacing = file->spacing->value;
+    if (file->size) plan.least_size = file->size->value.least, plan.most_size = file->size->value.most;
+    if (file->stagger) plan.stagger = file->stagger->value;
+    if (file->budget_blocks) plan.budget_blocks = static_cast<std::uint32_t>(file->budget_blocks->value);
+    for (std::size_t n = 0; n < limbs.size(); ++n) {
+        const LimbSettings settings = settings_of(*file, limbs[n].name);
+        require_sense(*file, settings);
+        require_own_clavicle(*file, settings, clip, limbs[n]);
+        Planner planner{settings};
+        planner.goal();
+        planner.pole();
+        planner.aim();
+        planner.clavicle(clip, limbs[n]);
+        planner.weights();
+        planner.reach();
+        planner.swivel(clip.frame_time);
+        planner.limits();
+        plan.limbs[n] = std::move(planner.plan);
+    }
+    return plan;
+}
+
+}  // namespace swivel::tools

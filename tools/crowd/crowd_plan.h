@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// What a crowd is and what is asked of each of its limbs, in the solver's terms: the command line and the crowd file
+// made into features and values of fields. Knows limbs and the public interface; reads no file.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tools/formats/crowd_file.h"
+#include "tools/rig/limbs.h"
+
+namespace swivel::tools {
+
+// A field that has one value for all characters and frames.
+struct FixedField {
+    swivel_field field;
+    std::array<float, 12> value;
+};
+
+struct LimbPlan {
+    swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+    swivel_euler_order shoulder_order = SWIVEL_XYZ, wrist_order = SWIVEL_XYZ;
+    std::vector<FixedField> fields;
+
+    std::optional<Eigen::Vector3d> target_point;              // in the world of a character that stands at the origin
+    Eigen::Vector3d target_offset = Eigen::Vector3d::Zero();  // added to targets; world axes
+    Eigen::Vector3d effector = Eigen::Vector3d::Zero();       // in the end joint's frame, of a character of size 1
+    formats::PoleKind pole = formats::PoleKind::point;
+    std::optional<Eigen::Vector3d> pole_fixed;  // world axes; a point is counted from the upper joint
+    float priority = 1;
+    bool follows_pole = true;      // elbows go where the clip's go, unless limits forbid
+    bool blends_position = false;  // the end is not at the target, by its weight
+    bool blends_hand = false;
+
+    bool has(swivel_features feature) const { return (features & feature) != 0; }
+    unsigned twist_count() const
+    {
+        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
+    }
+};
+
+struct CrowdPlan {
+    std::uint32_t characters = 1;
+    std::uint64_t seed = 1;
+    double spacing = 3;                          // between neighbours, in spans of two limbs
+    double least_size = 0.85, most_size = 1.15;  // factor of limb lengths; the first character's is 1
+    bool stagger = true;                         // characters start anywhere in the clip
+    std::uint32_t budget_blocks = 0;             // solved in a frame; 0: all
+    std::vector<LimbPlan> limbs;                 // one for each limb solved
+};
+
+// What the crowd file names of limbs: adds its joints (for sides that the choice's options do not name) and bends to
+// the choice, and its limbs unless the choice has kinds already. Throws InputError naming line and key for joints of a
+// kind that is left out.
+void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
+
+// The plan for limbs of a clip. file: null without a crowd file; then all is as the clip has it. Throws InputError
+// naming line and key for tables of limbs that are not solved, for keys that mean nothing beside others, and for a
+// clavicle that is not the limb's own.
+CrowdPlan plan_crowd(const formats::CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs);
+
+}  // namespace swivel::tools

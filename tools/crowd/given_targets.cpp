@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/given_targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "tools/formats/error.h"
+#include "tools/rig/limb_words.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::Target;
+
+// Why a row speaks of a limb that is not solved, and what to do.
+std::string no_limb(const formats::Clip& clip, formats::LimbName name)
+{
+    const LimbWords& words = words_of(name.kind);
+    if (limb_by_name(clip, name).joints)
+        return fmt::format("the {} is not solved; take it in with --limbs", plain_name(name));
+    return fmt::format("the skeleton has no {}; name it with {} {}", plain_name(name), words.option, words.joints);
+}
+
+// In a frame between those of two rows of one limb.
+Target on_the_way(const Target& before, const Target& after, std::size_t frame)
+{
+    const double share = static_cast<double>(frame - before.frame) / static_cast<double>(after.frame - before.frame);
+    const auto mixed = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return Eigen::Vector3d((1 - share) * a + share * b);
+    };
+    Target target = before;
+    target.position = mixed(before.position, after.position);
+    if (before.has_pole && after.has_pole) target.pole = mixed(before.pole, after.pole);
+    if (before.has_orientation && after.has_orientation)
+        target.orientation = before.orientation.slerp(share, after.orientation);
+    return target;
+}
+
+}  // namespace
+
+GivenTargets::GivenTargets(const std::string& source, Between between, const formats::Clip& clip,
+                           std::span<const Limb> limbs, std::uint32_t characters)
+    : between_(between)
+{
+    if (source == "clip") return;
+    rows_ = formats::read_targets_csv(source);
+    for (const Target& target : rows_) {
+        const auto refuse = [&](const std::string& cause) { throw formats::InputError(source, target.line, cause); };
+        if (target.frame >= clip.frame_count)
+            refuse(fmt::format("frame {} does not exist; the clip has frames 0 to {}", target.frame,
+                               clip.frame_count - 1));
+        if (target.character >= characters)
+            refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
+                               target.character, characters));
+        if (std::none_of(limbs.begin(), limbs.end(), [&](const Limb& limb) { return limb.name == target.limb; }))
+            refuse(no_limb(clip, target.limb));
+    }
+    find_tracks();
+}
+
+void GivenTargets::find_tracks()
+{
+    const auto limb_of = [](const Target& row) { return std::tuple(row.character, row.limb); };
+    std::ranges::sort(rows_, {}, [](const Target& row) { return std::tuple(row.character, row.limb, row.frame); });
+    for (std::size_t n = 0; n < rows_.size(); ++n) {
+        if (n == 0 || limb_of(rows_[n]) != limb_of(rows_[n - 1])) tracks_.push_back({n, n});
+        tracks_.back().end = n + 1;
+    }
+}
+
+std::span<const Target> GivenTargets::of_frame(std::size_t frame)
+{
+    targets_.clear();
+    for (Track& track : tracks_) {
+        while (track.now + 1 < track.end && rows_[track.now + 1].frame <= frame) ++track.now;
+        const Target& row = rows_[track.now];
+        if (row.frame == frame)
+            targets_.push_back(row);
+        else if (between_ == Between::linear && row.frame < frame && track.now + 1 < track.end)
+            targets_.push_back(on_the_way(row, rows_[track.now + 1], frame));
+        else if (between_ != Between::clip)
+            targets_.push_back(row);
+    }
+    return targets_;
+}
+
+}  // namespace swivel::tools

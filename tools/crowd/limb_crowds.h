@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// The crowds of the solver that hold a plan's limbs. A crowd has one kind of pole, one order of Euler angles for each
+// box, one number of twist bones, hands or none, and aims or none: limbs that agree share one, as groups. Knows the
+// public interface; no clip.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/crowd/crowd_plan.h"
+
+namespace swivel::tools {
+
+class LimbCrowds {
+public:
+    // Writes what the plan fixes for all frames. Throws InputError, naming file, if the plan has a budget and its limbs
+    // do not share a crowd.
+    LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const std::filesystem::path& file);
+
+    bool has(std::size_t limb, swivel_field field) const;
+    // Of all characters, as swivel_write() and swivel_read() do; of a field that the limb's crowd has.
+    void write(std::size_t limb, swivel_field field, const float* first, std::size_t stride);
+    void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
+    void forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
+                 swivel_out hand) const;
+    void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
+    // Forgets a limb's swivel, where it is carried.
+    void reset(std::size_t limb, std::uint32_t character);
+
+    // Solves all limbs; with a budget all in the first call, the most urgent blocks of 16 in each after that.
+    void solve();
+    // Whether the last solve() solved it.
+    bool solved(std::size_t limb, std::uint32_t character) const;
+
+private:
+    struct Place {
+        std::size_t crowd = 0;
+        std::uint32_t group = 0;
+    };
+    const Crowd& crowd_of(std::size_t limb) const { return crowds_[places_[limb].crowd]; }
+
+    std::vector<Crowd> crowds_;
+    std::vector<Place> places_;  // by limb
+    std::uint32_t budget_blocks_;
+    std::vector<float> priorities_;      // of the only crowd's groups
+    std::vector<std::uint32_t> active_;  // bits of its limbs that were solved; empty: all
+    bool began_ = false;
+};
+
+}  // namespace swivel::tools

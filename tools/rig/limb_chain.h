@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// A limb's joints with all that lies between them, and where they are: the two bones that the solver knows, out of a
+// skeleton that may have twist bones, scales and mirrors in between, and the way back. Knows clips alone.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tools/formats/clip.h"
+#include "tools/rig/limb_joints.h"
+
+namespace swivel::tools {
+
+struct LimbChain {
+    std::vector<int> joints;  // from the upper joint to the end joint, each the parent of the next
+    std::size_t lower = 0;    // where in them the lower joint is
+    bool is_plain = true;     // nothing lies between, and no scale is or may become negative
+
+    int upper() const { return joints.front(); }
+    int end() const { return joints.back(); }
+};
+
+// joints: as is_chain() says.
+LimbChain chain_of(const formats::Clip& clip, const LimbJoints& joints);
+
+// Upper, lower and end joint relative to the upper joint's parent (the world, where there is none), in its space.
+struct ChainPose {
+    std::array<Eigen::Vector3d, 3> position;
+    std::array<Eigen::Quaterniond, 3> turn;  // of the joint's axes before its own scale, mirrors above taken out
+    bool is_uniform = true;                  // see formats::JointPose; what is false here counts for nothing
+    double least_scale = 1;                  // 0: something is scaled to nothing
+
+    // From upper to lower joint, and from there to the end, in the axes of the joint each starts at.
+    Eigen::Vector3d upper_bone() const { return turn[0].conjugate() * (position[1] - position[0]); }
+    Eigen::Vector3d lower_bone() const { return turn[1].conjugate() * (position[2] - position[1]); }
+};
+
+ChainPose rest_pose(const formats::Clip& clip, const LimbChain& chain);
+ChainPose chain_pose(const formats::Clip& clip, std::size_t frame, const LimbChain& chain);
+
+// The bone from one joint of a chain to a later one, by their places in it, at rest, in the axes of the first joint's
+// parent; and with the own steps of some joints as in a frame, all else at rest. moving: places from first to below
+// last.
+Eigen::Vector3d rest_bone(const formats::Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last);
+Eigen::Vector3d bone_moved_by(const formats::Clip& clip, std::size_t frame, std::span<const std::size_t> moving,
+                              const LimbChain& chain, std::size_t first, std::size_t last);
+
+// The local rotations, as the clip stores them, that give the three joints these turns in a frame while all between
+// them stays as it is there.
+std::array<Eigen::Quaterniond, 3> local_rotations(const formats::Clip& clip, std::size_t frame, const LimbChain& chain,
+                                                  const std::array<Eigen::Quaterniond, 3>& turn);
+
+// The least rotation that takes the direction of `from` to that of `to`; for opposite ones a half turn about any axis
+// across. None where either is zero or both agree.
+Eigen::Quaterniond aim(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace swivel::tools
