@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,7 +30,9 @@ struct Joint {
 
 struct Clip {
     std::vector<Joint> joints;
-    double frame_time = 0;  // seconds, above 0
+    std::map<std::string, int> human_bones;  // what the file itself says of joints, by VRM's names: "leftUpperArm";
+                                             // empty: it says nothing
+    double frame_time = 0;                   // seconds between frames; 0: frames lie at uneven times
     std::size_t frame_count = 0;
     std::size_t track_count = 0;               // joints that move against their parent; often the root alone
     std::vector<Eigen::Quaterniond> rotation;  // local, unit; [frame * joints.size() + joint]
