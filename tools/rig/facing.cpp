@@ -68,8 +68,7 @@ struct RestingFigure {
         Vector3d way = Vector3d::Zero();
         for (const std::size_t leg : {kLegs, kLegs + 1}) {
             if (!joints[leg]) continue;
-            for (const int toe : toes(leg))
-                way += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
+            for (const int toe : toes(leg)) way += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
         }
         return way;
     }

@@ -16,7 +16,7 @@ namespace {
 using formats::Side;
 
 // What exporters put before every joint's name, some with a number behind.
-constexpr std::array<std::string_view, 7> kPrefixes = {"def",   "mixamorig", "bip",  "character", "quickrigcharacter",
+constexpr std::array<std::string_view, 7> kPrefixes = {"def",   "mixamorig", "bip", "character", "quickrigcharacter",
                                                        "joint", "jnt"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

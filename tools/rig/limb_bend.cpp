@@ -20,7 +20,8 @@ using formats::JointPose;
 using formats::LimbKind;
 using formats::LimbName;
 
-constexpr double kSine10 = 0.17364817766693033;  // of 10 degrees: above what modelling and noise leave of straight limbs
+constexpr double kSine10 =
+    0.17364817766693033;  // of 10 degrees: above what modelling and noise leave of straight limbs
 constexpr double kCosine30 = 0.8660254037844386;
 
 // The cross product of the unit bones, lower by upper, in the upper joint's axes, the upper bone laid where it is at
@@ -68,11 +69,10 @@ Bend choose_bend(const Clip& clip, LimbName limb, const LimbChain& chain, const 
     const Vector3d upper_w = parent_w.rotation * seen(rest.turn[0] * upper);
     const Vector3d way_w = is_arm ? facing.forwards : Vector3d(-facing.forwards);
     if (std::abs(upper_w.dot(way_w)) > kCosine30)
-        throw CannotBind(
-            fmt::format("it is straight and points {}, so nothing tells which way it bends",
-                        upper_w.dot(facing.forwards) > 0 ? "ahead" : "behind"),
-            fmt::format("write bend = {} under [limb.{}] in a crowd file, if it hung and was swung there",
-                        toml_row(in_joint(aim(-facing.up, upper_w) * way_w)), limb_word(limb)));
+        throw CannotBind(fmt::format("it is straight and points {}, so nothing tells which way it bends",
+                                     upper_w.dot(facing.forwards) > 0 ? "ahead" : "behind"),
+                         fmt::format("write bend = {} under [limb.{}] in a crowd file, if it hung and was swung there",
+                                     toml_row(in_joint(aim(-facing.up, upper_w) * way_w)), limb_word(limb)));
     return {in_joint(way_w), fmt::format("{}; forwards is told by {}",
                                          is_arm ? "elbows bend forwards" : "knees bend backwards", facing.source)};
 }
@@ -86,13 +86,13 @@ std::string clip_against(const Clip& clip, LimbName limb, const LimbChain& chain
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
         const ChainPose pose = chain_pose(clip, frame, chain);
         if (bend_of_hinge(upper, axis_of(pose, upper)).dot(bend) < 0)
-            most = std::max(most,
-                            degrees_between(pose.turn[0] * pose.upper_bone(), pose.turn[1] * pose.lower_bone()));
+            most = std::max(most, degrees_between(pose.turn[0] * pose.upper_bone(), pose.turn[1] * pose.lower_bone()));
     }
     if (!(most > 30)) return "";
-    return fmt::format("the clip bends it to the other side, by up to {:.0f} degrees; to follow the clip, write bend = {} under "
-                       "[limb.{}] in a crowd file",
-                       most, toml_row(bend_of_hinge(upper, mean)), limb_word(limb));
+    return fmt::format(
+        "the clip bends it to the other side, by up to {:.0f} degrees; to follow the clip, write bend = {} under "
+        "[limb.{}] in a crowd file",
+        most, toml_row(bend_of_hinge(upper, mean)), limb_word(limb));
 }
 
 }  // namespace swivel::tools

@@ -19,7 +19,8 @@ struct Bend {
 };
 
 // The first of these that tells it:
-// - the rest pose, bent by more than 10 degrees: by its sine, as a limb folded by 170 tells as little as a straight one;
+// - the rest pose, bent by more than 10 degrees: by its sine, as a limb folded by 170 tells as little as a straight
+// one;
 // - the clip, bent by more than 10 degrees in the mean over its frames of the cross product of the unit bones, in the
 //   upper joint's axes, so that noise cancels;
 // - the body: elbows bend forwards and knees backwards in a figure that faces so.
