@@ -63,7 +63,7 @@ void call_mirror(Bytes& bytes)
     for (float& x : value) x = bytes.any_float();
     mirrored = value;
     const swivel_status status = swivel_mirror(field, order, mirrored.data(), mirrored.data());
-    SWIVEL_REQUIRE((status == SWIVEL_OK) == (field < SWIVEL_SHOULDER && order <= SWIVEL_ZYX));
+    SWIVEL_REQUIRE((status == SWIVEL_OK) == (field < SWIVEL_INPUT_END && order <= SWIVEL_ZYX));
     if (status == SWIVEL_OK) swivel_mirror(field, order, mirrored.data(), mirrored.data());
     SWIVEL_REQUIRE(std::memcmp(value.data(), mirrored.data(), sizeof value) == 0);
 }
