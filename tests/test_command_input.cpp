@@ -227,33 +227,47 @@ TEST_CASE("input: skeletons without arms, and --arm that names none")
 {
     std::string legs = kTwoArms;
     for (std::size_t at; (at = legs.find("ForeArm")) != std::string::npos;) legs.replace(at, 7, "Shin");
-    require_clip_refused(legs, {"clip.bvh: ", "no arms", "--arm"});
+    require_clip_refused(legs, {"clip.bvh: no limb binds: the left arm: ", "--arm SHOULDER,ELBOW,WRIST"});
     require_arms_refused({"LeftArm,LeftForeArm,Nope"}, {"clip.bvh: ", "'Nope'"});
     require_arms_refused({"LeftArm,LeftForeArm"}, {"clip.bvh: ", "'LeftArm,LeftForeArm'", "SHOULDER,ELBOW,WRIST"});
     require_arms_refused({"LeftHand,LeftForeArm,LeftArm"}, {"clip.bvh: ", "'LeftHand,LeftForeArm,LeftArm'"});
     require_arms_refused({"LeftArm,RightForeArm,RightHand"}, {"clip.bvh: ", "one below it"});
     require_arms_refused({"LeftArm,LeftForeArm,LeftHand", "left:RightArm,RightForeArm,RightHand"},
-                         {"clip.bvh: ", "both arms are taken as left"});
+                         {"clip.bvh: ", "two arms are taken as left"});
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:LeftArm,LeftForeArm,LeftHand"}, {"clip.bvh: "});
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:Hips,LeftArm,LeftForeArm"}, {"clip.bvh: "});
-    require_arms_refused(Words(3, "LeftArm,LeftForeArm,LeftHand"), {"clip.bvh: ", "more than twice"});
-    require_edit_refused("OFFSET 5 0 0", "OFFSET 0 0 0", {"clip.bvh: ", "left arm", "length"});
+    require_arms_refused(Words(3, "LeftArm,LeftForeArm,LeftHand"), {"clip.bvh: ", "two arms are taken as left"});
+}
+
+TEST_CASE("input: a limb that cannot be bound refuses no other, unless it was named")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", edited(kTwoArms, "OFFSET 5 0 0", "OFFSET 0 0 0"));  // the left upper arm
+    const Outcome others = run_command(folder.path, {"solve", "clip.bvh", "--json"});
+    REQUIRE(others.exit_code == 0);
+    const auto report = nlohmann::json::parse(others.out);
+    REQUIRE(report.at("arms_bound").size() == 1);
+    CHECK(report.at("arms_bound")[0].at("side") == "right");
+    REQUIRE(report.at("missing").size() == 1);
+    CHECK_THAT(report.at("missing")[0].at("problem").get<std::string>(), Contains("has no length"));
+    const Words named = {"clip.bvh: the left arm cannot be bound: ", "has no length"};
+    require_refused(folder, {"clip.bvh", "--arm", "LeftArm,LeftForeArm,LeftHand"}, named);
+    spill(folder / "c.toml", "[limb.left_arm]\nbend = [0, 0, 1]\n");
+    require_refused(folder, {"clip.bvh", "--crowd", "c.toml"}, named);
 }
 
 TEST_CASE("input: skeletons without legs, and --leg that names none")
 {
     const TempFolder folder;
     spill(folder / "clip.bvh", kTwoArms);
-    require_refused(folder, {"clip.bvh", "--limbs", "legs"}, {"clip.bvh: no legs", "--leg HIP,KNEE,ANKLE"});
-    require_refused(folder, {"clip.bvh", "--limbs", "all"}, {"clip.bvh: no legs", "--leg HIP,KNEE,ANKLE"});
+    require_refused(folder, {"clip.bvh", "--limbs", "legs"},
+                    {"clip.bvh: no limb binds: the left leg: no joints have names", "--leg HIP,KNEE,ANKLE"});
     require_refused(folder, {"clip.bvh", "--leg", "LeftArm,LeftForeArm"},
                     {"'LeftArm,LeftForeArm' does not name three joints (--leg); write HIP,KNEE,ANKLE"});
     require_refused(folder, {"clip.bvh", "--leg", "Nope,LeftForeArm,LeftHand"}, {"'Nope' (--leg)"});
-    require_refused(folder, {"clip.bvh", "--limbs", "all", "--leg", "LeftArm,LeftForeArm,LeftHand"},
-                    {"the left arm cannot be bound: its joints were named for the left leg; name it with --arm "});
     spill(folder / "t.csv", edited(kColumns, "side", "limb") + "0,0,left_leg,6,8,3,4,8,9\n");
     require_refused(folder, {"clip.bvh", "--targets", "t.csv"},
-                    {"t.csv:2: the skeleton has no left leg; name it with --leg HIP,KNEE,ANKLE"});
+                    {"t.csv:2: the left leg is not solved; take it in with --limbs, or name it with --leg HIP,KNEE,ANKLE"});
 }
 
 TEST_CASE("input: targets of a limb that is not solved")

@@ -47,8 +47,9 @@ GivenTargets::GivenTargets(const std::string& source, Between between, const for
             refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
                                target.character, characters));
         if (std::none_of(limbs.begin(), limbs.end(), [&](const Limb& limb) { return limb.name == target.limb; }))
-            refuse(fmt::format("the {} is not solved; take it in with --limbs, and see swivel rig if it does not bind",
-                               plain_name(target.limb)));
+            refuse(fmt::format("the {} is not solved; take it in with --limbs, or name it with {} {}",
+                               plain_name(target.limb), words_of(target.limb.kind).option,
+                               words_of(target.limb.kind).joints));
     }
     find_tracks();
 }

@@ -133,7 +133,9 @@ FoundJoints explained(const Clip& clip, FoundJoints found)
 
 LimbFinding finding_of(const Clip& clip, const LimbChoice& choice, const Facing& facing, const LimbFound& found)
 {
-    LimbFinding finding{found.name, {}, {}, {}, found.joints.joints.has_value(), found.named_by != nullptr};
+    const auto is_of_limb = [&](const GivenBend& bend) { return bend.limb == found.name; };
+    const bool is_named = found.named_by || std::any_of(choice.bends.begin(), choice.bends.end(), is_of_limb);
+    LimbFinding finding{found.name, {}, {}, {}, found.joints.joints.has_value(), is_named};
     if (!finding.has_joints) {
         const FoundJoints why = explained(clip, found.joints);
         finding.problem = why.problem;

@@ -37,7 +37,7 @@ struct LimbFinding {
     std::optional<Limb> limb;
     std::string problem, advice;  // see FoundJoints
     bool has_joints = false;      // though they may not bind
-    bool is_named = false;        // by the user
+    bool is_named = false;        // the user named its joints or gave its bend
 };
 
 // The whole line.
