@@ -24,8 +24,8 @@ constexpr double kSine10 =
     0.17364817766693033;  // of 10 degrees: above what modelling and noise leave of straight limbs
 constexpr double kCosine30 = 0.8660254037844386;
 
-// The cross product of the unit bones, lower by upper, in the upper joint's axes, the upper bone laid where it is at
-// rest: the axis that they are bent about, as long as the sine of the bend.
+// The axis that two bones are bent about, as long as the sine of the bend: the cross product of the unit bones, lower
+// by upper. It is in the upper joint's axes, with the upper bone turned to where it is at rest.
 Vector3d axis_of(const ChainPose& pose, const Vector3d& rest_upper)
 {
     const Vector3d upper = pose.upper_bone().normalized();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A limb's joints with all that lies between them, and where they are: the two bones that the solver knows, out of a
-// skeleton that may have twist bones, scales and mirrors in between, and the way back. Knows clips alone.
+// A limb's joints with all that lies between them, and where they are. The solver knows two bones; a skeleton may have
+// twist bones, scales and mirrors in between. Here is the way there and back. Knows clips alone.
 #pragma once
 
 #include <array>
@@ -40,8 +40,8 @@ formats::JointPose parent_at_rest(const formats::Clip& clip, int joint);
 ChainPose rest_pose(const formats::Clip& clip, const LimbChain& chain);
 ChainPose chain_pose(const formats::Clip& clip, std::size_t frame, const LimbChain& chain);
 
-// How far the own motion of the joints between two of a chain's moves the later of the two in a frame, as a share of
-// their distance at rest; all else is at rest. first, last: their places in the chain.
+// How far the joints between two of a chain's move the later of the two in a frame, by their own motion alone. It is a
+// share of the distance of the two at rest. first, last: places of the two in the chain.
 double moved_between(const formats::Clip& clip, std::size_t frame, const LimbChain& chain, std::size_t first,
                      std::size_t last);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The limbs of a clip's skeleton, from what the user asks for to what the solver takes: joints first, for which a
-// skeleton is enough, then bound by the clip's frames. Knows clips and the public interface; no file format.
+// The limbs of a clip's skeleton, from what the user asks for to what the solver takes. Joints come first; for these a
+// skeleton is enough. The clip's frames then bind them. Knows clips and the public interface; no file format.
 #pragma once
 
 #include <array>
@@ -25,10 +25,10 @@ struct LimbFound {
 // In the order of formats::kLimbNames.
 using FigureJoints = std::array<LimbFound, 4>;
 
-// What the user names, else what joints_by_file() finds; a joint that is named for one limb is no other's. file: of the
-// clip, for messages; clip: its frames are not needed; choice: must outlive the result. Throws InputError, naming the
-// file (and the line, where a file named the joints), for what the user named wrongly: an unknown or ambiguous joint,
-// joints that are not above each other, two limbs of a kind on one side, a joint in two limbs.
+// What the user names, else what joints_by_file() finds. A joint that is named for one limb is no other's.
+// file: of the clip, for messages; clip: its frames are not needed; choice: must outlive the result.
+// Throws InputError with the option, or the file and line, for joints that the user named wrongly. Wrong are an unknown
+// or ambiguous joint, joints that are not above each other, two limbs of a kind on one side, and a joint in two limbs.
 FigureJoints choose_joints(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
 // What became of one limb: bound, or why not.
