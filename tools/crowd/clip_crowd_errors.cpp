@@ -100,9 +100,7 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
     const Quaterniond shoulder_w = from.parent * quaternion(row.shoulder);
     const Quaterniond turned = from.upper.conjugate() * shoulder_w;
     statistics.upper_swing.add(swing(turned, limbs_[limb].upper_bone), pose);
-    const double upper_twist = twist(turned, limbs_[limb].upper_bone);
-    statistics.upper_twist.add(upper_twist, pose);
-    statistics.turned_over += upper_twist > std::numbers::pi / 2;
+    statistics.upper_twist.add(twist(turned, limbs_[limb].upper_bone), pose);
     statistics.lower.add(angle(from.fore.conjugate() * shoulder_w * quaternion(row.elbow)), pose);
 }
 

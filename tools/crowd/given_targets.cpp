@@ -15,15 +15,6 @@ namespace {
 
 using formats::Target;
 
-// Why a row speaks of a limb that is not solved, and what to do.
-std::string no_limb(const formats::Clip& clip, formats::LimbName name)
-{
-    const LimbWords& words = words_of(name.kind);
-    if (limb_by_name(clip, name).joints)
-        return fmt::format("the {} is not solved; take it in with --limbs", plain_name(name));
-    return fmt::format("the skeleton has no {}; name it with {} {}", plain_name(name), words.option, words.joints);
-}
-
 // In a frame between those of two rows of one limb.
 Target on_the_way(const Target& before, const Target& after, std::size_t frame)
 {
@@ -56,7 +47,8 @@ GivenTargets::GivenTargets(const std::string& source, Between between, const for
             refuse(fmt::format("character {} does not exist; there are {} (--characters), counted from 0",
                                target.character, characters));
         if (std::none_of(limbs.begin(), limbs.end(), [&](const Limb& limb) { return limb.name == target.limb; }))
-            refuse(no_limb(clip, target.limb));
+            refuse(fmt::format("the {} is not solved; take it in with --limbs, and see swivel rig if it does not bind",
+                               plain_name(target.limb)));
     }
     find_tracks();
 }

@@ -80,7 +80,6 @@ struct LimbStatistics {
     ErrorStat given;  // of limbs that were given another goal, pole or aim than the clip's; all others follow it
     ErrorStat bent, straight;                   // of those that follow it; bent by more than 5 degrees, and the rest
     ErrorStat upper_swing, upper_twist, lower;  // radians; of the first character
-    std::uint64_t turned_over = 0;              // poses of the first character with an upper_twist above pi / 2
     std::array<FlagStat, 32> flags{};           // [bit]
     std::uint64_t limb_count = 0;
     std::uint64_t unreached = 0, bad = 0;  // of them: out of reach, with bad input
@@ -109,7 +108,6 @@ struct LimbStatistics {
         upper_swing.add(other.upper_swing);
         upper_twist.add(other.upper_twist);
         lower.add(other.lower);
-        turned_over += other.turned_over;
         for (std::size_t bit = 0; bit < flags.size(); ++bit) flags[bit].add(other.flags[bit]);
         limb_count += other.limb_count;
         unreached += other.unreached;

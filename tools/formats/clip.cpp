@@ -2,6 +2,7 @@
 #include "tools/formats/clip.h"
 
 #include <cassert>
+#include <limits>
 
 #include "tools/formats/text.h"
 
@@ -53,7 +54,7 @@ JointPose local_pose(const Eigen::Vector3d& translation, const Eigen::Quaternion
     if (scale == Eigen::Vector3d::Ones()) return pose;
     const Eigen::Vector3d size = scale.cwiseAbs();
     pose.scale = size.mean();
-    pose.is_uniform = size.maxCoeff() - size.minCoeff() <= 3e-5 * size.maxCoeff();
+    if (size.maxCoeff() > 0) pose.unevenness = 1 - size.minCoeff() / size.maxCoeff();
     pose.mirrored = scale.x() * scale.y() * scale.z() < 0;
     // The signs are a mirror in x, or none, and then half a turn about an axis, or none: the one that keeps its sign.
     const Eigen::Array3d sign(pose.mirrored == (scale.x() < 0) ? 1 : -1, scale.y() < 0 ? -1 : 1,
@@ -69,7 +70,7 @@ JointPose operator*(const JointPose& outer, const JointPose& inner)
     pose.rotation = outer.rotation * (outer.mirrored ? mirrored(inner.rotation) : inner.rotation);
     pose.scale = outer.scale * inner.scale;
     pose.mirrored = outer.mirrored != inner.mirrored;
-    pose.is_uniform = outer.is_uniform && inner.is_uniform;
+    pose.unevenness = outer.unevenness + inner.unevenness;
     return pose;
 }
 
@@ -99,14 +100,14 @@ JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint)
                            : clip.scale[frame * clip.scale_track_count + static_cast<std::size_t>(at.scale_track)];
     JointPose pose =
         local_pose(local_translation(clip, frame, joint), clip.rotation[frame * clip.joints.size() + joint], scale);
-    pose.is_uniform = pose.is_uniform && !at.is_sheared;
+    if (at.is_sheared) pose.unevenness = std::numeric_limits<double>::infinity();
     return pose;
 }
 
 JointPose local_rest_pose(const Joint& joint)
 {
     JointPose pose = local_pose(joint.offset, joint.rest_rotation, joint.rest_scale);
-    pose.is_uniform = pose.is_uniform && !joint.is_sheared;
+    if (joint.is_sheared) pose.unevenness = std::numeric_limits<double>::infinity();
     return pose;
 }
 

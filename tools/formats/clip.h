@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,7 +30,9 @@ struct Joint {
 
 struct Clip {
     std::vector<Joint> joints;
-    double frame_time = 0;  // seconds, above 0
+    std::map<std::string, int> human_bones;  // what the file itself says of joints, by VRM's names: "leftUpperArm";
+                                             // empty: it says nothing
+    double frame_time = 0;                   // seconds between frames; 0: frames lie at uneven times
     std::size_t frame_count = 0;
     std::size_t track_count = 0;               // joints that move against their parent; often the root alone
     std::vector<Eigen::Quaterniond> rotation;  // local, unit; [frame * joints.size() + joint]
@@ -57,10 +60,9 @@ struct JointPose {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     double scale = 1;       // above 0; 0 where a joint at or above is scaled to nothing
     bool mirrored = false;  // an odd number of mirrors at and above
-    // False: a joint at or above is scaled by different factors along its axes (by more than 3e-5; exporters
-    // make noise of up to 3e-5). Then no rotation and scale say it all, and these hold the mean factor: not to be
-    // relied on.
-    bool is_uniform = true;
+    // How much the factors of scale along a joint's axes differ, as a share of the largest; those of all joints at and
+    // above, added up. `scale` is their mean. Infinite at or below a sheared matrix.
+    double unevenness = 0;
 };
 
 // v with its x turned over, and the same turn seen in that mirror.

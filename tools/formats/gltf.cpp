@@ -22,6 +22,7 @@
 #include "tools/formats/gltf_buffers.h"
 #include "tools/formats/gltf_element.h"
 #include "tools/formats/gltf_frames.h"
+#include "tools/formats/gltf_human_bones.h"
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/text.h"
 
@@ -267,6 +268,8 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     const tinygltf::Model model = load(path, document);
     const std::vector<int> joint_of = read_nodes(file, model);
     if (file.clip.joints.empty()) refuse(file, "it has no nodes, so no skeleton");
+    for (const auto& [name, node] : read_human_bones(path, document))
+        file.clip.human_bones[name] = joint_of[static_cast<std::size_t>(node)];
     for (const tinygltf::Animation& animation : model.animations) file.animation_names.push_back(animation.name);
     file.animation = choose_animation(file, choice.animation);
     if (file.animation >= 0) {

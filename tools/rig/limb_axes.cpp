@@ -29,16 +29,16 @@ double tenth_below(double angle) { return std::max(0.0, std::floor(10 * (angle -
 
 }  // namespace
 
-std::string direction_words(const Vector3d& direction_w, const Front& front)
+std::string direction_words(const Vector3d& direction_w, const Facing& facing)
 {
-    const Vector3d left = front.up.cross(front.forwards);
+    const Vector3d left = facing.up.cross(facing.forwards);
     struct Way {
         double share;
         std::string_view positive, negative;
     };
     std::array<Way, 3> ways = {Way{direction_w.dot(left), "left", "right"},
-                               Way{direction_w.dot(front.up), "up", "down"},
-                               Way{direction_w.dot(front.forwards), "forwards", "backwards"}};
+                               Way{direction_w.dot(facing.up), "up", "down"},
+                               Way{direction_w.dot(facing.forwards), "forwards", "backwards"}};
     std::stable_sort(ways.begin(), ways.end(),
                      [](const Way& a, const Way& b) { return std::abs(a.share) > std::abs(b.share); });
     std::string words;

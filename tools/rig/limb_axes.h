@@ -12,7 +12,7 @@
 namespace swivel::tools {
 
 // A direction of the world as the figure itself says it: "left", or of what lies between "left and down".
-std::string direction_words(const Eigen::Vector3d& direction_w, const Front& front);
+std::string direction_words(const Eigen::Vector3d& direction_w, const Facing& facing);
 
 // The least and the most of an angle, in degrees.
 struct AngleRange {

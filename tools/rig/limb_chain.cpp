@@ -47,14 +47,12 @@ ChainPose walk(const LimbChain& chain, const StepOf& step_of)
         }
         if (n == last) break;  // its own scale moves nothing of the limb
         above = above * step.whole;
-        pose.least_scale = std::min(pose.least_scale, step.whole.scale);
     }
-    pose.is_uniform = above.is_uniform;
     return pose;
 }
 
 template <class StepAt>
-Vector3d bone(std::size_t first, std::size_t last, const StepAt& step_at)
+Vector3d bone_between(std::size_t first, std::size_t last, const StepAt& step_at)
 {
     JointPose at = step_at(first).whole;
     const Vector3d start = at.position;
@@ -81,6 +79,14 @@ LimbChain chain_of(const Clip& clip, const LimbJoints& joints)
     return chain;
 }
 
+JointPose parent_at_rest(const Clip& clip, int joint)
+{
+    JointPose pose;
+    for (int up = formats::joint_at(clip, joint).parent; up >= 0; up = formats::joint_at(clip, up).parent)
+        pose = formats::local_rest_pose(formats::joint_at(clip, up)) * pose;
+    return pose;
+}
+
 ChainPose rest_pose(const Clip& clip, const LimbChain& chain)
 {
     return walk(chain, [&](int joint) { return step_at_rest(clip, joint); });
@@ -91,18 +97,14 @@ ChainPose chain_pose(const Clip& clip, std::size_t frame, const LimbChain& chain
     return walk(chain, [&](int joint) { return step_in(clip, frame, joint); });
 }
 
-Vector3d rest_bone(const Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last)
+double moved_between(const Clip& clip, std::size_t frame, const LimbChain& chain, std::size_t first, std::size_t last)
 {
-    return bone(first, last, [&](std::size_t n) { return step_at_rest(clip, chain.joints[n]); });
-}
-
-Vector3d bone_moved_by(const Clip& clip, std::size_t frame, std::span<const std::size_t> moving, const LimbChain& chain,
-                       std::size_t first, std::size_t last)
-{
-    return bone(first, last, [&](std::size_t n) {
-        const bool moves = std::find(moving.begin(), moving.end(), n) != moving.end();
-        return moves ? step_in(clip, frame, chain.joints[n]) : step_at_rest(clip, chain.joints[n]);
-    });
+    const auto at_rest = [&](std::size_t n) { return step_at_rest(clip, chain.joints[n]); };
+    const auto moved = [&](std::size_t n) {
+        return n == first || n == last ? at_rest(n) : step_in(clip, frame, chain.joints[n]);
+    };
+    const Vector3d bone = bone_between(first, last, at_rest);
+    return (bone_between(first, last, moved) - bone).norm() / bone.norm();
 }
 
 std::array<Quaterniond, 3> local_rotations(const Clip& clip, std::size_t frame, const LimbChain& chain,

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "tools/formats/clip.h"
@@ -29,23 +28,22 @@ LimbChain chain_of(const formats::Clip& clip, const LimbJoints& joints);
 struct ChainPose {
     std::array<Eigen::Vector3d, 3> position;
     std::array<Eigen::Quaterniond, 3> turn;  // of the joint's axes before its own scale, mirrors above taken out
-    bool is_uniform = true;                  // see formats::JointPose; what is false here counts for nothing
-    double least_scale = 1;                  // 0: something is scaled to nothing
 
     // From upper to lower joint, and from there to the end, in the axes of the joint each starts at.
     Eigen::Vector3d upper_bone() const { return turn[0].conjugate() * (position[1] - position[0]); }
     Eigen::Vector3d lower_bone() const { return turn[1].conjugate() * (position[2] - position[1]); }
 };
 
+// The joint above one at rest, in the world; that of the world for a root.
+formats::JointPose parent_at_rest(const formats::Clip& clip, int joint);
+
 ChainPose rest_pose(const formats::Clip& clip, const LimbChain& chain);
 ChainPose chain_pose(const formats::Clip& clip, std::size_t frame, const LimbChain& chain);
 
-// The bone from one joint of a chain to a later one, by their places in it, at rest, in the axes of the first joint's
-// parent; and with the own steps of some joints as in a frame, all else at rest. moving: places from first to below
-// last.
-Eigen::Vector3d rest_bone(const formats::Clip& clip, const LimbChain& chain, std::size_t first, std::size_t last);
-Eigen::Vector3d bone_moved_by(const formats::Clip& clip, std::size_t frame, std::span<const std::size_t> moving,
-                              const LimbChain& chain, std::size_t first, std::size_t last);
+// How far the own motion of the joints between two of a chain's moves the later of the two in a frame, as a share of
+// their distance at rest; all else is at rest. first, last: their places in the chain.
+double moved_between(const formats::Clip& clip, std::size_t frame, const LimbChain& chain, std::size_t first,
+                     std::size_t last);
 
 // The local rotations, as the clip stores them, that give the three joints these turns in a frame while all between
 // them stays as it is there.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Which joints of a skeleton are an arm or a leg, told from their names. Knows clips alone.
+// Which joints of a skeleton are an arm or a leg: by what the file says, or else by their names. Knows clips alone.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/formats/clip.h"
 #include "tools/formats/limb_name.h"
@@ -16,28 +17,29 @@ namespace swivel::tools {
 // Shoulder, elbow and wrist, or hip, knee and ankle: joints of a clip.
 using LimbJoints = std::array<int, 3>;
 
-struct LimbByName {
+// A limb's joints, or why there are none.
+struct FoundJoints {
     std::optional<LimbJoints> joints;
-    std::string habit;    // whose names they are, for people: "Mixamo, CMU, MotionBuilder"
-    std::string problem;  // without joints: why names that fit are no limb; empty if none fit
+    std::string from;     // who names them so, for people: "Unreal, Mesh2Motion", "--arm"
+    std::string problem;  // without joints: one line; empty if no name speaks of such a limb
+    std::string advice;   // what to do about it, to follow after a semicolon; empty: name joints
 };
 
-// The limb's joints by the habits of exporters; docs/rigs.md has the table. Case, separators, name spaces, common
-// prefixes and, where nothing fits with them, numbers, jnt and joint at the end do not count. Each must be its name's
-// only bearer among the bones (among all joints if no bone bears it) and lie above the next, and one at least must be a
-// bone; what lies between must be a twist or roll bone by name, a part of that bone by name
-// (require_parts_between() then asks for proof), or at the same place as one of them. Where a habit's names are borne
-// by three joints beside these, too, there is none: two figures.
-LimbByName limb_by_name(const formats::Clip& clip, formats::LimbName limb);
+// The joints of the four limbs, in the order of formats::kLimbNames. A file that says which joints are a limb's is
+// believed (Clip::human_bones). Otherwise the table of names decides: a row fits if its three names are borne by joints
+// above one another, bones before other nodes, one of them a bone. The first row that fits counts. Further limbs of
+// that row, and limbs of other rows that share no joint with it, are candidates, too; more than one candidate is a
+// problem that lists them. No joint between the three may have a name that the table knows for the upper or lower joint
+// of such a limb, because it would be that joint. Takes memory and time in proportion to the joints.
+std::array<FoundJoints, 4> joints_by_file(const formats::Clip& clip);
+
+// True if `top` is above the other joint.
+bool is_above(const formats::Clip& clip, int top, int joint);
 
 // True if each is above the next.
 bool is_chain(const formats::Clip& clip, const LimbJoints& joints);
 
 // The first joint of `a` that is in `b`, too; -1 if there is none.
 int shared_joint(std::span<const int> a, std::span<const int> b);
-
-// Two joints of one name, each above one of these two alone: the trunks of two figures. Where their names differ by
-// what are_namesakes() leaves out there must be two such pairs, of two names: a copied figure has more than a spine.
-std::optional<std::array<int, 2>> trunks_apart(const formats::Clip& clip, int joint_a, int joint_b);
 
 }  // namespace swivel::tools

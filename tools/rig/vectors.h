@@ -19,7 +19,8 @@ inline double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b
 // For people to read, without a -0.
 inline Eigen::Vector3d to_three_decimals(const Eigen::Vector3d& v) { return (1000 * v).array().round() / 1000 + 0.0; }
 
-// "(0.000 1.000 0.000)", without the sign of a 0.
+// "(0.000 1.000 0.000)", without the sign of a 0; and as a crowd file has it, "[0.000, 1.000, 0.000]".
 std::string vector_text(const Eigen::Vector3d& v);
+std::string toml_row(const Eigen::Vector3d& v);
 
 }  // namespace swivel::tools

@@ -136,15 +136,6 @@ void print_statistics(const Statistics& statistics)
     for (const auto& [flag, name] : kFlagNames)
         if (const FlagStat stat = flag_of(statistics, flag); stat.count > 0)
             fmt::print("flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
-    for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
-        if (s->turned_over > 0) {
-            const LimbWords& w = words_of(kind);
-            fmt::print(
-                "note     the {} turns over against the clip in {} of {} poses: there the clip bends the {} the other "
-                "way; limb.{}.pole.kind = \"incoming\" in a crowd file keeps the twist, and the {} goes "
-                "where it may\n",
-                w.upper, s->turned_over, s->upper_twist.count, w.lower_joint, w.limbs, w.lower_joint);
-        }
     if (went_wrong(statistics))
         fmt::print("note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
@@ -168,8 +159,6 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
         out["flags"][name] = stat.count;
         if (stat.count > 0) out["first_flagged"][name] = json_of(stat.first_pose);
     }
-    for (const auto& [s, kind] : {std::pair(&statistics.arms, LimbKind::arm), {&statistics.legs, LimbKind::leg}})
-        if (s->upper_twist.count > 0) out["turned_over"][words_of(kind).limbs] = s->turned_over;
     out["out_of_reach"] = statistics.unreached();
     out["bad_input"] = statistics.bad();
     out["went_wrong"] = went_wrong(statistics);

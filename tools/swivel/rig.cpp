@@ -27,7 +27,7 @@ void run_rig(const RigOptions& options)
     choice.kinds = options.kinds;
     for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
     for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
-    const LimbSearch search = look_for_limbs(motion.clip(), options.file, choice);
+    const LimbSearch search = bind_limbs(motion.clip(), choose_joints(motion.clip(), options.file, choice), choice);
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
         print_json(json_of(motion, options.file, search, options.joints));

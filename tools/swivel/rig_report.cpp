@@ -52,12 +52,12 @@ std::string toml_name(const Clip& clip, int joint)
 }
 
 // Where the limits' axes point.
-void print_axes(const Limb& limb, const Front& front)
+void print_axes(const Limb& limb, const Facing& facing)
 {
     for (int n = 0; n < 3; ++n) {
         const Eigen::Vector3d axis_w = limb.axes_w.col(n);
         fmt::print("           {:<21} {} {} {}\n", n == 0 ? "limits' axes at rest:" : "", "xyz"[n], vector_text(axis_w),
-                   direction_words(axis_w, front));
+                   direction_words(axis_w, facing));
     }
 }
 
@@ -96,21 +96,22 @@ void print_range(const Clip& clip, const Limb& limb)
     fmt::print("           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.least, range->flexion.most);
 }
 
-void print_limb(const Clip& clip, const Limb& limb, const Front& front)
+void print_limb(const Clip& clip, const Limb& limb, const Facing& facing)
 {
-    fmt::print("{:<10} {} > {} > {}, named {} {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
-               name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.habit.starts_with('-') ? "by" : "as",
-               limb.habit);
+    fmt::print("{:<10} {} > {} > {}, named by {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
+               name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.from);
     fmt::print("           {:.6g} + {:.6g} long in the world, scale {:.6g}{}\n", limb.bound.lengths[0],
                limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
     fmt::print("           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
                vector_text(limb.lower_bone));
     fmt::print("           bends towards {}: {}\n", vector_text(limb.bend), limb.bend_source);
-    print_axes(limb, front);
+    print_axes(limb, facing);
     if (const auto inner = between(limb); !inner.empty())
-        fmt::print("           twist bones in between, which keep their own motion: {}\n", list(clip, inner));
-    if (!limb.side_twists.empty())
-        fmt::print("           twist bones beside, which keep their own motion: {}\n", list(clip, limb.side_twists));
+        fmt::print("           joints in between, which keep their own motion: {}\n", list(clip, inner));
+    if (limb.unevenness > 1e-5)
+        fmt::print("           uneven scales put the {} off by at most {:.1e} of the length\n",
+                   words_of(limb.name.kind).end_joint, limb.unevenness);
+    if (!limb.note.empty()) fmt::print("           note: {}\n", limb.note);
     print_range(clip, limb);
 }
 
@@ -127,13 +128,13 @@ std::vector<double> vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), 
 
 nlohmann::ordered_json json_of(const AngleRange& range) { return {range.least, range.most}; }
 
-nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const Front& front)
+nlohmann::ordered_json json_of_frame(const Clip& clip, const Limb& limb, const Facing& facing)
 {
     nlohmann::ordered_json out;
     for (int n = 0; n < 3; ++n) {
         const Eigen::Vector3d axis_w = limb.axes_w.col(n);
         out["axes"][std::array{"x", "y", "z"}[static_cast<std::size_t>(n)]] = {
-            {"world", vector_of(axis_w)}, {"points", direction_words(axis_w, front)}};
+            {"world", vector_of(axis_w)}, {"points", direction_words(axis_w, facing)}};
     }
     if (const std::optional<LimbRange> range = range_of(clip, limb))
         out["clip_range"] = {{"bend", vector_of(range->bend)},
@@ -151,7 +152,7 @@ nlohmann::ordered_json json_of_chain(const swivel_chain& chain)
             {"wrist_rotation", chain.wrist_rotation},       {"bend", chain.bend}};
 }
 
-nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, const Front& front)
+nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, const Facing& facing)
 {
     nlohmann::ordered_json out{{"limb", limb_word(finding.name)}, {"bound", finding.limb.has_value()}};
     if (!finding.limb) {
@@ -164,7 +165,7 @@ nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, con
         for (const int joint : joints) all.push_back(joint_at(clip, joint).name);
         return all;
     };
-    out["named_as"] = limb.habit;
+    out["named_by"] = limb.from;
     out["joints"] = names(limb.joints);
     for (const int joint : limb.joints) out["numbers"].push_back(joint_at(clip, joint).number);
     out["lengths"] = {limb.bound.lengths[0], limb.bound.lengths[1]};
@@ -175,9 +176,10 @@ nlohmann::ordered_json json_of(const Clip& clip, const LimbFinding& finding, con
     out["bend"] = vector_of(limb.bend);
     out["bend_source"] = limb.bend_source;
     out["chain"] = json_of_chain(rest_chain(clip, limb.chain, limb.bend));
-    out.update(json_of_frame(clip, limb, front));
-    out["twist_bones_between"] = names(between(limb));
-    out["twist_bones_beside"] = names(limb.side_twists);
+    out.update(json_of_frame(clip, limb, facing));
+    out["joints_between"] = names(between(limb));
+    out["unevenness"] = limb.unevenness;
+    if (!limb.note.empty()) out["note"] = limb.note;
     return out;
 }
 
@@ -187,18 +189,17 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                bool with_joints)
 {
     const Clip& clip = motion.clip();
-    const Front& front = search.front;
+    const Facing& facing = search.facing;
     nlohmann::ordered_json out{{"file", file},
                                {"motion", motion.describe()},
                                {"joints", clip.joints.size()},
                                {"frames", clip.frame_count},
                                {"frame_time", clip.frame_time},
-                               {"faces", vector_of(front.forwards)},
-                               {"faces_by", front.source},
-                               {"up", vector_of(front.up)},
-                               {"up_by", front.up_source}};
-    if (!front.doubt.empty()) out["faces_in_doubt"] = front.doubt;
-    for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, front));
+                               {"faces", vector_of(facing.forwards)},
+                               {"faces_by", facing.source},
+                               {"up", vector_of(facing.up)},
+                               {"up_by", facing.up_source}};
+    for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, facing));
     const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
     if (with_joints)
         for (std::size_t n = 0; n < clip.joints.size(); ++n)
@@ -212,17 +213,17 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
 void print_rig(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints)
 {
     const Clip& clip = motion.clip();
-    const Front& front = search.front;
+    const Facing& facing = search.facing;
     const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
     fmt::print("{}: {}, {} joints, {} of them bones, {} frame{}\n", file, motion.describe(), clip.joints.size(), bones,
                clip.frame_count, clip.frame_count == 1 ? "" : "s");
-    fmt::print("faces {}, told by {}; up is {}, told by {}{}{}\n", vector_text(front.forwards), front.source,
-               vector_text(front.up), front.up_source, front.doubt.empty() ? "" : "; in doubt: ", front.doubt);
+    fmt::print("faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards), facing.source,
+               vector_text(facing.up), facing.up_source);
     for (const LimbFinding& finding : search.findings) {
         if (finding.limb)
-            print_limb(clip, *finding.limb, front);
+            print_limb(clip, *finding.limb, facing);
         else
-            fmt::print("{:<10} {}: {}\n", plain_name(finding.name), finding.has_names ? "refused" : "missing",
+            fmt::print("{:<10} {}: {}\n", plain_name(finding.name), finding.has_joints ? "refused" : "missing",
                        problem_text(finding));
     }
     if (with_joints) print_joints(clip);
@@ -236,7 +237,7 @@ void print_crowd_file(const MotionFile& motion, const std::string& file, const L
         if (!finding.limb) {
             fmt::print("\n{}\n",
                        toml_comment(fmt::format("{} {}: {}", plain_name(finding.name),
-                                                finding.has_names ? "refused" : "missing", problem_text(finding))));
+                                                finding.has_joints ? "refused" : "missing", problem_text(finding))));
             continue;
         }
         const Limb& limb = *finding.limb;

@@ -36,7 +36,6 @@ struct Job {
     std::optional<formats::CrowdFile> crowd;
     std::vector<Limb> limbs;
     std::vector<LimbFinding> missing;
-    std::string doubt;  // of the front
     CrowdPlan plan;
     std::string targets;  // "clip" or a file
     Between between = Between::clip;
@@ -116,10 +115,10 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
     }
-    FoundLimbs found = find_limbs(clip, options.file, choice);
-    job.limbs = std::move(found.limbs);
-    job.missing = std::move(found.missing);
-    job.doubt = std::move(found.doubt);
+    LimbSearch search = bind_limbs(clip, choose_joints(clip, options.file, choice), choice);
+    job.limbs = require_limbs(search, options.file);
+    for (LimbFinding& finding : search.findings)
+        if (!finding.limb) job.missing.push_back(std::move(finding));
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
     if (options.seed) job.plan.seed = *options.seed;
@@ -158,7 +157,7 @@ void run_solve(const SolveOptions& options)
     const Job job = make_job(options, choice, file.clip());
     require_own_files(options, file, job.targets);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
-                           job.plan.characters, job.plan.seed, job.missing,     job.doubt};
+                           job.plan.characters, job.plan.seed, job.missing};
     if (!options.json && !options.quiet) print_clip(facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);

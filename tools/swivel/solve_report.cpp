@@ -18,15 +18,15 @@ void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<co
                clip.joints.size(), clip.frame_count, clip.frame_count == 1 ? "" : "s", 1 / clip.frame_time);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
-        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, bends towards {}, {}\n", kind_name(limb.name.kind),
+        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
                    side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
-                   limb.bound.lengths[0], limb.bound.lengths[1], vector_text(limb.bend), limb.bend_source);
+                   limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend),
+                   limb.bend_source);
+    for (const Limb& limb : limbs)
+        if (!limb.note.empty()) fmt::print("note     {}: {}\n", plain_name(limb.name), limb.note);
     for (const LimbFinding& finding : facts.missing)
-        fmt::print("{:<8} {:<5} missing: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
-                   finding.problem);
-    if (!facts.doubt.empty())
-        fmt::print("note     the figure's front is in doubt: {}; a bend in a crowd file turns a limb over\n",
-                   facts.doubt);
+        fmt::print("{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
+                   finding.has_joints ? "refused" : "missing", problem_text(finding));
     std::string counts;
     for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
         const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
@@ -58,9 +58,8 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
              {"bend", {limb.bend.x(), limb.bend.y(), limb.bend.z()}},
              {"bend_source", limb.bend_source}});
     }
-    if (!facts.doubt.empty()) out["faces_in_doubt"] = facts.doubt;
     for (const LimbFinding& finding : facts.missing)
-        out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", finding.problem}});
+        out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});
     return out;
 }
 

@@ -17,8 +17,7 @@ struct SolveFacts {
     std::string targets;      // "clip" or a file
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
-    std::span<const LimbFinding> missing{};  // limbs of the kinds solved that the skeleton has no names of
-    std::string doubt{};                     // why the figure's front may be wrong; empty: nothing speaks against it
+    std::span<const LimbFinding> missing{};  // limbs that were asked for and do not bind
 };
 
 // Lines for people, on stdout.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "tools/rig/facing.h"
+
+#include <vector>
+
+#include "tools/rig/joint_names.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Clip;
+using formats::JointPose;
+
+constexpr std::size_t kArms = 0, kLegs = 2;  // where a pair starts in formats::kLimbNames
+
+// The joint that both hang on, or -1.
+int fork_of(const Clip& clip, int a, int b)
+{
+    while (a != b) {
+        int& later = a > b ? a : b;  // parents come before their children
+        later = joint_at(clip, later).parent;
+    }
+    return a;
+}
+
+// The part of `v` at right angles to up, unit; nothing within 30 degrees of up.
+std::optional<Vector3d> level(const Vector3d& v, const Vector3d& up)
+{
+    const Vector3d across = v - v.dot(up) * up;
+    if (!(across.norm() > 0.5 * v.norm())) return std::nullopt;
+    return across.normalized();
+}
+
+struct RestingFigure {
+    const Clip& clip;
+    const std::array<std::optional<LimbJoints>, 4>& joints;
+    std::vector<JointPose> pose_w = formats::rest_pose(clip);
+
+    const JointPose& pose(int joint) const { return pose_w[static_cast<std::size_t>(joint)]; }
+    bool has(std::size_t pair) const { return joints[pair] && joints[pair + 1]; }
+    // The upper joints of a pair: from right to left, and the middle.
+    const Vector3d& start(std::size_t limb) const { return pose((*joints[limb])[0]).position; }
+    Vector3d to_left(std::size_t pair) const { return start(pair) - start(pair + 1); }
+    Vector3d middle(std::size_t pair) const { return (start(pair) + start(pair + 1)) / 2; }
+
+    bool is_mirrored(std::size_t pair) const
+    {
+        const int fork = fork_of(clip, (*joints[pair])[0], (*joints[pair + 1])[0]);
+        return fork >= 0 && pose(fork).mirrored;
+    }
+
+    // The toes of a foot, by the file or by their names.
+    std::vector<int> toes(std::size_t leg) const
+    {
+        const auto said = clip.human_bones.find(std::string(side_name(formats::kLimbNames[leg].side)) + "Toes");
+        if (said != clip.human_bones.end()) return {said->second};
+        std::vector<int> toes = formats::child_joints(clip, (*joints[leg])[2]);
+        std::erase_if(toes, [&](int joint) {
+            const std::string name = plain(joint_at(clip, joint).name);
+            return name.find("toe") == std::string::npos && name.find("ball") == std::string::npos;
+        });
+        return toes;
+    }
+    Vector3d way_of_toes() const
+    {
+        Vector3d way = Vector3d::Zero();
+        for (const std::size_t leg : {kLegs, kLegs + 1}) {
+            if (!joints[leg]) continue;
+            for (const int toe : toes(leg)) way += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
+        }
+        return way;
+    }
+};
+
+}  // namespace
+
+Facing facing_of(const Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints)
+{
+    const RestingFigure figure{clip, joints};
+    Facing facing;
+    if (figure.has(kArms) && figure.has(kLegs)) {
+        const Vector3d trunk = figure.middle(kArms) - figure.middle(kLegs);
+        if (trunk.norm() > 0) facing = {facing.forwards, trunk.normalized(), facing.source, "hips to shoulders"};
+    }
+    if (const auto way = level(figure.way_of_toes(), facing.up)) {
+        facing.forwards = *way;
+        facing.source = "the toes";
+        return facing;
+    }
+    for (const std::size_t pair : {kArms, kLegs}) {
+        if (!figure.has(pair)) continue;
+        const auto left = level(figure.to_left(pair), facing.up);
+        if (!left) continue;
+        facing.forwards = (figure.is_mirrored(pair) ? Vector3d(-*left) : *left).cross(facing.up);
+        facing.source = pair == kArms ? "left and right shoulder" : "left and right hip";
+        return facing;
+    }
+    facing.forwards = level(facing.forwards, facing.up).value_or(facing.up.unitOrthogonal());
+    return facing;
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Which way a figure faces and stands at rest. Knows clips alone.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "tools/formats/clip.h"
+#include "tools/rig/limb_joints.h"
+
+namespace swivel::tools {
+
+// In the world, unit.
+struct Facing {
+    Eigen::Vector3d forwards = Eigen::Vector3d::UnitZ();
+    Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+    std::string source = "the file's +Z";     // of forwards, for people
+    std::string up_source = "the file's +Y";  // of up
+};
+
+// Up leads from the hips to the shoulders, else it is +Y. Forwards is where the toes point: the joints that the file
+// says are toes, or those right below the feet that are called toe or ball. Without toes it is at right angles to up
+// and to the line from right to left, of the shoulders or else of the hips; a mirror above exchanges left and right.
+// Else it is +Z, as in glTF. Toes and lines within 30 degrees of up tell nothing.
+// joints: of the limbs in the order of formats::kLimbNames, those that are known.
+Facing facing_of(const formats::Clip& clip, const std::array<std::optional<LimbJoints>, 4>& joints);
+
+}  // namespace swivel::tools

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "tools/rig/limb_bend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/rig/cannot_bind.h"
+#include "tools/rig/vectors.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Vector3d;
+using formats::Clip;
+using formats::JointPose;
+using formats::LimbKind;
+using formats::LimbName;
+
+constexpr double kSine10 =
+    0.17364817766693033;  // of 10 degrees: above what modelling and noise leave of straight limbs
+constexpr double kCosine30 = 0.8660254037844386;
+
+// The cross product of the unit bones, lower by upper, in the upper joint's axes, the upper bone laid where it is at
+// rest: the axis that they are bent about, as long as the sine of the bend.
+Vector3d axis_of(const ChainPose& pose, const Vector3d& rest_upper)
+{
+    const Vector3d upper = pose.upper_bone().normalized();
+    const Vector3d lower = (pose.turn[0].conjugate() * (pose.turn[1] * pose.lower_bone())).normalized();
+    return aim(rest_upper, upper).conjugate() * lower.cross(upper);
+}
+
+// The mean of the frames' axes; zero without frames.
+Vector3d mean_axis(const Clip& clip, const LimbChain& chain, const Vector3d& rest_upper)
+{
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+        if (const Vector3d axis = axis_of(chain_pose(clip, frame, chain), rest_upper); axis.allFinite()) sum += axis;
+    return sum / static_cast<double>(std::max<std::size_t>(clip.frame_count, 1));
+}
+
+double degrees_of_sine(double sine) { return std::asin(std::min(sine, 1.0)) * (180 / std::numbers::pi); }
+
+}  // namespace
+
+Vector3d bend_of_hinge(const Vector3d& upper_bone, const Vector3d& axis) { return upper_bone.cross(axis).normalized(); }
+
+Bend choose_bend(const Clip& clip, LimbName limb, const LimbChain& chain, const ChainPose& rest,
+                 const JointPose& parent_w, const Facing& facing)
+{
+    const Vector3d upper = rest.upper_bone().normalized();
+    if (const Vector3d axis = axis_of(rest, upper); axis.norm() > kSine10)
+        return {bend_of_hinge(upper, axis),
+                fmt::format("the rest pose, bent by {:.1f} degrees",
+                            degrees_between(rest.turn[0] * rest.upper_bone(), rest.turn[1] * rest.lower_bone()))};
+    if (const Vector3d axis = mean_axis(clip, chain, upper); axis.norm() > kSine10)
+        return {bend_of_hinge(upper, axis),
+                fmt::format("the clip, bent by {:.1f} degrees in the mean", degrees_of_sine(axis.norm()))};
+
+    const bool is_arm = limb.kind == LimbKind::arm;
+    const auto seen = [&](const Vector3d& v) { return parent_w.mirrored ? formats::mirrored(v) : v; };
+    const auto in_joint = [&](const Vector3d& v_w) -> Vector3d {
+        const Vector3d v = rest.turn[0].conjugate() * seen(parent_w.rotation.conjugate() * v_w);
+        return (v - v.dot(upper) * upper).normalized();
+    };
+    const Vector3d upper_w = parent_w.rotation * seen(rest.turn[0] * upper);
+    const Vector3d way_w = is_arm ? facing.forwards : Vector3d(-facing.forwards);
+    if (std::abs(upper_w.dot(way_w)) > kCosine30)
+        throw CannotBind(fmt::format("it is straight and points {}, so nothing tells which way it bends",
+                                     upper_w.dot(facing.forwards) > 0 ? "ahead" : "behind"),
+                         fmt::format("write bend = {} under [limb.{}] in a crowd file, if it hung and was swung there",
+                                     toml_row(in_joint(aim(-facing.up, upper_w) * way_w)), limb_word(limb)));
+    return {in_joint(way_w), fmt::format("{}; forwards is told by {}",
+                                         is_arm ? "elbows bend forwards" : "knees bend backwards", facing.source)};
+}
+
+std::string clip_against(const Clip& clip, LimbName limb, const LimbChain& chain, const ChainPose& rest,
+                         const Vector3d& bend)
+{
+    const Vector3d upper = rest.upper_bone().normalized(), mean = mean_axis(clip, chain, upper);
+    if (!(bend_of_hinge(upper, mean).dot(bend) < 0)) return "";
+    double most = 0;
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        const ChainPose pose = chain_pose(clip, frame, chain);
+        if (bend_of_hinge(upper, axis_of(pose, upper)).dot(bend) < 0)
+            most = std::max(most, degrees_between(pose.turn[0] * pose.upper_bone(), pose.turn[1] * pose.lower_bone()));
+    }
+    if (!(most > 30)) return "";
+    return fmt::format(
+        "the clip bends it to the other side, by up to {:.0f} degrees; to follow the clip, write bend = {} under "
+        "[limb.{}] in a crowd file",
+        most, toml_row(bend_of_hinge(upper, mean)), limb_word(limb));
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "tools/rig/name_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "tools/rig/joint_names.h"
+#include "tools/rig/limb_words.h"
+#include "tools/rig/name_table.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using formats::Clip;
+using formats::LimbName;
+
+constexpr std::size_t kMostCandidates = 4;  // that a message lists
+
+// One row with one side: who bears its three names.
+struct Attempt {
+    std::array<std::string, 3> names;
+    std::array<std::vector<int>, 3> bearers;
+
+    auto borne() const
+    {
+        return std::count_if(bearers.begin(), bearers.end(), [](const auto& joints) { return !joints.empty(); });
+    }
+};
+
+// Whether one of `which` is above it, for each joint. `which` counts only where `also` holds, unless that is empty.
+std::vector<bool> have_above(const Clip& clip, const std::vector<int>& which, const std::vector<bool>& also)
+{
+    std::vector<bool> counts(clip.joints.size()), has(clip.joints.size());
+    for (const int joint : which) counts[static_cast<std::size_t>(joint)] = true;
+    for (std::size_t joint = 0; joint < has.size(); ++joint) {  // parents come before their children
+        if (clip.joints[joint].parent < 0) continue;
+        const auto up = static_cast<std::size_t>(clip.joints[joint].parent);
+        has[joint] = has[up] || (counts[up] && (also.empty() || also[up]));
+    }
+    return has;
+}
+
+// All chains of an upper, a lower and an end joint, up to kMostCandidates. It walks up only from joints that have such
+// chains above them.
+std::vector<LimbJoints> chains(const Clip& clip, const std::array<std::vector<int>, 3>& bearers)
+{
+    std::vector<LimbJoints> found;
+    const std::vector<bool> have_upper = have_above(clip, bearers[0], {});
+    const std::vector<bool> have_both = have_above(clip, bearers[1], have_upper);
+    const auto is_in = [](const std::vector<int>& joints, int joint) {
+        return std::binary_search(joints.begin(), joints.end(), joint);
+    };
+    for (const int end : bearers[2]) {
+        if (!have_both[static_cast<std::size_t>(end)]) continue;
+        for (int lower = joint_at(clip, end).parent; lower >= 0; lower = joint_at(clip, lower).parent) {
+            if (!is_in(bearers[1], lower)) continue;
+            for (int upper = joint_at(clip, lower).parent; upper >= 0; upper = joint_at(clip, upper).parent) {
+                if (is_in(bearers[0], upper)) found.push_back({upper, lower, end});
+                if (found.size() == kMostCandidates) return found;
+            }
+        }
+    }
+    return found;
+}
+
+// The names of the limb's upper and lower joints, in every row.
+std::vector<std::string> own_names(LimbName limb)
+{
+    std::vector<std::string> names;
+    for (const NameRow& row : name_table())
+        for (const std::string_view side : side_words(limb.side))
+            for (std::size_t n = 0; n < 2 && !row.joints(limb.kind)[n].empty(); ++n)
+                names.push_back(with_side(row.joints(limb.kind)[n], side));
+    return names;
+}
+
+struct NameSearch {
+    const NamedJoints& joints;
+    LimbName limb;
+    std::vector<std::string> known_names = own_names(limb);
+
+    std::string shown(int joint) const { return printable_name(joint_at(joints.clip, joint)); }
+
+    // The first joint between the three that another row knows as one of them; -1 if there is none.
+    int rival_between(const Attempt& made, const LimbJoints& at) const
+    {
+        const auto has = [&](const auto& names, int joint) {
+            return std::find(names.begin(), names.end(), joints.name(joint)) != names.end();
+        };
+        for (int up = joint_at(joints.clip, at[2]).parent; up != at[0]; up = joint_at(joints.clip, up).parent)
+            if (has(known_names, up) && !has(made.names, up)) return up;
+        return -1;
+    }
+    std::vector<LimbJoints> limbs_of(const Attempt& made) const
+    {
+        std::vector<LimbJoints> limbs;
+        if (made.borne() == 3) limbs = chains(joints.clip, made.bearers);
+        std::erase_if(limbs, [&](const LimbJoints& at) {
+            return std::none_of(at.begin(), at.end(), [&](int joint) { return joints.is_bone(joint); }) ||
+                   rival_between(made, at) >= 0;
+        });
+        return limbs;
+    }
+
+    // Why names that are borne make no limb.
+    std::string problem_of(const Attempt& made) const
+    {
+        const LimbWords& words = words_of(limb.kind);
+        const std::string_view parts[] = {words.upper_joint, words.lower_joint, words.end_joint};
+        for (std::size_t n = 0; n < 3; ++n)
+            if (made.bearers[n].empty())
+                return fmt::format("no joint is called '{}' or alike for its {}", made.names[n], parts[n]);
+        const LimbJoints first = {made.bearers[0][0], made.bearers[1][0], made.bearers[2][0]};
+        for (std::size_t n = 0; n < 2; ++n)
+            if (!is_above(joints.clip, first[n], first[n + 1]))
+                return fmt::format("'{}' is not below '{}' in the hierarchy", shown(first[n + 1]), shown(first[n]));
+        if (const int rival = rival_between(made, first); rival >= 0)
+            return fmt::format("'{}' lies between '{}' and '{}', and may be one of its joints", shown(rival),
+                               shown(first[0]), shown(first[2]));
+        return fmt::format("'{}' and what is below it are no bones of the file's skin", shown(first[0]));
+    }
+
+    FoundJoints several(const std::vector<LimbJoints>& limbs) const
+    {
+        const auto numbers = [&](const LimbJoints& at) {
+            const auto number = [&](int joint) { return joint_at(joints.clip, joint).number; };
+            return fmt::format("#{},#{},#{}", number(at[0]), number(at[1]), number(at[2]));
+        };
+        std::string list;
+        for (const LimbJoints& at : limbs)
+            list += fmt::format("{}{} > {} > {} ({})", list.empty() ? "" : " and ", shown(at[0]), shown(at[1]),
+                                shown(at[2]), numbers(at));
+        return {{},
+                {},
+                "more than one fits: " + list,
+                fmt::format("name one, such as {} {}:{}", words_of(limb.kind).option, side_name(limb.side),
+                            numbers(limbs[0]))};
+    }
+};
+
+}  // namespace
+
+NamedJoints::NamedJoints(const Clip& of) : clip(of)
+{
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        names.push_back(plain(clip.joints[n].name));
+        bearers[names.back()].push_back(static_cast<int>(n));
+    }
+}
+
+std::vector<int> NamedJoints::named(const std::string& plain_name) const
+{
+    const auto found = bearers.find(plain_name);
+    if (found == bearers.end()) return {};
+    std::vector<int> bones;
+    std::copy_if(found->second.begin(), found->second.end(), std::back_inserter(bones),
+                 [&](int joint) { return is_bone(joint); });
+    return bones.empty() ? found->second : bones;
+}
+
+FoundJoints joints_by_name(const NamedJoints& joints, LimbName limb)
+{
+    const NameSearch search{joints, limb};
+    std::vector<LimbJoints> limbs;
+    std::string_view from;  // the row that the first limb is of
+    Attempt nearest;
+    for (const NameRow& row : name_table())
+        for (const std::string_view side : side_words(limb.side)) {
+            if (row.joints(limb.kind)[0].empty()) continue;
+            Attempt made;
+            for (std::size_t n = 0; n < 3; ++n) {
+                made.names[n] = with_side(row.joints(limb.kind)[n], side);
+                made.bearers[n] = joints.named(made.names[n]);
+            }
+            const std::vector<LimbJoints> earlier = limbs;
+            if (earlier.empty()) from = row.from;
+            for (const LimbJoints& each : search.limbs_of(made))
+                if (std::none_of(earlier.begin(), earlier.end(),
+                                 [&](const LimbJoints& other) { return shared_joint(each, other) >= 0; }))
+                    limbs.push_back(each);
+            if (made.borne() > nearest.borne()) nearest = std::move(made);
+        }
+    if (limbs.size() > 1) return search.several(limbs);
+    if (limbs.size() == 1) return {limbs[0], std::string(from), {}, {}};
+    // One name alone says nothing: half the world has a "LeftHand".
+    return {{}, {}, nearest.borne() > 1 ? search.problem_of(nearest) : "", {}};
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// How exporters and rigging tools name the joints of arms and legs. docs/rigs.md shows the same table.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tools/formats/limb_name.h"
+
+namespace swivel::tools {
+
+// Names as plain() has them, with * for the side. Empty names: this row knows no such limb.
+struct NameRow {
+    std::array<std::string_view, 3> arm, leg;  // shoulder, elbow and wrist; hip, knee and ankle
+    std::string_view from;                     // who names joints so, for people
+
+    const std::array<std::string_view, 3>& joints(formats::LimbKind kind) const
+    {
+        return kind == formats::LimbKind::arm ? arm : leg;
+    }
+};
+
+// The first row that fits counts. So names of upper arms come before those that may be a clavicle's.
+std::span<const NameRow> name_table();
+
+// What * may stand for.
+std::array<std::string_view, 3> side_words(formats::Side side);
+
+// A name of the table with this side.
+std::string with_side(std::string_view name, std::string_view side);
+
+}  // namespace swivel::tools
