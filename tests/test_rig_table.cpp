@@ -136,6 +136,7 @@ std::vector<Row> front_rows()
         {"turned about", {.toe_step = {}, .turn = half}, anatomy("shoulder")},
         {"z up", {.toe_step = {}, .turn = tilted}, anatomy("shoulder")},
         {"mirrored", {.scale = {-1, 1, 1}}, anatomy("toes")},
+        {"mirrored, no toes", {.toe_step = {}, .scale = {-1, 1, 1}}, anatomy("shoulder")},
         {"A-pose", {.arm_bone = swung(-50, kX, kY)}, anatomy("toes")},
         {"hanging", {.arm_bone = {0, -0.3, 0}}, anatomy("toes")},
         {"31 degrees off ahead, out of a T-pose", ahead(31, kX), anatomy("toes")},
