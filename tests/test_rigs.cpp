@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 
 #include "tests/gltf_judges.h"
@@ -220,6 +221,23 @@ TEST_CASE("rigs: all limbs of the shared motion come back")
             }
         CHECK(worst <= 1e-5);
     }
+}
+
+TEST_CASE("rigs: the page shows what the command prints")
+{
+    const fs::path path = find_or_warn("RobotExpressive.glb");
+    if (path.empty()) return;
+    const std::string command = "    $ swivel rig RobotExpressive.glb\n",
+                      page = slurp(fs::path(SWIVEL_SOURCE_DIR) / "docs/rigs.md");
+    const std::string printed = "\n" + run_command(path.parent_path(), {"rig", path.filename().string()}).out;
+    REQUIRE(page.find(command) != std::string::npos);
+    std::istringstream shown(page.substr(page.find(command) + command.size()));
+    std::size_t lines = 0;
+    for (std::string line; std::getline(shown, line) && line.starts_with("    "); ++lines) {
+        INFO(line);
+        CHECK(printed.find("\n" + line.substr(4) + "\n") != std::string::npos);
+    }
+    CHECK(lines > 10);
 }
 
 TEST_CASE("rigs: what is no figure is refused in one line")
