@@ -257,7 +257,7 @@ TEST_CASE("command: a clip that bends nothing has elbows that bend forwards and 
     CHECK(bound(straight, "--arm").at("bend") == Json({0.0, 0.0, 1.0}));
     const Json leg = bound(standing, "--leg");
     CHECK(leg.at("bend") == Json({0.0, 0.0, -1.0}));
-    CHECK(leg.at("bend_source").get<std::string>().starts_with("knees bend backwards; "));
+    CHECK(leg.at("bend_source").get<std::string>().starts_with("knees bend backwards, facing by "));
     require_keys(leg, {"side", "hip", "knee", "ankle", "lengths"});
 }
 

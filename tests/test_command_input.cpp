@@ -227,13 +227,13 @@ TEST_CASE("input: skeletons without arms, and --arm that names none")
 {
     std::string legs = kTwoArms;
     for (std::size_t at; (at = legs.find("ForeArm")) != std::string::npos;) legs.replace(at, 7, "Shin");
-    require_clip_refused(legs, {"clip.bvh: ", "no limb binds", "--arm"});
+    require_clip_refused(legs, {"clip.bvh: ", "no arms", "--arm"});
     require_arms_refused({"LeftArm,LeftForeArm,Nope"}, {"clip.bvh: ", "'Nope'"});
     require_arms_refused({"LeftArm,LeftForeArm"}, {"clip.bvh: ", "'LeftArm,LeftForeArm'", "SHOULDER,ELBOW,WRIST"});
     require_arms_refused({"LeftHand,LeftForeArm,LeftArm"}, {"clip.bvh: ", "'LeftHand,LeftForeArm,LeftArm'"});
     require_arms_refused({"LeftArm,RightForeArm,RightHand"}, {"clip.bvh: ", "one below it"});
     require_arms_refused({"LeftArm,LeftForeArm,LeftHand", "left:RightArm,RightForeArm,RightHand"},
-                         {"clip.bvh: ", "two arms are taken as left"});
+                         {"clip.bvh: ", "both arms are taken as left"});
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:LeftArm,LeftForeArm,LeftHand"}, {"clip.bvh: "});
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:Hips,LeftArm,LeftForeArm"}, {"clip.bvh: "});
     require_arms_refused(Words(3, "LeftArm,LeftForeArm,LeftHand"), {"clip.bvh: ", "more than twice"});

@@ -29,7 +29,7 @@ std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
 
 }  // namespace
 
-TEST_CASE("an incoming pole keeps the twist of a limb that bends the other way in a frame")
+TEST_CASE("a limb that bends the other way is told of, and an incoming pole keeps its twist")
 {
     const TempFolder folder;
     std::string frames;
@@ -43,6 +43,9 @@ TEST_CASE("an incoming pole keeps the twist of a limb that bends the other way i
         arguments.insert(arguments.end(), more.begin(), more.end());
         return nlohmann::json::parse(run_command(folder.path, arguments).out);
     };
+    CHECK(solve({}).at("turned_over").at("arms") == 1);
+    CHECK_THAT(run_command(folder.path, {"solve", "clip.bvh"}).out,
+               Catch::Matchers::Contains("turns over against the clip in 1 of 20 poses"));
     const auto most_turn = [&](const Words& more) {
         Words arguments = {"--out", "out.bvh"};
         arguments.insert(arguments.end(), more.begin(), more.end());
