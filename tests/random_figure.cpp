@@ -34,11 +34,7 @@ private:
     double any() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
     bool likely(double share) { return std::uniform_real_distribution<double>(0, 1)(random_) < share; }
     Eigen::Quaterniond any_turn() { return Eigen::Quaterniond(any(), any(), any(), any()).normalized(); }
-    void spoil(Eigen::Vector3d& scale)
-    {
-        scale.y() *= 1.2;
-        figure_.is_uneven = true;
-    }
+    void spoil(Eigen::Vector3d& scale) { scale.y() *= 1 + wish_.uneven_by; }
 
     // A node whose axes lie as `frame` has it in its parent's.
     int add(const std::string& name, int parent, const Eigen::Isometry3d& frame, const Eigen::Vector3d& scale)
@@ -72,7 +68,7 @@ private:
         if (likely(wish_.twist_bones))
             joint(base + "_twist_01", parent, from + 0.3 * (to - from), Part::tip);  // beside
         if (likely(wish_.twist_bones)) {
-            parent = joint(base + "Roll", parent, from + 0.5 * (to - from), Part::bone);
+            parent = joint(base + " Bob", parent, from + 0.5 * (to - from), Part::bone);
             twists_.push_back(parent);
         }
         if (likely(wish_.twist_bones)) {
@@ -106,15 +102,15 @@ private:
         figure_.upper[limb] = (poses_[0].linear() * (elbow - top)).norm();
         figure_.lower[limb] = (poses_[0].linear() * (wrist - elbow)).norm();
     }
-    // A turn of a joint; a twist bone in between turns about the bone it lies on, and up to 10 degrees across.
+    bool is_between(int node) const { return std::find(twists_.begin(), twists_.end(), node) != twists_.end(); }
+    // A turn of a joint; what lies between two of a limb's turns about the bone.
     Eigen::Quaterniond turn_of(int node)
     {
-        if (std::find(twists_.begin(), twists_.end(), node) == twists_.end()) return any_turn();
+        if (!is_between(node)) return any_turn();
         const auto& at = figure_.rig.json["nodes"][static_cast<std::size_t>(node)];
         const std::vector<double> along = at["translation"], rest = at["rotation"];
         const Eigen::Vector3d bone = Eigen::Vector3d(along[0], along[1], along[2]).normalized();
-        return Eigen::AngleAxisd(0.17 * any(), bone.unitOrthogonal()) * Eigen::AngleAxisd(2 * any(), bone) *
-               Eigen::Quaterniond(rest[3], rest[0], rest[1], rest[2]);
+        return Eigen::AngleAxisd(2 * any(), bone) * Eigen::Quaterniond(rest[3], rest[0], rest[1], rest[2]);
     }
     // Five keys for every joint; now and then a bone stretches.
     void move()
@@ -127,7 +123,7 @@ private:
                 for (const double part : Eigen::Vector4d(turn_of(node).coeffs()))
                     keys.push_back(static_cast<float>(part));
             figure_.rig.add_keys(animation, node, "rotation", times, keys, random_() % 4 == 0 ? "STEP" : "LINEAR");
-            if (!likely(wish_.scales / 4)) continue;
+            if (is_between(node) || !likely(wish_.scales / 4)) continue;
             const std::vector<double> rest = figure_.rig.json["nodes"][static_cast<std::size_t>(node)]["translation"];
             std::vector<float> places;
             for (std::size_t n = 0; n < times.size(); ++n)

@@ -1,8 +1,8 @@
 #pragma once
 // SPDX-License-Identifier: MIT
 // Random figures as glTF files, of which everything that matters to a solver is known. They have the same four limbs,
-// under any names, joint axes, scales and mirrors, with or without twist bones. The limbs are straight or bent at rest,
-// and move at random.
+// under any names, joint axes, scales and mirrors, with or without joints in between that twist. The limbs are straight
+// or bent at rest, and move at random.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -27,6 +27,7 @@ const std::vector<FigureNames>& figure_names();
 struct FigureWish {
     bool random_axes = true, moves = true, bent = true, toes = true;
     double twist_bones = 0, scales = 0, mirrors = 0, uneven = 0;  // how likely each is, where it may be
+    double uneven_by = 0.2;
 };
 
 struct Figure {
@@ -34,9 +35,8 @@ struct Figure {
     std::array<LimbNodes, 4> limbs{};        // left arm, right arm, left leg, right leg
     std::array<double, 4> upper{}, lower{};  // lengths in the world
     Eigen::Vector3d front;                   // which way it faces in the world
-    bool is_uneven = false;
-    bool is_mirrored = false;      // its trunk is
-    std::array<double, 4> bend{};  // of elbows and knees at rest, radians
+    bool is_mirrored = false;                // its trunk is
+    std::array<double, 4> bend{};            // of elbows and knees at rest, radians
 };
 
 // random: what the figure is made of.

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MIT
+//
+// The rules of docs/rigs.md, as a table of made-up figures. Of each limb, the figure knows whether it binds, which way
+// it bends and what tells so.
+#include <catch2/catch.hpp>
+
+#include <regex>
+#include <string>
+
+#include "tests/rig_body.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using nlohmann::json;
+
+namespace {
+
+// What must come out of a limb: bound, bending that way, for a reason with this text; or, with no way, not bound for a
+// reason with this text.
+struct Want {
+    Vector3d way = Vector3d::Zero();
+    std::string text = {};
+
+    bool binds() const { return !way.isZero(); }
+};
+
+struct Row {
+    std::string name;
+    Body body;
+    std::array<Want, 4> wants;
+    double unevenness = 0;
+    std::vector<std::size_t> noted = {};  // limbs whose clip bends them against what was taken
+};
+
+// All arms as one, and all legs.
+std::array<Want, 4> pairs(const Want& arms, const Want& legs) { return {arms, arms, legs, legs}; }
+// As elbows and knees bend in the figure, told by this.
+std::array<Want, 4> anatomy(const std::string& told_by) { return pairs({kZ, told_by}, {-kZ, told_by}); }
+std::array<Want, 4> with(std::array<Want, 4> wants, std::size_t limb, const Want& want)
+{
+    wants[limb] = want;
+    return wants;
+}
+
+const Want kMissing = {};
+const std::vector<Bends> kWalk = {{20, 20, 10, 10}, {40, 40, 40, 40}, {60, 60, 60, 60}, {40, 40, 40, 40}};
+const std::vector<Bends> kNoise = {{-1.2, -1.2, -1.2, -1.2}, {-2, -2, -2, -2}, {-1.6, -1.6, -1.6, -1.6}};
+
+std::vector<Bends> steady(const Bends& bends) { return {bends, bends}; }
+
+Body named(const std::array<std::string, 3>& arm, const std::array<std::string, 3>& leg, const std::string& left,
+           const std::string& right)
+{
+    return {.arm = arm, .leg = leg, .left = left, .right = right};
+}
+
+Body vrm_body(double version)  // its names say nothing, or the wrong; files of 0.x face -z
+{
+    return {.arm = {"*a", "*b", "*c"},
+            .left = "Right",
+            .right = "Left",
+            .toe = "*d",
+            .turn = Quaterniond(AngleAxisd(version < 1 ? 180 * kDegree : 0, kY)),
+            .vrm = version};
+}
+
+Vector3d swung(double degrees, const Vector3d& from, const Vector3d& to)
+{
+    return 0.3 * (std::cos(degrees * kDegree) * from + std::sin(degrees * kDegree) * to);
+}
+
+std::vector<Row> bend_rows()
+{
+    const Want from_rest_back = {kZ, "rest pose"}, knee_clip = {-kZ, "clip"};
+    const Bends through3 = {0, 0, -3, -3}, through15 = {0, 0, -15, -15};
+    return {
+        {"straight, no clip", {}, anatomy("toes")},
+        {"straight, with noise backwards", {.clip = kNoise}, anatomy("toes")},
+        {"noise that cancels", {.clip = {{40, 40, 40, 40}, {-38, -38, -38, -38}}}, anatomy("toes")},
+        {"straight, and bent by the clip", {.clip = kWalk}, anatomy("clip")},
+        {"a clip against elbows and knees", {.clip = steady({-25, -25, -25, -25})}, pairs({-kZ, "clip"}, {kZ, "clip"})},
+        {"9.5 degrees in the clip", {.clip = steady({-9.5, -9.5, -9.5, -9.5})}, anatomy("toes")},
+        {"10.5 degrees in the clip",
+         {.clip = steady({-10.5, -10.5, -10.5, -10.5})},
+         pairs({-kZ, "clip"}, {kZ, "clip"})},
+        {"9.5 degrees at rest", {.rest = {-9.5, -9.5, -9.5, -9.5}}, anatomy("toes")},
+        {"10.5 degrees at rest", {.rest = {-10.5, -10.5, -10.5, -10.5}}, pairs({-kZ, "10.5"}, {kZ, "10.5"})},
+        {"folded at rest", {.rest = {165, 165, 165, 165}}, anatomy("rest pose")},
+        {"knees pressed through by 3, a walk", {.rest = through3, .clip = kWalk}, anatomy("clip")},
+        {"knees pressed through by 3, no clip", {.rest = through3}, anatomy("toes")},
+        {"knees pressed through by 15, no clip", {.rest = through15}, pairs({kZ, "toes"}, from_rest_back)},
+        {"knees pressed through by 15, a walk",
+         {.rest = through15, .clip = kWalk},
+         pairs({kZ, "clip"}, from_rest_back),
+         0,
+         {2, 3}},
+        {"knees pressed through by 15, a clip that bends them by 25",
+         {.rest = through15, .clip = steady({25, 25, 25, 25})},
+         pairs({kZ, "clip"}, from_rest_back)},
+        {"rest and clip agree", {.rest = {15, 15, 15, 15}, .clip = kWalk}, anatomy("rest pose")},
+        {"one knee noisy, one bent",
+         {.clip = {{0, 0, -1.2, 20}, {0, 0, -2, 40}}},
+         with(anatomy("toes"), 3, {-kZ, "clip"})},
+    };
+}
+
+std::vector<Row> front_rows()
+{
+    const Quaterniond half(AngleAxisd(180 * kDegree, kY)), tilted(AngleAxisd(90 * kDegree, kX));
+    const std::vector<std::size_t> arms = {0, 1}, legs = {2, 3};
+    const Body toeless = {.toe_step = {}};
+    const std::string hint = "bend = [";
+    const auto ahead = [](double degrees_off, const Vector3d& start, const Vector3d& to = kZ) {
+        return Body{.arm_bone = swung(90 - degrees_off, start, to)};
+    };
+    const auto walked = [](double degrees_off, const Vector3d& to) {
+        return Body{.leg_bone = swung(90 - degrees_off, -kY, to)};
+    };
+    return {
+        {"toes against left and right", {.left_at = -1}, anatomy("toes")},
+        {"no toes", toeless, anatomy("shoulder")},
+        {"no toes, left and right exchanged",
+         {.left_at = -1, .toe_step = {}},
+         pairs({-kZ, "shoulder"}, {kZ, "shoulder"})},
+        {"a lone joint below the foot that is no toe by name",
+         {.toe = "*End", .left_at = -1},
+         pairs({-kZ, "shoulder"}, {kZ, "shoulder"})},
+        {"the ball of the foot", {.toe = "*Ball", .left_at = -1}, anatomy("toes")},
+        {"legs alone, no toes", {.limbs = legs, .toe_step = {}}, pairs(kMissing, {-kZ, "hip"})},
+        {"one leg with a toe", {.limbs = {0, 1, 2}, .left_at = -1}, with(anatomy("toes"), 3, kMissing)},
+        {"arms alone", {.limbs = arms}, pairs({kZ, "shoulder"}, kMissing)},
+        {"one arm alone", {.limbs = {0}, .turn = half}, {Want{-kZ, "+Z"}, kMissing, kMissing, kMissing}},
+        {"turned about", {.toe_step = {}, .turn = half}, anatomy("shoulder")},
+        {"z up", {.toe_step = {}, .turn = tilted}, anatomy("shoulder")},
+        {"mirrored", {.scale = {-1, 1, 1}}, anatomy("toes")},
+        {"mirrored, no toes", {.toe_step = {}, .scale = {-1, 1, 1}}, anatomy("shoulder")},
+        {"A-pose", {.arm_bone = swung(-50, kX, kY)}, anatomy("toes")},
+        {"hanging", {.arm_bone = {0, -0.3, 0}}, anatomy("toes")},
+        {"31 degrees off ahead, out of a T-pose", ahead(31, kX), anatomy("toes")},
+        {"29 degrees off ahead, out of a T-pose", ahead(29, kX), pairs({{0, 0, 0}, hint}, {-kZ, "toes"})},
+        {"31 degrees off ahead, from hanging", ahead(31, -kY), anatomy("toes")},
+        {"29 degrees off ahead, from hanging", ahead(29, -kY), pairs({{0, 0, 0}, hint}, {-kZ, "toes"})},
+        {"29 degrees off behind", ahead(29, -kY, -kZ), pairs({{0, 0, 0}, hint}, {-kZ, "toes"})},
+        {"a leg 31 degrees off ahead", walked(31, kZ), anatomy("toes")},
+        {"a leg 29 degrees off ahead", walked(29, kZ), pairs({kZ, "toes"}, {{0, 0, 0}, hint})},
+        {"ahead, and bent by the clip",
+         {.arm_bone = {0, 0, 0.3}, .clip = {{30, 30, 0, 0}, {40, 40, 0, 0}}},
+         pairs({-kY, "clip"}, {-kZ, "toes"})},
+    };
+}
+
+std::vector<Row> name_rows()
+{
+    const std::array<std::string, 3> arm = {"*_shoulder", "*_elbow", "*_hand"}, leg = {"*_hip", "*_knee", "*_foot"};
+    const std::string maya = "FBXASC046";
+    return {
+        {"*shoulder *elbow *hand", named(arm, leg, "L", "R"), anatomy("toes")},
+        {"UpArm_* LoArm_*", named({"UpArm_*", "LoArm_*", "Hand_*"}, {"UpLeg_*", "LoLeg_*", "Foot_*"}, "L", "R"),
+         anatomy("toes")},
+        {"*humerus *ulna *wrist", named({"*humerus", "*ulna", "*wrist"}, {"*femur", "*tibia", "*foot"}, "l", "r"),
+         anatomy("toes")},
+        {"characters by number",
+         named({"upper_arm" + maya + "*", "forearm" + maya + "*", "hand" + maya + "*"},
+               {"thigh" + maya + "*", "shin" + maya + "*", "foot" + maya + "*"}, "L", "R"),
+         anatomy("toes")},
+        {"a figure's name before all",
+         named({"Bob_*_shoulder", "Bob_*_elbow", "Bob_*_wrist"}, {"Bob_*_hip", "Bob_*_knee", "Bob_*_ankle"}, "L", "R"),
+         anatomy("toes")},
+        {"VRM 0.x", vrm_body(0.1), anatomy("toes")},
+        {"VRM 1.0", vrm_body(1), anatomy("toes")},
+    };
+}
+
+std::vector<Row> joint_rows()
+{
+    const auto between = [](const std::string& name, const Vector3d& axis, double degrees) {
+        return Body{.between = Between{name, axis, degrees}};
+    };
+    const auto without = [](const std::string& text) { return with(anatomy("toes"), 0, {{0, 0, 0}, text}); };
+    const auto uneven = [](double by) { return Body{.clip = kWalk, .scale = {1, 1, 1 + by}}; };
+    const auto refused = pairs({{0, 0, 0}, "uneven"}, {{0, 0, 0}, "uneven"});
+    return {
+        {"what twists", between("Bob", kX, 80), anatomy("toes")},
+        {"what swings", between("LeftArmTwist", kZ, 20), without("LeftArmTwist")},
+        {"by how much", between("Bob", kZ, 20), without("17")},  // half the bone by 20 degrees
+        {"in which frame", between("Bob", kZ, -20), without("frame 1")},
+        {"by 0.9 thousandths", between("Bob", kZ, 0.9e-3 * 2 / kDegree), anatomy("toes")},
+        {"by 1.1 thousandths", between("Bob", kZ, 1.1e-3 * 2 / kDegree), without("Bob")},
+        {"a joint of the table", between("LeftShoulder", kX, 0), with(anatomy("toes"), 0, kMissing)},
+        {"uneven by 4e-5", uneven(4e-5), anatomy("clip"), 4e-5},
+        {"uneven by 9e-4", uneven(9e-4), anatomy("clip"), 9e-4},
+        {"uneven by 1e-2", uneven(1e-2), refused},
+    };
+}
+
+// Holds what the report says of one limb against what must come out.
+void judge(const Row& row, std::size_t n, const json& limb, const PlainGltf& plain, const LimbNodes& nodes)
+{
+    const Want& want = row.wants[n];
+    const std::string said = limb.value(limb.at("bound") == true ? "bend_source" : "problem", "");
+    INFO(row.name << ", " << kLimbs[n] << ": " << said);
+    CHECK(limb.at("bound") == want.binds());
+    CHECK_THAT(said, Contains(want.text));
+    if (limb.at("bound") == false || !want.binds()) return;
+    CHECK(limb.at("numbers").get<LimbNodes>() == nodes);
+    const auto place = [&](std::size_t part) { return Vector3d(plain_world(plain, -1, nodes[part], 0).translation()); };
+    const Vector3d bone = (place(1) - place(0)).normalized(), way = row.body.turn * want.way;
+    const Vector3d bend = plain_world(plain, -1, nodes[0], 0).linear() * vector_of(limb.at("bend"));
+    const auto across = [&](const Vector3d& v) { return Vector3d(v - v.dot(bone) * bone); };
+    CHECK(degrees_between(across(bend), across(way)) < 1);
+    CHECK(limb.contains("note") == (std::count(row.noted.begin(), row.noted.end(), n) > 0));
+    const double unevenness = limb.value("unevenness", 0.0);
+    CHECK(unevenness >= 0.3 * row.unevenness);
+    CHECK(unevenness <= 3 * row.unevenness + 1e-6);
+}
+
+void judge(const std::vector<Row>& rows)
+{
+    const TempFolder folder;
+    for (const Row& row : rows) {
+        GltfRig rig;
+        const BodyNodes nodes = add_body(rig, row.body);
+        rig.write(folder / "rig.glb");
+        const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
+        const json report = rig_report(rig);
+        for (std::size_t n = 0; n < 4; ++n) judge(row, n, limb_of(report, kLimbs[n]), plain, nodes[n]);
+    }
+}
+
+// The line for a crowd file that a message offers.
+std::string offered_line(const std::string& text)
+{
+    static const std::regex pattern(R"(bend = \[-?[0-9.]+, -?[0-9.]+, -?[0-9.]+\])");
+    std::smatch found;
+    INFO(text);
+    REQUIRE(std::regex_search(text, found, pattern));
+    return found[0];
+}
+
+Vector3d bend_of(const std::string& line) { return vector_of(json::parse(line.substr(line.find('[')))); }
+
+Outcome solved_with(const TempFolder& folder, const std::string& toml)
+{
+    spill(folder / "crowd.toml", toml);
+    return run_command(folder.path, {"solve", "rig.glb", "--limbs", "all", "--crowd", "crowd.toml", "--json"});
+}
+
+std::string limb_table(const std::string& limb, const std::string& line)
+{
+    return "[limb." + limb + "]\n" + line + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("rig table: bends") { judge(bend_rows()); }
+TEST_CASE("rig table: which way a figure faces") { judge(front_rows()); }
+TEST_CASE("rig table: names") { judge(name_rows()); }
+TEST_CASE("rig table: joints in between and scales") { judge(joint_rows()); }
+
+TEST_CASE("rig table: the bend that a refusal offers is a hanging limb's swung there, and binds")
+{
+    const TempFolder folder;
+    const Body ahead = {.arm_bone = {0, 0, 0.3}, .leg_bone = {0, 0, 0.45}};
+    rig_of(ahead).write(folder / "rig.glb");
+    const json report = rig_report(rig_of(ahead));
+    std::string toml;
+    for (const char* limb : kLimbs) {
+        const std::string line = offered_line(problem_of(report, limb));
+        // Swung forwards by 90 degrees, forwards points up, and backwards down.
+        CHECK(degrees_between(bend_of(line), std::string(limb).ends_with("arm") ? kY : Vector3d(-kY)) < 1);
+        toml += limb_table(limb, line);
+    }
+    const Outcome solved = solved_with(folder, toml);
+    INFO(solved.err);
+    REQUIRE(solved.exit_code == 0);
+    CHECK(json::parse(solved.out).at("arms_bound").size() == 2);
+    CHECK(json::parse(solved.out).at("legs_bound").size() == 2);
+}
+
+TEST_CASE("rig table: a note offers the clip's mean bend")
+{
+    const TempFolder folder;
+    const Body body = {.rest = {0, 0, -15, -15}, .clip = kWalk};
+    rig_of(body).write(folder / "rig.glb");
+    const json report = rig_report(rig_of(body));
+    const std::string line = offered_line(limb_of(report, "left_leg").at("note"));
+    CHECK(degrees_between(bend_of(line), -kZ) < 1);
+    CHECK(run_command(folder.path, {"rig", "rig.glb"}).out.find(line) != std::string::npos);
+    const Outcome solved = solved_with(folder, limb_table("left_leg", line));
+    INFO(solved.err);
+    CHECK(solved.exit_code == 0);
+    CHECK(solved.out.find("limb.left_leg.bend") != std::string::npos);
+}
+
+TEST_CASE("rig table: of two figures none is taken, and the line to write takes one")
+{
+    const Body mixamo,
+        unreal = named({"upperarm_*", "lowerarm_*", "hand_*"}, {"thigh_*", "calf_*", "foot_*"}, "l", "r");
+    const Body copy = named({"B:*Arm", "B:*ForeArm", "B:*Hand"}, {"B:*UpLeg", "B:*Leg", "B:*Foot"}, "Left", "Right");
+    for (const Body& other : {mixamo, unreal, copy}) {
+        GltfRig rig;
+        const std::array<BodyNodes, 2> figures = {add_body(rig, other), add_body(rig, mixamo)};
+        const json report = rig_report(rig);
+        std::vector<std::string> options;
+        for (std::size_t n = 0; n < 4; ++n) {
+            const json limb = limb_of(report, kLimbs[n]);
+            const std::string problem = limb.value("problem", "");
+            INFO(problem);
+            CHECK(limb.at("bound") == false);
+            for (const BodyNodes& figure : figures)  // each candidate is listed
+                CHECK(problem.find("#" + std::to_string(figure[n][0])) != std::string::npos);
+            static const std::regex line(R"((--arm|--leg) ((left|right):#[0-9]+,#[0-9]+,#[0-9]+))");
+            std::smatch found;
+            REQUIRE(std::regex_search(problem, found, line));
+            options.insert(options.end(), {found[1], found[2]});
+        }
+        const json named = rig_report(rig, options);
+        for (std::size_t n = 0; n < 4; ++n) {
+            const LimbNodes taken = limb_of(named, kLimbs[n]).at("numbers");
+            CHECK((taken == figures[0][n] || taken == figures[1][n]));
+        }
+    }
+}
+
+TEST_CASE("rig table: a refused limb refuses no other, unless it was named")
+{
+    const TempFolder folder;
+    rig_of({.between = Between{"Bob", kZ, 20}}).write(folder / "rig.glb");
+    const auto solve = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"solve", "rig.glb", "--json"});
+        return run_command(folder.path, options);
+    };
+    const Outcome others = solve({"--limbs", "all"});
+    INFO(others.err);
+    REQUIRE(others.exit_code == 0);
+    const json report = json::parse(others.out);
+    CHECK(report.at("arms_bound").size() == 1);
+    CHECK(report.at("legs_bound").size() == 2);
+    const std::string joints = "LeftArm,LeftForeArm,LeftHand";
+    spill(folder / "crowd.toml", "[limb.left_arm]\njoints = [\"LeftArm\", \"LeftForeArm\", \"LeftHand\"]\n");
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--limbs", "all", "--arm", "left:" + joints}, {"--crowd", "crowd.toml"}}) {
+        const Outcome refused = solve(options);
+        INFO(refused.err);
+        CHECK(refused.exit_code == 1);
+        CHECK(refused.err.find("'Bob'") != std::string::npos);
+        CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+    }
+    rig_of({.limbs = {0}, .between = Between{"Bob", kZ, 20}}).write(folder / "rig.glb");
+    CHECK(solve({"--limbs", "all"}).exit_code == 1);  // nothing binds
+    CHECK(run_command(folder.path, {"rig", "rig.glb"}).exit_code == 1);
+}
