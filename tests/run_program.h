@@ -3,7 +3,10 @@
 // Runs a program in a folder, as a process of its own and without a shell, and keeps what it said.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,9 +21,13 @@ struct Outcome {
 struct Surroundings {
     std::vector<std::string> environment{};  // "NAME=value" on top of this process's own; "NAME" alone removes it
     bool terminal = false;                   // stderr is a terminal
+    bool hangs_up = false;                   // which goes away once something has been written to it
     unsigned short columns = 0;              // of that; 0: it does not say
     std::string stdout_file{};               // where stdout goes instead of Outcome::out
     std::vector<int> closed{};               // descriptors that the program does not get, such as 1 for stdout
+    std::function<void()> before{};          // called in the process before it becomes the program: only calls that
+                                             // are safe after fork(), such as for limits and signals
+    std::function<void(pid_t)> meanwhile{};  // called some 100 times a second while it runs
     unsigned max_seconds = 300;
 };
 

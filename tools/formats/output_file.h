@@ -5,7 +5,7 @@
 // /dev/null, pipes) is written straight. Knows nothing of what is written.
 //
 // The new file has the permissions of the one that it replaces, and its owner and group where the process may give
-// them; a file of a new name has what the umask leaves. A file that may not be written is not replaced either, though
+// them. A file of a new name has what the umask leaves. A file that may not be written is not replaced either, though
 // its folder would allow it: cp and editors refuse it, too, and its owner has protected it.
 
 #include <filesystem>
