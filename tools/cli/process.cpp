@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -28,6 +29,7 @@ void note_lack_of_memory()
 [[noreturn]] void end_in_one_line() noexcept
 {
     formats::OutputFile::discard_all();
+    std::fflush(stdout);
     if (memory_has_run_out) ::_exit(fail(1, kNotEnoughMemory));
     if (std::current_exception()) {
         try {

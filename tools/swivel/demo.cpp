@@ -97,7 +97,7 @@ public:
             write(SWIVEL_POLE, group, limbs[0].pole);
         }
         const auto before = std::chrono::steady_clock::now();
-        crowd_.solve();
+        crowd_.solve({.on_this_thread = is_one_thread()});
         statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     }
 
