@@ -20,8 +20,8 @@ using formats::JointPose;
 using formats::LimbKind;
 using formats::LimbName;
 
-constexpr double kSine10 =
-    0.17364817766693033;  // of 10 degrees: above what modelling and noise leave of straight limbs
+// Of 10 degrees: above what modelling and noise leave of straight limbs.
+constexpr double kSine10 = 0.17364817766693033;
 constexpr double kCosine30 = 0.8660254037844386;
 
 // The axis that two bones are bent about, as long as the sine of the bend: the cross product of the unit bones, lower
