@@ -101,14 +101,17 @@ void look_up_peak(pid_t child, const std::string& program, Outcome& outcome)
         if (word == "VmHWM:") status >> outcome.peak_kib;
 }
 
-void listen(pid_t child, const std::string& program, Channel& out, Channel& err, Outcome& outcome)
+void listen(pid_t child, const std::string& program, const Surroundings& surroundings, Channel& out, Channel& err,
+            Outcome& outcome)
 {
     while (out.reading >= 0 || err.reading >= 0) {
         std::array<pollfd, 2> ends = {{{out.reading, POLLIN, 0}, {err.reading, POLLIN, 0}}};  // -1 is passed over
         look_up_peak(child, program, outcome);
+        if (surroundings.meanwhile) surroundings.meanwhile(child);
         if (::poll(ends.data(), ends.size(), 10) <= 0) continue;
         if (ends[0].revents) take(out.reading, outcome.out);
         if (ends[1].revents) take(err.reading, outcome.err);
+        if (surroundings.hangs_up && !outcome.err.empty()) Channel::close_end(err.reading);
     }
 }
 
@@ -137,18 +140,19 @@ Outcome run_program(const std::filesystem::path& folder, std::vector<std::string
         if (::chdir(folder.c_str()) == 0 && ::dup2(out.writing, STDOUT_FILENO) >= 0 &&
             ::dup2(err.writing, STDERR_FILENO) >= 0) {
             for (const int descriptor : surroundings.closed) ::close(descriptor);
+            if (surroundings.before) surroundings.before();
             ::execve(argv[0], argv.data(), envp.data());
         }
-        ::_exit(127);
+        ::_exit(126);  // 127 is what the loader says without memory
     }
     Channel::close_end(out.writing);
     Channel::close_end(err.writing);
     Outcome outcome;
-    listen(child, words[0], out, err, outcome);
+    listen(child, words[0], surroundings, out, err, outcome);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0) REQUIRE(errno == EINTR);
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    REQUIRE(outcome.exit_code != 127);
+    REQUIRE(outcome.exit_code != 126);
     return outcome;
 }
 

@@ -2,10 +2,12 @@
 // OutputFile's promise: whole or not at all, and one clear line when it cannot be.
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <catch2/catch.hpp>
 
 #include <stdexcept>
+#include <tuple>
 
 #include "tests/test_data.h"
 #include "tools/formats/error.h"
@@ -77,13 +79,113 @@ TEST_CASE("an uncommitted file leaves the old one and no rest")
     {
         OutputFile out(folder / "a.txt");
         out.write("new");
-        CHECK(fs::exists(folder / ("a.txt.partial-" + std::to_string(::getpid()))));
+        CHECK(fs::exists(folder / (".swivel-" + std::to_string(::getpid()) + "-0")));
         CHECK(slurp(folder / "a.txt") == "old");
     }
     CHECK(slurp(folder / "a.txt") == "old");
     CHECK(folder.file_count() == 1);
     write_all(folder / "a.txt", "new");
     CHECK(slurp(folder / "a.txt") == "new");
+}
+
+TEST_CASE("two files of one folder, and the rest of a killed run, are not mixed up")
+{
+    const TempFolder folder;
+    const fs::path rest = folder / (".swivel-" + std::to_string(::getpid()) + "-0");
+    spill(rest, "rest");
+    OutputFile a(folder / "a.txt"), b(folder / "b.txt");
+    a.write("a");
+    b.write("b");
+    b.commit();
+    a.commit();
+    CHECK(slurp(folder / "a.txt") == "a");
+    CHECK(slurp(folder / "b.txt") == "b");
+    CHECK(slurp(rest) == "rest");
+    CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("a process that cannot unwind removes all its partial files")
+{
+    const TempFolder folder;
+    spill(folder / "b.txt", "old");
+    OutputFile a(folder / "a.txt");
+    {
+        const OutputFile gone(folder / "c.txt");
+    }
+    OutputFile b(folder / "b.txt");
+    CHECK(folder.file_count() == 3);
+    OutputFile::discard_all();
+    CHECK(folder.file_count() == 1);
+    CHECK(slurp(folder / "b.txt") == "old");
+}
+
+TEST_CASE("names may be as long as the file system lets them be")
+{
+    for (std::size_t size = 236; size <= 255; ++size) {
+        const TempFolder folder;
+        const std::string name(size, 'n');
+        write_all(folder / name, "new");
+        write_all(folder / name, "newer");
+        CHECK(slurp(folder / name) == "newer");
+        CHECK(folder.file_count() == 1);
+    }
+}
+
+TEST_CASE("a replaced file keeps its permissions, a new one has what the umask leaves")
+{
+    const TempFolder folder;
+    const auto mode = [&](const char* name) { return static_cast<unsigned>(fs::status(folder / name).permissions()); };
+    for (const unsigned before : {0600u, 0640u, 0644u, 0664u, 0666u, 0700u, 0755u, 0777u}) {
+        spill(folder / "old", "old");
+        fs::permissions(folder / "old", fs::perms(before));
+        fs::create_symlink("old", folder / "link");
+        {
+            OutputFile out(folder / "link");
+            out.write("new");
+            for (const auto& file : fs::directory_iterator(folder.path))  // at no moment more
+                CHECK((static_cast<unsigned>(file.symlink_status().permissions()) & ~before) * !file.is_symlink() == 0);
+            out.commit();
+        }
+        CHECK(slurp(folder / "old") == "new");
+        CHECK(mode("old") == before);
+        fs::remove(folder / "link");
+    }
+    for (const unsigned mask : {0u, 022u, 027u, 077u}) {
+        const mode_t own = ::umask(mask);
+        write_all(folder / "new", "new");
+        ::umask(own);
+        CHECK(mode("new") == (0666u & ~mask));
+        fs::remove(folder / "new");
+    }
+}
+
+TEST_CASE("a replaced file keeps its owner and group where the process may give them")
+{
+    if (::geteuid() != 0) return;  // nobody else may
+    const TempFolder folder;
+    fs::permissions(folder.path, fs::perms(0777));
+    const fs::path file = folder / "a.txt";
+    const auto rights = [&] {
+        struct stat now;
+        REQUIRE(::stat(file.c_str(), &now) == 0);
+        return std::tuple(now.st_uid, now.st_gid, now.st_mode & 0777);
+    };
+    const auto make = [&](uid_t owner, gid_t group, unsigned mode) {
+        spill(file, "old");
+        REQUIRE(::chown(file.c_str(), owner, group) == 0);
+        fs::permissions(file, fs::perms(mode));
+    };
+    make(65534, 65533, 0640);
+    write_all(file, "new");
+    CHECK(rights() == std::tuple(65534, 65533, 0640));
+    const AsNobody nobody;  // whose group is still root's
+    for (const gid_t group : {0u, 65533u}) {
+        CHECK(::seteuid(0) == 0);
+        make(1, group, 0676);
+        CHECK(::seteuid(65534) == 0);
+        write_all(file, "new");
+        CHECK(rights() == std::tuple(65534, 0, group == 0 ? 0676 : 0666));  // the other group's right is not root's
+    }
 }
 
 TEST_CASE("an empty file can be written")
@@ -118,9 +220,10 @@ TEST_CASE("targets that cannot be opened are refused by name and cause")
     CHECK_THAT(complaint_about_output(folder.path), Contains("is a directory"));
     CHECK_THAT(complaint_about_output(folder / "file/a.txt"), Contains("Not a directory"));
     CHECK_THAT(complaint_about_output(""), Contains("needs a name"));
-    CHECK_THAT(complaint_about_output(folder / std::string(250, 'n')), Contains("too long"));
-    spill(folder / ("b.txt.partial-" + std::to_string(::getpid())), "rest");
-    CHECK_THAT(complaint_about_output(folder / "b.txt"), Contains("File exists; remove it"));
+    const std::string too_long(256, 'n');
+    CHECK_THAT(complaint_about_output(folder / too_long),
+               Contains(too_long + ": cannot be created: File name too long"));
+    CHECK_THROWS_AS(OutputFile(folder / too_long), InputError);  // before the work, not after
     CHECK_THAT(complaint_about_output(folder / "line\nbreak/a"), Contains("line\\x0abreak"));
 }
 

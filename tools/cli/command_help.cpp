@@ -11,6 +11,7 @@
 #include "tools/cli/completions.h"
 #include "tools/cli/man_page.h"
 #include "tools/cli/option_checks.h"
+#include "tools/cli/streams.h"
 #include "tools/formats/suggestion.h"
 
 namespace swivel::tools {
@@ -101,7 +102,7 @@ void add_completion(CLI::App& app)
         "bash: swivel completion bash > ~/.local/share/bash-completion/completions/swivel\n"
         "zsh: swivel completion zsh > ~/.zfunc/_swivel, with fpath+=~/.zfunc before compinit in ~/.zshrc\n"
         "fish: swivel completion fish > ~/.config/fish/completions/swivel.fish");
-    command->callback([&app, shell] { fmt::print("{}", scripts.at(*shell)(outline_of(app))); });
+    command->callback([&app, shell] { say_text(stdout, scripts.at(*shell)(outline_of(app))); });
 }
 
 void add_help(CLI::App& app)
@@ -118,11 +119,11 @@ void add_help(CLI::App& app)
     command->add_flag("--man", wish->man, "Print the manual page instead, for man")->excludes(name);
     command->callback([&app, wish] {
         if (wish->man)
-            fmt::print("{}", man_page(outline_of(app)));
+            say_text(stdout, man_page(outline_of(app)));
         else if (wish->command.empty())
-            fmt::print("{}", app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+            say_text(stdout, app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
         else
-            fmt::print("{}", app.get_subcommand(wish->command)->help(app.get_name()));
+            say_text(stdout, app.get_subcommand(wish->command)->help(app.get_name()));
     });
 }
 

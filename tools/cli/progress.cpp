@@ -6,9 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#include "tools/cli/streams.h"
 
 namespace swivel::tools {
 
@@ -60,7 +61,7 @@ Progress::Progress(std::string what, std::uint64_t total, bool quiet)
 
 Progress::~Progress()
 {
-    if (visible_) fmt::print(stderr, "\r\x1b[K");
+    if (visible_) say_text(stderr, "\r\x1b[K");
 }
 
 void Progress::show(std::uint64_t done)
@@ -69,8 +70,7 @@ void Progress::show(std::uint64_t done)
     if (!visible_ || now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    fmt::print(stderr, "\r{}\x1b[K", progress_line(done, total_, what_, seconds, column_count()));
-    std::fflush(stderr);
+    say(stderr, "\r{}\x1b[K", progress_line(done, total_, what_, seconds, column_count()));
 }
 
 }  // namespace swivel::tools

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
 
 namespace swivel::tools {
@@ -106,7 +107,7 @@ void LimbCrowds::reset(std::size_t limb, std::uint32_t character)
 void LimbCrowds::solve()
 {
     if (budget_blocks_ == 0 || !began_) {
-        for (Crowd& crowd : crowds_) crowd.solve();
+        for (Crowd& crowd : crowds_) crowd.solve({.on_this_thread = is_one_thread()});
         began_ = true;
         return;
     }
@@ -115,7 +116,7 @@ void LimbCrowds::solve()
     std::vector<swivel_in> priorities;
     for (const float& priority : priorities_) priorities.push_back({&priority, 0});
     crowd.choose(priorities, budget_blocks_, active_);
-    crowd.solve({.mask = active_});
+    crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
 }
 
 bool LimbCrowds::solved(std::size_t limb, std::uint32_t character) const

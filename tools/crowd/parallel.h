@@ -15,16 +15,31 @@
 
 namespace swivel::tools {
 
+inline unsigned thread_count()
+{
+#ifdef SWIVEL_WITH_TBB
+    using Control = oneapi::tbb::global_control;
+    const auto most = static_cast<unsigned>(Control::active_value(Control::max_allowed_parallelism));
+    const auto has = static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
+    return most < has ? most : has;
+#else
+    return 1;
+#endif
+}
+
+// Then oneTBB is not called: it starts threads of its own even where none of them may work.
+inline bool is_one_thread() { return thread_count() == 1; }
+
 // Calls work(begin, end) for pieces of 0 ... count-1, on several threads at once.
 template <class Work>
 void for_ranges(std::uint32_t count, Work work)
 {
 #ifdef SWIVEL_WITH_TBB
     using Range = oneapi::tbb::blocked_range<std::uint32_t>;
-    oneapi::tbb::parallel_for(Range(0, count, 256), [&](const Range& range) { work(range.begin(), range.end()); });
-#else
-    if (count > 0) work(std::uint32_t{0}, count);
+    const auto on_range = [&](const Range& range) { work(range.begin(), range.end()); };
+    if (!is_one_thread()) return oneapi::tbb::parallel_for(Range(0, count, 256), on_range);
 #endif
+    if (count > 0) work(std::uint32_t{0}, count);
 }
 
 // At most this many threads solve while it lives; 0: as many as the machine has.
@@ -42,17 +57,5 @@ private:
     std::optional<oneapi::tbb::global_control> control_;
 #endif
 };
-
-inline unsigned thread_count()
-{
-#ifdef SWIVEL_WITH_TBB
-    using Control = oneapi::tbb::global_control;
-    const auto most = static_cast<unsigned>(Control::active_value(Control::max_allowed_parallelism));
-    const auto has = static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
-    return most < has ? most : has;
-#else
-    return 1;
-#endif
-}
 
 }  // namespace swivel::tools

@@ -3,11 +3,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <mutex>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
@@ -17,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 20;
+constexpr const char* kStandardOutput = "standard output";
 constexpr int kMaxLinks = 40;  // as many as Linux follows
 
 // Links are read one by one, because canonical() refuses one whose target does not exist yet.
@@ -48,13 +52,30 @@ bool is_written_straight(const fs::path& path)
 std::string_view advice(const std::error_code& reason)
 {
     if (reason == std::errc::no_space_on_device) return "free some space";
-    if (reason == std::errc::file_exists) return "remove it, a killed run has left it behind";
+    if (reason == std::errc::file_too_large) return "raise the limit on the size of files, ulimit -f";
+    if (reason == std::errc::filename_too_long) return "shorten it";
+    if (reason == std::errc::broken_pipe) return "nobody reads it any more";
     return "check the folder and its permissions";
 }
 
+// Gives a new file what the one that it replaces has, as far as the process may. A group that it may not give leaves
+// the group no right that all others lack. Some file systems have no permissions: they keep none.
+void keep_rights(int descriptor, const struct stat& before)
+{
+    constexpr uid_t same = static_cast<uid_t>(-1);
+    mode_t mode = before.st_mode & 0777;
+    const bool has_group =
+        ::fchown(descriptor, before.st_uid, before.st_gid) == 0 || ::fchown(descriptor, same, before.st_gid) == 0;
+    if (!has_group) mode &= ~static_cast<mode_t>(0070) | (mode & 0007) << 3;
+    static_cast<void>(::fchmod(descriptor, mode));
+}
+
+std::mutex list_mutex;
+OutputFile* all_files = nullptr;
+
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& path) : named_(is_standard_stream(path) ? "standard output" : path)
+OutputFile::OutputFile(const fs::path& path) : named_(is_standard_stream(path) ? kStandardOutput : path)
 {
     std::error_code ignored;
     if (path.empty()) throw InputError("(no name)", "an output file needs a name");
@@ -62,28 +83,51 @@ OutputFile::OutputFile(const fs::path& path) : named_(is_standard_stream(path) ?
     if (is_standard_stream(path)) {
         descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
         if (descriptor_ < 0) fail("cannot be opened for writing");
-        return;
-    }
-    if (fs::is_directory(path, ignored)) throw InputError(path, "is a directory; name a file in it");
-    if (is_written_straight(path)) {
+    } else if (fs::is_directory(path, ignored)) {
+        throw InputError(path, "is a directory; name a file in it");
+    } else if (is_written_straight(path)) {
         descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
         if (descriptor_ < 0) fail("cannot be opened for writing");
-        return;
+    } else {
+        target_ = follow_links(path);
+        open_partial();
     }
-    target_ = follow_links(path);
-    const bool is_there = fs::exists(target_, ignored);
-    if (is_there && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be replaced");
-    partial_ = target_;
-    partial_ += fmt::format(".partial-{}", ::getpid());
-    const std::string action = fmt::format("cannot create {}", printable(partial_.filename().string(), 300));
-    descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-        partial_.clear();  // whoever's it is, it is not ours to remove
-        fail(action);
-    }
+    const std::lock_guard lock(list_mutex);
+    next_ = std::exchange(all_files, this);
 }
 
-OutputFile::~OutputFile() { discard(); }
+// A short name of its own: the target's may be as long as a name can be.
+void OutputFile::open_partial()
+{
+    struct stat before;
+    const bool is_there = ::stat(target_.c_str(), &before) == 0;
+    if (!is_there && errno != ENOENT) fail("cannot be created");
+    if (is_there && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be replaced");
+    for (int n = 0; descriptor_ < 0; ++n) {
+        partial_ = target_.parent_path() / fmt::format(".swivel-{}-{}", ::getpid(), n);
+        // What others may not read in the old file they may not read in the new one at any moment.
+        descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, is_there ? 0600 : 0666);
+        if (descriptor_ >= 0 || errno == EEXIST) continue;
+        partial_.clear();
+        fail("cannot be created");
+    }
+    if (is_there) keep_rights(descriptor_, before);
+}
+
+OutputFile::~OutputFile()
+{
+    discard();
+    const std::lock_guard lock(list_mutex);
+    OutputFile** place = &all_files;
+    while (*place != this) place = &(*place)->next_;
+    *place = next_;
+}
+
+void OutputFile::discard_all() noexcept
+{
+    const std::unique_lock lock(list_mutex, std::try_to_lock);  // the thread that has it may never go on
+    for (OutputFile* file = lock ? all_files : nullptr; file; file = file->next_) file->discard();
+}
 
 void OutputFile::write(std::string_view bytes)
 {
@@ -115,7 +159,6 @@ void OutputFile::flush(std::string_view bytes)
 {
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) continue;
         if (count < 0) fail("cannot be written");
         bytes.remove_prefix(static_cast<std::size_t>(count));
     }
@@ -133,6 +176,8 @@ void OutputFile::fail(std::string_view action)
 {
     const std::error_code reason(errno, std::generic_category());
     discard();
+    if (reason == std::errc::broken_pipe && target_.empty() && named_ == kStandardOutput)
+        throw std::system_error(reason, kStandardOutput);
     throw InputError(named_, fmt::format("{}: {}; {}", action, reason.message(), advice(reason)));
 }
 

@@ -1,8 +1,12 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A file that appears whole or not at all: bytes go to "NAME.partial-PID" in the same folder, commit() renames it to
+// A file that appears whole or not at all: bytes go to ".swivel-PID-N" in the same folder, commit() renames it to
 // NAME. An interrupted run leaves the old NAME untouched. What cannot be renamed onto (standard output as "-",
 // /dev/null, pipes) is written straight. Knows nothing of what is written.
+//
+// The new file has the permissions of the one that it replaces, and its owner and group where the process may give
+// them. A file of a new name has what the umask leaves. A file that may not be written is not replaced either, though
+// its folder would allow it: cp and editors refuse it, too, and its owner has protected it.
 
 #include <filesystem>
 #include <string>
@@ -13,7 +17,8 @@ namespace swivel::formats {
 class OutputFile {
 public:
     // Opens the partial file. A symbolic link is followed first, so the link stays and its target is replaced.
-    // Throws InputError when the folder is missing or not writable, or when `path` is a directory or write-protected.
+    // Throws InputError when the folder is missing or not writable, when the name is too long, or when `path` is a
+    // directory or write-protected.
     // One object belongs to one thread. Allocates its buffer of 1 MiB here, nothing later.
     explicit OutputFile(const std::filesystem::path& path);
 
@@ -23,14 +28,19 @@ public:
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    // Appends `bytes`. They may stay in the buffer, so a full disk can show here or at commit(): InputError.
+    // Appends `bytes`. They may stay in the buffer, so a full disk can show here or at commit(): InputError. Where
+    // nobody reads standard output any more, that is a std::system_error with EPIPE: no fault of a file's.
     void write(std::string_view bytes);
 
     // Writes out the buffer, waits until the disk has it all, closes and renames. Throws InputError when any of it
     // fails; the file of that name is then what it was before. To be called once, last.
     void commit();
 
+    // Removes all partial files of the process. For its last moments: their objects are of no use then.
+    static void discard_all() noexcept;
+
 private:
+    void open_partial();
     void flush(std::string_view bytes);
     void discard() noexcept;
     [[noreturn]] void fail(std::string_view action);
@@ -40,6 +50,7 @@ private:
     std::filesystem::path partial_;  // empty: written straight, or renamed already
     std::string buffer_;
     int descriptor_ = -1;
+    OutputFile* next_;  // of all that live
 };
 
 }  // namespace swivel::formats

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <system_error>
 
 #include "tools/formats/error.h"
@@ -65,6 +66,7 @@ TextFile open_text(const std::filesystem::path& path)
 {
     if (is_standard_stream(path)) {
         TextFile input(::fdopen(::dup(STDIN_FILENO), "rb"));
+        if (!input && errno == ENOMEM) throw std::bad_alloc();
         if (!input) throw InputError(path, "is closed; give a file");
         return input;
     }
@@ -74,6 +76,7 @@ TextFile open_text(const std::filesystem::path& path)
     }
     TextFile file(std::fopen(path.c_str(), "rb"));
     if (!file) {
+        if (errno == ENOMEM) throw std::bad_alloc();  // no fault of the file's
         const std::string reason = std::generic_category().message(errno);
         throw InputError(path, fmt::format("cannot be opened: {}; check the path", reason));
     }

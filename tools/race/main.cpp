@@ -4,18 +4,18 @@
 // rivals in the same run, and how far that is from what the machine can do. The short version of bench/. A program of
 // its own, so that the command needs no rivals to build.
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/command_error.h"
-#include "tools/cli/interrupt.h"
+#include "tools/cli/process.h"
 #include "tools/race/report.h"
 #include "tools/swivel/report.h"
 
-int main(int argc, char** argv)
+namespace {
+
+void race(int argc, char** argv)
 {
     using namespace swivel::tools;
     const double seconds = argc > 1 ? std::strtod(argv[1], nullptr) : 0;
@@ -24,19 +24,19 @@ int main(int argc, char** argv)
                            [&](const char* each) { return std::strcmp(each, word) == 0; });
     };
     const bool json = has("--json"), quiet = has("--quiet");
-    if (!(seconds > 0) || argc != 2 + json + quiet) return fail(2, "usage: swivel-race SECONDS [--json] [--quiet]");
-    try {
-        note_interrupts();
-        const Measured measured = measure(seconds, quiet);
-        if (json)
-            print_json(json_of(measured));
-        else
-            print_measured(measured);
-        if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
-        return fail(1, "standard output could not be written in full");
-    } catch (const CommandError& error) {
-        return fail(error.exit_code, error.what());
-    } catch (const std::exception& error) {
-        return fail(1, error.what());
-    }
+    if (!(seconds > 0) || argc != 2 + json + quiet)
+        throw CommandError(2, "usage: swivel-race SECONDS [--json] [--quiet]");
+    const Measured measured = measure(seconds, quiet);
+    if (json)
+        print_json(json_of(measured));
+    else
+        print_measured(measured);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace swivel::tools;
+    return run_process([&] { return run_to_end([&] { race(argc, argv); }); });
 }

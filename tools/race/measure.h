@@ -37,7 +37,7 @@ struct Measured {
 };
 
 // Takes about that many seconds and two more. quiet: shows no progress. Throws CommandError if someone's results are
-// wrong, or interrupted.
+// wrong.
 Measured measure(double seconds, bool quiet);
 
 }  // namespace swivel::tools

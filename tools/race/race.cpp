@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "bench/rivals/timing.h"
-#include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
 
 namespace swivel::tools {
@@ -31,7 +30,6 @@ void Race::run(double seconds, bool quiet)
     std::mt19937 random(1);
     Progress progress("turns", turns, quiet);
     for (std::size_t turn = 0; turn < turns; ++turn) {
-        check_interrupt();
         progress.show(turn);
         const std::size_t place = turn % order.size();
         if (place == 0) std::shuffle(order.begin(), order.end(), random);

@@ -16,7 +16,7 @@ public:
     void add(std::string name, std::size_t arm_count, std::function<void()> work);
 
     // Shares about that many seconds among all, in rounds of random order; a piece that takes longer than its share
-    // runs once a round. Shows progress unless quiet; throws CommandError when interrupted.
+    // runs once a round. Shows progress unless quiet.
     void run(double seconds, bool quiet);
 
     // Nanoseconds an arm: the median of the rounds. Only names that were added, after run().

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/rivals/level.h"
+#include "tools/cli/streams.h"
 
 namespace swivel::tools {
 
@@ -29,40 +30,40 @@ Json json_of(const bench::Machine& machine)
 
 void print_pairs(const Measured& measured)
 {
-    fmt::print("\nNanoseconds an arm: medians, in turns, one thread unless said. Ratio: the other by swivel.\n");
-    fmt::print("{:<16}{:<8}{:>8}  {:<24}{:>8}{:>8}  {}\n", "work", "isa", "swivel", "other", "", "ratio", "");
+    say(stdout, "\nNanoseconds an arm: medians, in turns, one thread unless said. Ratio: the other by swivel.\n");
+    say(stdout, "{:<16}{:<8}{:>8}  {:<24}{:>8}{:>8}  {}\n", "work", "isa", "swivel", "other", "", "ratio", "");
     for (const Pair& pair : measured.pairs)
-        fmt::print("{:<16}{:<8}{:>8.2f}  {:<24}{:>8.2f}{:>8.2f}  {}\n", pair.work, pair.isa, pair.own_ns, pair.other,
-                   pair.other_ns, pair.other_ns / pair.own_ns, pair.note);
+        say(stdout, "{:<16}{:<8}{:>8.2f}  {:<24}{:>8.2f}{:>8.2f}  {}\n", pair.work, pair.isa, pair.own_ns, pair.other,
+            pair.other_ns, pair.other_ns / pair.own_ns, pair.note);
 }
 
 void print_bounds(const Measured& measured)
 {
     const bench::OpCounts& ops = measured.ops;
-    fmt::print(
+    say(stdout,
         "\nAn ordinary arm of P takes {} roots, {} divisions, {} multiplications, {} additions, {} comparisons, {} "
         "selects and signs.\nThe ports of this CPU need for them, nanoseconds an arm:\n",
         ops.roots, ops.divisions, ops.multiplications, ops.additions, ops.comparisons, ops.selects);
-    fmt::print("{:<8}{:>10}{:>12}{:>10}{:>12}\n", "isa", "divider", "arithmetic", "swivel", "by bound");
+    say(stdout, "{:<8}{:>10}{:>12}{:>10}{:>12}\n", "isa", "divider", "arithmetic", "swivel", "by bound");
     for (const Bound& bound : measured.bounds)
-        fmt::print("{:<8}{:>10.2f}{:>12.2f}{:>10.2f}{:>12.2f}\n", bound.isa, bound.bound.divider_ns,
-                   bound.bound.arithmetic_ns, bound.measured_ns, bound.measured_ns / bound.bound.ns());
+        say(stdout, "{:<8}{:>10.2f}{:>12.2f}{:>10.2f}{:>12.2f}\n", bound.isa, bound.bound.divider_ns,
+            bound.bound.arithmetic_ns, bound.measured_ns, bound.measured_ns / bound.bound.ns());
 }
 
 void print_roofline(const Measured& measured)
 {
     const auto bytes = static_cast<double>(measured.row_bytes);
     const double flops = measured.ops.flops();
-    fmt::print("\nRoofline: P does {:.2f} operations a byte; peak without fused ones, and P in cache, GFLOP/s:",
-               flops / bytes);
+    say(stdout, "\nRoofline: P does {:.2f} operations a byte; peak without fused ones, and P in cache, GFLOP/s:",
+        flops / bytes);
     for (const Bound& bound : measured.bounds)
-        fmt::print(" {} {:.0f} {:.0f}{}", bound.isa, limits_of(measured.machine, bound.isa).flops_per_ns,
-                   flops / bound.measured_ns, &bound == &measured.bounds.back() ? "" : ",");
-    fmt::print("\nCopies, GB/s:");
+        say(stdout, " {} {:.0f} {:.0f}{}", bound.isa, limits_of(measured.machine, bound.isa).flops_per_ns,
+            flops / bound.measured_ns, &bound == &measured.bounds.back() ? "" : ",");
+    say(stdout, "\nCopies, GB/s:");
     for (std::size_t level = 0; level < bench::kMemoryLevels.size(); ++level)
-        fmt::print(" {} {:.0f},", bench::kMemoryLevels[level], measured.machine.copy_bytes_per_ns[level]);
-    fmt::print(" past the caches {:.0f}; P out of cache {:.0f}\n", measured.machine.streamed_bytes_per_ns,
-               bytes / measured.memory_ns);
+        say(stdout, " {} {:.0f},", bench::kMemoryLevels[level], measured.machine.copy_bytes_per_ns[level]);
+    say(stdout, " past the caches {:.0f}; P out of cache {:.0f}\n", measured.machine.streamed_bytes_per_ns,
+        bytes / measured.memory_ns);
 }
 
 }  // namespace
@@ -97,9 +98,9 @@ Json json_of(const Measured& measured)
 
 void print_measured(const Measured& measured)
 {
-    fmt::print("cpu      {}\nlibrary  {}\n", measured.machine.cpu, bench::library_build());
+    say(stdout, "cpu      {}\nlibrary  {}\n", measured.machine.cpu, bench::library_build());
     for (const bench::Level* level : bench::runnable_levels())
-        fmt::print("rivals   {}: {}\n", level->name, level->flags);
+        say(stdout, "rivals   {}: {}\n", level->name, level->flags);
     print_pairs(measured);
     print_bounds(measured);
     print_roofline(measured);

@@ -7,14 +7,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <memory>
+#include <new>
+#include <sstream>
 
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
 #include "tools/cli/command_help.h"
 #include "tools/cli/option_checks.h"
+#include "tools/cli/streams.h"
 #include "tools/swivel/commands.h"
 
 namespace swivel::tools {
@@ -225,9 +226,46 @@ void add_info(CLI::App& app)
     command->callback([options] { run_info(*options); });
 }
 
-}  // namespace
+// ---- the run
 
-int run_swivel(int argc, const char* const* argv)
+// What takes less memory, by the options that the command has.
+std::string memory_advice(const CLI::App& app, bool is_thread)
+{
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    const auto has = [&](const char* option) {
+        return !commands.empty() && commands[0]->get_option_no_throw(option) != nullptr;
+    };
+    std::vector<std::string> ways;
+    if (is_thread && has("--threads")) ways.push_back("--threads 1");
+    if (has("--characters")) ways.push_back("fewer --characters");
+    if (has("FILE")) ways.push_back("a shorter clip");
+    return fmt::format("{}{}{}{}", kNotEnoughMemory, is_thread ? " to start a thread" : "",
+                       ways.empty() ? "" : "; try ", fmt::join(ways, " or "));
+}
+
+// Lets the words do what they say. Throws whatever fails.
+void parse(CLI::App& app, int argc, const char* const* argv)
+{
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& done) {  // --help, --version
+        std::ostringstream text;
+        app.exit(done, text, text);
+        say_text(stdout, text.str());
+    } catch (const CLI::ParseError& error) {
+        throw CommandError(2, cause_of(app, error));
+    } catch (const std::bad_alloc&) {
+        throw CommandError(1, memory_advice(app, false));
+    } catch (const Error& error) {
+        if (error.status != SWIVEL_OUT_OF_MEMORY) throw;
+        throw CommandError(1, memory_advice(app, false));
+    } catch (const std::runtime_error& error) {
+        if (!std::string_view(error.what()).starts_with("pthread_create ")) throw;  // so oneTBB begins
+        throw CommandError(1, memory_advice(app, true));
+    }
+}
+
+void run(int argc, const char* const* argv)
 {
     CLI::App app{
         "Solves the arms and legs of crowds: wrist and ankle targets in, joint rotations out, the same bits on every "
@@ -246,24 +284,14 @@ int run_swivel(int argc, const char* const* argv)
     add_info(app);
     add_completion(app);
     add_help(app);
-    try {
-        app.parse(argc, argv);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout))
-            return fail(1, "standard output could not be written in full");
-        return 0;
-    } catch (const CLI::Success& done) {  // --help, --version
-        return app.exit(done);
-    } catch (const CLI::ParseError& error) {
-        return fail(2, cause_of(app, error));
-    } catch (const CommandError& error) {
-        return fail(error.exit_code, error.what());
-    } catch (const std::bad_alloc&) {
-        const auto commands = app.get_subcommands();
-        const auto* option = commands.empty() ? nullptr : commands[0]->get_option_no_throw("--characters");
-        return fail(1, option && option->count() > 0 ? "out of memory; try fewer --characters" : "out of memory");
-    } catch (const std::exception& error) {
-        return fail(1, error.what());
-    }
+    parse(app, argc, argv);
+}
+
+}  // namespace
+
+int run_swivel(int argc, const char* const* argv)
+{
+    return run_to_end([&] { run(argc, argv); });
 }
 
 }  // namespace swivel::tools

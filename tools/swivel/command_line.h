@@ -5,8 +5,8 @@
 
 namespace swivel::tools {
 
-// Runs what the words say, argv[0] being the command's own name. Returns the exit code: 0 done, 1 failed, 2 bad usage;
-// what went wrong is one line on stderr.
+// Runs what the words say, argv[0] being the command's own name. Returns the exit code: 0 done, 1 failed, 2 bad usage,
+// 128 and its number for a signal that ended the run. What went wrong is one line on stderr.
 int run_swivel(int argc, const char* const* argv);
 
 }  // namespace swivel::tools

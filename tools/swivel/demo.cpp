@@ -12,8 +12,8 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
-#include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
+#include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
@@ -97,7 +97,7 @@ public:
             write(SWIVEL_POLE, group, limbs[0].pole);
         }
         const auto before = std::chrono::steady_clock::now();
-        crowd_.solve();
+        crowd_.solve({.on_this_thread = is_one_thread()});
         statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     }
 
@@ -134,7 +134,6 @@ private:
 
 void run_demo(const DemoOptions& options)
 {
-    note_interrupts();
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const ThreadLimit limit(options.threads);
     DemoCrowd crowd(options);
@@ -142,7 +141,6 @@ void run_demo(const DemoOptions& options)
     {
         Progress progress("frames", options.frames, options.quiet);
         for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
-            check_interrupt();
             progress.show(frame);
             crowd.solve_frame(frame, statistics);
             crowd.measure(frame, statistics);
@@ -155,9 +153,9 @@ void run_demo(const DemoOptions& options)
         print_json(out);
         return;
     }
-    fmt::print("demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters,
-               2 * options.characters, options.frames);
-    print_statistics(statistics);
+    say(stdout, "demo     {} characters, {} arms, {} frames of made-up reaching\n", options.characters,
+        2 * options.characters, options.frames);
+    print_statistics(stdout, statistics);
 }
 
 }  // namespace swivel::tools

@@ -10,6 +10,7 @@
 #include "bench/rivals/cpu_model.h"
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
+#include "tools/cli/streams.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
 
@@ -51,9 +52,9 @@ void run_info(const InfoOptions& options)
     }
     for (const auto& [key, value] : info.items())
         if (!value.is_object())
-            fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+            say(stdout, "{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     for (const auto& [name, state] : info["built"].items())
-        fmt::print("{:<12} {}, {}\n", "built for", name, state.get<std::string>());
+        say(stdout, "{:<12} {}, {}\n", "built for", name, state.get<std::string>());
 }
 
 }  // namespace swivel::tools

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swivel/swivel.h"
+#include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
 #include "tools/rig/limb_words.h"
 
@@ -124,20 +125,19 @@ std::string what_went_wrong(const Statistics& statistics)
     return text;
 }
 
-void print_statistics(const Statistics& statistics)
+void print_statistics(std::FILE* to, const Statistics& statistics)
 {
     const std::string limbs = limbs_solved(statistics);
-    fmt::print("solved   {} {}, {:.1f} million {}/s ({}, {} thread{})\n", statistics.limb_count(), limbs,
-               limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), thread_count(),
-               thread_count() == 1 ? "" : "s");
+    say(to, "solved   {} {}, {:.1f} million {}/s ({}, {} thread{})\n", statistics.limb_count(), limbs,
+        limbs_per_second(statistics) / 1e6, limbs, swivel_isa_name(), thread_count(), thread_count() == 1 ? "" : "s");
     for (const Distance& d : distances_of(statistics))
-        fmt::print("{:<8} {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", d.meaning.line, d.text, d.stat.max,
-                   d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
+        say(to, "{:<8} {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", d.meaning.line, d.text, d.stat.max,
+            d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
     for (const auto& [flag, name] : kFlagNames)
         if (const FlagStat stat = flag_of(statistics, flag); stat.count > 0)
-            fmt::print("flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
+            say(to, "flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
     if (went_wrong(statistics))
-        fmt::print("note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
+        say(to, "note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
 
 nlohmann::ordered_json json_of(const Statistics& statistics)
@@ -165,9 +165,9 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     return out;
 }
 
-void print_json(const nlohmann::ordered_json& json)
+void print_json(const nlohmann::ordered_json& json, std::FILE* to)
 {
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    say(to, "{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 }  // namespace swivel::tools

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/cli/streams.h"
 #include "tools/formats/text.h"
 #include "tools/rig/limb_axes.h"
 #include "tools/rig/limb_words.h"
@@ -56,8 +57,8 @@ void print_axes(const Limb& limb, const Facing& facing)
 {
     for (int n = 0; n < 3; ++n) {
         const Eigen::Vector3d axis_w = limb.axes_w.col(n);
-        fmt::print("           {:<21} {} {} {}\n", n == 0 ? "limits' axes at rest:" : "", "xyz"[n], vector_text(axis_w),
-                   direction_words(axis_w, facing));
+        say(stdout, "           {:<21} {} {} {}\n", n == 0 ? "limits' axes at rest:" : "", "xyz"[n],
+            vector_text(axis_w), direction_words(axis_w, facing));
     }
 }
 
@@ -85,33 +86,33 @@ void print_range(const Clip& clip, const Limb& limb)
         return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x(), v.y(), v.z());
     };
     const std::string_view word = limb_word(limb.name);
-    fmt::print("           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
-               words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
-    fmt::print("           [limb.{}]\n", word);
-    fmt::print("           {}\n", joints_line(clip, limb));
-    fmt::print("           bend = {}\n", row(range->bend));
-    fmt::print("           [limb.{}.limits]\n", word);
-    fmt::print("           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", row(range->axis),
-               range->opening_deg);
-    fmt::print("           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.least, range->flexion.most);
+    say(stdout, "           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
+        words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
+    say(stdout, "           [limb.{}]\n", word);
+    say(stdout, "           {}\n", joints_line(clip, limb));
+    say(stdout, "           bend = {}\n", row(range->bend));
+    say(stdout, "           [limb.{}.limits]\n", word);
+    say(stdout, "           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", row(range->axis),
+        range->opening_deg);
+    say(stdout, "           flexion_deg = [{:.1f}, {:.1f}]\n", range->flexion.least, range->flexion.most);
 }
 
 void print_limb(const Clip& clip, const Limb& limb, const Facing& facing)
 {
-    fmt::print("{:<10} {} > {} > {}, named by {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
-               name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.from);
-    fmt::print("           {:.6g} + {:.6g} long in the world, scale {:.6g}{}\n", limb.bound.lengths[0],
-               limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
-    fmt::print("           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
-               vector_text(limb.lower_bone));
-    fmt::print("           bends towards {}: {}\n", vector_text(limb.bend), limb.bend_source);
+    say(stdout, "{:<10} {} > {} > {}, named by {}\n", plain_name(limb.name), name_of(clip, limb.upper()),
+        name_of(clip, limb.lower()), name_of(clip, limb.end()), limb.from);
+    say(stdout, "           {:.6g} + {:.6g} long in the world, scale {:.6g}{}\n", limb.bound.lengths[0],
+        limb.bound.lengths[1], limb.scale, limb.mirrored ? ", mirrored" : "");
+    say(stdout, "           bones along {} and {} of their joints' axes\n", vector_text(limb.upper_bone),
+        vector_text(limb.lower_bone));
+    say(stdout, "           bends towards {}: {}\n", vector_text(limb.bend), limb.bend_source);
     print_axes(limb, facing);
     if (const auto inner = between(limb); !inner.empty())
-        fmt::print("           joints in between, which keep their own motion: {}\n", list(clip, inner));
+        say(stdout, "           joints in between, which keep their own motion: {}\n", list(clip, inner));
     if (limb.unevenness > 1e-5)
-        fmt::print("           uneven scales put the {} off by at most {:.1e} of the length\n",
-                   words_of(limb.name.kind).end_joint, limb.unevenness);
-    if (!limb.note.empty()) fmt::print("           note: {}\n", limb.note);
+        say(stdout, "           uneven scales put the {} off by at most {:.1e} of the length\n",
+            words_of(limb.name.kind).end_joint, limb.unevenness);
+    if (!limb.note.empty()) say(stdout, "           note: {}\n", limb.note);
     print_range(clip, limb);
 }
 
@@ -119,9 +120,9 @@ void print_joints(const Clip& clip)
 {
     const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
     for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
-        fmt::print("#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(places_w[joint]),
-                   printable(formats::joint_path(clip, static_cast<int>(joint)), 400),
-                   clip.joints[joint].is_bone ? "" : " (no bone)");
+        say(stdout, "#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(places_w[joint]),
+            printable(formats::joint_path(clip, static_cast<int>(joint)), 400),
+            clip.joints[joint].is_bone ? "" : " (no bone)");
 }
 
 std::vector<double> vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -215,16 +216,16 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
     const Clip& clip = motion.clip();
     const Facing& facing = search.facing;
     const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
-    fmt::print("{}: {}, {} joints, {} of them bones, {} frame{}\n", file, motion.describe(), clip.joints.size(), bones,
-               clip.frame_count, clip.frame_count == 1 ? "" : "s");
-    fmt::print("faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards), facing.source,
-               vector_text(facing.up), facing.up_source);
+    say(stdout, "{}: {}, {} joints, {} of them bones, {} frame{}\n", file, motion.describe(), clip.joints.size(), bones,
+        clip.frame_count, clip.frame_count == 1 ? "" : "s");
+    say(stdout, "faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards), facing.source,
+        vector_text(facing.up), facing.up_source);
     for (const LimbFinding& finding : search.findings) {
         if (finding.limb)
             print_limb(clip, *finding.limb, facing);
         else
-            fmt::print("{:<10} {}: {}\n", plain_name(finding.name), finding.has_joints ? "refused" : "missing",
-                       problem_text(finding));
+            say(stdout, "{:<10} {}: {}\n", plain_name(finding.name), finding.has_joints ? "refused" : "missing",
+                problem_text(finding));
     }
     if (with_joints) print_joints(clip);
 }
@@ -232,18 +233,18 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
 void print_crowd_file(const MotionFile& motion, const std::string& file, const LimbSearch& search)
 {
     const Clip& clip = motion.clip();
-    fmt::print("{}\n", toml_comment("The limbs of " + printable(file, 400)));
+    say(stdout, "{}\n", toml_comment("The limbs of " + printable(file, 400)));
     for (const LimbFinding& finding : search.findings) {
         if (!finding.limb) {
-            fmt::print("\n{}\n",
-                       toml_comment(fmt::format("{} {}: {}", plain_name(finding.name),
-                                                finding.has_joints ? "refused" : "missing", problem_text(finding))));
+            say(stdout, "\n{}\n",
+                toml_comment(fmt::format("{} {}: {}", plain_name(finding.name),
+                                         finding.has_joints ? "refused" : "missing", problem_text(finding))));
             continue;
         }
         const Limb& limb = *finding.limb;
-        fmt::print("\n[limb.{}]\n{}\n", limb_word(limb.name), joints_line(clip, limb));
-        fmt::print("bend = [{:#}, {:#}, {:#}]  {}\n", limb.bend.x(), limb.bend.y(), limb.bend.z(),
-                   toml_comment(limb.bend_source));
+        say(stdout, "\n[limb.{}]\n{}\n", limb_word(limb.name), joints_line(clip, limb));
+        say(stdout, "bend = [{:#}, {:#}, {:#}]  {}\n", limb.bend.x(), limb.bend.y(), limb.bend.z(),
+            toml_comment(limb.bend_source));
     }
 }
 

@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "tools/cli/command_error.h"
-#include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
+#include "tools/cli/signals.h"
+#include "tools/cli/streams.h"
 #include "tools/crowd/crowd_checks.h"
 #include "tools/crowd/given_targets.h"
 #include "tools/crowd/parallel.h"
@@ -47,6 +48,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
     GivenTargets given(job.targets, job.between, file.clip(), job.limbs, job.plan.characters);
     ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
+    const StopSignals signals;  // from here on there may be files to remove
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
     std::optional<formats::TargetsCsv> exported;
@@ -60,7 +62,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
     {
         Progress progress("frames", file.clip().frame_count, options.quiet);
         for (std::size_t frame = 0; frame < file.clip().frame_count; ++frame) {
-            check_interrupt();
+            signals.check();
             progress.show(frame);
             crowd.set_frame(frame, given.of_frame(frame));
             if (exported) exported->append(crowd.targets());
@@ -128,37 +130,35 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
     return job;
 }
 
-void print_report(const SolveOptions& options, const Statistics& statistics, double seconds, std::size_t mended)
+void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, double seconds,
+                  std::size_t mended)
 {
-    print_statistics(statistics);
-    fmt::print("time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
+    print_statistics(to, statistics);
+    say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
     if (mended > 0)
-        fmt::print(
-            "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
+        say(to, "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
             mended, mended == 1 ? "vertex" : "vertices");
     for (const std::string& name : {options.out, options.export_targets})
-        if (!name.empty()) fmt::print("written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
+        if (!name.empty()) say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
 }
 
 }  // namespace
 
 void run_solve(const SolveOptions& options)
 {
-    note_interrupts();
     const auto before = std::chrono::steady_clock::now();
     out_kind(options, options.characters.value_or(1));  // usage errors first
     require_one_reader(options, options.targets.value_or("clip"));
     const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    std::optional<ReportsToStderr> data_goes_out;
-    if (writes_to_standard_output(options)) data_goes_out.emplace();
+    std::FILE* const reports = report_stream(options);
     const MotionFile file(options.file, options.motion);
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
     const Job job = make_job(options, choice, file.clip());
     require_own_files(options, file, job.targets);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing};
-    if (!options.json && !options.quiet) print_clip(facts, file.clip(), job.limbs);
+    if (!options.json && !options.quiet) print_clip(reports, facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);
     const Statistics statistics = solve_clip(options, file, job);
@@ -173,9 +173,9 @@ void run_solve(const SolveOptions& options)
         if (mended > 0) out["mended_vertices"] = mended;
         if (!options.out.empty()) out["out"] = options.out;
         if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
-        print_json(out);
+        print_json(out, reports);
     } else if (!options.quiet) {
-        print_report(options, statistics, seconds, mended);
+        print_report(reports, options, statistics, seconds, mended);
     }
     if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }

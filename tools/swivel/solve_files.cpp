@@ -78,9 +78,9 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
     require("--export-targets", options.export_targets, options.out, "the file of --out");
 }
 
-bool writes_to_standard_output(const SolveOptions& options)
+std::FILE* report_stream(const SolveOptions& options)
 {
-    return is_standard_stream(options.out) || is_standard_stream(options.export_targets);
+    return is_standard_stream(options.out) || is_standard_stream(options.export_targets) ? stderr : stdout;
 }
 
 }  // namespace swivel::tools

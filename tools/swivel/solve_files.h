@@ -26,19 +26,7 @@ void require_one_reader(const SolveOptions& options, const std::string& targets)
 // Nothing that is read is written over, and nothing that is written. Throws CommandError.
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets);
 
-bool writes_to_standard_output(const SolveOptions& options);
-
-// While it lives, reports go to stderr, as stdout is for data. The GNU C Library lets its streams be set like other
-// variables.
-class ReportsToStderr {
-public:
-    ReportsToStderr() { stdout = stderr; }
-    ReportsToStderr(const ReportsToStderr&) = delete;
-    ReportsToStderr& operator=(const ReportsToStderr&) = delete;
-    ~ReportsToStderr() { stdout = before_; }
-
-private:
-    std::FILE* before_ = stdout;
-};
+// Where reports go: stderr, where stdout is for data.
+std::FILE* report_stream(const SolveOptions& options);
 
 }  // namespace swivel::tools

@@ -6,27 +6,27 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tools/cli/streams.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
-void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
+void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    fmt::print("clip     {}: {}, {} joints, {} frame{}, {:.1f} frames/s\n", facts.clip, facts.motion,
-               clip.joints.size(), clip.frame_count, clip.frame_count == 1 ? "" : "s", 1 / clip.frame_time);
+    say(to, "clip     {}: {}, {} joints, {} frame{}, {:.1f} frames/s\n", facts.clip, facts.motion, clip.joints.size(),
+        clip.frame_count, clip.frame_count == 1 ? "" : "s", 1 / clip.frame_time);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
-        fmt::print("{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
-                   side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
-                   limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend),
-                   limb.bend_source);
+        say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
+            side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
+            limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend), limb.bend_source);
     for (const Limb& limb : limbs)
-        if (!limb.note.empty()) fmt::print("note     {}: {}\n", plain_name(limb.name), limb.note);
+        if (!limb.note.empty()) say(to, "note     {}: {}\n", plain_name(limb.name), limb.note);
     for (const LimbFinding& finding : facts.missing)
-        fmt::print("{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
-                   finding.has_joints ? "refused" : "missing", problem_text(finding));
+        say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
+            finding.has_joints ? "refused" : "missing", problem_text(finding));
     std::string counts;
     for (const formats::LimbKind kind : {formats::LimbKind::arm, formats::LimbKind::leg}) {
         const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
@@ -35,9 +35,9 @@ void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<co
             counts += fmt::format(", {} {}{}", count * facts.characters, kind_name(kind),
                                   count * facts.characters == 1 ? "" : "s");
     }
-    fmt::print("crowd    {} character{}{}, targets from {}{}\n", facts.characters, facts.characters == 1 ? "" : "s",
-               counts, facts.targets == "clip" ? "the clip" : facts.targets,
-               facts.crowd.empty() ? "" : fmt::format(", all else from {}", facts.crowd));
+    say(to, "crowd    {} character{}{}, targets from {}{}\n", facts.characters, facts.characters == 1 ? "" : "s",
+        counts, facts.targets == "clip" ? "the clip" : facts.targets,
+        facts.crowd.empty() ? "" : fmt::format(", all else from {}", facts.crowd));
 }
 
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)

@@ -3,6 +3,7 @@
 // What `swivel solve` says of its work before the figures: the clip, the limbs bound, the crowd.
 #pragma once
 
+#include <cstdio>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -20,8 +21,8 @@ struct SolveFacts {
     std::span<const LimbFinding> missing{};  // limbs that were asked for and do not bind
 };
 
-// Lines for people, on stdout.
-void print_clip(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
+// Lines for people, on stdout or stderr.
+void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 // What makes them differ, in their order.
 nlohmann::ordered_json json_of(std::span<const Character> characters);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
+#include "tools/cli/streams.h"
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/golden.h"
 #include "tools/crowd/parallel.h"
@@ -107,32 +109,50 @@ std::vector<Digest> all_digests(bool quiet)
 
 bool is_within(const swivel_check& c) { return c.max <= c.max_limit && (c.rms_limit == 0 || c.rms <= c.rms_limit); }
 
-void print_check(const swivel_check* c, void*)
+void print_check(const swivel_check& c)
 {
-    const std::string rms_limit = c->rms_limit > 0 ? fmt::format(" <= {:.1e}", c->rms_limit) : "";
-    fmt::print("{:<46} {:<18} {:>8}  max {:.2e} <= {:.0e}  rms {:.2e}{:<11}{}\n", c->name, c->set, c->arm_count, c->max,
-               c->max_limit, c->rms, rms_limit, is_within(*c) ? "" : "  FAILED");
+    const std::string rms_limit = c.rms_limit > 0 ? fmt::format(" <= {:.1e}", c.rms_limit) : "";
+    say(stdout, "{:<46} {:<18} {:>8}  max {:.2e} <= {:.0e}  rms {:.2e}{:<11}{}\n", c.name, c.set, c.arm_count, c.max,
+        c.max_limit, c.rms, rms_limit, is_within(c) ? "" : "  FAILED");
 }
 
-void append_check(const swivel_check* c, void* list)
+void append_check(const swivel_check& c, nlohmann::ordered_json& list)
 {
-    static_cast<nlohmann::ordered_json*>(list)->push_back({{"name", c->name},
-                                                           {"set", c->set},
-                                                           {"arms", c->arm_count},
-                                                           {"max", c->max},
-                                                           {"rms", c->rms},
-                                                           {"max_limit", c->max_limit},
-                                                           {"rms_limit", c->rms_limit},
-                                                           {"passed", is_within(*c)}});
+    list.push_back({{"name", c.name},
+                    {"set", c.set},
+                    {"arms", c.arm_count},
+                    {"max", c.max},
+                    {"rms", c.rms},
+                    {"max_limit", c.max_limit},
+                    {"rms_limit", c.rms_limit},
+                    {"passed", is_within(c)}});
+}
+
+// What hears of the checks. An exception may not pass the library: it waits.
+struct Listener {
+    bool json;
+    nlohmann::ordered_json checks = nlohmann::ordered_json::array();
+    std::exception_ptr failure{};
+};
+
+void hear(const swivel_check* c, void* context)
+{
+    Listener& listener = *static_cast<Listener*>(context);
+    if (listener.failure) return;
+    try {
+        listener.json ? append_check(*c, listener.checks) : print_check(*c);
+    } catch (...) {
+        listener.failure = std::current_exception();
+    }
 }
 
 void print_digests(const std::vector<Digest>& digests)
 {
     for (const Digest& d : digests) {
-        fmt::print("digest  {:<8} {:<16}", d.isa, d.how);
+        say(stdout, "digest  {:<8} {:<16}", d.isa, d.how);
         for (std::size_t n = 0; n < d.parts.size(); ++n)
-            fmt::print("  {} {:016x}", corpus::name_of(corpus::kParts[n]), d.parts[n]);
-        fmt::print("{}\n", d.is_right() ? "" : "  DIFFERS");
+            say(stdout, "  {} {:016x}", corpus::name_of(corpus::kParts[n]), d.parts[n]);
+        say(stdout, "{}\n", d.is_right() ? "" : "  DIFFERS");
     }
 }
 nlohmann::ordered_json json_of(const std::vector<Digest>& digests)
@@ -167,19 +187,22 @@ std::string what_is_wrong(const Digest& digest)
 void run_verify(const VerifyOptions& options)
 {
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    nlohmann::ordered_json checks = nlohmann::ordered_json::array();
+    Listener listener{options.json};
     int passed = 0;
-    check(swivel_verify(options.arms, options.seed, options.json ? append_check : print_check, &checks, &passed));
+    check(swivel_verify(options.arms, options.seed, hear, &listener, &passed));
+    if (listener.failure) std::rethrow_exception(listener.failure);
 
     const std::vector<Digest> digests = all_digests(options.quiet);
     const auto wrong = std::ranges::find_if(digests, [](const Digest& d) { return !d.is_right(); });
     const bool equal = wrong == digests.end();
     if (options.json) {
-        print_json(
-            {{"checks", checks}, {"equal_digests", equal}, {"passed", passed && equal}, {"digests", json_of(digests)}});
+        print_json({{"checks", listener.checks},
+                    {"equal_digests", equal},
+                    {"passed", passed && equal},
+                    {"digests", json_of(digests)}});
     } else {
         print_digests(digests);
-        fmt::print("{}\n", passed && equal ? "all checks passed, all digests are the golden ones" : "FAILED");
+        say(stdout, "{}\n", passed && equal ? "all checks passed, all digests are the golden ones" : "FAILED");
     }
     if (!passed) throw CommandError(1, "verify: a check is over its limit; the lines marked FAILED say which");
     if (!equal) throw CommandError(1, "verify: " + what_is_wrong(*wrong));
