@@ -56,7 +56,7 @@ std::vector<LimbJoints> chains(const Clip& clip, const std::array<std::vector<in
     for (const int end : bearers[2]) {
         if (!have_both[static_cast<std::size_t>(end)]) continue;
         for (int lower = joint_at(clip, end).parent; lower >= 0; lower = joint_at(clip, lower).parent) {
-            if (!is_in(bearers[1], lower)) continue;
+            if (!is_in(bearers[1], lower) || !have_upper[static_cast<std::size_t>(lower)]) continue;
             for (int upper = joint_at(clip, lower).parent; upper >= 0; upper = joint_at(clip, upper).parent) {
                 if (is_in(bearers[0], upper)) found.push_back({upper, lower, end});
                 if (found.size() == kMostCandidates) return found;
