@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/clip.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
 #include "tools/formats/text.h"
@@ -159,13 +161,19 @@ std::vector<int> child_joints(const Clip& clip, int joint)
     return children;
 }
 
+std::vector<int> bones_of(const Clip& clip)
+{
+    std::vector<int> bones;
+    for (int joint = 0; joint < static_cast<int>(clip.joints.size()); ++joint)
+        if (joint_at(clip, joint).is_bone) bones.push_back(joint);
+    return bones;
+}
+
 std::string joint_path(const Clip& clip, int joint)
 {
-    std::string path = joint_at(clip, joint).name;
-    for (int up = joint_at(clip, joint).parent; up >= 0; up = joint_at(clip, up).parent) {
-        path = joint_at(clip, up).name + '/' + path;
-    }
-    return path;
+    std::vector<std::string_view> names;
+    for (; joint >= 0; joint = joint_at(clip, joint).parent) names.push_back(joint_at(clip, joint).name);
+    return fmt::format("{}", fmt::join(names.rbegin(), names.rend(), "/"));
 }
 
 }  // namespace swivel::formats

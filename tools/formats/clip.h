@@ -110,6 +110,9 @@ std::vector<int> find_joints(const Clip& clip, std::string_view name_or_path);
 // The direct children of a joint, in the clip's order; of -1, the roots. Looks at every joint.
 std::vector<int> child_joints(const Clip& clip, int joint);
 
+// All joints that are bones.
+std::vector<int> bones_of(const Clip& clip);
+
 // Names from the root down to the joint, with slashes between: "Hips/Spine/LeftArm".
 std::string joint_path(const Clip& clip, int joint);
 

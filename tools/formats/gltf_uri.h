@@ -11,6 +11,20 @@ namespace swivel::formats {
 // Whether the address holds its bytes itself.
 bool is_data_uri(const std::string& uri);
 
+// Every address of the document, but none in `extras`, which are the user's own: call(object) gets each object with a
+// text `uri`. Document: an ordered_json, const or not.
+template <class Document, class Call>
+void for_each_uri(Document& document, const Call& call)
+{
+    if (document.is_object()) {
+        if (const auto uri = document.find("uri"); uri != document.end() && uri->is_string()) call(document);
+        for (auto at = document.begin(); at != document.end(); ++at)
+            if (at.key() != "extras") for_each_uri(at.value(), call);
+    } else if (document.is_array()) {
+        for (auto& each : document) for_each_uri(each, call);
+    }
+}
+
 // The file that a relative address names for the glTF file `beside`, percent signs resolved. Empty for an address with
 // a scheme or of an absolute path: no file of a glTF asset lies there.
 std::filesystem::path file_at(const std::string& uri, const std::filesystem::path& beside);

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "tools/crowd/statistics.h"
+#include "tools/formats/clip.h"
 
 namespace swivel::tools {
 
@@ -15,6 +16,9 @@ namespace swivel::tools {
 std::string what_went_wrong(const Statistics& statistics);
 void print_statistics(const Statistics& statistics);
 nlohmann::ordered_json json_of(const Statistics& statistics);
+
+// Seconds from frame to frame; null where frames are uneven.
+nlohmann::ordered_json frame_time_of(const formats::Clip& clip);
 
 // Prints JSON on stdout; bytes of file and joint names that are not UTF-8 are replaced.
 void print_json(const nlohmann::ordered_json& json);

@@ -22,7 +22,8 @@ void run_rig(const RigOptions& options)
     if (options.toml && (options.json || options.joints))
         throw CommandError(2, "--toml prints a crowd file and nothing else; leave out --json and --joints");
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    const MotionFile motion(options.file, options.motion);
+    MotionFile motion(options.file, options.motion);
+    motion.sample(bones_of(motion.clip()));
     LimbChoice choice;
     choice.kinds = options.kinds;
     for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));

@@ -122,6 +122,10 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
     job.doubt = std::move(found.doubt);
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
+    if (clip.frame_time == 0 && job.plan.characters > 1)
+        throw formats::InputError(options.file,
+                                  "its keys lie at uneven times, and the characters of a crowd start at "
+                                  "different frames; give --fps");
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
     require_one_reader(options, job.targets);
@@ -129,14 +133,10 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
     return job;
 }
 
-void print_report(const SolveOptions& options, const Statistics& statistics, double seconds, std::size_t mended)
+void print_report(const SolveOptions& options, const Statistics& statistics, double seconds)
 {
     print_statistics(statistics);
     fmt::print("time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
-    if (mended > 0)
-        fmt::print(
-            "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
-            mended, mended == 1 ? "vertex" : "vertices");
     for (const std::string& name : {options.out, options.export_targets})
         if (!name.empty()) fmt::print("written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
 }
@@ -153,7 +153,8 @@ void run_solve(const SolveOptions& options)
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     std::optional<ReportsToStderr> data_goes_out;
     if (writes_to_standard_output(options)) data_goes_out.emplace();
-    const MotionFile file(options.file, options.motion);
+    MotionFile file(options.file, options.motion);
+    file.sample(bones_of(file.clip()));
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
     const Job job = make_job(options, choice, file.clip());
     require_own_files(options, file, job.targets);
@@ -163,20 +164,17 @@ void run_solve(const SolveOptions& options)
 
     const ThreadLimit limit(options.threads);
     const Statistics statistics = solve_clip(options, file, job);
-    const bool has_motion = out_kind(options, job.plan.characters) == OutKind::motion;
-    const std::size_t mended = has_motion ? file.mended_vertex_count() : 0;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
         nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
         out["each_character"] = json_of(characters_of(job.plan, job.limbs, file.clip().frame_count));
         out.update(json_of(statistics));
         out["seconds"] = seconds;
-        if (mended > 0) out["mended_vertices"] = mended;
         if (!options.out.empty()) out["out"] = options.out;
         if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
         print_json(out);
     } else if (!options.quiet) {
-        print_report(options, statistics, seconds, mended);
+        print_report(options, statistics, seconds);
     }
     if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }
