@@ -43,13 +43,10 @@ struct Buffer {
 
 std::string bytes_in_text(const Buffer& buffer, const std::string& uri)
 {
-    const std::size_t comma = std::min(uri.find(','), uri.size() - 1);
-    const bool is_base64 = std::string_view(uri).substr(0, comma + 1).ends_with(";base64,");
-    std::optional<std::string> bytes;
-    if (is_base64) bytes = bytes_of_base64(std::string_view(uri).substr(comma + 1));
-    if (!bytes) buffer.refuse("has an uri that is no base64; export it with a .bin file or as .glb");
-    buffer.require(bytes->size(), "its uri");
-    return *std::move(bytes);
+    std::optional<DataUri> data = data_of(uri);
+    if (!data) buffer.refuse("has an uri that is no base64; export it with a .bin file or as .glb");
+    buffer.require(data->bytes.size(), "its uri");
+    return std::move(data->bytes);
 }
 
 // The file at a buffer's address, which has the bytes, as far as can be known without reading it.

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,11 +28,5 @@ GltfContainer read_gltf_container(const std::filesystem::path& path, std::FILE* 
 
 // A GLB of it, chunks padded to four bytes. Throws std::length_error beyond the format's 4 GiB.
 std::string glb_of(const GltfContainer& container);
-
-// `bytes` as RFC 4648 base64, with padding.
-std::string base64_of(std::string_view bytes);
-
-// What base64 stands for, with or without padding; nothing where it is none.
-std::optional<std::string> bytes_of_base64(std::string_view text);
 
 }  // namespace swivel::formats

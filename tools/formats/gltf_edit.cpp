@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/gltf_edit.h"
 
+#include <optional>
+
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/gltf_keys.h"
 #include "tools/formats/gltf_uri.h"
@@ -11,14 +13,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-std::string data_uri(std::string_view bytes) { return "data:application/octet-stream;base64," + base64_of(bytes); }
-
 // Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
 void settle_text(GltfAsset& asset, std::span<const std::string_view> buffers)
 {
     Json& list = asset.list("buffers");
     for (std::size_t n = 0; n < list.size(); ++n)
-        if (!list[n].contains("uri")) list[n]["uri"] = data_uri(buffers[n]);
+        if (!list[n].contains("uri")) list[n]["uri"] = data_uri_of(buffers[n]);
     asset.buffer = list.size();
     list.push_back({{"byteLength", 0}});
 }
@@ -53,6 +53,23 @@ void settle_binary(GltfAsset& asset, std::span<const std::string_view> buffers)
     list[0].erase("uri");
 }
 
+// A picture in the text of a GLB is one that the validator warns of; in the chunk it is as it should be.
+void move_pictures_into_chunk(GltfAsset& asset)
+{
+    const auto images = asset.document.find("images");
+    if (images == asset.document.end() || !images->is_array()) return;
+    for (Json& image : *images) {
+        const std::string uri =
+            image.is_object() && image.contains("uri") && image["uri"].is_string() ? image["uri"] : "";
+        const std::optional<DataUri> data = data_of(uri);
+        if (!data || data->kind.empty()) continue;
+        image.erase("uri");
+        if (!image.contains("mimeType")) image["mimeType"] = data->kind;
+        image["bufferView"] = asset.list("bufferViews").size();
+        asset.list("bufferViews").push_back(asset.add_bytes(data->bytes));
+    }
+}
+
 }  // namespace
 
 GltfContainer with_changes(const GltfContainer& file, std::span<const std::string_view> buffers,
@@ -61,10 +78,12 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
     GltfAsset asset;
     asset.document = gltf_document(from, file.json);
     asset.open_lists();
-    if (binary)
+    if (binary) {
         settle_binary(asset, buffers);
-    else
+        move_pictures_into_chunk(asset);
+    } else {
         settle_text(asset, buffers);
+    }
     for_each_uri(asset.document, [&](Json& object) {
         const std::string uri = object["uri"];
         if (!is_data_uri(uri)) object["uri"] = moved_uri(uri, from, to);
@@ -73,7 +92,7 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
     Json& list = asset.list("buffers");
     list[asset.buffer]["byteLength"] = asset.bytes.size();
     if (!binary && asset.bytes.empty()) list.erase(asset.buffer);
-    if (!binary && !asset.bytes.empty()) list[asset.buffer]["uri"] = data_uri(asset.bytes);
+    if (!binary && !asset.bytes.empty()) list[asset.buffer]["uri"] = data_uri_of(asset.bytes);
     if (binary && asset.bytes.empty() && buffers.empty()) list.clear();
     asset.drop_empty_lists();
     GltfContainer out;

@@ -107,7 +107,7 @@ private:
                                          [&](const Json& each) { return each.at("sampler") == old; });
         if (users > 1) {
             (*channel)["sampler"] = next;
-            samplers_.push_back(Json(samplers_[old]));
+            samplers_.push_back(Json::object());
             return {next, {}, {}};
         }
         const Place place{old, samplers_[old].at("input"), samplers_[old].at("output")};

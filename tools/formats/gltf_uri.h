@@ -4,12 +4,25 @@
 // glTF file moves. Reads nothing.
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace swivel::formats {
 
 // Whether the address holds its bytes itself.
-bool is_data_uri(const std::string& uri);
+bool is_data_uri(std::string_view uri);
+
+struct DataUri {
+    std::string kind;  // "image/png"; may be empty
+    std::string bytes;
+};
+
+// What an address holds itself as base64; nothing for any other. Of a fault in the base64 there is nothing, too.
+std::optional<DataUri> data_of(std::string_view uri);
+
+// An address that holds these bytes.
+std::string data_uri_of(std::string_view bytes);
 
 // Every address of the document, but none in `extras`, which are the user's own: call(object) gets each object with a
 // text `uri`. Document: an ordered_json, const or not.
