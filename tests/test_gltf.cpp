@@ -272,7 +272,8 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     says(text("HIERARCHY"), "is not glTF: it starts neither with 'glTF' nor with '{'");
     says(text("[]"), "is not glTF: it starts neither");
     says(text("{\"asset\":}"), "is not glTF: parse error at line 1, column 10");
-    says(text(good.substr(0, 15)), "cut short");
+    says(text(good.substr(0, 10)), "cut short");
+    says(text(good.substr(0, 15)), "bytes and has 15");
     says(text(good.substr(0, good.size() - 4)), "bytes and has");
     says(text(std::string("glTF\1\0\0\0", 8) + good.substr(8)), "version 1");
     says(text("{\"a\":" + std::string(100'000, '[')), "nested deeper");

@@ -25,7 +25,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 using Eigen::Vector4d;
 
 [[noreturn]] void refuse(const GltfFile& file, const std::string& cause) { throw InputError(file.path, cause); }
@@ -177,7 +177,8 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     file.path = path;
     file.choice = choice;
     file.container = std::move(container);
-    const Json document = gltf_document(path, file.container.json);
+    const GltfDocument text = gltf_document(path, file.container.json);
+    const Json& document = *text;
     file.files_beside = files_beside(path, document);
     GltfBuffers buffers = read_gltf_buffers(path, document, file.container);
     file.buffers = std::move(buffers.bytes);

@@ -16,7 +16,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 [[noreturn]] void refuse(const GltfData& data, const std::string& cause) { throw InputError(data.path, cause); }
 

@@ -15,7 +15,7 @@ namespace swivel::formats {
 // What accessors lie in; borrowed. The document is one that check_members() has passed.
 struct GltfData {
     const std::filesystem::path& path;  // of the file, for messages
-    const nlohmann::ordered_json& document;
+    const nlohmann::json& document;
     std::span<const std::string_view> buffers;
 };
 

@@ -82,7 +82,7 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
 
 // Buffers by the addresses of their files, which several may share; of one address the largest. Throws InputError where
 // these and all other buffers come to more than kMostBytes.
-std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::ordered_json& list)
+std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::json& list)
 {
     std::map<std::string, Buffer> files;
     std::uintmax_t total = 0;
@@ -106,7 +106,7 @@ std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::ord
 
 }  // namespace
 
-GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::ordered_json& document, GltfContainer& container)
+GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& document, GltfContainer& container)
 {
     GltfBuffers buffers;
     const auto list = document.find("buffers");

@@ -24,7 +24,7 @@ struct GltfBuffers {
 // the buffer, where its bytes are missing, too few, at an address that is not relative, or in a file that lies outside
 // the glTF file's folder, links followed; and for more than 8 GiB in files. Reads plain files only, each address once;
 // allocates what the buffers say they hold and the files do.
-GltfBuffers read_gltf_buffers(const std::filesystem::path& path, const nlohmann::ordered_json& document,
+GltfBuffers read_gltf_buffers(const std::filesystem::path& path, const nlohmann::json& document,
                               GltfContainer& container);
 
 }  // namespace swivel::formats

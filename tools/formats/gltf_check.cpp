@@ -17,7 +17,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 constexpr const char *kIndex = "a whole number from 0 to 2147483647", *kSize = "a whole number of bytes";
 

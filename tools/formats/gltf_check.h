@@ -11,6 +11,6 @@ namespace swivel::formats {
 // and buffers.
 // Throws InputError, naming the element, for a list or an element of a wrong type, and for a member that is missing or
 // is not what the specification says. Allocates little; any number of threads may call it.
-void check_members(const std::filesystem::path& path, const nlohmann::ordered_json& document);
+void check_members(const std::filesystem::path& path, const nlohmann::json& document);
 
 }  // namespace swivel::formats

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/gltf_edit.h"
 
+#include <cstdint>
 #include <optional>
 
 #include "tools/formats/gltf_json.h"
@@ -10,7 +11,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 // Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
@@ -26,10 +27,13 @@ void settle_text(GltfAsset& asset, std::span<const std::string_view> buffers)
 // What names a part of a buffer, itself or in an extension of its own, names it in the chunk now.
 void move_into_chunk(Json& view, std::span<const std::size_t> begins)
 {
-    if (view.contains("buffer") && view["buffer"].is_number_unsigned() && view["buffer"] < begins.size()) {
-        const std::size_t begin = begins[view["buffer"].get<std::size_t>()];
+    const auto number = [&](const char* member) {
+        const auto found = view.find(member);
+        return found != view.end() && found->is_number_unsigned() ? found->get<std::size_t>() : SIZE_MAX;
+    };
+    if (const std::size_t buffer = number("buffer"), offset = number("byteOffset"); buffer < begins.size()) {
         view["buffer"] = 0;
-        if (begin > 0) view["byteOffset"] = begin + view.value("byteOffset", std::size_t{0});
+        if (begins[buffer] > 0) view["byteOffset"] = begins[buffer] + (offset == SIZE_MAX ? 0 : offset);
     }
     if (const auto extensions = view.find("extensions"); extensions != view.end() && extensions->is_object())
         for (Json& extension : *extensions)
@@ -56,8 +60,8 @@ void settle_binary(GltfAsset& asset, std::span<const std::string_view> buffers)
 // A picture in the text of a GLB is one that the validator warns of; in the chunk it is as it should be.
 void move_pictures_into_chunk(GltfAsset& asset)
 {
-    const auto images = asset.document.find("images");
-    if (images == asset.document.end() || !images->is_array()) return;
+    const auto images = asset.document->find("images");
+    if (images == asset.document->end() || !images->is_array()) return;
     for (Json& image : *images) {
         const std::string uri =
             image.is_object() && image.contains("uri") && image["uri"].is_string() ? image["uri"] : "";
@@ -77,14 +81,13 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
 {
     GltfAsset asset;
     asset.document = gltf_document(from, file.json);
-    asset.open_lists();
     if (binary) {
         settle_binary(asset, buffers);
         move_pictures_into_chunk(asset);
     } else {
         settle_text(asset, buffers);
     }
-    for_each_uri(asset.document, [&](Json& object) {
+    for_each_uri(*asset.document, [&](Json& object) {
         const std::string uri = object["uri"];
         if (!is_data_uri(uri)) object["uri"] = moved_uri(uri, from, to);
     });
@@ -96,7 +99,7 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
     if (binary && asset.bytes.empty() && buffers.empty()) list.clear();
     asset.drop_empty_lists();
     GltfContainer out;
-    out.json = asset.document.dump();
+    out.json = asset.document->dump();
     out.is_binary = binary;
     if (binary) {
         out.bytes = std::move(asset.bytes);

@@ -13,7 +13,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 // How deep brackets lie in each other, those in strings aside.
@@ -43,13 +43,24 @@ std::string cause_of(const Json::exception& error)
     return printable(end == std::string_view::npos ? said : said.substr(end + 2), 160);
 }
 
-Json parse(const fs::path& path, std::string_view text)
+// Takes all out that is in it, as deep as parse() lets it be.
+void empty(Json& value) noexcept
+{
+    if (!value.is_structured()) return;
+    for (Json& each : value) empty(each);
+    value.clear();
+}
+
+GltfDocument parse(const fs::path& path, std::string_view text)
 {
     if (depth_of(text) > 500)
         throw InputError(path, "its JSON is nested deeper than 500 levels; no exporter does that");
     try {
-        Json document = Json::parse(text);
-        if (document.is_object()) return document;
+        GltfDocument document(new Json);
+        nlohmann::detail::json_sax_dom_parser<Json> builder(
+            *document);  // what Json::parse() uses, into a document of ours
+        Json::sax_parse(text, &builder);
+        if (document->is_object()) return document;
     } catch (const Json::exception& error) {
         throw InputError(path, fmt::format("is not glTF: {}", cause_of(error)));
     }
@@ -68,11 +79,17 @@ void refuse_compression(const fs::path& path, const Json& document)
 
 }  // namespace
 
-Json gltf_document(const fs::path& path, std::string_view json)
+void FreeDocument::operator()(Json* document) const noexcept
 {
-    Json document = parse(path, json);
-    refuse_compression(path, document);
-    check_members(path, document);
+    empty(*document);
+    delete document;
+}
+
+GltfDocument gltf_document(const fs::path& path, std::string_view json)
+{
+    GltfDocument document = parse(path, json);
+    refuse_compression(path, *document);
+    check_members(path, *document);
     return document;
 }
 

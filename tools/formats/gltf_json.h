@@ -3,13 +3,21 @@
 // A glTF file's JSON text as a document. Knows which documents are refused, not what they say.
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 namespace swivel::formats {
 
+// Frees a document without asking for memory. The library's own destructor does ask, and where there is none the
+// program ends.
+struct FreeDocument {
+    void operator()(nlohmann::json* document) const noexcept;
+};
+using GltfDocument = std::unique_ptr<nlohmann::json, FreeDocument>;
+
 // The text as a document. Throws InputError for text that is no JSON object or is nested deeper than 500 levels, for
 // members that check_members() refuses, and if the document says that its buffers are compressed.
-nlohmann::ordered_json gltf_document(const std::filesystem::path& path, std::string_view json);
+GltfDocument gltf_document(const std::filesystem::path& path, std::string_view json);
 
 }  // namespace swivel::formats

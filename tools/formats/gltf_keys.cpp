@@ -2,17 +2,15 @@
 #include "tools/formats/gltf_keys.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 constexpr int kFloat = 5126;  // glTF's componentType
-constexpr std::array kGrowing = {"buffers", "bufferViews", "accessors"};
 
 // How many members of the document name each accessor, or each buffer view.
 using Uses = std::map<std::size_t, int>;
@@ -64,13 +62,13 @@ public:
     KeyWriter(GltfAsset& asset, Json& animation, const GltfChanges& changes)
         : asset_(asset), changes_(changes), channels_(animation["channels"]), samplers_(animation["samplers"])
     {
-        count_uses(asset.document, accessor_uses_, view_uses_);
+        count_uses(*asset.document, accessor_uses_, view_uses_);
     }
 
     void write()
     {
         for (const GltfChanges::Track& track : changes_.tracks) {
-            take_matrix_apart(asset_.document["nodes"][static_cast<std::size_t>(track.node)], track);
+            take_matrix_apart(asset_.list("nodes")[static_cast<std::size_t>(track.node)], track);
             places_.push_back(place_of(track.node));
         }
         for (const auto& [accessor, uses] : accessor_uses_)
@@ -117,22 +115,19 @@ private:
     }
 
     // A sparse accessor has more buffer views than one, and stays.
-    bool is_free(std::size_t accessor) const
+    bool is_free(std::size_t accessor)
     {
         const auto uses = accessor_uses_.find(accessor);
-        const Json& at = asset_.document.at("accessors");
+        const Json& at = asset_.list("accessors");
         return uses != accessor_uses_.end() && uses->second == 0 && accessor < at.size() &&
                at[accessor].contains("bufferView") && !at[accessor].contains("sparse");
     }
-    std::size_t view_of(std::size_t accessor) const
-    {
-        return asset_.document.at("accessors")[accessor].at("bufferView");
-    }
+    std::size_t view_of(std::size_t accessor) { return asset_.list("accessors")[accessor].at("bufferView"); }
 
     // Puts an element into a list, in the place of a free one if there is one, whose own name it keeps. Its index.
     std::size_t put(const char* list, std::optional<std::size_t> place, Json element)
     {
-        Json& all = asset_.document[list];
+        Json& all = asset_.list(list);
         if (!place) {
             all.push_back(std::move(element));
             return all.size() - 1;
@@ -168,8 +163,8 @@ private:
         if (!times_.empty() && !(old && is_free(*old))) return times_.front();
         if (times_.empty()) times_view_ = asset_.add_bytes({reinterpret_cast<const char*>(all.data()), 4 * all.size()});
         const std::size_t at = put_accessor(old, times_view_, all.size(), "SCALAR");
-        asset_.document["accessors"][at]["min"] = {all.front()};
-        asset_.document["accessors"][at]["max"] = {all.back()};
+        asset_.list("accessors")[at]["min"] = {all.front()};
+        asset_.list("accessors")[at]["max"] = {all.back()};
         times_.push_back(at);
         return at;
     }
@@ -187,20 +182,15 @@ private:
 
 Json& GltfAsset::list(const char* name)
 {
-    Json& found = document[name];
+    Json& found = (*document)[name];
     if (!found.is_array()) found = Json::array();
     return found;
 }
 
-void GltfAsset::open_lists()
-{
-    for (const char* name : kGrowing) list(name);
-}
-
 void GltfAsset::drop_empty_lists()
 {
-    for (const char* name : kGrowing)
-        if (document[name].empty()) document.erase(name);
+    for (const char* name : {"buffers", "bufferViews", "accessors"})
+        if (list(name).empty()) document->erase(name);
 }
 
 Json GltfAsset::add_bytes(std::string_view content)
@@ -218,7 +208,7 @@ void add_keys(GltfAsset& asset, const GltfChanges& changes)
     const int at = changes.animation;
     if (at < 0) animations.push_back({{"name", "swivel"}});
     Json& animation = at < 0 ? animations.back() : animations[static_cast<std::size_t>(at)];
-    for (const char* name : {"channels", "samplers"})  // both, before a reference is taken to one
+    for (const char* name : {"channels", "samplers"})
         if (!animation.contains(name)) animation[name] = Json::array();
     KeyWriter(asset, animation, changes).write();
 }

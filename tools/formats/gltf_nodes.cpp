@@ -14,7 +14,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 

@@ -14,6 +14,6 @@ namespace swivel::formats {
 // each node. document: one that check_members() has passed. Throws InputError for nodes that do not exist, have two
 // parents, stand in a circle, or are not there at all, and for transforms that turn or scale to nothing.
 // Takes time in proportion to the nodes, however they hang on each other.
-std::vector<int> read_nodes(const std::filesystem::path& path, const nlohmann::ordered_json& document, Clip& clip);
+std::vector<int> read_nodes(const std::filesystem::path& path, const nlohmann::json& document, Clip& clip);
 
 }  // namespace swivel::formats
