@@ -66,9 +66,16 @@ void append(const std::filesystem::path& path, std::FILE* file, std::size_t most
     }
 }
 
-void require_end(const std::filesystem::path& path, const std::string& bytes)
+// The rest of a file, appended to `bytes`.
+template <class Read>
+void append_all(const std::filesystem::path& path, std::FILE* file, std::string& bytes, Read read)
 {
-    if (bytes.size() > kMostBytes) throw InputError(path, "is longer than 2 GiB; cut it, or write it as .glb");
+    const auto require = [&](std::size_t size) {
+        if (size > kMostBytes) throw InputError(path, "is longer than 2 GiB; cut it, or write it as .glb");
+    };
+    require(bytes.size() + size_beyond(file));  // a plain file need not be read for this
+    append(path, file, kMostBytes + 1 - bytes.size(), bytes, read);
+    require(bytes.size());
 }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -106,9 +113,8 @@ std::string read_text(const std::filesystem::path& path)
 {
     const TextFile file = open_text(path);
     std::string text;
-    append(path, file.get(), kMostBytes + 1, text, read_chunk);
+    append_all(path, file.get(), text, read_chunk);
     if (text.empty()) throw InputError(path, "is empty; check how it was written");
-    require_end(path, text);
     return text;
 }
 
@@ -119,8 +125,7 @@ void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_
 
 void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes)
 {
-    append_bytes(path, file, kMostBytes + 1 - std::min(bytes.size(), kMostBytes), bytes);
-    require_end(path, bytes);
+    append_all(path, file, bytes, read_some);
 }
 
 std::string_view take_word(std::string_view& rest)
