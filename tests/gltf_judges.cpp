@@ -24,9 +24,22 @@ std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::
     for (const auto& message : reports.at(0).at("messages"))
         if (message.at("severity") == 0)
             errors.insert(message.dump());
-        else if (warnings)
+        else if (warnings && message.at("severity") == 1)
             warnings->insert(message.dump());
     return errors;
+}
+
+std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written)
+{
+    const nlohmann::json reports = ask_check({"validate", source.string(), written.string()});
+    std::multiset<std::string> said;
+    const auto text = [](const nlohmann::json& message) {
+        return message.at("code").get<std::string>() + ' ' + message.value("pointer", "");
+    };
+    for (const auto& message : reports.at(1).at("messages")) said.insert(text(message));
+    for (const auto& message : reports.at(0).at("messages"))
+        if (const auto known = said.find(text(message)); known != said.end()) said.erase(known);
+    return said;
 }
 
 std::vector<std::vector<Eigen::Matrix4d>> three_poses(const fs::path& path, int animation,

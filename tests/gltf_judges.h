@@ -19,6 +19,9 @@ nlohmann::json ask_check(std::vector<std::string> arguments);
 // The validator's errors, each as text; and in `warnings`, where given, its warnings.
 std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::string>* warnings = nullptr);
 
+// The validator's messages of every kind about `written` that it does not have about `source`, code and place of each.
+std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written);
+
 // [time][node]: world matrices as three.js plays the file.
 std::vector<std::vector<Eigen::Matrix4d>> three_poses(const fs::path& path, int animation,
                                                       const std::vector<double>& times);

@@ -39,7 +39,8 @@ PlainGltf plain_gltf_of(const fs::path& path)
         gltf.json = nlohmann::json::parse(file);
     }
     for (const auto& buffer : gltf.json.value("buffers", nlohmann::json::array())) {
-        const std::string uri = buffer.value("uri", "");
+        std::string uri = buffer.value("uri", "");
+        for (std::size_t at; (at = uri.find("%20")) != std::string::npos;) uri.replace(at, 3, " ");
         if (uri.empty())
             gltf.buffers.push_back(chunk);
         else if (uri.starts_with("data:"))

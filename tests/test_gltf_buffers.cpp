@@ -3,14 +3,12 @@
 // Where the bytes of glTF files come from: the file itself and plain files at addresses relative to it, nowhere else.
 #include <catch2/catch.hpp>
 
-#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <fstream>
-#include <thread>
 
+#include "tests/gltf_judges.h"
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
 #include "tests/run_command.h"
@@ -39,6 +37,20 @@ std::string text_with(const json& buffer)
     json whole = moving_rig().json;
     whole["buffers"] = json::array({buffer});
     return whole.dump();
+}
+
+std::string plain_base64_of(std::string_view bytes)
+{
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += 6) {
+        unsigned digit = 0;
+        for (std::size_t n = bit; n < bit + 6; ++n)
+            digit =
+                2 * digit + (n / 8 < bytes.size() ? static_cast<unsigned char>(bytes[n / 8]) >> (7 - n % 8) & 1u : 0u);
+        text += kDigits[digit];
+    }
+    return text;
 }
 
 // A file of zeros that takes no room on the disk.
@@ -88,7 +100,16 @@ TEST_CASE("gltf buffers: files are looked for relative to the glTF file and nowh
     CHECK(read("a%20b.bin") == 32);
     CHECK(read("a b.bin") == 32);
     CHECK(read("side/deep.bin") == 32);
-    CHECK(read("../up.bin") == 32);
+    fs::create_symlink("side/deep.bin", "in/inner.bin");
+    CHECK(read("inner.bin") == 32);
+    const char* outside = "outside the file's own folder; put it beside the file";
+    CHECK_THROWS_WITH(read("../up.bin"), Contains("buffer 0 lies in '../up.bin', ") && Contains(outside));
+    CHECK_THROWS_WITH(read("side/../../up.bin"), Contains(outside));
+    CHECK_THROWS_WITH(read("%2E%2E/up.bin"), Contains(outside));
+    fs::create_symlink(folder / "up.bin", "in/outer.bin");
+    fs::create_directory_symlink("..", "in/outer");
+    CHECK_THROWS_WITH(read("outer.bin"), Contains(outside));
+    CHECK_THROWS_WITH(read("outer/up.bin"), Contains(outside));
     CHECK_THROWS_WITH(read("here.bin"), Contains("buffer 0 lies in 'here.bin', and there is no such file relative"));
     const char* relative_only = "only addresses relative to the file itself are read";
     CHECK_THROWS_WITH(read((folder / "here.bin").string()), Contains(relative_only));
@@ -99,9 +120,11 @@ TEST_CASE("gltf buffers: files are looked for relative to the glTF file and nowh
     CHECK_THROWS_WITH(read(""), Contains(relative_only));
     CHECK_THROWS_WITH(read("side", 0), Contains("no such file"));
     CHECK_THROWS_WITH(read("a b.bin\n", 0), Contains("'a b.bin\\x0a'"));
-    CHECK(read("data:application/octet-stream;base64," + base64_of(bytes)) == 32);
+    CHECK(read("data:application/octet-stream;base64," + plain_base64_of(bytes)) == 32);
+    CHECK(read("data:;base64," + plain_base64_of(bytes)) == 32);
     CHECK_THROWS_WITH(read("data:application/octet-stream;base64,AAAA"), Contains("32 bytes by its byteLength and 3"));
-    CHECK_THROWS_WITH(read("data:text/html,abc"), Contains("no base64 of a known kind"));
+    CHECK_THROWS_WITH(read("data:application/octet-stream;base64,AA!A", 0), Contains("has an uri that is no base64"));
+    CHECK_THROWS_WITH(read("data:text/html,abc"), Contains("has an uri that is no base64"));
     spill("in/rig.gltf", moving_rig().json.dump());
     CHECK_THROWS_WITH(read_gltf("in/rig.gltf"), Contains("buffer 0 does not exist"));
     spill("in/rig.gltf", text_with({{"byteLength", 32}}));
@@ -239,7 +262,7 @@ TEST_CASE("gltf buffers: out of memory says what to do only where something can 
 #endif
 
 // A pipe would hold up who reads it, for ever if nobody writes.
-TEST_CASE("gltf buffers: only plain files are read, pictures too")
+TEST_CASE("gltf buffers: only plain files are read")
 {
     const TempFolder folder;
     json whole = moving_rig().json;
@@ -247,20 +270,70 @@ TEST_CASE("gltf buffers: only plain files are read, pictures too")
     spill(folder / "rig.gltf", whole.dump());
     REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
     CHECK_THROWS_WITH(read_gltf(folder / "rig.gltf"), Contains("buffer 0 lies in 'pipe', and there is no such file"));
+}
 
-    whole["buffers"][0]["uri"] = "rig.bin";
-    whole["images"] = {{{"uri", "pipe"}}, {{"uri", "plain"}}, {{"uri", fs::absolute(folder / "plain").string()}}};
-    spill(folder / "rig.gltf", whole.dump());
-    spill(folder / "rig.bin", moving_rig().bytes);
-    spill(folder / "plain", "\x89PNG");
-    // Whoever opens the pipe gets a picture from it, so that a reader that does is found out and not stuck.
-    std::thread writer([&] { spill(folder / "pipe", "\x89PNG"); });
-    write_gltf(folder / "new.glb", read_gltf(folder / "rig.gltf"), {});
-    const int reader = open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
-    writer.join();
-    close(reader);
-    const json images = plain_gltf_of(folder / "new.glb").json["images"];
-    CHECK(images[0] == whole["images"][0]);
-    CHECK(images[1].contains("bufferView"));
-    CHECK(images[2] == whole["images"][2]);
+TEST_CASE("gltf buffers: a .glb takes in all buffers of a .gltf, and a .gltf goes on using them")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "in");
+    fs::create_directory(folder / "out");
+    const std::string bytes = moving_rig().bytes;
+    json whole = moving_rig().json;
+    // The first buffer is of an odd length, and the keys' views are in the second and third.
+    whole["buffers"] = {{{"byteLength", 5}, {"uri", "odd.bin"}},
+                        {{"byteLength", 32}, {"uri", "data:;base64," + plain_base64_of(bytes)}},
+                        {{"byteLength", 32}, {"uri", "keys.bin"}}};
+    whole["bufferViews"][0]["buffer"] = 1;
+    whole["bufferViews"][1]["buffer"] = 2;
+    whole["bufferViews"][1]["extensions"]["VENDOR_packed"] = {{"buffer", 0}, {"byteOffset", 1}, {"byteLength", 4}};
+    whole["extensionsUsed"] = {"VENDOR_packed"};
+    spill(folder / "in/odd.bin", "odd..");
+    spill(folder / "in/keys.bin", bytes);
+    spill(folder / "in/rig.gltf", whole.dump());
+    const GltfFile file = read_gltf(folder / "in/rig.gltf");
+    for (const char* out : {"out/new.glb", "out/new.gltf"}) {
+        INFO(out);
+        write_gltf(folder / out, file, {});
+        CHECK(new_gltf_messages(folder / "in/rig.gltf", folder / out).empty());
+        const PlainGltf before = plain_gltf_of(folder / "in/rig.gltf"), after = plain_gltf_of(folder / out);
+        for (const int accessor : {0, 1}) CHECK(plain_numbers(after, accessor) == plain_numbers(before, accessor));
+        const json& packed = after.json["bufferViews"][1]["extensions"]["VENDOR_packed"];
+        CHECK(after.buffers.at(packed["buffer"].get<std::size_t>()).substr(packed["byteOffset"], 4) == "dd..");
+    }
+    CHECK(plain_gltf_of(folder / "out/new.glb").json["buffers"].size() == 1);
+    CHECK(plain_gltf_of(folder / "out/new.gltf").json["buffers"][2]["uri"] == "../in/keys.bin");
+}
+
+TEST_CASE("gltf buffers: every other address is rewritten for the new place, and none is opened")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "in put");
+    fs::create_directory(folder / "out");
+    REQUIRE(mkfifo((folder / "in put/pipe").c_str(), 0600) == 0);  // who opens it waits for ever
+    const std::string png = "data:image/png;base64," + plain_base64_of("\x89PNG");
+    json whole = moving_rig().json;
+    whole["buffers"] = {{{"byteLength", 32}, {"uri", "rig.bin"}}};
+    whole["images"] = {{{"uri", "pipe"}}, {{"uri", "/etc/passwd"}}, {{"uri", "https://a.org/b.png"}}, {{"uri", png}}};
+    whole["extensions"]["VENDOR_sounds"]["sounds"] = {{{"uri", "../up/a%20b.ogg"}}, {{"uri", 5}}};
+    whole["extras"] = {{"uri", "mine"}};
+    spill(folder / "in put/rig.bin", moving_rig().bytes);
+    spill(folder / "in put/rig.gltf", whole.dump());
+    const GltfFile file = read_gltf(folder / "in put/rig.gltf");
+    for (const char* out : {"out/new.glb", "out/new.gltf", "in put/new.glb"}) {
+        INFO(out);
+        const std::string way = std::string_view(out).starts_with("out") ? "../in%20put/" : "";
+        write_gltf(folder / out, file, {});
+        const json after = plain_gltf_of(folder / out).json;
+        CHECK(after["images"][0]["uri"] == way + "pipe");
+        CHECK(after["images"][1] == whole["images"][1]);
+        CHECK(after["images"][2] == whole["images"][2]);
+        CHECK(after["extensions"]["VENDOR_sounds"]["sounds"][0]["uri"] == way + "../up/a%20b.ogg");
+        CHECK(after["extensions"]["VENDOR_sounds"]["sounds"][1]["uri"] == 5);
+        CHECK(after["extras"] == whole["extras"]);
+        // A picture in the text is in the chunk now, where a GLB has its own.
+        if (fs::path(out).extension() == ".gltf")
+            CHECK(after["images"][3] == whole["images"][3]);
+        else
+            CHECK((after["images"][3]["mimeType"] == "image/png" && after["images"][3].contains("bufferView")));
+    }
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Which frames a glTF animation has, so that nothing of it is lost between them, and what is written at them.
+// Which frames a glTF animation has: the times of the limbs' keys, or even ones; and what is written at them.
+#include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
-#include "tests/gltf_judges.h"
+#include "tests/gltf_clip.h"
 #include "tests/gltf_rig.h"
 #include "tests/plain_gltf.h"
+#include "tests/test_random.h"
 #include "tools/formats/error.h"
-#include "tools/formats/gltf.h"
 
 using namespace swivel::test;
 using namespace swivel::formats;
@@ -19,8 +21,6 @@ using nlohmann::json;
 
 namespace {
 
-const std::vector<float> kStill = {0, 0, 0, 1}, kNone = {0, 0, 0, 0};
-
 std::vector<float> times_of(std::size_t count, double step)
 {
     std::vector<float> times;
@@ -28,45 +28,58 @@ std::vector<float> times_of(std::size_t count, double step)
     return times;
 }
 
-// Rotations in turn one way and the other, or still; for CUBICSPLINE with tangents.
-std::vector<float> values_of(std::size_t count, bool is_cubic, bool moves, std::vector<float> tangent = kNone)
+// Values for keys at these times, whatever they are; of rotations, and those turn or are still.
+std::vector<float> values_of(const std::vector<float>& times, bool is_rotation, bool moves, bool is_cubic = false)
 {
     std::vector<float> values;
     const auto add = [&](const std::vector<float>& part) { values.insert(values.end(), part.begin(), part.end()); };
-    for (std::size_t n = 0; n < count; ++n) {
-        if (is_cubic) add(tangent);
-        add(moves && n % 2 ? std::vector<float>{0.6f, 0, 0, 0.8f} : kStill);
-        if (is_cubic) add(tangent);
+    const std::vector<float> none(is_rotation ? 4 : 3, 0);
+    for (std::size_t n = 0; n < times.size(); ++n) {
+        if (is_cubic) add(none);
+        if (is_rotation)
+            add(moves && n % 2 ? std::vector<float>{0.6f, 0, 0, 0.8f} : std::vector<float>{0, 0, 0, 1});
+        else
+            add({1, 1, moves && n % 2 ? 2.0f : 1.0f});
+        if (is_cubic) add(none);
     }
     return values;
 }
 
-GltfRig arm_rig()
+// hips > spine > arm > twist > fore > hand, and beside them spine > head and hips > tail.
+struct Body {
+    enum : int { hips, spine, arm, twist, fore, hand, head, tail, count };
+};
+
+GltfRig body_rig()
 {
     GltfRig rig;
-    rig.add("hand", rig.add("fore", rig.add("arm", -1, {0, 0, 0}), {0, 1, 0}), {0, 1, 0});
+    const std::map<int, int> parents = {{Body::hips, -1},          {Body::spine, Body::hips}, {Body::arm, Body::spine},
+                                        {Body::twist, Body::arm},  {Body::fore, Body::twist}, {Body::hand, Body::fore},
+                                        {Body::head, Body::spine}, {Body::tail, Body::hips}};
+    for (const auto& [node, parent] : parents) REQUIRE(rig.add("", parent, {0, 1, 0}) == node);
     rig.add_animation("move");
     return rig;
 }
 
-// The frames of one joint's keys.
-std::vector<float> frames(const char* kind, const std::vector<float>& times, bool moves,
-                          const std::vector<float>& tangent = kNone, double rate = 0)
+void add_keys(GltfRig& rig, int node, const char* path, const std::vector<float>& times, const char* kind = "LINEAR")
 {
-    const TempFolder folder;
-    GltfRig rig = arm_rig();
     const bool is_cubic = std::string_view(kind) == "CUBICSPLINE";
-    rig.add_keys(0, 0, "rotation", times, values_of(times.size(), is_cubic, moves, tangent), kind);
-    rig.write(folder / "rig.glb");
-    const GltfFile file = read_gltf(folder / "rig.glb", {"", rate});
-    CHECK(file.clip.frame_count == file.times.size());
-    return file.times;
+    rig.add_keys(0, node, path, times, values_of(times, std::string_view(path) == "rotation", true, is_cubic), kind);
 }
 
-bool has_all(const std::vector<float>& all, const std::vector<float>& some)
+// Frames for the limb arm, fore, hand.
+GltfFile frames_of(const GltfRig& rig, const GltfChoice& choice = {})
 {
-    return std::all_of(some.begin(), some.end(),
-                       [&](float time) { return std::find(all.begin(), all.end(), time) != all.end(); });
+    const TempFolder folder;
+    rig.write(folder / "rig.glb");
+    GltfFile file = read_gltf(folder / "rig.glb", choice);
+    CHECK(file.clip.frame_count == 0);
+    std::vector<int> joints;
+    for (const int node : {Body::arm, Body::fore, Body::hand})
+        joints.push_back(find_joints(file.clip, "#" + std::to_string(node)).at(0));
+    sample(file, joints);
+    CHECK(file.clip.frame_count == file.times.size());
+    return file;
 }
 
 // The interpolation of each of a written file's rotation channels, by node.
@@ -82,77 +95,97 @@ std::map<int, std::string> kinds_of(const PlainGltf& gltf)
 
 }  // namespace
 
-TEST_CASE("gltf frames: keys on an even grid are frames where it is fine enough for what moves")
+TEST_CASE("gltf frames: they are the keys of the limbs' joints, of joints in between and of all above, each once")
 {
-    const auto film = times_of(25, 1 / 24.0), games = times_of(31, 1 / 60.0), coarse = times_of(3, 0.5);
-    CHECK(frames("LINEAR", film, true) == film);
-    CHECK(frames("LINEAR", games, true) == games);
-    CHECK(frames("CUBICSPLINE", games, true) == games);
-    CHECK(frames("STEP", coarse, true) == coarse);
-    CHECK(frames("LINEAR", coarse, false) == coarse);
-    CHECK(frames("CUBICSPLINE", coarse, false) == coarse);
+    rc::prop("any keys of any nodes", [](std::uint64_t seed) {
+        Random random{seed};
+        GltfRig rig = body_rig();
+        std::set<float> wanted;
+        for (int node = 0; node < Body::count; ++node)
+            for (const char* path : {"translation", "rotation", "scale"}) {
+                if (random.between(0, 1) < 0.6) continue;
+                std::set<float> times;
+                for (int n = 0; n < 4; ++n) times.insert(static_cast<float>(std::floor(random.between(0, 40))) / 16);
+                const char* kinds[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+                add_keys(rig, node, path, {times.begin(), times.end()}, kinds[int(random.between(0, 2.99))]);
+                if (node != Body::head && node != Body::tail) wanted.insert(times.begin(), times.end());
+            }
+        if (wanted.empty()) wanted = {0};
+        const GltfFile file = frames_of(rig);
+        REQUIRE(file.times == std::vector<float>(wanted.begin(), wanted.end()));
+    });
 }
 
-TEST_CASE("gltf frames: a coarser grid is divided so that its keys stay frames, others are sampled 60 times a second")
+TEST_CASE("gltf frames: even ones have a step, uneven ones none")
 {
-    const auto film = times_of(25, 1 / 24.0), coarse = times_of(3, 0.5), slow = times_of(16, 1 / 15.0);
-    const std::vector<float> odd = {0.1f, 0.45f, 1.1f};
-    CHECK(frames("LINEAR", coarse, true).size() == 61);
-    CHECK(frames("LINEAR", slow, true).size() == 61);
-    CHECK(frames("CUBICSPLINE", film, true).size() == 73);
-    CHECK(frames("CUBICSPLINE", coarse, false, {1, 0, 0, 0}).size() == 61);  // its tangents lead away and back
-    for (const auto& [kind, times] : {std::pair{"LINEAR", coarse}, {"LINEAR", slow}, {"CUBICSPLINE", film}})
-        CHECK(has_all(frames(kind, times, true), times));
-    const auto sampled = frames("STEP", odd, true);
-    CHECK(sampled.size() == 61);
-    CHECK(sampled.front() == odd.front());
-    CHECK(sampled.back() == odd.back());
-    CHECK(frames("LINEAR", film, true, kNone, 10).size() == 11);
-    CHECK(frames("STEP", coarse, true, kNone, 10).size() == 11);
+    const auto step = [](const std::vector<float>& times) {
+        GltfRig rig = body_rig();
+        add_keys(rig, Body::arm, "rotation", times);
+        return frames_of(rig).clip.frame_time;
+    };
+    CHECK(step(times_of(25, 1 / 24.0)) == Approx(1 / 24.0));
+    CHECK(step(times_of(5000, 1 / 60.0)) == Approx(1 / 60.0));
+    CHECK(step({0, 0.5f}) == 0.5);
+    CHECK(step({3}) > 0);
+    CHECK(step({0, 0.5f, 1.1f}) == 0);
+    CHECK(step({0, 0.5f, std::nextafter(0.5f, 1.0f), 1}) == 0);  // a jump is two frames
+    CHECK(step({-3e38f, 3e38f}) > 0);
 }
 
-TEST_CASE("gltf frames: a jump, two keys a float's last digit apart, is no step of the grid, however late")
+TEST_CASE("gltf frames: a rate samples the whole animation evenly")
 {
-    const auto film = times_of(500, 1 / 24.0), coarse = times_of(21, 1);
-    for (const std::size_t at : {1u, 16u, 20u}) {
-        auto jumping = coarse;
-        jumping.insert(jumping.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::nextafter(coarse[at], HUGE_VALF));
-        CHECK(frames("LINEAR", jumping, true).size() == 1201);
-        CHECK(frames("STEP", jumping, true) == coarse);
-    }
-    auto jumping = film;
-    jumping.insert(jumping.begin() + 481, std::nextafter(film[480], HUGE_VALF));
-    CHECK(frames("LINEAR", jumping, true) == film);
+    GltfRig rig = body_rig();
+    add_keys(rig, Body::arm, "rotation", {0.5f, 0.7f, 1.5f});
+    add_keys(rig, Body::head, "rotation", {0.25f, 2.25f});
+    const GltfFile file = frames_of(rig, {"", 10});
+    REQUIRE(file.times.size() == 21);
+    for (std::size_t n = 0; n < 21; ++n) CHECK(file.times[n] == Approx(0.25 + 0.1 * static_cast<double>(n)));
+    CHECK(file.clip.frame_time == Approx(0.1));
+    CHECK(frames_of(rig, {"", 1e-9}).times == std::vector<float>{0.25f, 2.25f});
+    CHECK(frames_of(body_rig(), {"", 10}).times == std::vector<float>{0});
 }
 
-TEST_CASE("gltf frames: a grid has up to 1000 frames a second, else 60")
+TEST_CASE("gltf frames: twelve keys hours apart are twelve frames, and a rate is counted before room is made")
 {
-    const auto finest = times_of(11, 0.001), finer = times_of(1001, 0.0009);
-    CHECK(frames("LINEAR", finest, true) == finest);
-    CHECK(frames("LINEAR", finer, true).size() == 55);
-    CHECK(frames("LINEAR", {0, 0.0005f, 100}, true).size() == 6001);
-    CHECK(frames("STEP", {0, 0.0005f}, true).size() == 2);
+    GltfRig rig = body_rig();
+    add_keys(rig, Body::arm, "rotation", times_of(12, 10'000));
+    CHECK(frames_of(rig).times.size() == 12);
+    CHECK_THROWS_WITH(frames_of(rig, {"", 1e9}), Catch::Contains("frames of 8 joints, more than 8 GiB; cut it or give "
+                                                                 "a lower --fps"));
+    CHECK_THROWS_WITH(frames_of(rig, {"", 60, 1 << 20}), Catch::Contains("the animation has 6600001 frames"));
+    CHECK_THROWS_WITH(frames_of(rig, {"", 0, 1024}), Catch::Contains("the animation has 12 frames of 8 joints"));
+    CHECK_THROWS_WITH(frames_of(rig, {"", 0, 64}), Catch::Contains("the keys of animation 0 come to more than"));
 }
 
-TEST_CASE("gltf frames: a curve between two keys is written as the source has it")
+TEST_CASE("gltf frames: new keys lie at exactly these times, and the joint is there as it is told")
 {
     const TempFolder folder;
-    GltfRig rig = arm_rig();
-    rig.add_keys(0, 0, "rotation", {0, 1},
-                 {0, 0, 0, 0, 0, 0, 0, 1, 2, 0, 0, 0, 0, 3, 0, 0, 0.6f, 0, 0, 0.8f, 0, 0, 0, 0}, "CUBICSPLINE");
+    GltfRig rig = body_rig();
+    add_keys(rig, Body::arm, "rotation", {0.1f, 0.3f, 0.35f}, "CUBICSPLINE");
+    add_keys(rig, Body::hips, "translation", {0, 0.3f, 7});
+    GltfFile file = frames_of(rig);
     rig.write(folder / "rig.glb");
-    const GltfFile file = read_gltf(folder / "rig.glb");
+    const std::vector<float> wanted = {0, 0.1f, 0.3f, 0.35f, 7};
+    REQUIRE(file.times == wanted);
     std::vector<Quaterniond> turn;
-    for (std::size_t frame = 0; frame < file.clip.frame_count; ++frame)
-        turn.push_back(file.clip.rotation[frame * file.clip.joints.size()]);
-    const RotationOverride change[] = {{0, turn}};
-    write_gltf(folder / "new.glb", file, change);
-    CHECK(gltf_errors(folder / "new.glb").empty());
-    const PlainGltf from = plain_gltf_of(folder / "rig.glb"), to = plain_gltf_of(folder / "new.glb");
-    double worst = 0;
-    for (double time = 0; time <= 1; time += 1 / 240.0)
-        worst = std::max(worst, (plain_local(to, 0, 0, time).linear() - plain_local(from, 0, 0, time).linear()).norm());
-    CHECK(worst < 2e-3);  // 60 times a second, of a curve that turns some 20 rad/s^2 faster each second: 7e-4
+    for (std::size_t n = 0; n < wanted.size(); ++n)
+        turn.emplace_back(Eigen::AngleAxisd(static_cast<double>(n), Eigen::Vector3d::UnitZ()));
+    const RotationOverride changes[] = {{find_joints(file.clip, "#2").at(0), turn},
+                                        {find_joints(file.clip, "#4").at(0), turn}};
+    write_gltf(folder / "new.glb", file, changes);
+    const PlainGltf plain = plain_gltf_of(folder / "new.glb");
+    int seen = 0;
+    for (const json& channel : plain.json["animations"][0]["channels"]) {
+        if (channel["target"]["path"] != "rotation") continue;
+        const json& sampler = plain.json["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()];
+        const std::vector<double> times = plain_numbers(plain, sampler["input"]);
+        REQUIRE(std::vector<float>(times.begin(), times.end()) == wanted);
+        for (std::size_t n = 0; n < times.size(); ++n)
+            CHECK((plain_local(plain, 0, channel["target"]["node"], times[n]).linear() - turn[n].toRotationMatrix())
+                      .norm() < 1e-6);
+        ++seen;
+    }
+    CHECK(seen == 2);
 }
 
 TEST_CASE("gltf frames: each joint goes by steps or evenly as it did, and one that did not move as all the others do")
@@ -160,12 +193,12 @@ TEST_CASE("gltf frames: each joint goes by steps or evenly as it did, and one th
     const TempFolder folder;
     const auto times = times_of(4, 1 / 24.0);
     for (const bool is_mixed : {true, false}) {
-        GltfRig rig = arm_rig();
-        rig.add_keys(0, 0, "rotation", times, values_of(4, false, true), "STEP");
-        rig.add_keys(0, 1, "rotation", times, values_of(4, false, true), is_mixed ? "LINEAR" : "STEP");
-        rig.add_keys(0, 2, "rotation", times, values_of(4, false, false), is_mixed ? "STEP" : "LINEAR");
+        GltfRig rig = body_rig();
+        rig.add_keys(0, 0, "rotation", times, values_of(times, true, true), "STEP");
+        rig.add_keys(0, 1, "rotation", times, values_of(times, true, true), is_mixed ? "LINEAR" : "STEP");
+        rig.add_keys(0, 2, "rotation", times, values_of(times, true, false), is_mixed ? "STEP" : "LINEAR");
         rig.write(folder / "rig.glb");
-        const GltfFile file = read_gltf(folder / "rig.glb");
+        const GltfFile file = read_clip(folder / "rig.glb");
         const std::vector<Quaterniond> turn(file.clip.frame_count, Quaterniond(0, 1, 0, 0));
         const RotationOverride changes[] = {{0, turn}, {1, turn}, {2, turn}};
         write_gltf(folder / "new.glb", file, changes);
@@ -175,36 +208,42 @@ TEST_CASE("gltf frames: each joint goes by steps or evenly as it did, and one th
     }
 }
 
-TEST_CASE("gltf frames: channels with the same keys share them, and all that frames hold is counted")
+TEST_CASE("gltf frames: channels with the same keys share them")
 {
-    const TempFolder folder;
-    GltfRig rig;
-    rig.add_animation("long");
-    for (int node = 0; node < 1000; ++node) rig.add("", node - 1, {0, 1, 0});
-    rig.add_keys(0, 0, "translation", {0, 2800}, {0, 0, 0, 0, 1, 0});
+    GltfRig rig = body_rig();
+    add_keys(rig, Body::hips, "translation", {0, 2800});
     json& animation = rig.json["animations"][0];
-    const json sampler = animation["samplers"][0];
-    for (int node = 1; node < 1000; ++node) {
+    animation["samplers"].push_back(json(animation["samplers"][0]));
+    for (int node = 1; node < Body::count; ++node) {
         animation["channels"].push_back({{"sampler", node % 2}, {"target", {{"node", node}, {"path", "translation"}}}});
         animation["channels"].push_back({{"sampler", node % 2}, {"target", {{"node", node}, {"path", "scale"}}}});
     }
-    animation["samplers"].push_back(sampler);
-    rig.write(folder / "rig.glb");
-    const GltfFile file = read_gltf(folder / "rig.glb", {"", 0.001});
-    CHECK(file.channels.size() == 1999);
+    const GltfFile file = frames_of(rig);
+    CHECK(file.channels.size() == 15);
     CHECK(file.samplers.size() == 1);
-    // 168,001 frames of 1000 joints: rotations alone are 5 GiB, with all else 12.5.
-    CHECK_THROWS_WITH(read_gltf(folder / "rig.glb"), Catch::Contains("168001 frames of 1000 joints, more than 8 GiB"));
 }
 
-TEST_CASE("gltf frames: keys and poses that take more than the choice allows are refused")
+TEST_CASE("gltf frames: what the solver does not hold is refused at a limb's joint, with node and value")
 {
-    const TempFolder folder;
-    GltfRig rig = arm_rig();
-    rig.add_keys(0, 0, "rotation", times_of(3, 1), values_of(3, false, true));
-    rig.write(folder / "rig.glb");
-    const auto read = [&](double rate, std::size_t most) { return read_gltf(folder / "rig.glb", {"", rate, most}); };
-    CHECK_THROWS_WITH(read(0, 64), Catch::Contains("the keys of animation 0 come to more than"));
-    CHECK_THROWS_WITH(read(1000, 4096), Catch::Contains("the animation has 2001 frames of 3 joints, more than"));
-    CHECK_NOTHROW(read(1000, 1 << 20));
+    const auto refuses = [](const GltfRig& rig, const char* part) {
+        CHECK_THROWS_WITH(frames_of(rig), Catch::Contains(part));
+    };
+    const auto at_rest = [&](int node, const char* member, const json& value) {
+        GltfRig rig = body_rig();
+        rig.json["nodes"][static_cast<std::size_t>(node)][member] = value;
+        return rig;
+    };
+    refuses(at_rest(Body::arm, "rotation", {1e308, 0, 0, 1}),
+            "node 2 has a bad rotation: a list of 4 numbers that floats can "
+            "hold is needed, not [1e+308,0,0,1]");
+    refuses(at_rest(Body::arm, "scale", {1e30, 1e30, 1e30}), "node 2 is 1e+30 times its size at rest");
+    refuses(at_rest(Body::spine, "scale", {1e-30, 1e-30, 1e-30}), "node 1 is 1e-30 times its size at rest");
+    refuses(at_rest(Body::fore, "translation", {0, 1e20, 0}), "node 4 is 1e+20 from the origin at rest");
+    CHECK(frames_of(at_rest(Body::head, "scale", {1e30, 1e30, 1e30})).clip.frame_count == 1);  // no limb's
+    GltfRig two = at_rest(Body::hips, "scale", {1e10, 1e10, 1e10});
+    two.json["nodes"][Body::spine]["scale"] = {1e10, 1e10, 1e10};
+    refuses(two, "node 1 is 1e+20 times its size at rest");
+    GltfRig rig = body_rig();
+    rig.add_keys(0, Body::arm, "scale", {0, 1}, {1, 1, 1, 1e30f, 1e30f, 1e30f});
+    refuses(rig, "node 2 is 1e+30 times its size in frame 1");
 }

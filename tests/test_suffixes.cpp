@@ -29,7 +29,7 @@ TEST_CASE("The command reads and writes suffixes of any case")
     spill(folder / "bad.GLTF", "[]");
     const Outcome glb = spawn_command(folder.path, {"rig", "bad.GLTF"});
     CHECK(glb.exit_code == 1);
-    CHECK(glb.err.find("its JSON is no object") != std::string::npos);
+    CHECK(glb.err.find("it starts neither with 'glTF' nor with '{'") != std::string::npos);
 }
 
 TEST_CASE("FBX and DAE are refused by their suffix, with what to do")

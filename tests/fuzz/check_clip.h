@@ -36,7 +36,7 @@ inline void check_joint(const formats::Clip& clip, std::size_t n)
 inline void check_clip(const formats::Clip& clip)
 {
     SWIVEL_REQUIRE(!clip.joints.empty() && clip.frame_count > 0);
-    SWIVEL_REQUIRE(clip.frame_time > 0 && std::isfinite(clip.frame_time));
+    SWIVEL_REQUIRE(clip.frame_time >= 0 && std::isfinite(clip.frame_time));  // 0: uneven frames
     SWIVEL_REQUIRE(clip.rotation.size() == clip.frame_count * clip.joints.size());
     SWIVEL_REQUIRE(clip.translation.size() == clip.frame_count * clip.track_count);
     SWIVEL_REQUIRE(clip.scale.size() == clip.frame_count * clip.scale_track_count);

@@ -21,7 +21,8 @@ namespace {
 void check_container(const std::filesystem::path& path, const GltfContainer& container)
 {
     const GltfContainer again = read_gltf_container(path);
-    SWIVEL_REQUIRE(again.is_binary && again.json == trimmed(container.json) && again.other_chunks.empty());
+    const std::string json = container.json.substr(0, container.json.find_last_not_of(kBlanks) + 1);
+    SWIVEL_REQUIRE(again.is_binary && again.json == json && again.other_chunks.empty());
     SWIVEL_REQUIRE(again.bytes.starts_with(container.bytes) && again.bytes.size() < container.bytes.size() + 4);
 }
 

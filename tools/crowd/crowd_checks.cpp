@@ -101,6 +101,13 @@ void require_solved(const CrowdFile& file, std::span<const Limb> limbs)
     }
 }
 
+void require_even_frames(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip)
+{
+    if (s.most_swivel_deg_per_second && clip.frame_time == 0)
+        refuse(file, *s.most_swivel_deg_per_second,
+               "needs even frames, and the clip's keys lie at uneven times; give --fps");
+}
+
 void require_own_clavicle(const CrowdFile& file, const LimbSettings& s, const formats::Clip& clip, const Limb& limb)
 {
     if (!s.clavicle_share) return;

@@ -27,6 +27,10 @@ void require_sense(const formats::CrowdFile& file, const formats::LimbSettings& 
 void require_own_clavicle(const formats::CrowdFile& file, const formats::LimbSettings& settings,
                           const formats::Clip& clip, const Limb& limb);
 
+// Nothing is asked for per second of a clip whose frames are uneven.
+void require_even_frames(const formats::CrowdFile& file, const formats::LimbSettings& settings,
+                         const formats::Clip& clip);
+
 // Nothing is asked for that a written clip, BVH or glTF, has no room for: stretched bones and twist bones.
 void require_fits_motion(const formats::CrowdFile& file, std::span<const Limb> limbs);
 

@@ -212,6 +212,7 @@ CrowdPlan plan_crowd(const CrowdFile* file, const formats::Clip& clip, std::span
         const LimbSettings settings = settings_of(*file, limbs[n].name);
         require_sense(*file, settings);
         require_own_clavicle(*file, settings, clip, limbs[n]);
+        require_even_frames(*file, settings, clip);
         Planner planner{settings};
         planner.goal();
         planner.pole();

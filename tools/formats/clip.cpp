@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/clip.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <limits>
 
@@ -162,11 +164,9 @@ std::vector<int> child_joints(const Clip& clip, int joint)
 
 std::string joint_path(const Clip& clip, int joint)
 {
-    std::string path = joint_at(clip, joint).name;
-    for (int up = joint_at(clip, joint).parent; up >= 0; up = joint_at(clip, up).parent) {
-        path = joint_at(clip, up).name + '/' + path;
-    }
-    return path;
+    std::vector<std::string_view> names;
+    for (; joint >= 0; joint = joint_at(clip, joint).parent) names.push_back(joint_at(clip, joint).name);
+    return fmt::format("{}", fmt::join(names.rbegin(), names.rend(), "/"));
 }
 
 }  // namespace swivel::formats

@@ -1,18 +1,15 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its clip. Writing puts new
-// rotations into that animation, and makes skin weights add up as they must. Everything else of the asset stays as it
-// is. Conventions:
+// glTF 2.0 and GLB. Reading takes the node hierarchy as a skeleton and one animation as its motion. Writing puts new
+// rotations into that animation; everything else of the asset stays as it is. Conventions:
 // - Every node is a joint, so that what lies above a skeleton counts, such as an armature with its scale. Nodes that a
 //   skin names are bones; in a file without skins all are. A joint's number is its node's index; an unnamed node is
 //   "#12".
 // - The rest pose is the nodes' own transforms. A matrix becomes translation, rotation and scale.
-// - Frames are the keys of nodes, if these lie on an even grid of up to 1000 a second that is fine enough for what
-//   moves. That is 24 a second or more, 60 or more for CUBICSPLINE, and any rate for STEP.
-// - A coarser grid is divided into equal parts, 60 a second or more. Keys on no grid are sampled 60 times a second. A
-//   rate that is asked for samples all keys.
-// - Without an animation the clip is one frame, the rest pose. Writing then adds an animation of one key.
-// Of images and meshes only skin weights are read; of animations only nodes' own poses. All else is kept.
+// - Frames are the times at which the limbs' joints, or joints above them, have keys, each time once. A rate that is
+//   asked for samples the whole animation instead.
+// - Without keys the clip is one frame. Writing to a file without an animation adds one of one key.
+// No mesh or image is read; of animations only nodes' own poses. All else is kept.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +24,6 @@
 #include "tools/formats/clip.h"
 #include "tools/formats/gltf_container.h"
 #include "tools/formats/gltf_sampler.h"
-#include "tools/formats/gltf_weights.h"
 
 namespace swivel::formats {
 
@@ -39,62 +35,63 @@ struct GltfChannel {
     std::size_t sampler = 0;  // in GltfFile::samplers; channels may share one
 };
 
-struct GltfFile {
-    std::filesystem::path path;                                // where it was read
-    std::vector<std::filesystem::path> files_beside;           // of its buffers and images, there or not
-    GltfContainer container;                                   // the whole file
-    std::vector<std::string_view> buffers;                     // contents of the file's buffers, wherever they are kept
-    std::vector<std::shared_ptr<const std::string>> contents;  // what `buffers` lie in
-    std::vector<std::string> animation_names;                  // of all animations; may be empty or repeat
-    int animation = -1;                                        // which one `clip` is; -1: there is none
-    std::vector<GltfChannel> channels;                         // of that animation, those of nodes' own poses
-    std::vector<GltfSampler> samplers;                         // of these channels, each once
-    std::vector<float> times;                                  // of the clip's frames, strictly increasing seconds
-    Clip clip;
-    std::vector<GltfWeights> weights;  // skin weights that do not add up to 1, as they will be written
-};
-
-// The vertices whose skin weights in the file do not add up to 1, as glTF asks, and in written files do; see
-// mended_weights() for those left as they are.
-std::size_t mended_vertex_count(const GltfFile& file);
-
 struct GltfChoice {
     std::string animation = {};  // name or, counted from 0, index; empty: the first
     double rate = 0;             // frames a second, 0: see above
     // Decoded keys and sampled poses may each take so much.
     std::size_t most_pose_bytes = std::size_t{8} << 30;
 };
+
+struct GltfFile {
+    std::filesystem::path path;  // where it was read
+    GltfChoice choice;
+    std::vector<std::filesystem::path> files_beside;           // that it refers to, there or not
+    GltfContainer container;                                   // the whole file, but for its chunk of bytes
+    std::vector<std::string_view> buffers;                     // contents of the file's buffers, wherever they are kept
+    std::vector<std::shared_ptr<const std::string>> contents;  // what `buffers` lie in
+    std::vector<std::string> animation_names;                  // of all animations; may be empty or repeat
+    int animation = -1;                                        // the chosen one; -1: there is none
+    std::vector<GltfChannel> channels;                         // of that animation, those of nodes' own poses
+    std::vector<GltfSampler> samplers;                         // of these channels, each once
+    std::vector<float> times;                                  // of the clip's frames, strictly increasing seconds
+    Clip clip;                                                 // without frames until sample()
+};
+
 inline double gibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 0x1p30; }
 
-// Reads and checks a whole file. It throws InputError for:
+// Reads and checks a whole file, but for its frames. It throws InputError for:
 // - anything malformed that concerns the skeleton or the chosen animation, and numbers that are not finite;
 // - buffers that are missing, compressed or shorter than they say, and buffers that are neither in the file nor in
-//   plain files at addresses relative to it;
+//   plain files in its folder;
 // - an animation that does not exist, or whose name is not unique;
-// - buffers beyond 8 GiB, and poses or keys beyond the choice's most.
+// - buffers beyond 8 GiB, and keys beyond the choice's most.
 // Meshes make it fail only if an accessor, buffer view or buffer has members of a wrong type.
-// It holds the file about twice, and its JSON three times while it reads. A key takes 40 bytes, with CUBICSPLINE 104;
-// channels may share keys. Looking for frames takes 8 more a key. A frame takes 32 bytes a joint, and 24 for each
-// translation and scale that has keys. Skin weights that must be mended are held, too.
+// It holds the file once, and its JSON as a document while it reads. A key takes 40 bytes, with CUBICSPLINE 104;
+// channels may share keys.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
-// The same of a file that is in memory already. path: what messages call it, and what its files lie beside.
+// The same of a container that is read already. path: what messages call it, and what its files lie beside.
 GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice);
+
+// Makes the clip's frames, for limbs of these joints; see above for their times. Throws InputError, before it makes
+// room, for more poses than the choice's most; where a spline of rotations passes through zero; and where a joint of a
+// limb, or one above, is farther from the origin or larger than the solver holds (kMaxNorm). A frame takes 32 bytes a
+// joint, and 24 for each translation and scale that has keys.
+void sample(GltfFile& file, std::span<const int> limb_joints);
 
 // Throws InputError for a joint whose matrix is sheared, which no keys can say. joint: of the clip.
 void require_can_key(const GltfFile& file, int joint);
 
 // Writes `file` with the rotations of the overridden joints replaced, keyed at the clip's frames: STEP for a joint
 // whose own keys moved by steps, LINEAR for others; a joint that did not move goes by steps if all that did so did.
-// Where several frames' keys lie apart, a viewer turns each joint evenly in between. Skin weights of vertices that do
-// not add up to 1 are replaced by file.weights, in accessors of their own. All other JSON is kept value by value, all
-// buffers byte by byte; keys and weights no longer used stay in them.
+// Where several frames' keys lie apart, a viewer turns each joint evenly in between. All other JSON is kept value by
+// value, all buffers byte by byte; keys that are no longer used stay in them.
 // Joints whose node has a matrix get translation, rotation and scale instead, as animated nodes must.
 // path: .glb or .gltf; may be the file that was read; appears whole or not at all (see OutputFile). binary: whether it
-// is a .glb, where the path's suffix does not say it. A .glb takes in the buffers and images that lie in files beside
-// the .gltf. A .gltf holds the new keys itself and goes on using the same files, from wherever it is written.
-// Throws InputError on writing, and as require_can_key() does. Throws std::invalid_argument for a joint out of range or
-// named twice, a wrong frame count, and a zero or non-finite quaternion.
+// is a .glb, where the path's suffix does not say it. A .glb takes in all buffers, one after the other. A .gltf holds
+// the new keys itself. All other files that were referred to are, from wherever the new file is written; none is
+// opened. Throws InputError on writing, and as require_can_key() does. Throws std::invalid_argument for a joint out of
+// range or named twice, a wrong frame count, and a zero or non-finite quaternion.
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
                 std::optional<bool> binary = {});
 

@@ -2,12 +2,13 @@
 #include "tools/formats/gltf_buffers.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -42,25 +43,27 @@ struct Buffer {
 
 std::string bytes_in_text(const Buffer& buffer, const std::string& uri)
 {
-    std::vector<unsigned char> bytes;
-    std::string mime;
-    // Nothing at all is base64, too; tinygltf takes it for a fault.
-    if (!uri.ends_with(";base64,") && !tinygltf::DecodeDataURI(&bytes, mime, uri, 0, false))
-        buffer.refuse("has an uri that is no base64 of a known kind; export it with a .bin file or as .glb");
-    buffer.require(bytes.size(), "its uri");
-    return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(buffer.size)};
+    std::optional<DataUri> data = data_of(uri);
+    if (!data) buffer.refuse("has an uri that is no base64; export it with a .bin file or as .glb");
+    buffer.require(data->bytes.size(), "its uri");
+    return std::move(data->bytes);
 }
 
 // The file at a buffer's address, which has the bytes, as far as can be known without reading it.
 fs::path file_of(const Buffer& buffer, const std::string& uri)
 {
     const std::string shown = printable(uri, 100);
-    const fs::path file = file_at(uri, buffer.path);
-    if (file.empty())
+    const fs::path named = file_at(uri, buffer.path);
+    if (named.empty())
         buffer.refuse(fmt::format("lies at '{}'; only addresses relative to the file itself are read", shown));
     std::error_code failed;
-    if (!fs::is_regular_file(file, failed))
+    if (!fs::is_regular_file(named, failed))
         buffer.refuse(fmt::format("lies in '{}', and there is no such file relative to this one", shown));
+    // Links followed: whoever made the file must not be able to put any other file of this machine into the output.
+    const fs::path file = fs::canonical(named, failed);
+    const fs::path folder = failed ? fs::path() : fs::canonical(fs::absolute(buffer.path).parent_path(), failed);
+    if (failed || *file.lexically_relative(folder).begin() == "..")
+        buffer.refuse(fmt::format("lies in '{}', outside the file's own folder; put it beside the file", shown));
     const std::uintmax_t size = fs::file_size(file, failed);
     if (failed || !std::ifstream(file, std::ios::binary))
         buffer.refuse(fmt::format("lies in '{}', which cannot be read", shown));
@@ -79,7 +82,7 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
 
 // Buffers by the addresses of their files, which several may share; of one address the largest. Throws InputError where
 // these and all other buffers come to more than kMostBytes.
-std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::ordered_json& list)
+std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::json& list)
 {
     std::map<std::string, Buffer> files;
     std::uintmax_t total = 0;
@@ -103,8 +106,7 @@ std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::ord
 
 }  // namespace
 
-GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::ordered_json& document,
-                              const GltfContainer& container)
+GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& document, GltfContainer& container)
 {
     GltfBuffers buffers;
     const auto list = document.find("buffers");
@@ -126,7 +128,7 @@ GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::ordered_json
         } else {
             if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri");
             buffer.require(container.bytes.size(), "the GLB's chunk");
-            content = keep(container.bytes.substr(0, buffer.size));
+            content = keep(std::move(container.bytes));
         }
         buffers.bytes.push_back(std::string_view(*content).substr(0, buffer.size));
     }

@@ -12,11 +12,12 @@
 #include <string>
 
 #include "tools/formats/error.h"
+#include "tools/formats/text.h"
 
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 constexpr const char *kIndex = "a whole number from 0 to 2147483647", *kSize = "a whole number of bytes";
 
@@ -49,7 +50,9 @@ struct Element {
 
     [[noreturn]] void refuse(const char* member, const char* wanted) const
     {
-        throw InputError(path, fmt::format("{} has a bad {}: {} is needed", name, member, wanted));
+        const auto found = object.find(member);
+        const std::string value = found == object.end() ? "nothing" : printable(found->dump(), 60);
+        throw InputError(path, fmt::format("{} has a bad {}: {} is needed, not {}", name, member, wanted, value));
     }
     template <class Test>
     void may_have(const char* member, const char* wanted, Test&& test) const
@@ -158,6 +161,10 @@ void check_buffer(const Element& buffer)
 
 void check_members(const std::filesystem::path& path, const Json& document)
 {
+    const Element whole{path, "the file", document};
+    whole.part("asset", "its asset").must_have("version", "\"2.0\"", [](const Json& value) {
+        return value.is_string() && value.get<std::string>().starts_with("2.");
+    });
     check_list(path, document, "nodes", "node", check_node);
     check_list(path, document, "skins", "skin",
                [](const Element& skin) { skin.may_have("joints", "a list of nodes", is_indices); });

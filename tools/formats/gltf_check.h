@@ -1,16 +1,16 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// The types of glTF's members, before a reader that takes a member of a wrong type for a missing one sees them. Knows
-// which members there are, not what their values mean.
+// The types of glTF's members, before a reader takes them. Knows which members there are, not what their values mean.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
 namespace swivel::formats {
 
-// Checks what a reader of skeletons needs of a document: nodes, skins, animations, accessors, buffer views and buffers.
+// Checks what a reader of skeletons needs of a document: its version, nodes, skins, animations, accessors, buffer views
+// and buffers.
 // Throws InputError, naming the element, for a list or an element of a wrong type, and for a member that is missing or
 // is not what the specification says. Allocates little; any number of threads may call it.
-void check_members(const std::filesystem::path& path, const nlohmann::ordered_json& document);
+void check_members(const std::filesystem::path& path, const nlohmann::json& document);
 
 }  // namespace swivel::formats

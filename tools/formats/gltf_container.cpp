@@ -40,45 +40,85 @@ void append_chunk(std::string& glb, std::uint32_t type, std::string_view content
     throw InputError(path, fmt::format("{}; export the file again", cause));
 }
 
-GltfContainer split(const std::filesystem::path& path, std::string_view file)
-{
-    if (file.size() < 20) refuse(path, "a GLB cut short");
-    if (const std::uint32_t version = word_at(file, 4); version != 2)
-        refuse(path, fmt::format("a GLB of version {}; only 2 is read", version));
-    const std::size_t size = word_at(file, 8);
-    if (size > file.size() || size < 20)
-        refuse(path, fmt::format("the GLB says it has {} bytes and has {}", size, file.size()));
-    GltfContainer container;
-    container.is_binary = true;
-    std::size_t at = 12;
-    for (std::size_t chunk = 0; at + 8 <= size; ++chunk) {
-        const std::size_t length = word_at(file, at);
-        const std::uint32_t type = word_at(file, at + 4);
-        if (length > size - at - 8) refuse(path, fmt::format("chunk {} of the GLB runs beyond its end", chunk));
-        const std::string_view content = file.substr(at + 8, length);
-        if (chunk == 0 && type != kJsonChunk) refuse(path, "the GLB does not start with its JSON");
-        if (chunk == 0) container.json = trimmed(content);
-        if (chunk == 1 && type == kBinChunk)
-            container.bytes = content;
-        else if (chunk > 0)
-            container.other_chunks += file.substr(at, 8 + length);
-        at += 8 + length;
+// A GLB on its way in: what was read of it, and what its header lets one read.
+class GlbReader {
+public:
+    GlbReader(const std::filesystem::path& path, std::FILE* file, std::string begin)
+        : path_(path), file_(file), begin_(std::move(begin))
+    {
     }
-    return container;
-}
+
+    GltfContainer read()
+    {
+        const std::string head = take(12);
+        if (head.size() < 12) refuse(path_, "a GLB cut short");
+        if (const std::uint32_t version = word_at(head, 4); version != 2)
+            refuse(path_, fmt::format("a GLB of version {}; only 2 is read", version));
+        size_ = word_at(head, 8);
+        if (size_ < 20) refuse(path_, fmt::format("the GLB says it has {} bytes", size_));
+        GltfContainer container;
+        container.is_binary = true;
+        for (std::size_t chunk = 0; at_ + 8 <= size_; ++chunk) read_chunk(container, chunk);
+        return container;
+    }
+
+private:
+    // Fewer bytes only at the end of the file.
+    std::string take(std::size_t count)
+    {
+        std::string bytes = begin_.substr(0, count);
+        begin_.erase(0, bytes.size());
+        append_bytes(path_, file_, count - bytes.size(), bytes);
+        at_ += bytes.size();
+        return bytes;
+    }
+    std::string require(std::size_t count)
+    {
+        std::string bytes = take(count);
+        if (bytes.size() < count) refuse(path_, fmt::format("the GLB says it has {} bytes and has {}", size_, at_));
+        return bytes;
+    }
+    void read_chunk(GltfContainer& container, std::size_t chunk)
+    {
+        const std::string head = require(8);
+        const std::size_t length = word_at(head, 0);
+        const std::uint32_t type = word_at(head, 4);
+        if (length > size_ - at_) refuse(path_, fmt::format("chunk {} of the GLB runs beyond its end", chunk));
+        if (chunk == 0 && type != kJsonChunk) refuse(path_, "the GLB does not start with its JSON");
+        std::string content = require(length);
+        if (chunk == 0) {
+            container.json = std::move(content);
+            container.json.resize(container.json.find_last_not_of(kBlanks) + 1);
+        } else if (chunk == 1 && type == kBinChunk) {
+            container.bytes = std::move(content);
+        } else {
+            container.other_chunks += head + content;
+        }
+    }
+
+    const std::filesystem::path& path_;
+    std::FILE* file_;
+    std::string begin_;
+    std::size_t at_ = 0, size_ = 0;
+};
 
 }  // namespace
 
 GltfContainer read_gltf_container(const std::filesystem::path& path)
 {
-    return gltf_container_of(path, read_bytes(path));
+    return read_gltf_container(path, open_text(path).get(), {});
 }
 
-GltfContainer gltf_container_of(const std::filesystem::path& path, std::string file)
+GltfContainer read_gltf_container(const std::filesystem::path& path, std::FILE* file, std::string begin)
 {
-    if (file.starts_with(kMagic)) return split(path, file);
+    if (begin.size() < 12) append_bytes(path, file, 12 - begin.size(), begin);
+    if (begin.empty()) throw InputError(path, "is empty; check how it was written");
+    if (begin.starts_with(kMagic)) return GlbReader(path, file, std::move(begin)).read();
+    if (const std::string_view start = trimmed(begin); !start.empty() && start[0] != '{')
+        throw InputError(path, "is not glTF: it starts neither with 'glTF' nor with '{'");
     GltfContainer container;
-    container.json = std::move(file);
+    container.json = std::move(begin);
+    append_rest(path, file, container.json);
     return container;
 }
 
@@ -96,20 +136,6 @@ std::string glb_of(const GltfContainer& container)
     if (!bytes.empty()) append_chunk(glb, kBinChunk, bytes, '\0');
     glb += container.other_chunks;
     return glb;
-}
-
-std::string base64_of(std::string_view bytes)
-{
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t n = 0; n < 3; ++n)
-            bits = bits << 8 | (at + n < bytes.size() ? static_cast<unsigned char>(bytes[at + n]) : 0u);
-        for (std::size_t n = 0; n < 4; ++n) text += at + n <= bytes.size() ? kDigits[bits >> (18 - 6 * n) & 63u] : '=';
-    }
-    return text;
 }
 
 }  // namespace swivel::formats

@@ -1,128 +1,92 @@
 // SPDX-License-Identifier: MIT
-#include "tools/formats/gltf_frames.h"
-
+// Frames of a glTF animation: the times they are at, and the skeleton's local poses there. Knows no JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 
 #include "tools/formats/error.h"
+#include "tools/formats/gltf.h"
+#include "tools/formats/limits.h"
 
 namespace swivel::formats {
 namespace {
 
-constexpr double kDefaultRate = 60, kRestFrameTime = 1.0 / 30;
-// Keys this far apart are frames: films and exporters have 24 a second, and curves are lost between.
-constexpr double kWidestStep = 1.0 / 24, kWidestCurveStep = 1.0 / 60;
-constexpr double kFinestStep = 1.0 / 1000;  // what lies closer is no rate, but keys apart by chance
-constexpr double kSlack = 0.02;             // of a step: times are floats, which late in a long clip are that coarse
+constexpr double kRestFrameTime = 1.0 / 30;
+constexpr double kSlack = 0.01;  // of a step: times are floats, which late in a long clip are that coarse
 
-// Every time at which some channel has a key, each once.
-std::vector<double> key_times(const GltfFile& file)
+// Which joints move the limbs: their own and all above.
+std::vector<bool> joints_to(const Clip& clip, std::span<const int> limb_joints)
 {
-    std::vector<double> times;
-    for (const GltfSampler& sampler : file.samplers)
-        times.insert(times.end(), sampler.time.begin(), sampler.time.end());
+    std::vector<bool> is_needed(clip.joints.size());
+    for (int joint : limb_joints)
+        for (; joint >= 0 && !is_needed[static_cast<std::size_t>(joint)]; joint = joint_at(clip, joint).parent)
+            is_needed[static_cast<std::size_t>(joint)] = true;
+    return is_needed;
+}
+
+void require_room(const GltfFile& file, double frames)
+{
+    const Clip& clip = file.clip;
+    const std::size_t bytes = clip.joints.size() * sizeof(Eigen::Quaterniond) +
+                              (clip.track_count + clip.scale_track_count) * sizeof(Eigen::Vector3d);
+    if (frames * static_cast<double>(bytes) <= static_cast<double>(file.choice.most_pose_bytes)) return;
+    throw InputError(file.path, fmt::format("the animation has {:.0f} frames of {} joints, more than {:g} GiB; cut it "
+                                            "or give a lower --fps",
+                                            frames, clip.joints.size(), gibibytes(file.choice.most_pose_bytes)));
+}
+
+// Every time at which one of these joints has a key, each once.
+std::vector<float> key_times(const GltfFile& file, const std::vector<bool>& is_needed)
+{
+    std::set<std::size_t> samplers;
+    for (const GltfChannel& channel : file.channels)
+        if (is_needed[static_cast<std::size_t>(channel.joint)]) samplers.insert(channel.sampler);
+    std::vector<float> times;
+    for (const std::size_t sampler : samplers)
+        for (const double time : file.samplers[sampler].time) times.push_back(static_cast<float>(time));
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
 }
 
-// Times up to this far apart are one to a grid: a jump is two keys a float's last digit apart, and what exporters
-// reckon is off by some.
-double jump_width(const std::vector<double>& times)
+// Evenly from the animation's first key to its last.
+std::vector<float> even_times(const GltfFile& file)
 {
-    const auto latest = static_cast<float>(std::max(std::abs(times.front()), std::abs(times.back())));
-    return std::max(1e-6, 4 * static_cast<double>(std::nextafter(latest, HUGE_VALF) - latest));
-}
-
-// The number of equal steps from the first time to the last that meet every time; 0: there is none, or steps are
-// smaller than kFinestStep.
-double steps_of_grid(const std::vector<double>& times)
-{
-    const double begin = times.front(), length = times.back() - begin, jump = jump_width(times);
-    double smallest = length;
-    for (std::size_t n = 1; n < times.size(); ++n) {
-        const double gap = times[n] - times[n - 1];
-        if (gap > jump) smallest = std::min(smallest, gap);
-    }
-    if (smallest < (1 - kSlack) * kFinestStep) return 0;
-    const double steps = std::round(length / smallest);
-    for (const double time : times) {
-        const double place = (time - begin) / length * steps;
-        if (std::abs(place - std::round(place)) > kSlack) return 0;
-    }
-    return steps;
-}
-
-// How far apart frames may be for what is between keys to be seen. By steps nothing is; what moves evenly asks for
-// frames because a limb that follows it to a target does not turn evenly.
-double widest_step(const GltfFile& file)
-{
-    double step = std::numeric_limits<double>::infinity();
+    if (file.samplers.empty()) return {};
+    double begin = file.samplers[0].time.front(), end = file.samplers[0].time.back();
     for (const GltfSampler& sampler : file.samplers) {
-        if (sampler.interpolation == Interpolation::step || !is_moving(sampler)) continue;
-        step = std::min(step, sampler.interpolation == Interpolation::cubic ? kWidestCurveStep : kWidestStep);
+        begin = std::min(begin, sampler.time.front());
+        end = std::max(end, sampler.time.back());
     }
-    return (1 + kSlack) * step;
-}
-
-// Frames: places in time, with so many equal parts between each two.
-struct Division {
-    double steps, parts;
-    bool is_grid;  // the places are the keys' grid; else the first key and the last
-};
-
-Division divide(const GltfFile& file, const std::vector<double>& keys, double rate)
-{
-    const double length = keys.back() - keys.front();
-    const double grid = rate > 0 ? 0 : steps_of_grid(keys);
-    if (grid == 0) return {1, std::max(std::round(length * (rate > 0 ? rate : kDefaultRate)), 1.0), false};
-    const double step = length / grid;
-    return {grid, step <= widest_step(file) ? 1 : std::ceil(step * kDefaultRate - kSlack), true};
-}
-
-std::size_t frame_bytes(const Clip& clip)
-{
-    return clip.joints.size() * sizeof(Eigen::Quaterniond) +
-           (clip.track_count + clip.scale_track_count) * sizeof(Eigen::Vector3d);
-}
-
-// Frame times as floats, as they will be written; keys on a grid are met as they are.
-std::vector<float> frame_times(const GltfFile& file, const GltfChoice& choice)
-{
-    const std::vector<double> keys = key_times(file);
-    if (keys.empty()) return {0};
-    const double begin = keys.front(), length = keys.back() - begin;
-    if (length == 0) return {static_cast<float>(begin)};
-    const Division division = divide(file, keys, choice.rate);
-    const double frames = division.steps * division.parts + 1;
-    if (!(frames * static_cast<double>(frame_bytes(file.clip)) <= static_cast<double>(choice.most_pose_bytes)))
-        throw InputError(file.path,
-                         fmt::format("the animation has {:.0f} frames of {} joints, more than {:g} GiB; cut it", frames,
-                                     file.clip.joints.size(), gibibytes(choice.most_pose_bytes)));
-    const auto place = [&](double step) {
-        const double time = begin + length * step / division.steps, slack = kSlack * length / division.steps;
-        const auto key = std::lower_bound(keys.begin(), keys.end(), time - slack);
-        return division.is_grid && key != keys.end() && *key <= time + slack ? *key : time;
-    };
+    const double steps = end > begin ? std::max(std::round((end - begin) * file.choice.rate), 1.0) : 0;
+    require_room(file, steps + 1);
     std::vector<float> times = {static_cast<float>(begin)};
-    for (double step = 0; step < division.steps; ++step) {
-        const double from = place(step), to = place(step + 1);
-        for (double part = 1; part <= division.parts; ++part) {
-            const auto time =
-                static_cast<float>(part < division.parts ? from + (to - from) * part / division.parts : to);
-            if (time > times.back()) times.push_back(time);
-        }
+    for (double step = 1; step <= steps; ++step) {
+        const auto time = static_cast<float>(begin + (end - begin) * step / steps);
+        if (time > times.back()) times.push_back(time);  // floats may be too coarse for the rate
     }
     return times;
+}
+
+// The step between frames; 0 where they are uneven.
+double frame_time_of(const std::vector<float>& times)
+{
+    if (times.size() < 2) return kRestFrameTime;
+    // In double: the difference of two floats may be more than a float holds.
+    const auto begin = static_cast<double>(times.front());
+    const double step = (static_cast<double>(times.back()) - begin) / static_cast<double>(times.size() - 1);
+    for (std::size_t n = 0; n < times.size(); ++n)
+        if (std::abs(static_cast<double>(times[n]) - begin - step * static_cast<double>(n)) > kSlack * step) return 0;
+    return step;
 }
 
 // A column for each joint whose translation or scale has keys.
 void count_tracks(GltfFile& file)
 {
     Clip& clip = file.clip;
+    clip.track_count = clip.scale_track_count = 0;
     for (const GltfChannel& channel : file.channels) {
         Joint& joint = clip.joints[static_cast<std::size_t>(channel.joint)];
         if (channel.path == GltfPath::translation) joint.track = static_cast<int>(clip.track_count++);
@@ -164,19 +128,52 @@ void fill(GltfFile& file, const GltfChannel& channel)
     }
 }
 
+void require_solvable(const GltfFile& file, const Joint& joint, const JointPose& pose_w, const std::string& when)
+{
+    const double place = pose_w.position.cwiseAbs().maxCoeff(), scale = pose_w.scale;
+    if (!(place <= kMaxNorm))
+        throw InputError(file.path, fmt::format("node {} is {:.3g} from the origin {}; swivel solves up to {:g}; "
+                                                "make the figure smaller",
+                                                joint.number, place, when, kMaxNorm));
+    if (!(scale <= kMaxNorm) || (scale > 0 && scale < 1 / kMaxNorm))
+        throw InputError(file.path, fmt::format("node {} is {:.3g} times its size {}; swivel solves {:g} to {:g}; "
+                                                "correct its scale",
+                                                joint.number, scale, when, 1 / kMaxNorm, kMaxNorm));
+}
+
+// The joints of limbs, and those above, in the world.
+void require_solvable(const GltfFile& file, const std::vector<bool>& is_needed)
+{
+    const Clip& clip = file.clip;
+    std::vector<JointPose> pose_w(clip.joints.size());
+    const auto check = [&](const std::string& when, const auto& local) {
+        for (std::size_t n = 0; n < pose_w.size(); ++n) {
+            if (!is_needed[n]) continue;
+            const int parent = clip.joints[n].parent;
+            pose_w[n] = parent < 0 ? local(n) : pose_w[static_cast<std::size_t>(parent)] * local(n);
+            require_solvable(file, clip.joints[n], pose_w[n], when);
+        }
+    };
+    check("at rest", [&](std::size_t n) { return local_rest_pose(clip.joints[n]); });
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame)
+        check(fmt::format("in frame {}", frame), [&](std::size_t n) { return local_pose(clip, frame, n); });
+}
+
 }  // namespace
 
-void sample_frames(GltfFile& file, const GltfChoice& choice)
+void sample(GltfFile& file, std::span<const int> limb_joints)
 {
+    const std::vector<bool> is_needed = joints_to(file.clip, limb_joints);
     count_tracks(file);
-    file.times = frame_times(file, choice);
+    file.times = file.choice.rate > 0 ? even_times(file) : key_times(file, is_needed);
+    if (file.times.empty()) file.times = {0};
     Clip& clip = file.clip;
     clip.frame_count = file.times.size();
-    // In double: the difference of two floats may be more than a float holds.
-    const double seconds = static_cast<double>(file.times.back()) - static_cast<double>(file.times.front());
-    clip.frame_time = clip.frame_count > 1 ? seconds / static_cast<double>(clip.frame_count - 1) : kRestFrameTime;
+    require_room(file, static_cast<double>(clip.frame_count));
+    clip.frame_time = frame_time_of(file.times);
     lay_out(clip);
     for (const GltfChannel& channel : file.channels) fill(file, channel);
+    require_solvable(file, is_needed);
 }
 
 }  // namespace swivel::formats

@@ -11,7 +11,7 @@
 namespace swivel::formats {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 struct HumanBones {
     const std::filesystem::path& path;

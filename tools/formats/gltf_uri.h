@@ -4,12 +4,39 @@
 // glTF file moves. Reads nothing.
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace swivel::formats {
 
 // Whether the address holds its bytes itself.
-bool is_data_uri(const std::string& uri);
+bool is_data_uri(std::string_view uri);
+
+struct DataUri {
+    std::string kind;  // "image/png"; may be empty
+    std::string bytes;
+};
+
+// What an address holds itself as base64; nothing for any other. Of a fault in the base64 there is nothing, too.
+std::optional<DataUri> data_of(std::string_view uri);
+
+// An address that holds these bytes.
+std::string data_uri_of(std::string_view bytes);
+
+// Every address of the document, but none in `extras`, which are the user's own: call(object) gets each object with a
+// text `uri`. Document: an ordered_json, const or not.
+template <class Document, class Call>
+void for_each_uri(Document& document, const Call& call)
+{
+    if (document.is_object()) {
+        if (const auto uri = document.find("uri"); uri != document.end() && uri->is_string()) call(document);
+        for (auto at = document.begin(); at != document.end(); ++at)
+            if (at.key() != "extras") for_each_uri(at.value(), call);
+    } else if (document.is_array()) {
+        for (auto& each : document) for_each_uri(each, call);
+    }
+}
 
 // The file that a relative address names for the glTF file `beside`, percent signs resolved. Empty for an address with
 // a scheme or of an absolute path: no file of a glTF asset lies there.

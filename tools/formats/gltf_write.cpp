@@ -7,7 +7,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf.h"
-#include "tools/formats/gltf_json.h"
+#include "tools/formats/gltf_edit.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
 
@@ -64,13 +64,6 @@ Movers movers_of(const GltfFile& file, const std::set<int>& joints)
 
 }  // namespace
 
-std::size_t mended_vertex_count(const GltfFile& file)
-{
-    std::size_t count = 0;
-    for (const GltfWeights& weights : file.weights) count += weights.mended_count;
-    return count;
-}
-
 void require_can_key(const GltfFile& file, int joint)
 {
     const Joint& at = joint_at(file, joint);
@@ -83,7 +76,7 @@ void require_can_key(const GltfFile& file, int joint)
 void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::span<const RotationOverride> overrides,
                 std::optional<bool> binary)
 {
-    GltfChanges changes{file.times, {}, file.animation, file.weights};
+    GltfChanges changes{file.times, {}, file.animation};
     std::set<int> joints;
     for (const RotationOverride& change : overrides) {
         check_override(file, change, joints);

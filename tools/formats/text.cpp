@@ -2,6 +2,7 @@
 #include "tools/formats/text.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace swivel::formats {
 namespace {
 
-constexpr std::size_t kChunkBytes = 1 << 20;
+constexpr std::size_t kChunkBytes = 1 << 20, kMostBytes = std::size_t{2} << 30;
 
 // from_chars takes no plus sign, files do.
 std::string_view without_plus(std::string_view text)
@@ -43,19 +44,39 @@ std::size_t read_some(const std::filesystem::path& path, std::FILE* file, char* 
     return count;
 }
 
+// How much more than `at` a plain file has; 0: not known.
+std::size_t size_beyond(std::FILE* file)
+{
+    struct stat status {};
+    const off_t at = ::ftello(file);
+    if (at < 0 || ::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+    return static_cast<std::size_t>(std::max(status.st_size - at, off_t{0}));
+}
+
 // read: one of the two that read a part.
 template <class Read>
-std::string read_all(const std::filesystem::path& path, Read read)
+void append(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes, Read read)
 {
-    const TextFile file = open_text(path);
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-    std::string all;
-    if (!unknown) all.reserve(static_cast<std::size_t>(size));
+    bytes.reserve(bytes.size() + std::min(most, size_beyond(file)));
     const auto chunk = std::make_unique_for_overwrite<char[]>(kChunkBytes);
-    while (const std::size_t count = read(path, file.get(), chunk.get(), kChunkBytes)) all.append(chunk.get(), count);
-    if (all.empty()) throw InputError(path, "is empty; check how it was written");
-    return all;
+    while (most > 0) {
+        const std::size_t count = read(path, file, chunk.get(), std::min(most, kChunkBytes));
+        if (count == 0) return;
+        bytes.append(chunk.get(), count);
+        most -= count;
+    }
+}
+
+// The rest of a file, appended to `bytes`.
+template <class Read>
+void append_all(const std::filesystem::path& path, std::FILE* file, std::string& bytes, Read read)
+{
+    const auto require = [&](std::size_t size) {
+        if (size > kMostBytes) throw InputError(path, "is longer than 2 GiB; cut it, or write it as .glb");
+    };
+    require(bytes.size() + size_beyond(file));  // a plain file need not be read for this
+    append(path, file, kMostBytes + 1 - bytes.size(), bytes, read);
+    require(bytes.size());
 }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -91,9 +112,24 @@ std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char*
     return count;
 }
 
-std::string read_text(const std::filesystem::path& path) { return read_all(path, read_chunk); }
+std::string read_text(const std::filesystem::path& path)
+{
+    const TextFile file = open_text(path);
+    std::string text;
+    append_all(path, file.get(), text, read_chunk);
+    if (text.empty()) throw InputError(path, "is empty; check how it was written");
+    return text;
+}
 
-std::string read_bytes(const std::filesystem::path& path) { return read_all(path, read_some); }
+void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes)
+{
+    append(path, file, most, bytes, read_some);
+}
+
+void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes)
+{
+    append_all(path, file, bytes, read_some);
+}
 
 std::string_view take_word(std::string_view& rest)
 {

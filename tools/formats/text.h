@@ -29,12 +29,16 @@ TextFile open_text(const std::filesystem::path& path);
 // error and for a binary file (one with a zero byte). `path` is for messages.
 std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char* buffer, std::size_t size);
 
-// The whole file, every byte as it is. Throws InputError as the two above do, and for an empty file. Holds the file
-// once; reading from a pipe works.
+// The whole file, every byte as it is. Throws InputError as the two above do, for an empty file, and for more than
+// 2 GiB: a device may have no end. Holds the file once; reading from a pipe works.
 std::string read_text(const std::filesystem::path& path);
 
-// The same of any file, text or binary.
-std::string read_bytes(const std::filesystem::path& path);
+// Appends what comes next of any file, text or binary: `most` bytes, or fewer where it ends. Throws InputError on a
+// read error. Allocates as bytes come, not as `most` says.
+void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes);
+
+// Appends the rest of any file, with the limit of read_text().
+void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes);
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 

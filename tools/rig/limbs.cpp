@@ -172,6 +172,15 @@ FigureJoints choose_joints(const Clip& clip, const std::filesystem::path& file, 
     return figure;
 }
 
+std::vector<int> joints_of(const FigureJoints& figure)
+{
+    std::vector<int> joints;
+    for (const LimbFound& limb : figure)
+        if (limb.is_chosen && limb.joints.joints)
+            joints.insert(joints.end(), limb.joints.joints->begin(), limb.joints.joints->end());
+    return joints;
+}
+
 LimbSearch bind_limbs(const Clip& clip, const FigureJoints& joints, const LimbChoice& choice)
 {
     std::array<std::optional<LimbJoints>, 4> known;

@@ -31,6 +31,9 @@ using FigureJoints = std::array<LimbFound, 4>;
 // or ambiguous joint, joints that are not above each other, two limbs of a kind on one side, and a joint in two limbs.
 FigureJoints choose_joints(const formats::Clip& clip, const std::filesystem::path& file, const LimbChoice& choice);
 
+// The joints of the limbs that are to be solved, as far as they are known.
+std::vector<int> joints_of(const FigureJoints& figure);
+
 // What became of one limb: bound, or why not.
 struct LimbFinding {
     formats::LimbName name;

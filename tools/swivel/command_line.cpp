@@ -78,8 +78,8 @@ void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
                                  use),
           name("name an animation, or leave the option out for the first"));
     takes(command.add_option("--fps", motion.rate,
-                             "Samples a second of a glTF animation, 0.001 to 10000. Without it its keys, "
-                             "or finer where they are coarse or uneven (docs/rigs.md)"),
+                             "Even frames a second of a glTF animation, 0.001 to 10000. Without it the limbs' own keys "
+                             "(docs/motion_files.md)"),
           number(0.001, 10'000));
 }
 

@@ -27,13 +27,21 @@ void require_no_choice(const MotionChoice& choice)
 // Told apart by the first bytes.
 Motion read_standard_input(const std::filesystem::path& path, const MotionChoice& choice)
 {
-    std::string bytes = formats::read_bytes(path);
-    const std::string_view start = formats::trimmed(std::string_view(bytes).substr(0, 1000));
-    if (start.starts_with("glTF") || start.starts_with('{'))
-        return formats::read_gltf(path, formats::gltf_container_of(path, std::move(bytes)), {choice.clip, choice.rate});
-    if (!formats::is_bvh_text(bytes) || bytes.find('\0') != std::string::npos)
+    const formats::TextFile input = formats::open_text(path);
+    std::string bytes;
+    formats::append_bytes(path, input.get(), 1000, bytes);
+    if (bytes.empty()) throw formats::InputError(path, "is empty; check how it was written");
+    const std::string_view start = formats::trimmed(bytes);
+    if (start.starts_with("glTF") || start.starts_with('{')) {
+        formats::GltfContainer container = formats::read_gltf_container(path, input.get(), std::move(bytes));
+        return formats::read_gltf(path, std::move(container), {choice.clip, choice.rate});
+    }
+    if (!formats::is_bvh_text(bytes))
         throw formats::InputError(path, "starts neither as BVH nor as glTF does; give other formats as files");
     require_no_choice(choice);
+    formats::append_rest(path, input.get(), bytes);
+    if (bytes.find('\0') != std::string::npos)
+        throw formats::InputError(path, "starts neither as BVH nor as glTF does; give other formats as files");
     return formats::bvh_of(path, std::move(bytes));
 }
 
@@ -63,6 +71,11 @@ MotionFile::MotionFile(const std::filesystem::path& path, const MotionChoice& ch
 {
 }
 
+void MotionFile::sample(std::span<const int> limb_joints)
+{
+    if (GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::sample(*gltf, limb_joints);
+}
+
 const formats::Clip& MotionFile::clip() const
 {
     return std::visit([](const auto& file) -> const formats::Clip& { return file.clip; }, file_);
@@ -83,12 +96,6 @@ std::string MotionFile::describe() const
     return fmt::format("{}, animation {}{} of {}", format_, gltf->animation,
                        name.empty() ? "" : fmt::format(" '{}'", formats::printable(name)),
                        gltf->animation_names.size());
-}
-
-std::size_t MotionFile::mended_vertex_count() const
-{
-    const GltfFile* gltf = std::get_if<GltfFile>(&file_);
-    return gltf ? formats::mended_vertex_count(*gltf) : 0;
 }
 
 void MotionFile::require_can_write(const OutPlace& out) const

@@ -26,15 +26,18 @@ public:
     // Reads .glb, .gltf and .vrm as glTF, everything else as BVH; the suffix in any case.
     // Standard input ("-") is glTF if it starts as such files do, else BVH.
     // Throws InputError as the readers do, and CommandError (bad usage) for a choice that a BVH file does not have.
+    // The clip has no frames until sample().
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
 
+    // Makes the clip's frames, for limbs of these joints; throws InputError as formats::sample() does. A BVH file has
+    // its frames already.
+    void sample(std::span<const int> limb_joints);
+
     const formats::Clip& clip() const;
-    // The files beside it that it uses: a glTF file's buffers and images.
+    // The files that it refers to, such as a glTF file's buffers and images.
     std::span<const std::filesystem::path> files_beside() const;
     // What the clip is, for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
-    // Vertices of a glTF file whose skin weights write() mends, see formats::mended_vertex_count().
-    std::size_t mended_vertex_count() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
     void require_can_write(const OutPlace& out) const;
     // Throws InputError for a joint whose rotation that cannot hold.

@@ -165,6 +165,11 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     return out;
 }
 
+nlohmann::ordered_json frame_time_of(const formats::Clip& clip)
+{
+    return clip.frame_time > 0 ? nlohmann::ordered_json(clip.frame_time) : nlohmann::ordered_json();
+}
+
 void print_json(const nlohmann::ordered_json& json, std::FILE* to)
 {
     say(to, "{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tools/crowd/statistics.h"
+#include "tools/formats/clip.h"
 
 namespace swivel::tools {
 
@@ -18,6 +19,9 @@ std::string what_went_wrong(const Statistics& statistics);
 // stdout or stderr.
 void print_statistics(std::FILE* to, const Statistics& statistics);
 nlohmann::ordered_json json_of(const Statistics& statistics);
+
+// Seconds from frame to frame; null where frames are uneven.
+nlohmann::ordered_json frame_time_of(const formats::Clip& clip);
 
 // Prints JSON; bytes of file and joint names that are not UTF-8 are replaced.
 void print_json(const nlohmann::ordered_json& json, std::FILE* to = stdout);

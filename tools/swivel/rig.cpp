@@ -22,12 +22,14 @@ void run_rig(const RigOptions& options)
     if (options.toml && (options.json || options.joints))
         throw CommandError(2, "--toml prints a crowd file and nothing else; leave out --json and --joints");
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    const MotionFile motion(options.file, options.motion);
+    MotionFile motion(options.file, options.motion);
     LimbChoice choice;
     choice.kinds = options.kinds;
     for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
     for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
-    const LimbSearch search = bind_limbs(motion.clip(), choose_joints(motion.clip(), options.file, choice), choice);
+    const FigureJoints joints = choose_joints(motion.clip(), options.file, choice);
+    motion.sample(joints_of(joints));
+    const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
         print_json(json_of(motion, options.file, search, options.joints));

@@ -195,7 +195,7 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"motion", motion.describe()},
                                {"joints", clip.joints.size()},
                                {"frames", clip.frame_count},
-                               {"frame_time", clip.frame_time},
+                               {"frame_time", frame_time_of(clip)},
                                {"faces", vector_of(facing.forwards)},
                                {"faces_by", facing.source},
                                {"up", vector_of(facing.up)},

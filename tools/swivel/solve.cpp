@@ -109,7 +109,7 @@ Between between_of(const SolveOptions& options, const std::string& targets)
 }
 
 // The command line before the crowd file before what is so without both.
-Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip& clip)
+Job make_job(const SolveOptions& options, LimbChoice choice, MotionFile& file)
 {
     Job job;
     if (!options.crowd.empty()) {
@@ -117,12 +117,19 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
         add_choice(*job.crowd, choice);
         require_named_limbs_solved(choice);
     }
-    LimbSearch search = bind_limbs(clip, choose_joints(clip, options.file, choice), choice);
+    const formats::Clip& clip = file.clip();
+    const FigureJoints joints = choose_joints(clip, options.file, choice);
+    file.sample(joints_of(joints));
+    LimbSearch search = bind_limbs(clip, joints, choice);
     job.limbs = require_limbs(search, options.file);
     for (LimbFinding& finding : search.findings)
         if (!finding.limb) job.missing.push_back(std::move(finding));
     job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
     if (options.characters) job.plan.characters = *options.characters;
+    if (clip.frame_time == 0 && job.plan.characters > 1)
+        throw formats::InputError(options.file,
+                                  "its keys lie at uneven times, and the characters of a crowd start at "
+                                  "different frames; give --fps");
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
     require_one_reader(options, job.targets);
@@ -130,14 +137,10 @@ Job make_job(const SolveOptions& options, LimbChoice choice, const formats::Clip
     return job;
 }
 
-void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, double seconds,
-                  std::size_t mended)
+void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, double seconds)
 {
     print_statistics(to, statistics);
     say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
-    if (mended > 0)
-        say(to, "weights  the skin weights of {} {} did not add up to 1, as glTF asks; in the written file they do\n",
-            mended, mended == 1 ? "vertex" : "vertices");
     for (const std::string& name : {options.out, options.export_targets})
         if (!name.empty()) say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
 }
@@ -152,9 +155,9 @@ void run_solve(const SolveOptions& options)
     const LimbChoice choice = choice_of(options);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     std::FILE* const reports = report_stream(options);
-    const MotionFile file(options.file, options.motion);
+    MotionFile file(options.file, options.motion);
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
-    const Job job = make_job(options, choice, file.clip());
+    const Job job = make_job(options, choice, file);
     require_own_files(options, file, job.targets);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing};
@@ -162,20 +165,17 @@ void run_solve(const SolveOptions& options)
 
     const ThreadLimit limit(options.threads);
     const Statistics statistics = solve_clip(options, file, job);
-    const bool has_motion = out_kind(options, job.plan.characters) == OutKind::motion;
-    const std::size_t mended = has_motion ? file.mended_vertex_count() : 0;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (options.json) {
         nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
         out["each_character"] = json_of(characters_of(job.plan, job.limbs, file.clip().frame_count));
         out.update(json_of(statistics));
         out["seconds"] = seconds;
-        if (mended > 0) out["mended_vertices"] = mended;
         if (!options.out.empty()) out["out"] = options.out;
         if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
         print_json(out, reports);
     } else if (!options.quiet) {
-        print_report(reports, options, statistics, seconds, mended);
+        print_report(reports, options, statistics, seconds);
     }
     if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }

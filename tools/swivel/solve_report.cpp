@@ -15,8 +15,9 @@ namespace swivel::tools {
 
 void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    say(to, "clip     {}: {}, {} joints, {} frame{}, {:.1f} frames/s\n", facts.clip, facts.motion, clip.joints.size(),
-        clip.frame_count, clip.frame_count == 1 ? "" : "s", 1 / clip.frame_time);
+    say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", facts.clip, facts.motion, clip.joints.size(),
+        clip.frame_count, clip.frame_count == 1 ? "" : "s",
+        clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
         say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
@@ -42,10 +43,14 @@ void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& cli
 
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    nlohmann::ordered_json out{
-        {"clip", facts.clip},         {"motion", facts.motion},        {"joints", clip.joints.size()},
-        {"frames", clip.frame_count}, {"frame_time", clip.frame_time}, {"characters", facts.characters},
-        {"seed", facts.seed},         {"targets", facts.targets}};
+    nlohmann::ordered_json out{{"clip", facts.clip},
+                               {"motion", facts.motion},
+                               {"joints", clip.joints.size()},
+                               {"frames", clip.frame_count},
+                               {"frame_time", frame_time_of(clip)},
+                               {"characters", facts.characters},
+                               {"seed", facts.seed},
+                               {"targets", facts.targets}};
     if (!facts.crowd.empty()) out["crowd"] = facts.crowd;
     for (const Limb& limb : limbs) {
         const LimbWords& words = words_of(limb.name.kind);

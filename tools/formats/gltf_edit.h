@@ -1,0 +1,38 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// New keys put into a glTF file's JSON text and buffers. Owns every rule about where things stand in that text; knows
+// no clip.
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "tools/formats/gltf_container.h"
+
+namespace swivel::formats {
+
+// What a writer puts into a file.
+struct GltfChanges {
+    struct Track {
+        int node = -1;
+        std::vector<float> xyzw;  // 4 for each time
+        bool is_stepped = false;  // STEP; else LINEAR
+        // What the node's matrix, if it has one, is made of.
+        Eigen::Vector3d translation, scale;
+        Eigen::Quaterniond rotation;
+    };
+    std::vector<float> times;
+    std::vector<Track> tracks;
+    int animation = -1;  // -1: a new one
+};
+
+// The file with these changes, in the shape for a file at `to`: `binary` or not. from: where the file was read, for
+// what lies beside it; buffers: their contents. Both must be as read: anything gltf_document() refuses is undefined
+// here. Holds the text twice, and once as a document.
+GltfContainer with_changes(const GltfContainer& file, std::span<const std::string_view> buffers,
+                           const GltfChanges& changes, const std::filesystem::path& from,
+                           const std::filesystem::path& to, bool binary);
+
+}  // namespace swivel::formats
