@@ -29,17 +29,27 @@ std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::
     return errors;
 }
 
-std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written)
+std::vector<std::multiset<std::string>> new_gltf_messages(const std::vector<std::pair<fs::path, fs::path>>& files)
 {
-    const nlohmann::json reports = ask_check({"validate", source.string(), written.string()});
-    std::multiset<std::string> said;
+    std::vector<std::string> arguments = {"validate"};
+    for (const auto& [source, written] : files) arguments.insert(arguments.end(), {source.string(), written.string()});
+    const nlohmann::json reports = ask_check(arguments);
     const auto text = [](const nlohmann::json& message) {
         return message.at("code").get<std::string>() + ' ' + message.value("pointer", "");
     };
-    for (const auto& message : reports.at(1).at("messages")) said.insert(text(message));
-    for (const auto& message : reports.at(0).at("messages"))
-        if (const auto known = said.find(text(message)); known != said.end()) said.erase(known);
-    return said;
+    std::vector<std::multiset<std::string>> news;
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        std::multiset<std::string>& said = news.emplace_back();
+        for (const auto& message : reports.at(2 * n + 1).at("messages")) said.insert(text(message));
+        for (const auto& message : reports.at(2 * n).at("messages"))
+            if (const auto known = said.find(text(message)); known != said.end()) said.erase(known);
+    }
+    return news;
+}
+
+std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written)
+{
+    return new_gltf_messages({{source, written}})[0];
 }
 
 std::vector<std::vector<Eigen::Matrix4d>> three_poses(const fs::path& path, int animation,

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/run_program.h"
@@ -21,6 +22,9 @@ std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::
 
 // The validator's messages of every kind about `written` that it does not have about `source`, code and place of each.
 std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written);
+
+// The same of many pairs of source and written file, in their order.
+std::vector<std::multiset<std::string>> new_gltf_messages(const std::vector<std::pair<fs::path, fs::path>>& files);
 
 // [time][node]: world matrices as three.js plays the file.
 std::vector<std::vector<Eigen::Matrix4d>> three_poses(const fs::path& path, int animation,
