@@ -207,6 +207,7 @@ TEST_CASE("bvh: malformed files are refused with line and cause")
         {"Hips\n{", "Hips\nOFFSET", "t.bvh:3: 'OFFSET' where { should be"},
         {"OFFSET 1 2 3", "OFFSET 1 2", "t.bvh:4: OFFSET has fewer than three numbers"},
         {"OFFSET 1 2 3", "OFFSET 1 2 3 4", "t.bvh:4: OFFSET has more than three numbers"},
+        {"OFFSET 1 2 3", "OFFSET 1 1e30 3", "t.bvh:4: OFFSET: 1e+30 is more than 1e+15; correct it"},
         {"OFFSET 1 2 3", "OFFSET 1 nan 3", "t.bvh:4: OFFSET: 'nan' is not a finite decimal number"},
         {"OFFSET 1 2 3", "OFFSET 1 2 3\nOFFSET 1 2 3", "t.bvh:5: 'OFFSET' where OFFSET or CHANNELS (once"},
         {"  OFFSET 1 2 3\n", "", "t.bvh:18: joint 'Hips' has no OFFSET"},
@@ -243,6 +244,9 @@ TEST_CASE("bvh: malformed files are refused with line and cause")
         {last, "10 20 30 0 0\n0 90 0 90\n", "t.bvh:24: 5 values, the channels need 9"},
         {last, "10 20 30 0 0 0 90 nan 90\n", "t.bvh:24: value 8 (Arm Xrotation): 'nan' is not a finite"},
         {last, "10 20 30 0 0 0 90 0 1e999\n", "t.bvh:24: value 9 (Arm Yrotation): '1e999' is not a finite"},
+        {last, "10 20 30 0 0 0 90 0 1e308\n", "t.bvh:24: value 9 (Arm Yrotation): 1e+308 is more than 1e+09 degrees"},
+        {last, "10 -2e15 30 0 0 0 90 0 0\n",
+         "t.bvh:24: value 2 (Hips Yposition): -2e+15 is more than 1e+15; correct it"},
         {last, "10 2o 30 0 0 0 90 0 90\n", "t.bvh:24: value 2 (Hips Yposition): '2o' is not a finite"},
         {last, "10 -inf 30 0 0 0 90 0 90\n", "t.bvh:24: value 2 (Hips Yposition): '-inf' is not a finite"},
     };

@@ -4,17 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "tools/formats/bvh_hierarchy.h"
 #include "tools/formats/bvh_scanner.h"
 #include "tools/formats/euler.h"
+#include "tools/formats/limits.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
 namespace {
 
+constexpr double kMostDegrees = 1e9;                     // of which a double's last digit is 1e-7 degrees
 constexpr std::size_t kMaxPoses = std::size_t{1} << 28;  // frames times joints: 8 GiB of quaternions
 
 struct MotionHeader {
@@ -63,14 +66,33 @@ void reserve_frames(const Scanner& scan, BvhFile& file, const MotionHeader& head
     clip.translation.reserve(frame_count * clip.track_count);
 }
 
-std::string describe_channel(const BvhFile& file, std::size_t channel)
+// What a channel of a frame's line is.
+struct NamedChannel {
+    std::string name;
+    bool is_position;
+};
+
+NamedChannel named_channel(const BvhFile& file, std::size_t channel)
 {
     const auto after = std::upper_bound(file.joints.begin(), file.joints.end(), channel,
                                         [](std::size_t c, const BvhJoint& joint) { return c < joint.first_channel; });
     // Joints without channels share their successor's first channel; the last of equals has them.
     const auto joint = static_cast<std::size_t>(after - file.joints.begin()) - 1;
     const Channel kind = file.joints[joint].channels[channel - file.joints[joint].first_channel];
-    return fmt::format("{} {}", printable(file.clip.joints[joint].name), kChannelNames[static_cast<std::size_t>(kind)]);
+    return {
+        fmt::format("{} {}", printable(file.clip.joints[joint].name), kChannelNames[static_cast<std::size_t>(kind)]),
+        is_position(kind)};
+}
+
+// A number that is too large to say where a limb is: an angle that a double does not resolve, a place that the engine
+// does not hold.
+void require_held(const Scanner& scan, const BvhFile& file, std::size_t channel, double number)
+{
+    if (std::abs(number) <= kMostDegrees) return;
+    const NamedChannel at = named_channel(file, channel);
+    if (at.is_position && std::abs(number) <= kMaxNorm) return;
+    fail(scan, fmt::format("value {} ({}): {:g} is more than {:g}{}; correct it", channel + 1, at.name, number,
+                           at.is_position ? kMaxNorm : kMostDegrees, at.is_position ? "" : " degrees"));
 }
 
 void parse_values(const Scanner& scan, const BvhFile& file, std::string_view line, std::span<double> values)
@@ -81,8 +103,9 @@ void parse_values(const Scanner& scan, const BvhFile& file, std::string_view lin
         const std::optional<double> number = parse_number(word);
         if (!number) {
             fail(scan, fmt::format("value {} ({}): '{}' is not a finite decimal number", count + 1,
-                                   describe_channel(file, count), printable(word)));
+                                   named_channel(file, count).name, printable(word)));
         }
+        require_held(scan, file, count, *number);
         values[count] = *number;
     }
     if (count != values.size()) {

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "tools/formats/limits.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -34,6 +36,8 @@ Eigen::Vector3d read_offset(Scanner& scan)
         if (word.empty()) fail(scan, "OFFSET has fewer than three numbers");
         const std::optional<double> number = parse_number(word);
         if (!number) fail(scan, fmt::format("OFFSET: '{}' is not a finite decimal number", printable(word)));
+        if (!(std::abs(*number) <= kMaxNorm))
+            fail(scan, fmt::format("OFFSET: {:g} is more than {:g}; correct it", *number, kMaxNorm));
         value = *number;
     }
     if (!take_word(rest).empty()) fail(scan, "OFFSET has more than three numbers");
