@@ -9,6 +9,8 @@
 
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limb_joints.h"
+#include "tools/rig/limbs.h"
+#include "tools/rig/name_table.h"
 
 using namespace swivel;
 using formats::Clip;
@@ -238,13 +240,36 @@ TEST_CASE("limb joints: a file that says which joints are a limb's is believed")
     CHECK(found(clip)[0] == names);
 }
 
+TEST_CASE("limb joints: of two limbs with one joint that the file names none is taken")
+{
+    Clip clip = skeleton({{"LeftArm", "LeftForeArm", "LeftHand"}});
+    tools::LimbChoice all;
+    all.kinds = "all";
+    const auto chosen = [&] { return tools::choose_joints(clip, "rig.glb", all); };
+    CHECK(chosen()[0].joints.joints);
+    clip.human_bones = {{"rightUpperArm", 1}, {"rightLowerArm", 2}, {"rightHand", 3}};  // VRM's word against the names
+    const tools::FigureJoints figure = chosen();
+    CHECK_FALSE(figure[0].joints.joints);
+    CHECK_FALSE(figure[1].joints.joints);
+    CHECK(figure[0].joints.problem == "'LeftArm' is found for the right arm, too");
+    CHECK(figure[1].joints.problem == "'LeftArm' is found for the left arm, too");
+}
+
+TEST_CASE("limb joints: a name of many escapes is read in one go")
+{
+    std::string name = "left", plain = "left";
+    for (int n = 0; n < 100'000; ++n) name += "FBXASC046FBXASC999FBXASC", plain += "fbxasc999fbxasc";
+    CHECK(tools::plain(name) == plain);
+    CHECK(tools::plain("LeftFBXASC046ArmFBXASC04") == "leftarmfbxasc04");
+}
+
 TEST_CASE("limb joints: the side a name speaks of")
 {
-    for (const std::string name :
-         {"LeftUpLeg", "thigh_l", "thigh.L", "lThigh", "mixamorig:LeftArm", "DEF-thigh.L", "thigh_l_055"})
+    for (const std::string name : {"LeftUpLeg", "thigh_l", "thigh.L", "lThigh", "mixamorig:LeftArm", "DEF-thigh.L",
+                                   "thigh_l_055", "LeftCollar", "lFemur", "LeftFoo", "Foo_l"})
         CHECK(tools::side_of(name, Side::right) == Side::left);
-    for (const std::string name :
-         {"RightUpLeg", "thigh_r", "thigh.R", "rThigh", "mixamorig:RightArm", "DEF-thigh.R", "thigh_r_055"})
+    for (const std::string name : {"RightUpLeg", "thigh_r", "thigh.R", "rThigh", "mixamorig:RightArm", "DEF-thigh.R",
+                                   "thigh_r_055", "leg.R", "RightFoo", "R Foo"})
         CHECK(tools::side_of(name, Side::left) == Side::right);
     for (const std::string name : {"Bone3", "Shoulder", "_7"}) {
         CHECK(tools::side_of(name, Side::left) == Side::left);

@@ -202,11 +202,11 @@ TEST_CASE("rigs: a joint that is named for one limb is no other's")
     REQUIRE(rig.exit_code == 0);
     const json report = json::parse(rig.out);
     CHECK(report["limbs"][0]["joints"][0] == "RightArm");
-    CHECK(report["limbs"][1]["problem"] == "its joints were named for the left arm");
+    CHECK(report["limbs"][1]["problem"] == "'RightArm' is named for the left arm");
     const Outcome half = run_command(folder.path, {"solve", "rig.glb", "--json", "--limbs", "arms", "--arm", left});
     INFO(half.err);
     REQUIRE(half.exit_code == 0);
-    CHECK(json::parse(half.out)["missing"][0]["problem"] == "its joints were named for the left arm");
+    CHECK(json::parse(half.out)["missing"][0]["problem"] == "'RightArm' is named for the left arm");
     const auto refused = [&](std::vector<std::string> options, const std::string& message) {
         options.insert(options.begin(), {"solve", "rig.glb"});
         const Outcome outcome = run_command(folder.path, options);

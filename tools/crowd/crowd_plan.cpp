@@ -192,7 +192,8 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
             (is_arm ? choice.arms : choice.legs)
                 .push_back({joints->value, name->side, {joints->key, file.path, joints->line}});
         if (const auto& bend = section.settings.bend)
-            choice.bends.push_back({*name, bend->value, bend->key, formats::printable(file.path.string(), 400)});
+            choice.bends.push_back({*name, bend->value, bend->key, formats::printable(file.path.string(), 400),
+                                    bend->key.ends_with(".hinge")});
     }
 }
 

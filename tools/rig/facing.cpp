@@ -41,9 +41,9 @@ struct RestingFigure {
     const JointPose& pose(int joint) const { return pose_w[static_cast<std::size_t>(joint)]; }
     bool has(std::size_t pair) const { return joints[pair] && joints[pair + 1]; }
     // The upper joints of a pair: from right to left, and the middle.
-    const Vector3d& start(std::size_t limb) const { return pose((*joints[limb])[0]).position; }
-    Vector3d to_left(std::size_t pair) const { return start(pair) - start(pair + 1); }
-    Vector3d middle(std::size_t pair) const { return (start(pair) + start(pair + 1)) / 2; }
+    const Vector3d& start_w(std::size_t limb) const { return pose((*joints[limb])[0]).position; }
+    Vector3d to_left_w(std::size_t pair) const { return start_w(pair) - start_w(pair + 1); }
+    Vector3d middle_w(std::size_t pair) const { return (start_w(pair) + start_w(pair + 1)) / 2; }
 
     bool is_mirrored(std::size_t pair) const
     {
@@ -63,14 +63,15 @@ struct RestingFigure {
         });
         return toes;
     }
-    Vector3d way_of_toes() const
+    Vector3d way_of_toes_w() const
     {
-        Vector3d way = Vector3d::Zero();
+        Vector3d way_w = Vector3d::Zero();
         for (const std::size_t leg : {kLegs, kLegs + 1}) {
             if (!joints[leg]) continue;
-            for (const int toe : toes(leg)) way += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
+            for (const int toe : toes(leg))
+                way_w += (pose(toe).position - pose((*joints[leg])[2]).position).normalized();
         }
-        return way;
+        return way_w;
     }
 };
 
@@ -81,23 +82,26 @@ Facing facing_of(const Clip& clip, const std::array<std::optional<LimbJoints>, 4
     const RestingFigure figure{clip, joints};
     Facing facing;
     if (figure.has(kArms) && figure.has(kLegs)) {
-        const Vector3d trunk = figure.middle(kArms) - figure.middle(kLegs);
-        if (trunk.norm() > 0) facing = {facing.forwards, trunk.normalized(), facing.source, "hips to shoulders"};
+        const Vector3d trunk_w = figure.middle_w(kArms) - figure.middle_w(kLegs);
+        if (trunk_w.norm() > 0) {
+            facing.up_w = trunk_w.normalized();
+            facing.up_source = "hips to shoulders";
+        }
     }
-    if (const auto way = level(figure.way_of_toes(), facing.up)) {
-        facing.forwards = *way;
-        facing.source = "the toes";
+    if (const auto way = level(figure.way_of_toes_w(), facing.up_w)) {
+        facing.forwards_w = *way;
+        facing.forwards_source = "the toes";
         return facing;
     }
     for (const std::size_t pair : {kArms, kLegs}) {
         if (!figure.has(pair)) continue;
-        const auto left = level(figure.to_left(pair), facing.up);
+        const auto left = level(figure.to_left_w(pair), facing.up_w);
         if (!left) continue;
-        facing.forwards = (figure.is_mirrored(pair) ? Vector3d(-*left) : *left).cross(facing.up);
-        facing.source = pair == kArms ? "left and right shoulder" : "left and right hip";
+        facing.forwards_w = (figure.is_mirrored(pair) ? Vector3d(-*left) : *left).cross(facing.up_w);
+        facing.forwards_source = pair == kArms ? "left and right shoulder" : "left and right hip";
         return facing;
     }
-    facing.forwards = level(facing.forwards, facing.up).value_or(facing.up.unitOrthogonal());
+    facing.forwards_w = level(facing.forwards_w, facing.up_w).value_or(facing.up_w.unitOrthogonal());
     return facing;
 }
 

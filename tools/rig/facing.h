@@ -14,10 +14,10 @@ namespace swivel::tools {
 
 // In the world, unit.
 struct Facing {
-    Eigen::Vector3d forwards = Eigen::Vector3d::UnitZ();
-    Eigen::Vector3d up = Eigen::Vector3d::UnitY();
-    std::string source = "the file's +Z";     // of forwards, for people
-    std::string up_source = "the file's +Y";  // of up
+    Eigen::Vector3d forwards_w = Eigen::Vector3d::UnitZ();
+    Eigen::Vector3d up_w = Eigen::Vector3d::UnitY();
+    std::string forwards_source = "the file's +Z";  // who says so, for people
+    std::string up_source = "the file's +Y";
 };
 
 // Up leads from the hips to the shoulders, else it is +Y. Forwards is where the toes point: the joints that the file

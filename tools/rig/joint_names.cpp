@@ -23,16 +23,22 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_number(std::string_view text) { return std::all_of(text.begin(), text.end(), is_digit); }
 
 // FBX writes a character that it has no use for as this and its number, in three digits.
-std::string decoded(std::string name)
+std::string decoded(std::string_view name)
 {
     constexpr std::string_view kEscape = "FBXASC";
-    for (std::size_t at = 0; (at = name.find(kEscape, at)) != std::string::npos; ++at) {
-        const std::string digits = name.substr(at + kEscape.size(), 3);
-        if (digits.size() < 3 || !is_number(digits)) continue;
-        const char character = static_cast<char>(*formats::parse_integer(digits));
-        name.replace(at, kEscape.size() + 3, 1, character);
+    std::string out;
+    while (!name.empty()) {
+        const std::size_t at = std::min(name.find(kEscape), name.size());
+        out += name.substr(0, at);
+        name.remove_prefix(at);
+        const std::string_view digits = name.substr(std::min(kEscape.size(), name.size()), 3);
+        const auto code = digits.size() == 3 && is_number(digits) ? formats::parse_integer(digits) : std::nullopt;
+        if (code && *code < 256) out += static_cast<char>(*code);
+        const std::size_t taken = code && *code < 256 ? kEscape.size() + 3 : std::min<std::size_t>(1, name.size());
+        if (taken == 1) out += name[0];
+        name.remove_prefix(taken);
     }
-    return name;
+    return out;
 }
 
 // The words of a name, in lower case: what its separators divide. A word may be a number.
@@ -86,7 +92,7 @@ std::string plain(std::string_view joint_name)
     if (const std::size_t space = joint_name.find_last_of(":|"); space != std::string_view::npos)
         joint_name.remove_prefix(space + 1);
     std::vector<char> separators;
-    std::vector<std::string> words = words_in(decoded(std::string(joint_name)), separators);
+    std::vector<std::string> words = words_in(decoded(joint_name), separators);
     drop_endings(words, separators);
     drop_before_side(words);
     std::string name;
@@ -95,15 +101,19 @@ std::string plain(std::string_view joint_name)
     return name;
 }
 
-Side side_of(std::string_view joint_name, Side otherwise)
+std::optional<Side> side_word(std::string_view joint_name)
 {
-    const std::string name = plain(joint_name);
-    const bool left = name.starts_with("l") || name.ends_with("l") || name.find("left") != std::string::npos ||
-                      name.starts_with("左");
-    const bool right = name.find("right") != std::string::npos ||
-                       (!name.ends_with("shoulder") && name.ends_with("r")) || name.starts_with("r") ||
-                       name.starts_with("右");
-    return left == right ? otherwise : left ? Side::left : Side::right;
+    std::vector<char> separators;
+    const std::vector<std::string> words = words_in(joint_name, separators);
+    const auto says = [&](std::string_view word, std::string_view letter, std::string_view sign) {
+        return joint_name.find(sign) != std::string_view::npos ||
+               std::any_of(words.begin(), words.end(), [&](const std::string& each) {
+                   return each == letter || each.find(word) != std::string::npos;
+               });
+    };
+    const bool left = says("left", "l", "左"), right = says("right", "r", "右");
+    if (left == right) return std::nullopt;
+    return left ? Side::left : Side::right;
 }
 
 }  // namespace swivel::tools

@@ -3,6 +3,7 @@
 // What a joint's name says, whoever exported it. Knows no skeleton.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,7 +20,8 @@ namespace swivel::tools {
 // Letters beyond ASCII stay as they are.
 std::string plain(std::string_view joint_name);
 
-// The side that a joint's name speaks of, or `otherwise` where it speaks of none or of both.
-formats::Side side_of(std::string_view joint_name, formats::Side otherwise);
+// The side that a joint's name says: left or right as a part of a word, l or r as a whole word. Nothing if it says none
+// or both.
+std::optional<formats::Side> side_word(std::string_view joint_name);
 
 }  // namespace swivel::tools

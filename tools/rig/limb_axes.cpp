@@ -31,14 +31,14 @@ double tenth_below(double angle) { return std::max(0.0, std::floor(10 * (angle -
 
 std::string direction_words(const Vector3d& direction_w, const Facing& facing)
 {
-    const Vector3d left = facing.up.cross(facing.forwards);
+    const Vector3d left = facing.up_w.cross(facing.forwards_w);
     struct Way {
         double share;
         std::string_view positive, negative;
     };
     std::array<Way, 3> ways = {Way{direction_w.dot(left), "left", "right"},
-                               Way{direction_w.dot(facing.up), "up", "down"},
-                               Way{direction_w.dot(facing.forwards), "forwards", "backwards"}};
+                               Way{direction_w.dot(facing.up_w), "up", "down"},
+                               Way{direction_w.dot(facing.forwards_w), "forwards", "backwards"}};
     std::stable_sort(ways.begin(), ways.end(),
                      [](const Way& a, const Way& b) { return std::abs(a.share) > std::abs(b.share); });
     std::string words;

@@ -67,14 +67,16 @@ Bend choose_bend(const Clip& clip, LimbName limb, const LimbChain& chain, const 
         return (v - v.dot(upper) * upper).normalized();
     };
     const Vector3d upper_w = parent_w.rotation * seen(rest.turn[0] * upper);
-    const Vector3d way_w = is_arm ? facing.forwards : Vector3d(-facing.forwards);
+    const Vector3d way_w = is_arm ? facing.forwards_w : Vector3d(-facing.forwards_w);
     if (std::abs(upper_w.dot(way_w)) > kCosine30)
-        throw CannotBind(fmt::format("it is straight and points {}, so nothing tells which way it bends",
-                                     upper_w.dot(facing.forwards) > 0 ? "ahead" : "behind"),
-                         fmt::format("write bend = {} under [limb.{}] in a crowd file, if it hung and was swung there",
-                                     toml_row(in_joint(aim(-facing.up, upper_w) * way_w)), limb_word(limb)));
-    return {in_joint(way_w), fmt::format("{}; forwards is told by {}",
-                                         is_arm ? "elbows bend forwards" : "knees bend backwards", facing.source)};
+        throw CannotBind(
+            fmt::format("it is straight and points {} (forwards is told by {}), so nothing tells which way it bends",
+                        upper_w.dot(facing.forwards_w) > 0 ? "ahead" : "behind", facing.forwards_source),
+            fmt::format("write bend = {} under [limb.{}] in a crowd file, if it hung and was swung there",
+                        toml_row(in_joint(aim(-facing.up_w, upper_w) * way_w)), limb_word(limb)));
+    return {in_joint(way_w),
+            fmt::format("{}; forwards is told by {}", is_arm ? "elbows bend forwards" : "knees bend backwards",
+                        facing.forwards_source)};
 }
 
 std::string clip_against(const Clip& clip, LimbName limb, const LimbChain& chain, const ChainPose& rest,

@@ -7,6 +7,7 @@
 
 #include "tools/rig/limb_bend.h"
 #include "tools/rig/limb_scale.h"
+#include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 
 namespace swivel::tools {
@@ -77,15 +78,16 @@ const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
     const auto given = std::find_if(bends.begin(), bends.end(), is_its);
     if (given == bends.end()) return nullptr;
     const Vector3d& upper = limb.upper_bone;
-    if (given->direction.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
-        throw CannotBind(
-            fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f}), which does not bend that way",
-                        place_of(*given), upper.x(), upper.y(), upper.z()),
-            "give a direction across it");
-    if (given->key.ends_with(".hinge"))
+    const bool is_along = given->direction.cross(upper).norm() < 0.1;  // about 6 degrees: no one means that
+    if (given->is_hinge)
         throw CannotBind(
             fmt::format("{} is an axis, and a crowd file now says where the limb bends to", place_of(*given)),
-            fmt::format("write bend = {} instead", toml_row(bend_of_hinge(upper, given->direction))));
+            is_along ? "write bend instead"
+                     : fmt::format("write bend = {} instead", toml_row(bend_of_hinge(upper, given->direction))));
+    if (is_along)
+        throw CannotBind(fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f})", place_of(*given),
+                                     upper.x(), upper.y(), upper.z()),
+                         "give a direction across it");
     return &*given;
 }
 
@@ -97,7 +99,7 @@ void require_still_between(const Clip& clip, const LimbChain& chain, std::size_t
     double most = 0;
     std::size_t worst = 0;
     for (std::size_t frame = 0; frame < clip.frame_count && last - first > 1; ++frame)
-        if (const double moved = moved_between(clip, frame, chain, first, last); moved > most)
+        if (const double moved = moved_between(clip, frame, chain, first, last); !(moved <= most))
             most = moved, worst = frame;
     if (most <= kMost) return;
     const auto name = [&](std::size_t n) { return printable_name(joint_at(clip, chain.joints[n])); };
@@ -126,6 +128,9 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
     const ChainPose rest = rest_pose(clip, limb.chain);
     check_lengths(clip, joints, rest);
     limb.unevenness = scale_error(clip, limb.chain);
+    if (limb.unevenness > 1e-5)  // what solves keep to otherwise
+        limb.notes.push_back(fmt::format("uneven scales put the {} off by at most {:.1e} of the limb's length",
+                                         words_of(name.kind).end_joint, limb.unevenness));
     require_still_between(clip, limb.chain, 0, limb.chain.lower);
     require_still_between(clip, limb.chain, limb.chain.lower, limb.chain.joints.size() - 1);
     const JointPose parent_w = parent_at_rest(clip, limb.upper());
@@ -140,7 +145,8 @@ Limb bind_limb(const Clip& clip, formats::LimbName name, const LimbJoints& joint
         const Bend bend = choose_bend(clip, name, limb.chain, rest, parent_w, facing);
         limb.bend = bend.direction;
         limb.bend_source = bend.source;
-        limb.note = clip_against(clip, name, limb.chain, rest, bend.direction);
+        if (std::string note = clip_against(clip, name, limb.chain, rest, bend.direction); !note.empty())
+            limb.notes.push_back(std::move(note));
     }
     limb.bound = bind_rest(rest, limb.bend);
     for (float& length : limb.bound.lengths) length = static_cast<float>(limb.scale * static_cast<double>(length));

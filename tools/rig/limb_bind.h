@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/formats/clip.h"
@@ -27,7 +28,7 @@ struct Limb {
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();        // where flexion carries the lower bone, in the upper
                                                            // joint's axes, unit
     std::string bend_source;                               // who says so, for people
-    std::string note;                                      // what the clip says against it, see clip_against()
+    std::vector<std::string> notes;                        // what the user should know of it
     double scale = 1;                                      // world lengths for one of the upper joint's parent, at rest
     double unevenness = 0;  // uneven scales put the wrist off by at most this share of the limb's length
     bool mirrored = false;  // the upper joint's parent is mirrored: the limb is solved in the mirror image
@@ -50,6 +51,7 @@ struct GivenBend {
     formats::LimbName limb;
     Eigen::Vector3d direction;  // in the upper joint's axes, unit
     std::string key, file;      // "limb.left_arm.bend"; for people
+    bool is_hinge = false;      // `hinge` of a file of 0.1: the axis whose opposite flexion turns about
 };
 
 // What bind() takes: the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are the

@@ -62,6 +62,13 @@ Vector3d bone_between(std::size_t first, std::size_t last, const StepAt& step_at
 
 }  // namespace
 
+std::vector<int> LimbChain::between() const
+{
+    std::vector<int> inner(joints.begin() + 1, joints.end() - 1);
+    inner.erase(inner.begin() + static_cast<std::ptrdiff_t>(lower) - 1);
+    return inner;
+}
+
 LimbChain chain_of(const Clip& clip, const LimbJoints& joints)
 {
     LimbChain chain;

@@ -19,6 +19,7 @@ struct LimbChain {
 
     int upper() const { return joints.front(); }
     int end() const { return joints.back(); }
+    std::vector<int> between() const;  // those that are none of the three
 };
 
 // joints: as is_chain() says.

@@ -77,9 +77,9 @@ double distance_off(const Moment& at, const std::vector<int>& joints, int end)
         if (uneven > most) most = uneven, worst = joint;
     }
     if (sum > kMostUneven)
-        throw CannotBind(fmt::format("'{}' is scaled unevenly {}, by {:.2g}, so its bones change shape as they turn; "
-                                     "above a limb {} in all can be solved",
-                                     printable_name(joint_at(at.clip, worst)), at.words(), most, kMostUneven),
+        throw CannotBind(fmt::format("the joints above its end are scaled unevenly {}, by {:.2g} in all and most at "
+                                     "'{}', so bones change shape as they turn; at most {} can be solved",
+                                     at.words(), sum, printable_name(joint_at(at.clip, worst)), kMostUneven),
                          "apply the scale where the rig was made");
     return off;
 }

@@ -7,8 +7,8 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
-#include "tools/rig/joint_names.h"
 #include "tools/rig/limb_words.h"
+#include "tools/rig/name_table.h"
 
 namespace swivel::tools {
 
@@ -81,9 +81,8 @@ void put_named(const Clip& clip, const std::filesystem::path& file, const LimbCh
     const LimbWords& words = words_of(kind);
     Side otherwise = Side::left;
     for (const NamedLimb& named : choice.named(kind)) {
-        const auto joints = [&] { return NameReader{clip, file, words, named}.joints(); };
         if (named.source.is_file() && limb_of(figure, {kind, *named.side}).named_by) continue;  // options override it
-        const LimbJoints at = joints();
+        const LimbJoints at = NameReader{clip, file, words, named}.joints();
         const Side side = named.side ? *named.side : side_of(joint_at(clip, at[0]).name, otherwise);
         LimbFound& limb = limb_of(figure, {kind, side});
         if (limb.named_by)
@@ -94,23 +93,28 @@ void put_named(const Clip& clip, const std::filesystem::path& file, const LimbCh
     }
 }
 
-// No joint is in two limbs: one that the user named takes it from one that was found; two named are refused.
+// No joint is in two limbs. One that the user named keeps it; two named are refused, and of two that were found none
+// is taken.
 void keep_apart(const Clip& clip, const std::filesystem::path& file, FigureJoints& figure)
 {
-    for (const LimbFound& named : figure) {
-        if (!named.named_by) continue;
-        for (LimbFound& other : figure) {
-            if (&other == &named || !other.joints.joints) continue;
-            const int joint = shared_joint(*named.joints.joints, *other.joints.joints);
-            if (joint < 0) continue;
-            if (other.named_by)
-                refuse(other.named_by->source, file,
-                       fmt::format("the {} and the {} share the joint '{}'", plain_name(named.name),
-                                   plain_name(other.name), printable_name(joint_at(clip, joint))),
+    const FigureJoints found = figure;
+    for (const LimbFound& other : found)
+        for (LimbFound& limb : figure) {
+            if (limb.name == other.name || !limb.joints.joints || !other.joints.joints) continue;
+            const int joint = shared_joint(*other.joints.joints, *limb.joints.joints);
+            if (joint < 0 || (limb.named_by && !other.named_by)) continue;
+            const std::string name = printable_name(joint_at(clip, joint));
+            if (limb.named_by)
+                refuse(limb.named_by->source, file,
+                       fmt::format("the {} and the {} share the joint '{}'", plain_name(other.name),
+                                   plain_name(limb.name), name),
                        "; each needs three of its own");
-            other.joints = {{}, {}, fmt::format("its joints were named for the {}", plain_name(named.name)), {}};
+            limb.joints = {{},
+                           {},
+                           fmt::format("'{}' is {} for the {}{}", name, other.named_by ? "named" : "found",
+                                       plain_name(other.name), other.named_by ? "" : ", too"),
+                           {}};
         }
-    }
 }
 
 // What to say of a limb that no name speaks of.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tools/rig/name_table.h"
 
+#include "tools/rig/joint_names.h"
+
 namespace swivel::tools {
 
 namespace {
@@ -48,6 +50,18 @@ std::array<std::string_view, 3> side_words(formats::Side side)
 {
     if (side == formats::Side::left) return {"left", "l", "左"};
     return {"right", "r", "右"};
+}
+
+formats::Side side_of(std::string_view joint_name, formats::Side otherwise)
+{
+    const std::string name = plain(joint_name);
+    for (const formats::Side side : {formats::Side::left, formats::Side::right})
+        for (const NameRow& row : kRows)
+            for (const std::string_view word : side_words(side))
+                for (const auto& names : {row.arm, row.leg})
+                    for (const std::string_view known : names)
+                        if (!known.empty() && with_side(known, word) == name) return side;
+    return side_word(joint_name).value_or(otherwise);
 }
 
 std::string with_side(std::string_view name, std::string_view side)

@@ -29,6 +29,10 @@ std::span<const NameRow> name_table();
 // What * may stand for.
 std::array<std::string_view, 3> side_words(formats::Side side);
 
+// The side that a joint's name speaks of: with which it is a name of the table, or else by a word of its own. Otherwise
+// `otherwise`.
+formats::Side side_of(std::string_view joint_name, formats::Side otherwise);
+
 // A name of the table with this side.
 std::string with_side(std::string_view name, std::string_view side);
 

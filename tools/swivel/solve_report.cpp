@@ -24,7 +24,7 @@ void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& cli
             side_name(limb.name.side), shown(limb.upper()), shown(limb.lower()), shown(limb.end()),
             limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend), limb.bend_source);
     for (const Limb& limb : limbs)
-        if (!limb.note.empty()) say(to, "note     {}: {}\n", plain_name(limb.name), limb.note);
+        for (const std::string& note : limb.notes) say(to, "note     {}: {}\n", plain_name(limb.name), note);
     for (const LimbFinding& finding : facts.missing)
         say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
             finding.has_joints ? "refused" : "missing", problem_text(finding));
@@ -61,7 +61,9 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
              {words.end_joint, joint_at(clip, limb.end()).name},
              {"lengths", {limb.bound.lengths[0], limb.bound.lengths[1]}},
              {"bend", {limb.bend.x(), limb.bend.y(), limb.bend.z()}},
-             {"bend_source", limb.bend_source}});
+             {"bend_source", limb.bend_source},
+             {"unevenness", limb.unevenness},
+             {"notes", limb.notes}});
     }
     for (const LimbFinding& finding : facts.missing)
         out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});
