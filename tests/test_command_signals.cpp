@@ -2,11 +2,14 @@
 //
 // The command as a process: signals, streams that are full or closed, pipes that nobody reads, and little memory.
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <functional>
 #include <sstream>
@@ -77,6 +80,39 @@ struct LongRun {
             surroundings);
         CHECK(is_done);
         return outcome;
+    }
+};
+
+// A named pipe that is left unread until it is full, and whose writer then gets a signal. Afterwards all is read.
+struct FullPipe {
+    fs::path path;
+    int signal;
+    int reading = -1;
+    bool is_sent = false;
+
+    FullPipe(const fs::path& name, int sent) : path(name), signal(sent)
+    {
+        REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+        reading = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+        REQUIRE(reading >= 0);
+    }
+    FullPipe(const FullPipe&) = delete;
+    FullPipe& operator=(const FullPipe&) = delete;
+    ~FullPipe() { ::close(reading); }
+
+    // For Surroundings::meanwhile.
+    void operator()(pid_t process)
+    {
+        if (is_sent) {
+            std::array<char, 1 << 16> bytes;
+            while (::read(reading, bytes.data(), bytes.size()) > 0) {
+            }
+            return;
+        }
+        int held = 0;
+        ::ioctl(reading, FIONREAD, &held);
+        is_sent = held >= ::fcntl(reading, F_GETPIPE_SZ);
+        if (is_sent) ::kill(process, signal);
     }
 };
 
@@ -209,6 +245,40 @@ TEST_CASE("process: a signal that asks a run to end leaves no partial file, and 
         CHECK(outcome.err == "swivel: interrupted; unfinished files are removed\n");
         CHECK(stage.folder.file_count() == 1);
     }
+}
+
+TEST_CASE("process: a signal after the last frame ends the run, too, and no further file is written")
+{
+    const LongRun stage(2'000);
+    struct Case {
+        std::string piped;
+        Words words, left_out;
+    };
+    // Both are written after the frames, and have less than a buffer, but more than a pipe holds.
+    for (const auto& [piped, words, left_out] :
+         std::vector<Case>{{"walk.bvh", {"--out", "walk.bvh"}, {}},
+                           {"t.csv", {"--export-targets", "t.csv", "--out", "o.bvh"}, {"o.bvh"}}}) {
+        FullPipe pipe(stage.folder / piped, SIGTERM);
+        Surroundings slow;
+        slow.meanwhile = [&](pid_t process) { pipe(process); };
+        Words all = {"solve", "clip.bvh", "--quiet"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome outcome = spawn_command(stage.folder.path, all, slow);
+        INFO(piped);
+        CHECK(pipe.is_sent);
+        CHECK(outcome.exit_code == -SIGTERM);
+        CHECK(outcome.err == "swivel: interrupted; unfinished files are removed\n");
+        for (const std::string& file : left_out) CHECK_FALSE(fs::exists(stage.folder / file));
+        fs::remove(stage.folder / piped);
+        CHECK(stage.folder.file_count() == 1);
+    }
+}
+
+TEST_CASE("process: help and manual page name the exit codes of signals")
+{
+    const PipeStage stage;
+    for (const Words& words : std::vector<Words>{{"--help"}, {"help", "--man"}})
+        CHECK_THAT(run_command(stage.folder.path, words).out, Contains("above 128: ended by a signal"));
 }
 
 TEST_CASE("process: a hangup that nohup has ignored stays ignored")
