@@ -56,6 +56,7 @@ TEST_CASE("streams: a glTF clip is told by its first bytes, and each format goes
         CHECK(piped.exit_code == 0);
         CHECK((piped.out == file));
     }
+    CHECK((stage.written({"f.glb", "--out", "own.vrm"}) == slurp(stage.folder / "own.glb")));
     const std::string gltf = slurp(stage.folder / "own.gltf");
     const std::string again = stage.written({"own.gltf", "--out", "again.csv"});
     CHECK((stage.run({"-", "-o", "-"}, gltf).out == again));
@@ -122,7 +123,7 @@ TEST_CASE("streams: what cannot be read or written is refused in one line")
     refused({"clip.bvh", "--format", "csv"}, 2, "--format requires --out");
     refused({"clip.bvh", "--out", "x", "--format", "fbx"}, 2, "there is no 'fbx'");
     refused({"clip.bvh", "--out", "x"}, 2, "or --format");
-    refused({"clip.bvh", "--out", "x.fbx"}, 2, "no writer for this suffix");
+    refused({"clip.bvh", "--out", "x.fbx"}, 2, "no writer for this suffix; use .bvh, .glb, .gltf, .vrm or .csv");
     refused({"clip.bvh", "--out", "x.fbx", "--format", "glb"}, 2, "this clip is a BVH file");
     CHECK(stage.run({"clip.bvh", "--out", "x.fbx", "--format", "csv"}).exit_code == 0);  // its suffix does not count
     CHECK(slurp(stage.folder / "x.fbx").starts_with("frame,"));
