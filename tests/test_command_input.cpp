@@ -2,6 +2,8 @@
 //
 // Bad input of every kind. The exit code is 1, and one line on stderr names file, line and cause. No new file appears,
 // whole or partial. A file that was there keeps its bytes.
+#include <fcntl.h>
+#include <unistd.h>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -136,6 +138,41 @@ TEST_CASE("input: what is read is never written over")
     fs::rename(folder / "c.toml", folder / "c.csv");
     CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.csv", "--out", "c.csv"}).exit_code == 2);
     CHECK(slurp(folder / "c.csv") == "[crowd]\n");
+}
+
+TEST_CASE("input: a file that stands on standard input is never written over")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "t.csv", kColumns + kGoodRow);
+    spill(folder / "c.csv", "[crowd]\n");
+    spill(folder / "reads.toml", "[crowd]\ntargets = \"-\"\n");
+    fs::create_hard_link(folder / "t.csv", folder / "same.csv");
+    const auto before = contents(folder);
+    const auto run = [&](const char* input, Words words) {
+        Surroundings piped;
+        piped.before = [input] { ::dup2(::open(input, O_RDONLY | O_CLOEXEC), STDIN_FILENO); };
+        words.insert(words.begin(), {"solve", "--quiet"});
+        return spawn_command(folder.path, words, piped);
+    };
+    const auto refused = [&](const char* input, const Words& words, const std::string& said) {
+        const Outcome outcome = run(input, words);
+        INFO(said << ": " << outcome.err);
+        CHECK(outcome.exit_code == 2);
+        CHECK(outcome.err == "swivel: " + said + " itself; name another file\n");
+        CHECK(contents(folder) == before);
+    };
+    refused("clip.bvh", {"-", "--out", "clip.bvh"}, "--out clip.bvh: is the clip");
+    refused("clip.bvh", {"-", "--export-targets", "clip.bvh"}, "--export-targets clip.bvh: is the clip");
+    refused("t.csv", {"clip.bvh", "--targets", "-", "--out", "same.csv"}, "--out same.csv: is the table of targets");
+    refused("t.csv", {"clip.bvh", "--targets", "-", "--export-targets", "./t.csv"},
+            "--export-targets ./t.csv: is the table of targets");
+    refused("t.csv", {"clip.bvh", "--crowd", "reads.toml", "--out", "t.csv"}, "--out t.csv: is the table of targets");
+    refused("c.csv", {"clip.bvh", "--crowd", "-", "--out", "c.csv"}, "--out c.csv: is the crowd file");
+    // What is not read, and another file, may be written.
+    CHECK(run("clip.bvh", {"-", "--out", "-", "--export-targets", "new.csv"}).exit_code == 0);
+    CHECK(run("c.csv", {"clip.bvh", "--out", "c.csv"}).exit_code == 0);
+    CHECK(run("/dev/null", {"clip.bvh", "--out", "/dev/null", "--format", "csv"}).exit_code == 0);
 }
 
 TEST_CASE("input: the buffers and images that a clip uses are never written over")

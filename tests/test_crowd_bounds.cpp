@@ -52,14 +52,14 @@ AngleRange degrees(double least, double most)
     return {0.5 * (least + most) / kDegrees, 0.5 * (most - least) / kDegrees};
 }
 
-const Vector3d kZ = Vector3d::UnitZ();
+const Vector3d kBone = Vector3d::UnitZ();
 
 Violation cone(const Vector3d& axis, double opening_deg, bool of_hand)
 {
     return [=](const Quaterniond& shoulder, const Quaterniond& wrist) {
         const Vector3d unit = axis.normalized();
-        return of_hand ? cone_violation(kZ, std::cos(opening_deg / kDegrees), wrist * unit)
-                       : cone_violation(unit, std::cos(opening_deg / kDegrees), shoulder * kZ);
+        return of_hand ? cone_violation(kBone, std::cos(opening_deg / kDegrees), wrist * unit)
+                       : cone_violation(unit, std::cos(opening_deg / kDegrees), shoulder * kBone);
     };
 }
 Violation twist(const Vector3d& axis, const AngleRange& range, bool of_wrist)
@@ -84,9 +84,9 @@ TEST_CASE("crowd bounds: shoulder and wrist limits are kept wherever a swivel ca
     require_limit(stage, 0, "[limb.left_arm.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
                   SWIVEL_LIMITED_SHOULDER_CONE, cone({0.3, 0.2, 0.6}, 74, false));
     require_limit(stage, 0, limits + "humeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
-                  twist(kZ, degrees(-20, 25), false));
+                  twist(kBone, degrees(-20, 25), false));
     require_limit(stage, 0, limits + "forearm_twist_deg = [-8, 4]\n", SWIVEL_LIMITED_FOREARM_TWIST,
-                  twist(kZ, degrees(-8, 4), true));
+                  twist(kBone, degrees(-8, 4), true));
     require_limit(stage, 0, "[limb.left_arm.limits.hand_cone]\naxis = [0.3, 0, 1]\nopening_deg = 14\n",
                   SWIVEL_LIMITED_HAND_CONE, cone({0.3, 0, 1}, 14, true));
     require_limit(stage, 0, "[limb.left_arm.limits.hand_twist]\naxis = [0.2, 0, 1]\nrange_deg = [-8, 4]\n",
@@ -109,9 +109,9 @@ TEST_CASE("crowd bounds: limits for both sides are mirrored on the right one, it
     require_limit(stage, 1, "[limb.arms.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
                   SWIVEL_LIMITED_SHOULDER_CONE, cone({-0.3, 0.2, 0.6}, 74, false));
     require_limit(stage, 1, "[limb.all.limits]\nhumeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
-                  twist(kZ, degrees(-25, 20), false));
+                  twist(kBone, degrees(-25, 20), false));
     require_limit(stage, 1, "[limb.right.limits]\nhumeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
-                  twist(kZ, degrees(-20, 25), false));
+                  twist(kBone, degrees(-20, 25), false));
     require_limit(stage, 1, "[limb.arms.limits.wrist_box]\norder = \"ZXY\"\nz_deg = [-15, 10]\n",
                   SWIVEL_LIMITED_WRIST_BOX,
                   box({{2, 0, 1}, {degrees(-10, 15), degrees(-180, 180), degrees(-180, 180)}}, true));

@@ -379,7 +379,7 @@ TEST_CASE("rigs: the animation and its rate are chosen, and what a file cannot h
         CHECK(outcome.err.find(part) != std::string::npos);
     };
     refused({"--clip", "dance"}, 1, "it has no animation 'dance'; it has 0 motion");
-    refused({"--out", "new.bvh"}, 2, "this clip is a glTF file; its poses go to .glb, .gltf or .csv");
+    refused({"--out", "new.bvh"}, 2, "this clip is a glTF file; its poses go to .glb, .gltf, .vrm or .csv");
     refused({"--out", "new.glb", "--characters", "2"}, 2, "a glTF file holds one character, not 2");
     refused({"--arm", "#1,#2,#99"}, 1, "no joint is called '#99' (--arm); swivel rig --joints lists them");
     const Outcome rig = run_command(folder.path, {"rig", "rig.glb", "--joints"});

@@ -31,9 +31,12 @@ int tell()
     }
 }
 
-int tell_of_output()
+// To be called where nothing was thrown. A signal may have come too late to throw.
+int tell_of_end()
 {
-    if (is_output_whole()) return 0;
+    const bool is_whole = is_output_whole();
+    if (const int signal = noted_stop_signal()) return fail(exit_code_of_signal(signal), kInterrupted);
+    if (is_whole) return 0;
     if (has_lost_its_reader()) return exit_code_of_signal(SIGPIPE);
     return fail(1, "standard output could not be written in full");
 }
@@ -68,7 +71,7 @@ int run_to_end(const std::function<void()>& work) noexcept
         is_output_whole();
         return code;
     }
-    return tell_of_output();
+    return tell_of_end();
 }
 
 }  // namespace swivel::tools

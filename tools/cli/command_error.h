@@ -23,9 +23,9 @@ int fail(int code, std::string_view line) noexcept;
 
 constexpr std::string_view kNotEnoughMemory = "not enough memory";
 
-// Does the work of a run and returns its exit code. What is thrown, and a standard output that could not be written in
-// full, become one line on stderr. Where that is a pipe that nobody reads any more, the code is SIGPIPE's, and nothing
-// is said.
+// Does the work of a run and returns its exit code. What is thrown, a noted signal, and a standard output that could
+// not be written in full become one line on stderr. Where that is a pipe that nobody reads any more, the code is
+// SIGPIPE's, and nothing is said.
 int run_to_end(const std::function<void()>& work) noexcept;
 
 }  // namespace swivel::tools

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -17,7 +18,7 @@ namespace swivel::tools {
 
 namespace {
 
-volatile bool memory_has_run_out = false;
+std::atomic<bool> memory_has_run_out = false;  // set from any thread
 
 // As without it, and leaves a note: with no memory at all there is no exception either, see __cxa_allocate_exception().
 void note_lack_of_memory()

@@ -20,7 +20,7 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    // Throws CommandError if one came. To be called between frames.
+    // Throws CommandError if one came. To be called between frames, and before a file is made to appear.
     void check() const;
 
 private:

@@ -143,13 +143,14 @@ void add_solve(CLI::App& app)
                               "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
                               "it. - is standard input"),
           file_name());
-    CLI::Option* out = takes(
-        command->add_option("-o,--out", options->out,
-                            "Write the poses to .csv, or to the clip's own format, .bvh or .glb and .gltf. A motion "
-                            "file holds one character and keeps all else of the asset. - is standard output, and the "
-                            "report then goes to standard error. Without it "
-                            "there are statistics only"),
-        file_name());
+    CLI::Option* out =
+        takes(command->add_option(
+                  "-o,--out", options->out,
+                  "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A motion "
+                  "file holds one character and keeps all else of the asset. - is standard output, and the "
+                  "report then goes to standard error. Without it "
+                  "there are statistics only"),
+              file_name());
     takes(command->add_option("--format", options->format,
                               "Format of --out. Without it the suffix says it; standard output is CSV"),
           one_of({"csv", "bvh", "glb", "gltf"}))
@@ -275,7 +276,8 @@ void run(int argc, const char* const* argv)
         "--version", fmt::format("swivel {}.{}.{}", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH));
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 done, 1 failed, 2 bad usage. SWIVEL_FORCE_ISA=NAME forces an instruction set (swivel info).");
+        "Exit codes: 0 done, 1 failed, 2 bad usage, above 128: ended by a signal. SWIVEL_FORCE_ISA=NAME forces an "
+        "instruction set (swivel info).");
     add_demo(app);
     add_solve(app);
     add_rig(app);

@@ -103,7 +103,7 @@ void MotionFile::require_can_write(const OutPlace& out) const
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
     if (is_bvh_clip ? !is_bvh(out.suffix) : !is_gltf(out.suffix))
         throw CommandError(2, fmt::format("--out {}: this clip is a {} file; its poses go to {} or .csv",
-                                          out.path.string(), format_, is_bvh_clip ? ".bvh" : ".glb, .gltf"));
+                                          out.path.string(), format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm"));
 }
 
 void MotionFile::require_can_key(int joint) const

@@ -72,8 +72,11 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
             if (kind == OutKind::motion) keys.add(crowd);
         }
     }
+    signals.check();
     if (csv) csv->commit();
+    signals.check();
     if (exported) exported->commit();
+    signals.check();
     if (kind == OutKind::motion) keys.write(out_place(options), file);
     return statistics;
 }

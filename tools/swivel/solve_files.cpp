@@ -2,6 +2,8 @@
 #include "tools/swivel/solve_files.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +32,20 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
     return !whole(a).empty() && whole(a) == whole(b);
 }
 
+// Whether standard input is that file, as with `< FILE`.
+bool is_standard_input(const std::string& file)
+{
+    struct stat named, input;
+    return ::stat(file.c_str(), &named) == 0 && ::fstat(STDIN_FILENO, &input) == 0 && S_ISREG(named.st_mode) &&
+           named.st_dev == input.st_dev && named.st_ino == input.st_ino;
+}
+
+// Whether what is written to the file would replace what is read by that name.
+bool is_read(const std::string& file, const std::string& name)
+{
+    return is_standard_stream(name) ? is_standard_input(file) : is_same_file(file, name);
+}
+
 }  // namespace
 
 OutPlace out_place(const SolveOptions& options)
@@ -44,9 +60,10 @@ OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
     const std::string suffix = out_place(options).suffix;
     if (suffix == ".csv") return OutKind::csv;
     if (!is_bvh(suffix) && !is_gltf(suffix))
-        throw CommandError(2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf or .csv, or "
-                                          "--format",
-                                          options.out));
+        throw CommandError(2,
+                           fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf, .vrm or .csv, or "
+                                       "--format",
+                                       options.out));
     if (characters > 1)
         throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", options.out,
                                           is_bvh(suffix) ? "BVH" : "glTF", characters));
@@ -61,21 +78,22 @@ void require_one_reader(const SolveOptions& options, const std::string& targets)
 
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
 {
-    const auto require = [](const char* option, const std::string& file, const std::string& other, const char* what) {
-        if (!file.empty() && !other.empty() && is_same_file(file, other))
-            throw CommandError(2, fmt::format("{} {}: is {} itself; name another file", option, file, what));
+    const auto refuse_if = [](bool is_lost, const char* option, const std::string& file, const char* what) {
+        if (is_lost) throw CommandError(2, fmt::format("{} {}: is {} itself; name another file", option, file, what));
     };
     const auto require_not_read = [&](const char* option, const std::string& file) {
-        if (is_standard_stream(file)) return;  // reading from - is something else
-        require(option, file, options.file, "the clip");
+        if (file.empty() || is_standard_stream(file)) return;  // reading from - is something else
+        refuse_if(is_read(file, options.file), option, file, "the clip");
         for (const std::filesystem::path& beside : clip.files_beside())
-            require(option, file, beside.string(), "a buffer or image of the clip");
-        if (targets != "clip") require(option, file, targets, "the table of targets");
-        require(option, file, options.crowd, "the crowd file");
+            refuse_if(is_same_file(file, beside), option, file, "a buffer or image of the clip");
+        refuse_if(targets != "clip" && is_read(file, targets), option, file, "the table of targets");
+        refuse_if(!options.crowd.empty() && is_read(file, options.crowd), option, file, "the crowd file");
     };
     require_not_read("--out", options.out);
     require_not_read("--export-targets", options.export_targets);
-    require("--export-targets", options.export_targets, options.out, "the file of --out");
+    if (!options.out.empty() && !options.export_targets.empty())
+        refuse_if(is_same_file(options.export_targets, options.out), "--export-targets", options.export_targets,
+                  "the file of --out");
 }
 
 std::FILE* report_stream(const SolveOptions& options)
