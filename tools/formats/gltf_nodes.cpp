@@ -71,7 +71,7 @@ std::vector<int> Nodes::parents() const
     for (std::size_t n = 0; n < list.size(); ++n)
         for (const Json& each : list_in(list[n], "children")) {
             const int child = each;
-            element(path, list, child, "child node");
+            element(path, list, child, "a child node");
             if (parent[static_cast<std::size_t>(child)] >= 0)
                 refuse(fmt::format("node {} is the child of two nodes", child));
             parent[static_cast<std::size_t>(child)] = static_cast<int>(n);
