@@ -65,7 +65,7 @@ fs::path file_of(const Buffer& buffer, const std::string& uri)
         buffer.refuse(fmt::format("lies at '{}'; only addresses relative to the file itself are read", shown));
     std::error_code failed;
     if (!fs::is_regular_file(named, failed))
-        buffer.refuse(fmt::format("lies in '{}', and there is no such file relative to this one", shown));
+        buffer.refuse(fmt::format("lies in '{}', and there is no such file relative to this one; put it there", shown));
     // Links followed: whoever made the file must not be able to put any other file of this machine into the output.
     const fs::path file = fs::canonical(named, failed);
     const fs::path folder = failed ? fs::path() : fs::canonical(fs::absolute(buffer.path).parent_path(), failed);
@@ -74,7 +74,7 @@ fs::path file_of(const Buffer& buffer, const std::string& uri)
         buffer.refuse(fmt::format("lies in '{}', outside the file's own folder; put it beside the file", shown));
     const std::uintmax_t size = fs::file_size(file, failed);
     if (failed || !std::ifstream(file, std::ios::binary))
-        buffer.refuse(fmt::format("lies in '{}', which cannot be read", shown));
+        buffer.refuse(fmt::format("lies in '{}', which cannot be read; check its permissions", shown));
     buffer.require(size, fmt::format("'{}'", shown));
     return file;
 }
@@ -84,7 +84,7 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
     std::ifstream in(file_of(buffer, uri), std::ios::binary);
     std::string bytes(buffer.size, '\0');
     if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        buffer.refuse(fmt::format("lies in '{}', which cannot be read", printable(uri, 100)));
+        buffer.refuse(fmt::format("lies in '{}', which cannot be read; check its permissions", printable(uri, 100)));
     return bytes;
 }
 
@@ -134,7 +134,7 @@ GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& docume
             content = read[*uri];
             if (!content) content = read[*uri] = keep(bytes_in_file(files.at(*uri), *uri));
         } else {
-            if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri");
+            if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri; export the file again");
             buffer.require(container.bytes.size(), "the GLB's chunk");
             content = keep(std::move(container.bytes));
         }

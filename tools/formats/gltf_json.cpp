@@ -115,7 +115,7 @@ private:
 GltfDocument parse(const fs::path& path, std::string_view text)
 {
     if (depth_of(text) > 500)
-        throw InputError(path, "its JSON is nested deeper than 500 levels; no exporter does that");
+        throw InputError(path, "its JSON is nested deeper than 500 levels, as no exporter does; export the file again");
     GltfDocument document(new Json);
     Builder builder(*document);
     if (!Json::sax_parse(text, &builder))
