@@ -8,10 +8,10 @@
 #include <random>
 
 #include "tests/bvh_samples.h"
+#include "tests/complaint.h"
 #include "tests/test_data.h"
 #include "tools/formats/bvh.h"
 #include "tools/formats/clip.h"
-#include "tools/formats/error.h"
 
 using namespace swivel::formats;
 using namespace swivel::test;
@@ -22,19 +22,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-// What InputError says, without the folder; empty if the text is read.
 std::string complaint(const TempFolder& folder, std::string_view text)
 {
-    try {
-        read(folder, text);
-    } catch (const InputError& error) {
-        const std::string what = error.what();
-        const std::string place = (folder.path / "").string();
-        REQUIRE(what.starts_with(place));
-        REQUIRE(what.find_first_of("\n\r") == std::string::npos);
-        return what.substr(place.size());
-    }
-    return {};
+    return complaint_of(folder, [&] { read(folder, text); });
 }
 
 // World transforms of one frame by 4x4 matrices, channel by channel in the file's order.
@@ -262,6 +252,8 @@ TEST_CASE("bvh: what is no BVH file is refused")
 {
     const TempFolder folder;
     CHECK_THAT(complaint(folder, ""), StartsWith("t.bvh: is empty"));
+    fs::resize_file(folder / "t.bvh", std::uintmax_t{3} << 30);
+    CHECK(complaint_of(folder, [&] { read_bvh(folder / "t.bvh"); }) == "t.bvh: is longer than 2 GiB; cut it");
     CHECK_THAT(complaint(folder, std::string_view("H\0I\0E\0", 6)), StartsWith("t.bvh: is a binary file"));
     CHECK_THAT(complaint(folder, " \n\n"), StartsWith("t.bvh:2: the file ends where HIERARCHY should be"));
     CHECK_THROWS_WITH(read_bvh(folder / "none.bvh"), Contains("none.bvh: cannot be opened: No such file"));

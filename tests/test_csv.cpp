@@ -13,6 +13,7 @@
 #include <random>
 #include <sstream>
 
+#include "tests/complaint.h"
 #include "tests/test_data.h"
 #include "tools/formats/error.h"
 #include "tools/formats/poses_csv.h"
@@ -40,18 +41,9 @@ std::vector<Target> read(const TempFolder& folder, std::string_view text)
     return read_targets_csv(folder / "t.csv");
 }
 
-// What InputError says, without the folder; empty if the text is read.
 std::string complaint(const TempFolder& folder, std::string_view text)
 {
-    try {
-        read(folder, text);
-    } catch (const InputError& error) {
-        const std::string what = error.what();
-        const std::string place = (folder.path / "").string();
-        REQUIRE(what.starts_with(place));
-        return what.substr(place.size());
-    }
-    return {};
+    return complaint_of(folder, [&] { read(folder, text); });
 }
 
 std::vector<std::string> split(const std::string& line)

@@ -224,15 +224,17 @@ TEST_CASE("gltf: what is wrong is refused in one line")
         CHECK(text.find(part) != std::string::npos);
     };
     says(with("/nodes/3/children", {1}), "child of two nodes");
-    says(with("/nodes/3/children", {0}), "circle");
-    says(with("/nodes/3/children", {9}), "node 9 does not exist; there are 4");
+    says(with("/nodes/3/children", {0}), "nodes are each other's children, in a circle; export the file again");
+    says(with("/nodes/3/children", {9}), "a child node 9 does not exist; there are 4; export the file again");
     says(with("/nodes/1/rotation", {0, 0, 0, 0}), "node 1 has a zero rotation");
     says(with("/nodes/1/translation", {1, 2}), "node 1 has a bad translation");
-    says(with("/animations/1/channels/0/target/node", 7), "node 7 does not exist");
-    says(with("/animations/1/channels/0/sampler", 7), "sampler 7 does not exist");
-    says(with("/animations/1/samplers/0/output", 77), "accessor 77 does not exist");
+    says(with("/animations/1/channels/0/target/node", 7),
+         "a channel's node 7 does not exist; there are 4; export the file again");
+    says(with("/animations/1/channels/0/sampler", 7), "a channel's sampler 7 does not exist");
+    says(with("/animations/1/samplers/0/output", 77), "an animation's accessor 77 does not exist");
     says(with("/animations/1/samplers/0/input", 1), "wrong type");
-    says(with("/animations/1/samplers/0/interpolation", "MAGIC"), "interpolation 'MAGIC' is unknown");
+    says(with("/animations/1/samplers/0/interpolation", "MAGIC"),
+         "interpolation 'MAGIC' is unknown; export the file again");
     says(with("/animations/1/channels/1/target/node", 1), "two channels of animation 1 are for the rotation of node 1");
     says(with("/nodes/1/rotation", "0 0 1 0"),
          "node 1 has a bad rotation: a list of 4 numbers that floats can hold is needed");
@@ -248,7 +250,7 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     says(with("/accessors/3", {{"componentType", 5126}, {"count", 1 << 28}, {"type", "VEC4"}}), "different numbers");
     says(with("/accessors/2/count", 3), "different numbers of keys");
     says(with("/accessors/2/count", 400), "reads beyond the end of buffer view 2");
-    says(with("/accessors/2/bufferView", 40), "buffer view 40 does not exist");
+    says(with("/accessors/2/bufferView", 40), "an accessor's buffer view 40 does not exist");
     says(with("/extensionsRequired", {"EXT_meshopt_compression"}), "compressed");
     says(with("/asset", nlohmann::json::object()), "its asset has a bad version: \"2.0\" is needed, not nothing");
     says(with("/asset/version", "1.0"), "its asset has a bad version: \"2.0\" is needed, not \"1.0\"");
@@ -258,7 +260,7 @@ TEST_CASE("gltf: what is wrong is refused in one line")
     says(refusal_of(rig, {"main"}), "not finite");
     rig = keyed_rig();
     std::memcpy(rig.bytes.data() + rig.json["bufferViews"][2]["byteOffset"].get<std::size_t>(), bad, 4);
-    says(refusal_of(rig, {"main"}), "do not grow");
+    says(refusal_of(rig, {"main"}), "do not grow; export the file again");
     says(refusal_of(GltfRig()), "no nodes");
 
     const TempFolder folder;

@@ -165,9 +165,6 @@ void read_frames(Scanner& scan, BvhFile& file, const MotionHeader& header)
     }
 }
 
-// Some editors put UTF-8's byte order mark in front.
-std::size_t mark_size(std::string_view text) { return text.starts_with("\xEF\xBB\xBF") ? 3 : 0; }
-
 }  // namespace
 
 BvhFile read_bvh(const std::filesystem::path& path) { return bvh_of(path, read_text(path)); }
@@ -177,7 +174,7 @@ BvhFile bvh_of(const std::filesystem::path& path, std::string text)
     BvhFile file;
     file.path = path;
     file.text = std::move(text);
-    Scanner scan{file.path, file.text, mark_size(file.text)};
+    Scanner scan{file.path, file.text, file.text.size() - without_byte_order_mark(file.text).size()};
     read_hierarchy(scan, file);
     const MotionHeader header = read_motion_header(scan, file);
     reserve_frames(scan, file, header);
@@ -187,7 +184,7 @@ BvhFile bvh_of(const std::filesystem::path& path, std::string text)
 
 bool is_bvh_text(std::string_view text)
 {
-    text.remove_prefix(mark_size(text));
+    text = without_byte_order_mark(text);
     return same_ignoring_case(take_word(text), "HIERARCHY");
 }
 

@@ -30,14 +30,6 @@ using Eigen::Vector4d;
 
 [[noreturn]] void refuse(const GltfFile& file, const std::string& cause) { throw InputError(file.path, cause); }
 
-// A list of the document or of one of its objects; an empty one where it is missing.
-const Json& list_in(const Json& owner, const char* name)
-{
-    static const Json kNone = Json::array();
-    const auto found = owner.find(name);
-    return found == owner.end() ? kNone : *found;
-}
-
 int choose_animation(const GltfFile& file, const std::string& wanted)
 {
     const auto& names = file.animation_names;
@@ -60,7 +52,8 @@ Interpolation interpolation_of(const GltfFile& file, const Json& from)
     const std::string name = from.value("interpolation", "LINEAR");
     if (name == "STEP") return Interpolation::step;
     if (name == "CUBICSPLINE") return Interpolation::cubic;
-    if (name != "LINEAR") refuse(file, fmt::format("interpolation '{}' is unknown", printable(name)));
+    if (name != "LINEAR")
+        refuse(file, fmt::format("interpolation '{}' is unknown; export the file again", printable(name)));
     return Interpolation::linear;
 }
 
@@ -73,7 +66,7 @@ GltfSampler read_sampler(const GltfFile& file, const Json& document, const Json&
     sampler.time = read_accessor(data, input, 1, 0);
     for (std::size_t n = 1; n < sampler.time.size(); ++n)
         if (!(sampler.time[n] > sampler.time[n - 1]))
-            refuse(file, fmt::format("times in accessor {} do not grow", input));
+            refuse(file, fmt::format("times in accessor {} do not grow; export the file again", input));
     const std::size_t width = is_rotation ? 4 : 3;
     const std::size_t each = sampler.interpolation == Interpolation::cubic ? 3 : 1;
     const auto values = read_accessor(data, output, width, each * sampler.time.size());
@@ -82,7 +75,7 @@ GltfSampler read_sampler(const GltfFile& file, const Json& document, const Json&
         std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(n), width, value.data());
         const bool is_key = each == 1 || n / width % 3 == 1;
         if (is_rotation && is_key && !(value.norm() > 1e-6))
-            refuse(file, fmt::format("accessor {} holds a zero rotation", output));
+            refuse(file, fmt::format("accessor {} holds a zero rotation; export the file again", output));
         sampler.value.push_back(value);
     }
     return sampler;
@@ -140,14 +133,15 @@ void read_channels(GltfFile& file, const Json& document, const std::vector<int>&
         const std::string path = target.at("path");
         if (!target.contains("node") || !(path == "translation" || path == "rotation" || path == "scale")) continue;
         GltfChannel channel;
-        channel.joint = element(file.path, joint_of, target.at("node"), "node");
+        channel.joint = element(file.path, joint_of, target.at("node"), "a channel's node");
         channel.path = path == "rotation" ? GltfPath::rotation
                        : path == "scale"  ? GltfPath::scale
                                           : GltfPath::translation;
         if (!seen.emplace(channel.joint, channel.path).second)
             refuse(file, fmt::format("two channels of animation {} are for the {} of node {}; glTF allows one",
                                      file.animation, path, target.at("node").get<int>()));
-        const Json& sampler = element(file.path, list_in(animation, "samplers"), from.at("sampler"), "sampler");
+        const Json& sampler =
+            element(file.path, list_in(animation, "samplers"), from.at("sampler"), "a channel's sampler");
         channel.sampler = samplers.place(file, document, sampler, channel.path == GltfPath::rotation);
         file.channels.push_back(channel);
     }
@@ -157,7 +151,7 @@ std::vector<std::filesystem::path> files_beside(const std::filesystem::path& pat
 {
     std::vector<std::filesystem::path> files;
     for_each_uri(document, [&](const Json& object) {
-        const std::string uri = object.at("uri");
+        const auto& uri = object.at("uri").get_ref<const std::string&>();
         if (!is_data_uri(uri)) files.push_back(file_at(uri, path));
     });
     std::erase(files, std::filesystem::path());  // addresses that name no file

@@ -59,10 +59,11 @@ struct GltfFile {
 
 inline double gibibytes(std::size_t bytes) { return static_cast<double>(bytes) / 0x1p30; }
 
-// Reads and checks a whole file, but for its frames. It throws InputError for:
-// - anything malformed that concerns the skeleton or the chosen animation, and numbers that are not finite;
-// - buffers that are missing, compressed or shorter than they say, and buffers that are neither in the file nor in
-//   plain files in its folder;
+// Reads and checks a whole file, but for its frames. Throws InputError for
+// - anything malformed that concerns the skeleton or the chosen animation;
+// - numbers that are not finite;
+// - buffers that are missing, compressed or shorter than they say;
+// - buffers that are neither in the file nor in plain files in its folder;
 // - an animation that does not exist, or whose name is not unique;
 // - buffers beyond 8 GiB, and keys beyond the choice's most.
 // Meshes make it fail only if an accessor, buffer view or buffer has members of a wrong type.
@@ -73,10 +74,13 @@ GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice =
 // The same of a container that is read already. path: what messages call it, and what its files lie beside.
 GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, const GltfChoice& choice);
 
-// Makes the clip's frames, for limbs of these joints; see above for their times. Throws InputError, before it makes
-// room, for more poses than the choice's most; where a spline of rotations passes through zero; and where a joint of a
-// limb, or one above, is farther from the origin or larger than the solver holds (kMaxNorm). A frame takes 32 bytes a
-// joint, and 24 for each translation and scale that has keys.
+// Makes the clip's frames, for limbs of these joints; see above for their times. A rate that the animation's length
+// does not fit is adjusted, so that its last key is a frame: 1.7 s at 24 a second are 42 frames, at 24.1 a second.
+// Throws InputError for
+// - more poses than the choice's most, before it makes room;
+// - a spline of rotations that passes through zero;
+// - a joint of a limb, or one above, farther from the origin or larger than the solver holds (kMaxNorm).
+// A frame takes 32 bytes a joint, and 24 for each translation and scale that has keys.
 void sample(GltfFile& file, std::span<const int> limb_joints);
 
 // Throws InputError for a joint whose matrix is sheared, which no keys can say. joint: of the clip.

@@ -18,7 +18,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-[[noreturn]] void refuse(const GltfData& data, const std::string& cause) { throw InputError(data.path, cause); }
+[[noreturn]] void refuse(const GltfData& data, const std::string& cause)
+{
+    throw InputError(data.path, cause + "; export the file again");
+}
 
 // A component type of the specification, by its number there.
 struct Component {
@@ -40,13 +43,6 @@ constexpr Component kComponents[] = {{5120, 1, 127, read_as<std::int8_t>},    {5
                                      {5122, 2, 32767, read_as<std::int16_t>}, {5123, 2, 65535, read_as<std::uint16_t>},
                                      {5125, 4, 1, read_as<std::uint32_t>},    {5126, 4, 1, read_as<float>}};
 
-const Json& listed(const GltfData& data, const char* list, int index, const char* name)
-{
-    static const Json kNone = Json::array();
-    const auto found = data.document.find(list);
-    return element(data.path, found == data.document.end() ? kNone : *found, index, name);
-}
-
 std::size_t size_in(const Json& object, const char* member) { return object.value(member, std::size_t{0}); }
 
 // `count` elements of `width` components, at the buffer view and offset of `at`, checked to lie there.
@@ -54,8 +50,10 @@ std::vector<double> read_view(const GltfData& data, const Json& at, std::size_t 
                               bool is_normalized)
 {
     const int view_index = at.at("bufferView");
-    const Json& view = listed(data, "bufferViews", view_index, "buffer view");
-    const std::string_view bytes = element(data.path, data.buffers, view.at("buffer").get<int>(), "buffer");
+    const Json& view =
+        element(data.path, list_in(data.document, "bufferViews"), view_index, "an accessor's buffer view");
+    const std::string_view bytes =
+        element(data.path, data.buffers, view.at("buffer").get<int>(), "a buffer view's buffer");
     const Component* const kind = std::find_if(std::begin(kComponents), std::end(kComponents),
                                                [&](const Component& c) { return c.type == type; });
     if (kind == std::end(kComponents))
@@ -99,7 +97,7 @@ void patch(const GltfData& data, int index, const Json& at, std::size_t width, s
 
 std::vector<double> read_accessor(const GltfData& data, int index, std::size_t width, std::size_t expected)
 {
-    const Json& at = listed(data, "accessors", index, "accessor");
+    const Json& at = element(data.path, list_in(data.document, "accessors"), index, "an animation's accessor");
     const bool has_view = at.contains("bufferView");
     const std::size_t count = at.at("count");
     if (at.at("type") != (width == 1 ? "SCALAR" : width == 3 ? "VEC3" : "VEC4"))

@@ -41,6 +41,13 @@ struct Buffer {
     }
 };
 
+// A buffer's address; null: it has none.
+const std::string* uri_of(const nlohmann::json& buffer)
+{
+    const auto found = buffer.find("uri");
+    return found == buffer.end() ? nullptr : &found->get_ref<const std::string&>();
+}
+
 std::string bytes_in_text(const Buffer& buffer, const std::string& uri)
 {
     std::optional<DataUri> data = data_of(uri);
@@ -58,15 +65,16 @@ fs::path file_of(const Buffer& buffer, const std::string& uri)
         buffer.refuse(fmt::format("lies at '{}'; only addresses relative to the file itself are read", shown));
     std::error_code failed;
     if (!fs::is_regular_file(named, failed))
-        buffer.refuse(fmt::format("lies in '{}', and there is no such file relative to this one", shown));
+        buffer.refuse(fmt::format("lies in '{}', and there is no such file relative to this one; put it there", shown));
     // Links followed: whoever made the file must not be able to put any other file of this machine into the output.
     const fs::path file = fs::canonical(named, failed);
     const fs::path folder = failed ? fs::path() : fs::canonical(fs::absolute(buffer.path).parent_path(), failed);
-    if (failed || *file.lexically_relative(folder).begin() == "..")
+    const fs::path way = failed ? fs::path() : file.lexically_relative(folder);
+    if (way.empty() || *way.begin() == "..")
         buffer.refuse(fmt::format("lies in '{}', outside the file's own folder; put it beside the file", shown));
     const std::uintmax_t size = fs::file_size(file, failed);
     if (failed || !std::ifstream(file, std::ios::binary))
-        buffer.refuse(fmt::format("lies in '{}', which cannot be read", shown));
+        buffer.refuse(fmt::format("lies in '{}', which cannot be read; check its permissions", shown));
     buffer.require(size, fmt::format("'{}'", shown));
     return file;
 }
@@ -76,7 +84,7 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
     std::ifstream in(file_of(buffer, uri), std::ios::binary);
     std::string bytes(buffer.size, '\0');
     if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        buffer.refuse(fmt::format("lies in '{}', which cannot be read", printable(uri, 100)));
+        buffer.refuse(fmt::format("lies in '{}', which cannot be read; check its permissions", printable(uri, 100)));
     return bytes;
 }
 
@@ -92,10 +100,10 @@ std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::jso
     };
     for (std::size_t n = 0; n < list.size(); ++n) {
         const Buffer buffer{path, n, list[n].at("byteLength").get<std::uintmax_t>()};
-        const std::string uri = list[n].value("uri", "");
-        if (!list[n].contains("uri") || is_data_uri(uri)) continue;  // no more than the file itself holds
-        file_of(buffer, uri);
-        const auto [known, is_new] = files.try_emplace(uri, buffer);
+        const std::string* const uri = uri_of(list[n]);
+        if (!uri || is_data_uri(*uri)) continue;  // no more than the file itself holds
+        file_of(buffer, *uri);
+        const auto [known, is_new] = files.try_emplace(*uri, buffer);
         if (!is_new && known->second.size >= buffer.size) continue;
         count(buffer.size - (is_new ? 0 : known->second.size));
         known->second.number = n;
@@ -118,15 +126,15 @@ GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& docume
     std::map<std::string, std::shared_ptr<const std::string>> read;
     for (const auto& each : *list) {
         const Buffer buffer{path, buffers.bytes.size(), each.at("byteLength").get<std::uintmax_t>()};
-        const std::string uri = each.value("uri", "");
+        const std::string* const uri = uri_of(each);
         std::shared_ptr<const std::string> content;
-        if (is_data_uri(uri)) {
-            content = keep(bytes_in_text(buffer, uri));
-        } else if (each.contains("uri")) {
-            content = read[uri];
-            if (!content) content = read[uri] = keep(bytes_in_file(files.at(uri), uri));
+        if (uri && is_data_uri(*uri)) {
+            content = keep(bytes_in_text(buffer, *uri));
+        } else if (uri) {
+            content = read[*uri];
+            if (!content) content = read[*uri] = keep(bytes_in_file(files.at(*uri), *uri));
         } else {
-            if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri");
+            if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri; export the file again");
             buffer.require(container.bytes.size(), "the GLB's chunk");
             content = keep(std::move(container.bytes));
         }

@@ -20,10 +20,12 @@ struct GltfBuffers {
 };
 
 // Every buffer of a document that check_members() has passed, each as long as it says: what there is beyond is left.
-// path: of the glTF file. container: its chunk becomes the first buffer and is empty then. Throws InputError, naming
-// the buffer, where its bytes are missing, too few, at an address that is not relative, or in a file that lies outside
-// the glTF file's folder, links followed; and for more than 8 GiB in files. Reads plain files only, each address once;
-// allocates what the buffers say they hold and the files do.
+// path: of the glTF file. container: its chunk becomes the first buffer and is empty then. Throws InputError for
+// - a buffer without bytes, or with too few;
+// - an address that is not relative;
+// - a file outside the glTF file's folder, links followed;
+// - more than 8 GiB in files.
+// Reads plain files only, each address once; allocates what the buffers say they hold and the files do.
 GltfBuffers read_gltf_buffers(const std::filesystem::path& path, const nlohmann::json& document,
                               GltfContainer& container);
 

@@ -9,8 +9,11 @@ namespace swivel::formats {
 
 // Checks what a reader of skeletons needs of a document: its version, nodes, skins, animations, accessors, buffer views
 // and buffers.
-// Throws InputError, naming the element, for a list or an element of a wrong type, and for a member that is missing or
-// is not what the specification says. Allocates little; any number of threads may call it.
+// Throws InputError, naming the element, for
+// - a list or an element of a wrong type;
+// - a member that is missing;
+// - a member that is not what the specification says.
+// Allocates little; any number of threads may call it.
 void check_members(const std::filesystem::path& path, const nlohmann::json& document);
 
 }  // namespace swivel::formats

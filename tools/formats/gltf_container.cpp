@@ -114,11 +114,12 @@ GltfContainer read_gltf_container(const std::filesystem::path& path, std::FILE* 
     if (begin.size() < 12) append_bytes(path, file, 12 - begin.size(), begin);
     if (begin.empty()) throw InputError(path, "is empty; check how it was written");
     if (begin.starts_with(kMagic)) return GlbReader(path, file, std::move(begin)).read();
+    begin.erase(0, begin.size() - without_byte_order_mark(begin).size());
     if (const std::string_view start = trimmed(begin); !start.empty() && start[0] != '{')
         throw InputError(path, "is not glTF: it starts neither with 'glTF' nor with '{'");
     GltfContainer container;
     container.json = std::move(begin);
-    append_rest(path, file, container.json);
+    append_rest(path, file, container.json, "cut it, or write it as .glb");
     return container;
 }
 

@@ -12,7 +12,7 @@
 namespace swivel::formats {
 
 struct GltfContainer {
-    std::string json;          // as it stands in the file, without padding at its end
+    std::string json;          // as it stands in the file, without a byte order mark and padding
     std::string bytes;         // the GLB's binary chunk, padding included
     std::string other_chunks;  // what comes after it, chunk headers included
     bool is_binary = false;    // read from a GLB

@@ -63,9 +63,8 @@ void move_pictures_into_chunk(GltfAsset& asset)
     const auto images = asset.document->find("images");
     if (images == asset.document->end() || !images->is_array()) return;
     for (Json& image : *images) {
-        const std::string uri =
-            image.is_object() && image.contains("uri") && image["uri"].is_string() ? image["uri"] : "";
-        const std::optional<DataUri> data = data_of(uri);
+        if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+        const std::optional<DataUri> data = data_of(image["uri"].get_ref<const std::string&>());
         if (!data || data->kind.empty()) continue;
         image.erase("uri");
         if (!image.contains("mimeType")) image["mimeType"] = data->kind;
@@ -88,8 +87,8 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
         settle_text(asset, buffers);
     }
     for_each_uri(*asset.document, [&](Json& object) {
-        const std::string uri = object["uri"];
-        if (!is_data_uri(uri)) object["uri"] = moved_uri(uri, from, to);
+        auto& uri = object["uri"].get_ref<std::string&>();
+        if (!is_data_uri(uri)) uri = moved_uri(uri, from, to);
     });
     add_keys(asset, changes);
     Json& list = asset.list("buffers");

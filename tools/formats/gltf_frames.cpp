@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Frames of a glTF animation: the times they are at, and the skeleton's local poses there. Knows no JSON.
+#include "tools/formats/gltf.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <set>
 
 #include "tools/formats/error.h"
-#include "tools/formats/gltf.h"
 #include "tools/formats/limits.h"
 
 namespace swivel::formats {
@@ -115,7 +116,8 @@ void fill(GltfFile& file, const GltfChannel& channel)
         if (channel.path == GltfPath::rotation) {
             const Eigen::Quaterniond rotation = sample_rotation(sampler, time);
             if (!(std::abs(rotation.norm() - 1) < 1e-6))
-                throw InputError(file.path, fmt::format("the rotation of node {} passes through zero at {:.4g} s",
+                throw InputError(file.path, fmt::format("the rotation of node {} passes through zero at {:.4g} s; "
+                                                        "export its keys as LINEAR",
                                                         joint.number, time));
             clip.rotation[frame * clip.joints.size() + at] = rotation;
         } else if (channel.path == GltfPath::translation) {

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_check.h"
@@ -36,35 +39,89 @@ std::size_t depth_of(std::string_view json)
 }
 
 // What the JSON library says, without its number for it: "[json.exception.parse_error.101] ".
-std::string cause_of(const Json::exception& error)
+std::string without_number(std::string_view said)
 {
-    const std::string_view said = error.what();
     const std::size_t end = said.starts_with('[') ? said.find("] ") : std::string_view::npos;
     return printable(end == std::string_view::npos ? said : said.substr(end + 2), 160);
 }
 
-// Takes all out that is in it, as deep as parse() lets it be.
-void empty(Json& value) noexcept
+// As deep as parse() lets it be.
+void take_all_out(Json& value) noexcept
 {
     if (!value.is_structured()) return;
-    for (Json& each : value) empty(each);
+    for (Json& each : value) take_all_out(each);
     value.clear();
 }
+
+// Builds a document that outlives whatever stops the parser. Json::parse() destroys its own then, which asks for
+// memory.
+class Builder : public nlohmann::json_sax<Json> {
+public:
+    std::string fault;  // of the text; empty: none
+
+    explicit Builder(Json& document) : document_(document) {}
+    bool null() override { return put(nullptr); }
+    bool boolean(bool value) override { return put(value); }
+    bool number_integer(number_integer_t value) override { return put(value); }
+    bool number_unsigned(number_unsigned_t value) override { return put(value); }
+    bool number_float(number_float_t value, const string_t&) override { return put(value); }
+    bool string(string_t& value) override { return put(value); }
+    bool binary(binary_t&) override { return false; }  // JSON has none
+    bool start_object(std::size_t) override { return open(Json::value_t::object); }
+    bool end_object() override { return close(); }
+    bool start_array(std::size_t) override { return open(Json::value_t::array); }
+    bool end_array() override { return close(); }
+    bool key(string_t& name) override
+    {
+        member_ = &(*open_.back())[name];
+        take_all_out(*member_);  // of a member that stands twice the last counts
+        return true;
+    }
+    bool parse_error(std::size_t, const std::string&, const Json::exception& error) override
+    {
+        fault = without_number(error.what());
+        return false;
+    }
+
+private:
+    template <class Value>
+    Json& place(Value&& value)
+    {
+        if (!open_.empty() && open_.back()->is_array()) return open_.back()->emplace_back(std::forward<Value>(value));
+        return (open_.empty() ? document_ : *member_) = Json(std::forward<Value>(value));
+    }
+    template <class Value>
+    bool put(Value&& value)
+    {
+        place(std::forward<Value>(value));
+        return true;
+    }
+    bool open(Json::value_t kind)
+    {
+        open_.push_back(&place(kind));
+        return true;
+    }
+    bool close()
+    {
+        open_.pop_back();
+        return true;
+    }
+
+    Json& document_;
+    std::vector<Json*> open_;  // objects and lists, each in the one before
+    Json* member_ = nullptr;   // of the innermost object, whose value comes next
+};
 
 GltfDocument parse(const fs::path& path, std::string_view text)
 {
     if (depth_of(text) > 500)
-        throw InputError(path, "its JSON is nested deeper than 500 levels; no exporter does that");
-    try {
-        GltfDocument document(new Json);
-        nlohmann::detail::json_sax_dom_parser<Json> builder(
-            *document);  // what Json::parse() uses, into a document of ours
-        Json::sax_parse(text, &builder);
-        if (document->is_object()) return document;
-    } catch (const Json::exception& error) {
-        throw InputError(path, fmt::format("is not glTF: {}", cause_of(error)));
-    }
-    throw InputError(path, "is not glTF: its JSON is no object");
+        throw InputError(path, "its JSON is nested deeper than 500 levels, as no exporter does; export the file again");
+    GltfDocument document(new Json);
+    Builder builder(*document);
+    if (!Json::sax_parse(text, &builder))
+        throw InputError(path, fmt::format("is not glTF: {}; export the file again", builder.fault));
+    if (!document->is_object()) throw InputError(path, "is not glTF: its JSON is no object; export the file again");
+    return document;
 }
 
 void refuse_compression(const fs::path& path, const Json& document)
@@ -81,7 +138,7 @@ void refuse_compression(const fs::path& path, const Json& document)
 
 void FreeDocument::operator()(Json* document) const noexcept
 {
-    empty(*document);
+    take_all_out(*document);
     delete document;
 }
 

@@ -16,8 +16,11 @@ struct FreeDocument {
 };
 using GltfDocument = std::unique_ptr<nlohmann::json, FreeDocument>;
 
-// The text as a document. Throws InputError for text that is no JSON object or is nested deeper than 500 levels, for
-// members that check_members() refuses, and if the document says that its buffers are compressed.
+// The text as a document. Throws InputError for
+// - text that is no JSON object;
+// - text that is nested deeper than 500 levels;
+// - members that check_members() refuses;
+// - a document that says that its buffers are compressed.
 GltfDocument gltf_document(const std::filesystem::path& path, std::string_view json);
 
 }  // namespace swivel::formats

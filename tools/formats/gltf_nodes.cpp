@@ -32,7 +32,10 @@ struct Nodes {
     const std::filesystem::path& path;
     const Json& list;
 
-    [[noreturn]] void refuse(const std::string& cause) const { throw InputError(path, cause); }
+    [[noreturn]] void refuse(const std::string& cause) const
+    {
+        throw InputError(path, cause + "; export the file again");
+    }
     void take_apart(const Json& node, Joint& joint) const;
     void read_transform(const Json& node, Joint& joint) const;
     std::vector<int> parents() const;
@@ -66,9 +69,9 @@ std::vector<int> Nodes::parents() const
 {
     std::vector<int> parent(list.size(), -1);
     for (std::size_t n = 0; n < list.size(); ++n)
-        for (const Json& each : list[n].value("children", Json::array())) {
+        for (const Json& each : list_in(list[n], "children")) {
             const int child = each;
-            element(path, list, child, "node");
+            element(path, list, child, "a child node");
             if (parent[static_cast<std::size_t>(child)] >= 0)
                 refuse(fmt::format("node {} is the child of two nodes", child));
             parent[static_cast<std::size_t>(child)] = static_cast<int>(n);
@@ -108,13 +111,14 @@ std::vector<int> add_joints(const Nodes& nodes, Clip& clip)
 std::vector<int> read_nodes(const std::filesystem::path& path, const Json& document, Clip& clip)
 {
     const auto list = document.find("nodes");
-    if (list == document.end() || list->empty()) throw InputError(path, "it has no nodes, so no skeleton");
+    if (list == document.end() || list->empty())
+        throw InputError(path, "it has no nodes, so no skeleton; export it with its skeleton");
     const std::vector<int> joint_of = add_joints({path, *list}, clip);
     if (const auto skins = document.find("skins"); skins != document.end() && !skins->empty()) {
         for (Joint& joint : clip.joints) joint.is_bone = false;
         for (const Json& skin : *skins)
-            for (const Json& node : skin.value("joints", Json::array())) {
-                element(path, joint_of, node, "node");
+            for (const Json& node : list_in(skin, "joints")) {
+                element(path, joint_of, node, "a skin's node");
                 clip.joints[static_cast<std::size_t>(joint_of[node.get<std::size_t>()])].is_bone = true;
             }
     }

@@ -11,8 +11,10 @@
 namespace swivel::formats {
 
 // Fills the joints of a clip, parents first and children in the file's order, and its human bones. Returns the joint of
-// each node. document: one that check_members() has passed. Throws InputError for nodes that do not exist, have two
-// parents, stand in a circle, or are not there at all, and for transforms that turn or scale to nothing.
+// each node. document: one that check_members() has passed. Throws InputError for
+// - nodes that do not exist, have two parents, or stand in a circle;
+// - a file without nodes;
+// - transforms that turn or scale to nothing.
 // Takes time in proportion to the nodes, however they hang on each other.
 std::vector<int> read_nodes(const std::filesystem::path& path, const nlohmann::json& document, Clip& clip);
 

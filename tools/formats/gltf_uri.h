@@ -25,7 +25,7 @@ std::optional<DataUri> data_of(std::string_view uri);
 std::string data_uri_of(std::string_view bytes);
 
 // Every address of the document, but none in `extras`, which are the user's own: call(object) gets each object with a
-// text `uri`. Document: an ordered_json, const or not.
+// text `uri`. Document: a nlohmann::json, const or not.
 template <class Document, class Call>
 void for_each_uri(Document& document, const Call& call)
 {

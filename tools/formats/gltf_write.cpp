@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tools/formats/gltf.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 
 #include "tools/formats/error.h"
-#include "tools/formats/gltf.h"
 #include "tools/formats/gltf_edit.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
@@ -92,7 +93,10 @@ void write_gltf(const std::filesystem::path& path, const GltfFile& file, std::sp
     OutputFile out(path);
     const GltfContainer written = with_changes(file.container, file.buffers, changes, file.path, path, is_glb);
     try {
-        out.write(is_glb ? glb_of(written) : written.json);
+        if (is_glb)
+            out.write(glb_of(written));
+        else
+            out.write(written.json);
     } catch (const std::length_error& error) {
         throw InputError(is_standard_stream(path) ? "standard output" : path, error.what());
     }

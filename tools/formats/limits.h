@@ -4,7 +4,8 @@
 
 namespace swivel::formats {
 
-// The longest target or axis that the engine solves; none in CSV and TOML may be longer.
+// The longest target or axis that the engine solves. None in any file may be longer, and scales lie between 1/kMaxNorm
+// and kMaxNorm.
 constexpr double kMaxNorm = 1e15;
 
 // The most twist bones of one limb.

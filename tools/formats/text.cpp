@@ -69,10 +69,11 @@ void append(const std::filesystem::path& path, std::FILE* file, std::size_t most
 
 // The rest of a file, appended to `bytes`.
 template <class Read>
-void append_all(const std::filesystem::path& path, std::FILE* file, std::string& bytes, Read read)
+void append_all(const std::filesystem::path& path, std::FILE* file, std::string& bytes, std::string_view advice,
+                Read read)
 {
     const auto require = [&](std::size_t size) {
-        if (size > kMostBytes) throw InputError(path, "is longer than 2 GiB; cut it, or write it as .glb");
+        if (size > kMostBytes) throw InputError(path, fmt::format("is longer than 2 GiB; {}", advice));
     };
     require(bytes.size() + size_beyond(file));  // a plain file need not be read for this
     append(path, file, kMostBytes + 1 - bytes.size(), bytes, read);
@@ -116,7 +117,7 @@ std::string read_text(const std::filesystem::path& path)
 {
     const TextFile file = open_text(path);
     std::string text;
-    append_all(path, file.get(), text, read_chunk);
+    append_all(path, file.get(), text, "cut it", read_chunk);
     if (text.empty()) throw InputError(path, "is empty; check how it was written");
     return text;
 }
@@ -126,9 +127,16 @@ void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_
     append(path, file, most, bytes, read_some);
 }
 
-void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes)
+void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes, std::string_view advice)
 {
-    append_all(path, file, bytes, read_some);
+    append_all(path, file, bytes, advice, read_some);
+}
+
+std::string_view without_byte_order_mark(std::string_view text)
+{
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+    return text;
 }
 
 std::string_view take_word(std::string_view& rest)

@@ -37,8 +37,12 @@ std::string read_text(const std::filesystem::path& path);
 // read error. Allocates as bytes come, not as `most` says.
 void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes);
 
-// Appends the rest of any file, with the limit of read_text().
-void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes);
+// Appends the rest of any file, with the limit of read_text(). advice: what to do about a longer one.
+void append_rest(const std::filesystem::path& path, std::FILE* file, std::string& bytes,
+                 std::string_view advice = "cut it");
+
+// `text` without the mark of three bytes that some editors put before UTF-8.
+std::string_view without_byte_order_mark(std::string_view text);
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 

@@ -31,7 +31,7 @@ Motion read_standard_input(const std::filesystem::path& path, const MotionChoice
     std::string bytes;
     formats::append_bytes(path, input.get(), 1000, bytes);
     if (bytes.empty()) throw formats::InputError(path, "is empty; check how it was written");
-    const std::string_view start = formats::trimmed(bytes);
+    const std::string_view start = formats::trimmed(formats::without_byte_order_mark(bytes));
     if (start.starts_with("glTF") || start.starts_with('{')) {
         formats::GltfContainer container = formats::read_gltf_container(path, input.get(), std::move(bytes));
         return formats::read_gltf(path, std::move(container), {choice.clip, choice.rate});
