@@ -15,7 +15,8 @@ namespace {
 // A field, one in 16 times any that C++ lets the enum hold.
 swivel_field take_field(Session& session, std::uint32_t limit)
 {
-    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.below(2 * SWIVEL_RESULT_END));
+    static_assert(SWIVEL_RESULT_END < 512);  // up to there C++ lets the enumeration have any value
+    if (session.bytes.one_in(16)) return static_cast<swivel_field>(session.bytes.below(512));
     return static_cast<swivel_field>(session.bytes.below(limit));
 }
 
