@@ -32,11 +32,13 @@ std::string decoded(std::string_view name)
         out += name.substr(0, at);
         name.remove_prefix(at);
         const std::string_view digits = name.substr(std::min(kEscape.size(), name.size()), 3);
-        const auto code = digits.size() == 3 && is_number(digits) ? formats::parse_integer(digits) : std::nullopt;
-        if (code && *code < 256) out += static_cast<char>(*code);
-        const std::size_t taken = code && *code < 256 ? kEscape.size() + 3 : std::min<std::size_t>(1, name.size());
-        if (taken == 1) out += name[0];
-        name.remove_prefix(taken);
+        if (digits.size() == 3 && is_number(digits) && digits <= "255") {
+            out += static_cast<char>(*formats::parse_integer(digits));
+            name.remove_prefix(kEscape.size() + digits.size());
+        } else if (!name.empty()) {
+            out += name[0];
+            name.remove_prefix(1);
+        }
     }
     return out;
 }
