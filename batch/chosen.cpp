@@ -103,8 +103,8 @@ struct Aside {
     }
     void solve(std::uint32_t block_count)
     {
-        solve_rows(crowd, kernels, group, input, results, block_count, false);
-        if (crowd.words) pack_rows(crowd, kernels, results, words, block_count, false);
+        solve_rows(crowd, kernels, group, input, results, block_count);
+        if (crowd.words) pack_rows(crowd, kernels, results, words, block_count);
     }
 };
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "batch/unpack.h"
-#include "core/solve_arm.h"
+#include "core/arm.h"
 #include "simd/rows.h"
 
 namespace swivel {

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "batch/status.h"
+#include "core/arm.h"
 #include "core/frame_rotor.h"
-#include "core/solve_arm.h"
 
 namespace swivel {
 

@@ -18,17 +18,13 @@ constexpr FeatureSet kFormulaFeatures = feature::world | feature::joints | featu
 // With any of these features, a crowd's limbs are whole limbs, which have one kernel (simd/limb_run.h).
 constexpr FeatureSet kLimbFeatures = ~(kFormulaFeatures | feature::pole_direction | feature::compact | feature::budget);
 
-// Rows of more bytes than this come from memory at each solve, because this is a common size of level 3 caches.
-// Prefetching costs up to 3 % if rows come from a cache. It saves 5 to 15 % if they come from memory.
-constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
-
 // Result rows of a compact crowd are on the stack until they are packed. Those of so many blocks stay in the nearest
 // cache.
 constexpr std::uint32_t kPackBlocks = 8;
 constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand);
 
-LimbRun limb_run(const swivel_crowd& crowd, const Group& group, const float* input, float* results,
-                 std::uint32_t block_count)
+SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* input, float* results,
+                std::uint32_t block_count)
 {
     return {input,
             results,
@@ -46,32 +42,31 @@ void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Grou
                    std::uint32_t block_count)
 {
     alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
-    const bool prefetch = crowd.arena_bytes > kCachedBytes;
     for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {
         const std::uint32_t block = first_block + done, count = std::min(kPackBlocks, block_count - done);
         const std::size_t limb = std::size_t{block} * SWIVEL_LANES;
-        solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0), results, count,
-                   prefetch);
-        pack_rows(crowd, kernels, results, crowd.words + row_offset(limb, crowd.result_row_count, 0), count, prefetch);
+        solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0), results, count);
+        pack_rows(crowd, kernels, results, crowd.words + row_offset(limb, crowd.result_row_count, 0), count);
     }
 }
 
 }  // namespace
 
 void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
-                float* results, std::uint32_t block_count, bool prefetch)
+                float* results, std::uint32_t block_count)
 {
-    if (crowd.features & kLimbFeatures) return kernels.limbs.solve(limb_run(crowd, group, input, results, block_count));
-    const float pole_is_point = crowd.features & feature::pole_direction ? 0.0f : 1.0f;
-    kernels.arms.solve[crowd.features & kFormulaFeatures](
-        {input, results, block_count, pole_is_point, &group.frames, prefetch});
+    const SolveRun run = run_of(crowd, group, input, results, block_count);
+    if (crowd.features & kLimbFeatures)
+        kernels.limbs.solve(run);
+    else
+        kernels.arms.solve[crowd.features & kFormulaFeatures](run);
 }
 
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
-               std::uint32_t block_count, bool prefetch)
+               std::uint32_t block_count)
 {
     kernels.arms.pack[(crowd.features & (feature::joints | feature::hand)) / feature::joints](
-        {results, words, block_count, prefetch});
+        {results, words, block_count});
 }
 
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
@@ -80,8 +75,7 @@ void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group&
     if (crowd.features & feature::compact) return solve_compact(crowd, kernels, group, first_block, block_count);
     const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
     solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0),
-               crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count,
-               crowd.arena_bytes > kCachedBytes);
+               crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count);
 }
 
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
@@ -94,7 +88,7 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
     const float* const input = crowd.input + row_offset(first, crowd.input_row_count, 0);
     ArcEnds ends[kMostArcs];
     const std::uint32_t count =
-        scalar.limbs.allowed_arcs(limb_run(crowd, group, input, results, group.block_count), limb, ends);
+        scalar.limbs.allowed_arcs(run_of(crowd, group, input, results, group.block_count), limb, ends);
     for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
         arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
     return count;

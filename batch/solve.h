@@ -42,12 +42,11 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
                            swivel_arc* arcs, std::uint32_t capacity);
 
 // The two steps of solve_group, on rows anywhere in memory. The first makes result rows of floats from blocks of input
-// rows. The second makes words from these, in a compact crowd. prefetch: rows come from memory, or words go there, and
-// later blocks follow.
+// rows. The second makes words from these, in a compact crowd.
 void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
-                float* results, std::uint32_t block_count, bool prefetch);
+                float* results, std::uint32_t block_count);
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
-               std::uint32_t block_count, bool prefetch);
+               std::uint32_t block_count);
 
 // Checked members of a swivel_job. mask: which limbs are solved, null for all. frames: where values come from, null for
 // rows.

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "core/arm.h"
 #include "core/compact.h"
-#include "core/solve_arm.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 

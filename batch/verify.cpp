@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "batch/status.h"
+#include "core/any_arm.h"
 #include "core/pipeline.h"
 #include "core/reference.h"
-#include "core/solve_arm.h"
 
 namespace swivel {
 
@@ -117,7 +117,7 @@ struct FloatErrors {
 
     void add(const ArmGoal<float>& goal)
     {
-        const ArmPose<float> pose = solve_arm(goal, true);
+        const ArmPose<float> pose = solve_arm(goal);
         const Rotor<double> shoulder = to_double(hemisphere(pose.shoulder));
         const double halves = std::hypot(double{pose.cos_half}, double{pose.sin_half});
         length.add(std::max(std::fabs(std::sqrt(len2(shoulder)) - 1), std::fabs(halves - 1)));
@@ -167,7 +167,7 @@ void verify_double(Random& random, std::uint64_t arm_count, Report& report)
         against_oracle.add(std::max(distance(steps.shoulder_rotor, rotor(q[0], q[1], q[2], q[3])),
                                     distance(steps.elbow_rotor, rotor(e[0], e[1], e[2], e[3]))));
 
-        const ArmPose<double> pose = solve_arm(goal, true);
+        const ArmPose<double> pose = solve_arm(goal);
         production.add(std::max(distance(steps.shoulder_rotor, pose.shoulder),
                                 distance(steps.elbow_rotor, rotor(-pose.sin_half, 0.0, 0.0, pose.cos_half))));
     }
@@ -200,7 +200,7 @@ void verify_hard(Report& report)
                         for (const float side : {-1.0f, 0.0f, 1e-3f, 1.0f}) {
                             const ArmGoal<float> goal{vector(x * 0.5f, y * 0.5f, z * 0.5f),
                                                       vector(x * 0.5f, side, z * 0.5f), upper, fore};
-                            const ArmPose<float> pose = solve_arm(goal, true);
+                            const ArmPose<float> pose = solve_arm(goal);
                             const Rotor<double> q = to_double(pose.shoulder);
                             const double halves = std::hypot(double{pose.cos_half}, double{pose.sin_half});
                             length.add(std::max(std::fabs(std::sqrt(len2(q)) - 1), std::fabs(halves - 1)));

@@ -73,32 +73,6 @@ SWIVEL_INLINE constexpr Mv<T, blades(kScalar, kI)> elbow_rotor(const ArmPose<T>&
     return pose.cos_half * unit<T, kScalar>() - pose.sin_half * unit<T, kI>();
 }
 
-// The arm frame's axes in some other space: e1, e2 and e3 there.
-template <class T>
-struct ArmAxes {
-    Vector<T> hinge, other, bone;
-};
-template <class T>
-SWIVEL_INLINE constexpr ArmAxes<T> arm_axes()
-{
-    return {vector(T(1), T(0), T(0)), vector(T(0), T(1), T(0)), vector(T(0), T(0), T(1))};
-}
-
-// Goal by goal, a where the mask holds, b elsewhere.
-template <class T>
-SWIVEL_INLINE constexpr ArmGoal<T> select(const Mask<T>& mask, const ArmGoal<T>& a, const ArmGoal<T>& b)
-{
-    return {select(mask, a.wrist, b.wrist), select(mask, a.pole, b.pole), select(mask, a.upper, b.upper),
-            select(mask, a.fore, b.fore)};
-}
-
-// A straight arm in its rest pose: solving it gives the identity. It takes the place of bad input.
-template <class T>
-SWIVEL_INLINE constexpr ArmGoal<T> rest_goal()
-{
-    return {vector(T(0), T(0), T(2)), vector(T(0), T(-1), T(0)), T(1), T(1)};
-}
-
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_length(const T& x)
 {

@@ -12,6 +12,21 @@ namespace swivel::inline SWIVEL_ISA {
 // A line along -e3 has no middle line to e3. So the frame starts from e3 or -e3, whichever is nearer to the line.
 // Before it starts from -e3, it is turned by pi about e1.
 template <class T>
+struct FrameStart {
+    T side;            // only its sign counts: the start is e3 with it
+    T length, height;  // of the line; and both together: the line and the start of that length, along the start
+
+    // Half the squared length of the middle line between the two.
+    SWIVEL_INLINE constexpr T middle_half2() const { return length * height; }
+};
+template <class T>
+SWIVEL_INLINE constexpr FrameStart<T> frame_start(const Vector<T>& line, const T& length)
+{
+    const T side = line.template at<kE3>();
+    return {side, length, length + abs(side)};
+}
+
+template <class T>
 struct FrameRotor {
     Rotor<T> from_start;         // carries the start to the line and e1 to the normal; of any length
     T middle_half2, twist_len2;  // half the squared length of its middle line, and the squared length of its twist
@@ -25,7 +40,8 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
                                                        const Vector<T>& normal, const T& normal_length)
 {
     // Steps 3 and 4: the middle line between the start and the line, here of squared length 2 length height.
-    const T start = line.template at<kE3>(), height = length + abs(start);
+    const FrameStart<T> from = frame_start(line, length);
+    const T start = from.side, height = from.height;
     const Vector<T> middle = part<blades(kE1, kE2)>(line) + copysign(height, start) * unit<T, kE3>();
 
     // Step 5: before the turn by pi about the middle line, the normal is n' = 2 (n.m) m / |m|^2 - n. It lies in the
@@ -41,7 +57,7 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
     const Mask<T> obtuse = c < T(0);
     const auto twist = select(obtuse, s, large) * unit<T, kScalar>() + select(obtuse, large, s) * unit<T, kK>();
 
-    return {central_line(middle) * twist, length * height, large * large + s * s, start};
+    return {central_line(middle) * twist, from.middle_half2(), large * large + s * s, start};
 }
 
 // The same, both of unit length: the rotor is 1.4 to 9 long.

@@ -3,7 +3,7 @@
 // How far the wrist is from the shoulder, and the triangle that this distance and the two bones form. All angles come
 // as cosines and sines of their halves, built from products that cannot cancel.
 //
-// If one bone is too short for the digits of the other, there is no triangle (solve_arm.h: tamed).
+// If one bone is too short for the digits of the other, there is no triangle (limb_bones.h).
 #pragma once
 
 #include "core/arm.h"

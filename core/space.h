@@ -25,7 +25,6 @@ template <class T>
 struct Binding {
     Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm;
     Rotor<T> elbow_straight, elbow_hinge;  // the elbow's local rotation is cos elbow_straight - sin elbow_hinge
-    Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
 
 // One of a binding's quaternions.
@@ -38,17 +37,10 @@ SWIVEL_INLINE constexpr Rotor<T> broadcast(const float (&q)[4])
 template <class T>
 SWIVEL_INLINE constexpr Binding<T> binding(const Rotor<T>& parent_from_arm, const Rotor<T>& upper_from_arm,
                                            const Rotor<T>& elbow_parent_from_arm, const Rotor<T>& fore_from_arm,
-                                           const Rotor<T>& wrist_parent_from_arm, const Rotor<T>& shoulder_rest,
-                                           const Rotor<T>& elbow_rest, const Rotor<T>& wrist_rest)
+                                           const Rotor<T>& wrist_parent_from_arm)
 {
-    return {parent_from_arm,
-            ~upper_from_arm,
-            wrist_parent_from_arm,
-            elbow_parent_from_arm * ~fore_from_arm,
-            times_blade<kI>(elbow_parent_from_arm) * ~fore_from_arm,
-            shoulder_rest,
-            elbow_rest,
-            wrist_rest};
+    return {parent_from_arm, ~upper_from_arm, wrist_parent_from_arm, elbow_parent_from_arm * ~fore_from_arm,
+            times_blade<kI>(elbow_parent_from_arm) * ~fore_from_arm};
 }
 
 template <class T>
@@ -68,53 +60,28 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
     return is_valid(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
-// A goal in the world, as the parent's frame sees it. The parent's rotation is turned back. The target is not divided
-// by the rotation's length and by the scale; instead the bones are multiplied by both. An arm of another size has the
-// same pose.
+// A goal in the world, as the parent's frame sees it: the parent's rotation is turned back. All of it is `size` times
+// as long as in the world's units, so that nothing is divided. An arm of another size has the same pose.
 template <class T>
 struct SeenGoal {
-    ArmGoal<T> goal;
-    Mask<T> plain;  // the parent's numbers are so ordinary that a goal with plain ones has nothing bad in it
+    Vector<T> wrist, pole;
+    T size, rotation2;  // rotation2: the squared length of the parent's rotation
 };
 template <class T>
-SWIVEL_INLINE constexpr SeenGoal<T> seen_by(const ParentFrame<T>& parent, const ArmGoal<T>& goal_w,
-                                            const T& pole_is_point)
+SWIVEL_INLINE constexpr SeenGoal<T> seen_by(const ParentFrame<T>& parent, const Vector<T>& wrist_w,
+                                            const Vector<T>& pole_w, const T& pole_is_point)
 {
     const Turn<T> turn = turn_by(~parent.rotation);
-    const T size = parent.scale * turn.length2;
-    const Mask<T> plain =
-        is_within(turn.length2, 0.5, 2) & (length1(parent.position) <= T(1e13)) & is_within(parent.scale, 1e-5, 1e5);
-    return {{turn(goal_w.wrist - parent.position), turn(goal_w.pole - pole_is_point * parent.position),
-             size * goal_w.upper, size * goal_w.fore},
-            plain};
+    return {turn(wrist_w - parent.position), turn(pole_w - pole_is_point * parent.position),
+            parent.scale * turn.length2, turn.length2};
 }
-
-// The same for any numbers.
+// Whether a parent's numbers are so ordinary that a goal for which the formula holds (solve_arm.h) has nothing bad in
+// it.
 template <class T>
-SWIVEL_INLINE constexpr ArmGoal<T> seen_by_any(const ParentFrame<T>& parent, const ArmGoal<T>& goal_w,
-                                               const T& pole_is_point)
+SWIVEL_INLINE constexpr Mask<T> is_ordinary(const ParentFrame<T>& parent, const SeenGoal<T>& seen)
 {
-    const Rotor<T> back = ~normalise(parent.rotation);
-    const T shrink = T(1) / parent.scale;
-    return {shrink * sandwich(back, goal_w.wrist - parent.position),
-            shrink * sandwich(back, goal_w.pole - pole_is_point * parent.position), goal_w.upper, goal_w.fore};
-}
-
-// The joints' own local rotations of a pose in the parent's frame. A straight arm along the rest bone is q_s = q_e = 1.
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> shoulder_local(const Binding<T>& bind, const ArmPose<T>& pose)
-{
-    return pose.shoulder * bind.arm_from_upper;
-}
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> elbow_local(const Binding<T>& bind, const ArmPose<T>& pose)
-{
-    return pose.cos_half * bind.elbow_straight - pose.sin_half * bind.elbow_hinge;
-}
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> wrist_local(const Binding<T>& bind, const Rotor<T>& wrist)
-{
-    return bind.wrist_parent_from_arm * wrist;
+    return is_within(seen.rotation2, 0.5, 2) & (length1(parent.position) <= T(1e13)) &
+           is_within(parent.scale, 1e-5, 1e5);
 }
 
 // q_w = (q_s q_e)^-1 q_hand, of unit length: the wrist's rotation from the forearm to the wanted orientation of the

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
 // The kernels of plain arms, compiled once for each instruction set. They load rows, call the formulas of core, and
-// store rows. SWIVEL_ARCH is an xsimd architecture or float. SWIVEL_REGISTERS is how many registers a step works on
-// side by side.
+// store rows. Arms for which the formula does not hold are gathered, and solved as whole limbs. SWIVEL_ARCH is an
+// xsimd architecture or float. SWIVEL_REGISTERS is how many registers a step works on side by side.
+#include <bit>
+
 #include "core/solve_arm.h"
 #include "core/space.h"
+#include "simd/aside.h"
 #include "simd/kernels.h"
 #include "simd/lanes.h"
 #include "simd/pack.h"
 #include "simd/rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
+
+extern const LimbKernels limb_kernels;
 
 namespace {
 
@@ -65,9 +70,8 @@ SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
     const RestFrames& b = *run.frames;
     return {
         binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.elbow_parent_from_arm),
-                broadcast<T>(b.fore_from_arm), broadcast<T>(b.wrist_parent_from_arm), broadcast<T>(b.shoulder_rest),
-                broadcast<T>(b.elbow_rest), broadcast<T>(b.wrist_rest)),
-        T(run.pole_is_point)};
+                broadcast<T>(b.fore_from_arm), broadcast<T>(b.wrist_parent_from_arm)),
+        T(run.features & feature::pole_direction ? 0 : 1)};
 }
 
 constexpr bool has(FeatureSet features, FeatureSet one) { return features & one; }
@@ -85,147 +89,83 @@ SWIVEL_INLINE ParentFrame<T> load_parent(const Rows<T, Features>& rows)
             rows.load(Field::parent_scale, 0)};
 }
 
-// The wanted hand orientations in the space of the poses; the identity in crowds without hands.
-template <class T, FeatureSet Features>
-SWIVEL_INLINE Rotor<T> load_hand(const Rows<T, Features>& rows)
-{
-    if constexpr (!has(Features, feature::hand))
-        return rotor(T(0), T(0), T(0), T(1));
-    else if constexpr (has(Features, feature::world))
-        return ~rows.load_rotor(Field::parent_rotation) * rows.load_rotor(Field::hand);
-    else
-        return rows.load_rotor(Field::hand);
-}
-
-// The goals as the formula takes them, and in which lanes their other numbers are plain, too.
-template <class T, FeatureSet Features>
-SWIVEL_INLINE SeenGoal<T> seen_goal(const Rows<T, Features>& rows, const Shared<T>& shared)
-{
-    SeenGoal<T> seen{load_goal(rows), T(0) == T(0)};
-    if constexpr (has(Features, feature::world)) seen = seen_by(load_parent(rows), seen.goal, shared.pole_is_point);
-    if constexpr (has(Features, feature::hand)) seen.plain = seen.plain & is_valid(rows.load_rotor(Field::hand));
-    return seen;
-}
-
-// The rotations of a pose, as the features want them.
-template <class T>
-struct Rotations {
-    Rotor<T> shoulder, elbow, wrist;  // elbow: with JOINTS; wrist: with a hand
-};
-template <FeatureSet Features, class T>
-SWIVEL_INLINE Rotations<T> rotations_of(const ArmPose<T>& pose, const Shared<T>& shared, const Rotor<T>& hand)
-{
-    constexpr bool world = has(Features, feature::world), joints = has(Features, feature::joints);
-    Rotations<T> q;
-    q.shoulder = pose.shoulder;
-    if constexpr (joints) q.shoulder = shoulder_local(shared.bind, pose);
-    if constexpr (joints && !world) q.shoulder = shared.bind.parent_from_arm * q.shoulder;
-    if constexpr (joints) q.elbow = elbow_local(shared.bind, pose);
-    if constexpr (has(Features, feature::hand)) q.wrist = wrist_rotor(pose, hand);
-    if constexpr (joints && has(Features, feature::hand)) q.wrist = wrist_local(shared.bind, q.wrist);
-    return q;
-}
-template <class T, FeatureSet Features>
-SWIVEL_INLINE void store_rest(const Rows<T, Features>& rows, const ArmPose<T>& pose)
-{
-    if constexpr (!has(Features, feature::joints)) {
-        rows.store(Field::elbow, 0, pose.cos_half);
-        rows.store(Field::elbow, 1, pose.sin_half);
-    }
-    rows.store(Field::flags, 0, pose.flags);
-}
-
 // Stores a rotation as its quaternion with w > 0. Returns false where w is 0 or NaN: there the result means nothing.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE Mask<T> store_plain(const Rows<T, Features>& rows, Field field, const Rotor<T>& q)
+SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, Field field, const Rotor<T>& q)
 {
     const T w = q.template at<kScalar>();
     rows.store_rotor(field, with_sign_of(w, q));
     return abs(w) > T(0);
 }
 
-// Solves a step of plain arms. Returns false where an arm is not plain, or turns by half a turn. Its results mean
-// nothing there.
+// Stores the rotations and flags of a pose. Returns false where the hand is bad, or a joint turns by half a turn.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE Mask<T> solve_plain_step(const Rows<T, Features>& rows, const Shared<T>& shared)
+SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Binding<T>& bind, const ArmPose<T>& pose)
 {
-    constexpr bool world = has(Features, feature::world), joints = has(Features, feature::joints),
-                   with_hand = has(Features, feature::hand);
-    const SeenGoal<T> seen = seen_goal(rows, shared);
-    const PlainArm<T> arm = solve_plain(seen.goal);
-    const Rotations<T> q = rotations_of<Features>(arm.pose, shared, load_hand(rows));
-    store_rest(rows, arm.pose);
-    Mask<T> holds = arm.holds & store_plain(rows, Field::shoulder, q.shoulder);
-    if constexpr (joints) rows.store_rotor(Field::elbow, hemisphere(q.elbow));  // folded arms turn by pi
-    if constexpr (with_hand) holds = holds & store_plain(rows, Field::wrist, q.wrist);
-    if constexpr (world || with_hand) holds = holds & seen.plain;
+    constexpr bool world = has(Features, feature::world), joints = has(Features, feature::joints);
+    Rotor<T> shoulder = pose.shoulder;
+    if constexpr (joints) {
+        shoulder = pose.shoulder * bind.arm_from_upper;
+        const Rotor<T> elbow = pose.cos_half * bind.elbow_straight - pose.sin_half * bind.elbow_hinge;
+        rows.store_rotor(Field::elbow, hemisphere(elbow));  // folded arms turn by pi
+    } else {
+        rows.store(Field::elbow, 0, pose.cos_half);
+        rows.store(Field::elbow, 1, pose.sin_half);
+    }
+    if constexpr (joints && !world) shoulder = bind.parent_from_arm * shoulder;
+    rows.store(Field::flags, 0, pose.flags);
+    Mask<T> holds = store_rotation(rows, Field::shoulder, shoulder);
+    if constexpr (has(Features, feature::hand)) {
+        const Rotor<T> given = rows.load_rotor(Field::hand);
+        Rotor<T> hand = given;
+        if constexpr (world) hand = ~rows.load_rotor(Field::parent_rotation) * given;
+        Rotor<T> wrist = wrist_rotor(pose, hand);
+        if constexpr (joints) wrist = bind.wrist_parent_from_arm * wrist;
+        holds = holds & store_rotation(rows, Field::wrist, wrist) & is_valid(given);
+    }
     return holds;
 }
 
-// Solves a step of any arms. Plain arms get the same bits as above.
+// Solves a step of arms. Returns false where the formula does not hold; there the results mean nothing.
 template <class T, FeatureSet Features>
-SWIVEL_FLATTEN [[gnu::noinline, gnu::cold]] void solve_any_step(const Rows<T, Features> rows, const SolveRun& run)
+SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>& shared)
 {
-    const Shared<T> shared = shared_by<T>(run);
-    constexpr bool world = has(Features, feature::world), joints = has(Features, feature::joints),
-                   with_hand = has(Features, feature::hand);
-    const SeenGoal<T> seen = seen_goal(rows, shared);
-    ArmGoal<T> asked = load_goal(rows);
-    Mask<T> good = T(0) == T(0);
-    ArmAxes<T> axes = arm_axes<T>();
-    if constexpr (world) {
+    ArmGoal<T> goal = load_goal(rows);
+    Mask<T> ordinary = T(0) == T(0);
+    if constexpr (has(Features, feature::world)) {
         const ParentFrame<T> parent = load_parent(rows);
-        good = is_valid(parent) & (len2(asked.wrist) <= T(kHuge2)) & (len2(asked.pole) <= T(kHuge2));
-        asked = seen_by_any(parent, asked, shared.pole_is_point);
+        const SeenGoal<T> seen = seen_by(parent, goal.wrist, goal.pole, shared.pole_is_point);
+        goal = {seen.wrist, seen.pole, seen.size * goal.upper, seen.size * goal.fore};
+        ordinary = is_ordinary(parent, seen);
     }
-    if constexpr (world && joints) {
-        const Turn<T> turn = turn_by(shared.bind.parent_from_arm);
-        axes = {turn.e1, turn.e2, turn.e3};
-    }
-    if constexpr (with_hand) good = good & is_valid(rows.load_rotor(Field::hand));
-
-    const Mask<T> holds = solve_plain(seen.goal).holds & seen.plain;
-    const ArmPose<T> pose = solve_any(seen.goal, holds, asked, good, axes);
-    const Rotor<T> one = rotor(T(0), T(0), T(0), T(1));
-    const Rotations<T> q = rotations_of<Features>(pose, shared, select(pose.valid, load_hand(rows), one));
-    const auto store = [&](Field field, const Rotor<T>& each, const Rotor<T>& rest) SWIVEL_INLINE_LAMBDA {
-        rows.store_rotor(field, hemisphere(select(pose.valid, each, rest)));
-    };
-    store(Field::shoulder, q.shoulder, joints ? shared.bind.shoulder_rest : one);
-    if constexpr (joints) store(Field::elbow, q.elbow, shared.bind.elbow_rest);
-    if constexpr (with_hand) store(Field::wrist, q.wrist, joints ? shared.bind.wrist_rest : one);
-    store_rest(rows, pose);
+    const PlainArm<T> arm = solve_plain(goal);
+    const Mask<T> holds = arm.holds & store_pose(rows, shared.bind, arm.pose);
+    if constexpr (!has(Features, feature::world)) return holds;
+    return holds & ordinary;
 }
 
-// The same for a step of any width, one register after the other. Such arms are rare, so one build of the function is
-// enough.
-template <class T, FeatureSet Features>
-SWIVEL_INLINE void solve_any_registers(const Rows<T, Features>& rows, const SolveRun& run)
+void solve_aside(const SolveRun& run, LimbsAside& aside)
 {
-    using One = typename KernelNumber<SWIVEL_ARCH, 1>::type;
-    for (std::size_t lane = 0; lane < lane_count<T>; lane += lane_count<One>)
-        solve_any_step(Rows<One, Features>{rows.input + row_offset(lane, input_row_count(Features), 0),
-                                           rows.results + row_offset(lane, result_row_count(Features), 0)},
-                       run);
+    limb_kernels.solve(aside.block_of(run));
+    aside.give_back(run);
 }
 
-// Prefetches the rows of a block that is solved 8 blocks later. This is far enough for memory to answer, and the rows
-// of 8 blocks still fit a level 1 cache of 32 KiB. A prefetch moves no values. So it does no harm past the end of the
-// run or of the crowd.
-template <FeatureSet Features>
-SWIVEL_INLINE void prefetch_rows(const float* input, const float* results)
+// Solves arms of a block for which the formula does not hold. A bit of `others` is set for each of them. If these are
+// all of the block, they are solved where they lie; else they are put aside.
+[[gnu::noinline, gnu::cold]] void solve_others(const SolveRun& run, std::uint32_t block, std::uint32_t others,
+                                               LimbsAside& aside)
 {
-    constexpr std::size_t ahead = 8 * kLanes;
-    for (std::uint32_t row = 0; row < input_row_count(Features); ++row)
-        __builtin_prefetch(input + row_offset(ahead, input_row_count(Features), row), 0);
-    for (std::uint32_t row = 0; row < result_row_count(Features); ++row)
-        __builtin_prefetch(results + row_offset(ahead, result_row_count(Features), row), 1);
+    if (std::popcount(others) == kLanes) return limb_kernels.solve(blocks_of(run, block, 1));
+    for (; others != 0; others &= others - 1) {
+        aside.take(run, std::size_t{block} * kLanes + static_cast<std::size_t>(std::countr_zero(others)));
+        if (aside.count == kLanes) solve_aside(run, aside);
+    }
 }
 
 // Solves whole steps from block on, and returns the first block that is left. It is a function of its own for each T,
 // so that its constants do not take registers from another loop.
 template <class T, FeatureSet Features>
-SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block)
+SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block, LimbsAside& aside)
 {
     constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > kLanes ? lanes / kLanes : 1;
     const Shared<T> shared = shared_by<T>(run);
@@ -233,15 +173,15 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
     for (; block + blocks <= run.block_count; block += blocks) {
-        if (run.prefetch)
-            for (std::uint32_t n = 0; n < blocks; ++n)
-                prefetch_rows<Features>(input + row_offset(n * kLanes, input_row_count(Features), 0),
-                                        results + row_offset(n * kLanes, result_row_count(Features), 0));
+        std::uint32_t others = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
-            const Rows<T, Features> rows{input + lane, results + lane};
-            if (!all(solve_plain_step(rows, shared))) [[unlikely]]
-                solve_any_registers(rows, run);
+            const Mask<T> holds = solve_step(Rows<T, Features>{input + lane, results + lane}, shared);
+            if (!all(holds)) [[unlikely]]
+                others |= lane_bits(!holds) << lane;
         }
+        if (others != 0) [[unlikely]]
+            for (std::uint32_t n = 0; n < blocks; ++n)
+                solve_others(run, block + n, others >> n * kLanes & 0xffffu, aside);
         input += row_offset(step, input_row_count(Features), 0);
         results += row_offset(step, result_row_count(Features), 0);
     }
@@ -252,9 +192,11 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
 template <FeatureSet Features>
 void solve(const SolveRun& run)
 {
+    LimbsAside aside;
     const std::uint32_t done =
-        solve_steps<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0);
-    solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done);
+        solve_steps<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0, aside);
+    solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done, aside);
+    if (aside.count > 0) solve_aside(run, aside);
 }
 
 using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;

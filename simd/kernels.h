@@ -23,20 +23,10 @@ struct RestFrames {
     float twist_from_arm[kMostTwistBones][4];
 };
 
-// A run of blocks that share their frames.
+// A run of blocks that share their features and frames.
 struct SolveRun {
     const float* input;  // input rows of the run's first block
-    float* results;      // result rows of the same block
-    std::uint32_t block_count;
-    float pole_is_point;  // 1, or 0 for poles that are directions; used with feature::world
-    const RestFrames* frames;
-    bool prefetch;  // rows come from memory: call for those of later blocks
-};
-
-// The same for crowds of whole limbs (simd/limb_run.h), whose features the kernel is told.
-struct LimbRun {
-    const float* input;
-    float* results;
+    float* results;      // result rows of the same block, floats
     std::uint32_t block_count, input_row_count, result_row_count;
     FeatureSet features;
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
@@ -49,7 +39,6 @@ struct PackRun {
     const float* results;  // result rows of the run's first block
     std::uint16_t* words;  // compact rows of the same block
     std::uint32_t block_count;
-    bool prefetch;  // words go to memory: call for those of later blocks
 };
 
 // Of plain arms: simd/arm_kernels.cpp.
@@ -69,9 +58,9 @@ struct ArcEnds {
 
 // Of whole limbs: simd/limb_kernels.cpp.
 struct LimbKernels {
-    void (*solve)(const LimbRun& run);
+    void (*solve)(const SolveRun& run);
     // For one limb of a run: stores its arcs and returns how many there are. Only in the scalar build.
-    std::uint32_t (*allowed_arcs)(const LimbRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
+    std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
 };
 
 struct Kernels {

@@ -189,6 +189,27 @@ SWIVEL_INLINE bool all(const LanesMask<A, R>& mask)
     for (int n = 1; n < R; ++n) both = both & mask.r[n];
     return xsimd::all(both);
 }
+// A bit for each lane, the first lane's lowest.
+SWIVEL_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
+template <class A, int R>
+SWIVEL_INLINE std::uint32_t lane_bits(const LanesMask<A, R>& mask)
+{
+    std::uint32_t bits = 0;
+    for (std::size_t n = 0; n < R; ++n) {
+#if defined(__AVX512F__)
+        const std::uint32_t of_register = mask.r[n].data;
+#elif defined(__AVX2__)
+        const auto of_register = static_cast<std::uint32_t>(_mm256_movemask_ps(mask.r[n]));
+#elif defined(__x86_64__)
+        const auto of_register = static_cast<std::uint32_t>(_mm_movemask_ps(mask.r[n]));
+#else
+        const uint32x4_t one_each = {1, 2, 4, 8};
+        const std::uint32_t of_register = vaddvq_u32(vandq_u32(mask.r[n], one_each));
+#endif
+        bits |= of_register << n * Lanes<A, R>::width;
+    }
+    return bits;
+}
 #ifdef __x86_64__
 // Here minps and maxps have the bits of num.h's selects: they give the second operand for NaN and for two zeros.
 template <class A, int R>

@@ -10,7 +10,7 @@ namespace swivel::inline SWIVEL_ISA {
 namespace {
 
 // This takes one limb at a time, so one build of it is enough.
-std::uint32_t store_arcs([[maybe_unused]] const LimbRun& run, [[maybe_unused]] std::size_t limb,
+std::uint32_t store_arcs([[maybe_unused]] const SolveRun& run, [[maybe_unused]] std::size_t limb,
                          [[maybe_unused]] ArcEnds (&arcs)[kMostArcs])
 {
     if constexpr (std::is_same_v<SWIVEL_ARCH, float>) {

@@ -17,7 +17,7 @@ namespace swivel::inline SWIVEL_ISA {
 // The rows of one step of T's lanes, which lie in one block.
 template <class T>
 struct LimbRows {
-    const LimbRun& run;
+    const SolveRun& run;
     const float* input;
     float* results;
 
@@ -66,7 +66,7 @@ struct LimbRows {
 };
 
 // What a crowd's features make the formula use.
-inline LimbUse limb_use(const LimbRun& run)
+inline LimbUse limb_use(const SolveRun& run)
 {
     const auto has = [&](FeatureSet feature) { return (run.features & feature) != 0; };
     LimbUse use;
@@ -100,7 +100,7 @@ struct LimbBinding {
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
 template <class T>
-SWIVEL_INLINE LimbBinding<T> limb_binding(const LimbRun& run)
+SWIVEL_INLINE LimbBinding<T> limb_binding(const SolveRun& run)
 {
     const Rotor<T> q = one<T>();
     if (!(run.features & feature::joints)) return {q, q, q, q, q, q, q, q, q};
@@ -272,7 +272,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
 
 // The rows of the step that starts with a limb of a run.
 template <class T>
-SWIVEL_INLINE LimbRows<T> rows_of(const LimbRun& run, std::size_t limb)
+SWIVEL_INLINE LimbRows<T> rows_of(const SolveRun& run, std::size_t limb)
 {
     return {run, run.input + row_offset(limb, run.input_row_count, 0),
             run.results ? run.results + row_offset(limb, run.result_row_count, 0) : nullptr};

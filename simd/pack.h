@@ -95,13 +95,9 @@ SWIVEL_FLATTEN void pack(const PackRun& run)
 {
     constexpr std::uint32_t row_count = result_row_count(Features),
                             word_count = result_row_count(Features | feature::compact);
-    constexpr std::size_t block_bytes = word_count * kLanes * sizeof(std::uint16_t), line = 64, ahead = 8;
-    for (std::size_t block = 0; block < run.block_count; ++block) {
-        std::uint16_t* const words = run.words + row_offset(block * kLanes, word_count, 0);
-        for (std::size_t byte = 0; run.prefetch && byte < block_bytes; byte += line)
-            __builtin_prefetch(reinterpret_cast<const char*>(words) + ahead * block_bytes + byte, 1);
-        pack_block<T, Features>(run.results + row_offset(block * kLanes, row_count, 0), words);
-    }
+    for (std::size_t block = 0; block < run.block_count; ++block)
+        pack_block<T, Features>(run.results + row_offset(block * kLanes, row_count, 0),
+                                run.words + row_offset(block * kLanes, word_count, 0));
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

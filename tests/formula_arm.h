@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/solve_arm.h"
+#include "core/any_arm.h"
 #include "tests/test_random.h"
 
 namespace swivel::test {
@@ -58,7 +58,7 @@ template <class T>
 ArmPose<T> solve(const Arm& arm)
 {
     const ArmGoal<T> goal{mv<T>(arm.wrist), mv<T>(arm.pole), static_cast<T>(arm.upper), static_cast<T>(arm.fore)};
-    return solve_arm(goal, Mask<T>(true));
+    return solve_arm(goal);
 }
 
 template <class T>

@@ -58,8 +58,8 @@ struct Inputs {
 // Whether a kernel takes its short way for the limb: its step's tests, in one lane.
 bool is_plain(const Inputs& inputs, swivel_features features, std::uint32_t group, std::size_t n)
 {
-    SeenGoal<float> seen{
-        {vector_of(inputs.targets[n]), vector_of(inputs.poles[n]), inputs.lengths[n][0], inputs.lengths[n][1]}, true};
+    ArmGoal<float> goal{vector_of(inputs.targets[n]), vector_of(inputs.poles[n]), inputs.lengths[n][0],
+                        inputs.lengths[n][1]};
     Rotor<float> hand = rotor(0.0f, 0.0f, 0.0f, 1.0f);
     bool plain = true;
     if (features & kHand) {
@@ -69,22 +69,23 @@ bool is_plain(const Inputs& inputs, swivel_features features, std::uint32_t grou
     if (features & kWorld) {
         const ParentFrame<float> parent{vector_of(inputs.positions[n]), rotor_of(inputs.rotations[n]),
                                         inputs.scales[n][0]};
-        seen = seen_by(parent, seen.goal, features & kPoleDirection ? 0.0f : 1.0f);
+        const SeenGoal<float> seen = seen_by(parent, goal.wrist, goal.pole, features & kPoleDirection ? 0.0f : 1.0f);
+        plain = plain && is_ordinary(parent, seen);
+        goal = {seen.wrist, seen.pole, seen.size * goal.upper, seen.size * goal.fore};
         hand = ~parent.rotation * hand;
     }
-    const PlainArm<float> arm = solve_plain(seen.goal);
+    const PlainArm<float> arm = solve_plain(goal);
     const swivel::corpus::Binding& own = kBindings[group];
     const Rotor<float> upper = rotor_of(own.upper_from_arm), fore = rotor_of(own.fore_from_arm);
-    const auto bind = binding(rotor_of(own.parent_from_arm), upper, upper, fore, fore, rotor_of(own.shoulder_rest),
-                              rotor_of(own.elbow_rest), rotor_of(own.wrist_rest));
+    const auto bind = binding(rotor_of(own.parent_from_arm), upper, upper, fore, fore);
     Rotor<float> shoulder = arm.pose.shoulder, wrist = wrist_rotor(arm.pose, hand);
     if (features & kJoints) {
-        shoulder = shoulder_local(bind, arm.pose);
+        shoulder = shoulder * bind.arm_from_upper;
         if (!(features & kWorld)) shoulder = bind.parent_from_arm * shoulder;
-        wrist = wrist_local(bind, wrist);
+        wrist = bind.wrist_parent_from_arm * wrist;
     }
     const auto has_side = [](const Rotor<float>& q) { return std::fabs(q.at<kScalar>()) > 0; };
-    return arm.holds && seen.plain && plain && has_side(shoulder) && (!(features & kHand) || has_side(wrist));
+    return arm.holds && plain && has_side(shoulder) && (!(features & kHand) || has_side(wrist));
 }
 
 // All flags that a part's limbs get.

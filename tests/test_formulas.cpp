@@ -246,7 +246,7 @@ TEST_CASE("lengths times a power of two give the same arm")
         const auto everyday = [](Random& random) { return rounded(regular_arm(random)); };
         for_arms(seed, everyday, [=](const Arm& arm) { check_sizes(arm, {0x1p-10, 0x1p-3, 0x1p1, 0x1p10}); });
     });
-    // Arms that are not plain (arm.h: kPlainLeast, kPlainMost) are made tame first: other roundings.
+    // Arms that are not plain (arm.h: kPlainLeast, kPlainMost) are solved as whole limbs: other roundings.
     rc::prop("any arm, sizes from 2^-30 to 2^40: the same wrist", [](std::uint64_t seed) {
         for_arms(seed, any_arm, [](const Arm& arm) {
             const Vector3d wrist = wrist_place(solve<float>(arm), arm);

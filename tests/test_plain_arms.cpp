@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: arms of every valid size, ratio and place are solved to 1e-6 of the arm. The formula alone solves those
-// for which it says that it holds. The others go through a tame goal. Both ways give the same flags. Forward kinematics
-// is Eigen's.
+// The promise: arms of every valid size, ratio and place are solved to 1e-6 of the arm. The plain formula solves those
+// for which it says that it holds. The others are solved as whole limbs. Both ways give the same flags. Forward
+// kinematics is Eigen's.
 #include <catch2/catch.hpp>
 #include <utility>
 
@@ -43,6 +43,13 @@ ArmGoal<float> goal_of(const Arm& arm)
     return {mv<float>(arm.wrist), mv<float>(arm.pole), static_cast<float>(arm.upper), static_cast<float>(arm.fore)};
 }
 
+ArmPose<float> solve_as_limb(const ArmGoal<float>& arm)
+{
+    LimbGoal<float> goal{};
+    goal.arm = arm;
+    return solve_limb<false>(LimbUse{}, goal, true).arm;
+}
+
 bool is_right(const Arm& arm, const ArmPose<float>& pose)
 {
     const double d = arm.wrist.norm(), reach = std::clamp(d, std::fabs(arm.upper - arm.fore), arm.length());
@@ -71,17 +78,14 @@ TEST_CASE("arms of every size are solved, plain or not")
             RC_ASSERT(!plain.holds || is_right(arm, plain.pose));
         });
     });
-    rc::prop("through a tame goal, whether it holds or not", [](std::uint64_t seed) {
-        for_sized_arms(seed, [](const Arm& arm) {
-            const ArmGoal<float> goal = goal_of(arm);
-            RC_ASSERT(is_right(arm, solve_any(goal, false, goal, true, arm_axes<float>())));
-        });
+    rc::prop("as whole limbs, whether it holds or not", [](std::uint64_t seed) {
+        for_sized_arms(seed, [](const Arm& arm) { RC_ASSERT(is_right(arm, solve_as_limb(goal_of(arm)))); });
     });
     rc::prop("both with the same flags", [](std::uint64_t seed) {
         for_sized_arms(seed, [](const Arm& arm) {
             const ArmGoal<float> goal = goal_of(arm);
             const PlainArm<float> plain = solve_plain(goal);
-            RC_ASSERT(!plain.holds || plain.pose.flags == solve_any(goal, false, goal, true, arm_axes<float>()).flags);
+            RC_ASSERT(!plain.holds || plain.pose.flags == solve_as_limb(goal).flags);
         });
     });
 }
