@@ -166,6 +166,20 @@ TEST_CASE("weights blend with the incoming pose")
             RC_ASSERT(distance(got.hand, pose.shoulder * pose.elbow * pose.wrist) <= 3e-6);
         });
     });
+    rc::prop("1 takes the target itself, however near the shoulder it is", [](std::uint64_t seed) {
+        LimbUse without, with;
+        without.incoming = with.incoming = with.weights = true;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const double distance_wanted = arm.length() * random.spread(1e-12, 1);
+            Arm near = arm;
+            near.wrist *= distance_wanted / arm.wrist.norm();
+            LimbGoal<float> goal = limb_goal<float>(rounded(near));
+            goal.incoming = incoming_of<float>(random_incoming(random));
+            const ArmPose<float> want = solve(without, goal).pose.arm, got = solve(with, goal).pose.arm;
+            RC_ASSERT(distance(eigen(got.shoulder), eigen(want.shoulder)) <= 1e-6);
+            RC_ASSERT(got.cos_half == want.cos_half && got.sin_half == want.sin_half && got.flags == want.flags);
+        });
+    });
     rc::prop("between: the wrist on the straight way, the hand and the swivel between the two",
              [&](std::uint64_t seed) {
                  for_arms(seed, [&](Random& random, const Arm& arm) {
