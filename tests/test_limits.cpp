@@ -127,9 +127,11 @@ TEST_CASE("in float, a million arms: limits hold, the nearest swivel is found, a
 TEST_CASE("a locked angle does not allow its opposite")
 {
     const Ends<float> locked = ends(Range<float>{{1, 0}, {1, 0}});
-    CHECK(room_between(locked, 1.0f, 0.0f, 1.0f) == 0);
-    CHECK(room_between(locked, -1.0f, 0.0f, 1.0f) == -1);
-    CHECK(room_between(locked, -1.0f, 0.0f, -1.0f) == 0);
+    const Rooms<float> along = room_between(locked, 1.0f, 0.0f), against = room_between(locked, -1.0f, 0.0f);
+    CHECK(along.front == 0);
+    CHECK(along.back == -1);
+    CHECK(against.front == -1);
+    CHECK(against.back == 0);
 }
 
 TEST_CASE("where no middle angle is allowed, the one nearest its range is taken")
