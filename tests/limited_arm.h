@@ -55,7 +55,7 @@ inline LimitedArm random_limited_arm(Random& random)
     const double upper = random.between(0.2, 0.4), fore = upper * random.between(0.6, 1.6);
     const double near = std::fabs(upper - fore), far = upper + fore;
     const Vector3d line = random.direction();
-    // One number a line: every compiler then makes the same arms.
+    // One number a line: all compilers then draw them in the same order.
     const double distance = random.between(near + 0.02 * (far - near), far);
     const double along = random.between(-1, 1), aside = random.spread(0.05, 1);
     a.arm = rounded(Arm{distance * line, along * line + aside * random.across(line), upper, fore});
