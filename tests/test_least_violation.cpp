@@ -107,9 +107,11 @@ TEST_CASE("of two as near, the lower line's is taken")
 
 TEST_CASE("an allowed swivel ties with no other")
 {
-    // The arc at the farther peak is too short to have ends. The nearer one violates the limits by 1.1e-6.
+    // The arc at the farther peak is too short for its ends to be found. The nearer one violates the limits by 1.15e-6.
     for (const double far : {2.0, 2.5, 3.0, 4.0}) {
-        const ChosenSwivel<float> chosen = choose_swivel<true>(two_peaks(far, -6.5e-7, 4.5e-7));
+        const Limits<float> limits = two_peaks(far, -7.5e-7, 4e-7);
+        CHECK_FALSE(nearest_end(limits).allowed);
+        const ChosenSwivel<float> chosen = choose_swivel<true>(limits);
         CHECK(chosen.allowed);
         CHECK(is_at(chosen, far));
     }
