@@ -34,6 +34,18 @@ struct Reader {
 
 Rotor<double> rotor_of(const float (&q)[4]) { return normalise(rotor<double>(q[0], q[1], q[2], q[3])); }
 
+// The bones' lengths in the space of the targets, scaled and stretched.
+struct Bones {
+    double upper, fore;
+};
+Bones bones_of(const swivel_crowd& crowd, std::size_t limb)
+{
+    const Reader read{crowd, limb};
+    const double scale = crowd.features & feature::world ? read(Field::parent_scale, 0) : 1.0;
+    const double size = crowd.features & feature::reach ? scale * read(Field::stretch, 0) : scale;
+    return {size * read(Field::lengths, 0), size * read(Field::lengths, 1)};
+}
+
 // The line of the hand that is aimed with, in the space of the targets.
 Vector<double> aim_axis(const swivel_crowd& crowd, const Group& group, std::size_t limb, const Rotor<double>& hand)
 {
@@ -68,9 +80,9 @@ LimbPose forward(const swivel_crowd& crowd, const Group& group, std::size_t limb
     const Rotor<double> upper_w = arm_w * arm.shoulder, fore_w = upper_w * arm.elbow;
     const Rotor<double> wrist_parent_w = joints ? fore_w * ~rotor_of(group.binding.wrist_parent_from_arm) : fore_w;
     const Vector<double> e3 = vector(0.0, 0.0, 1.0);
-    const double size = crowd.features & feature::reach ? scale * read(Field::stretch, 0) : scale;
-    const Vector<double> elbow_w = shoulder + (size * read(Field::lengths, 0)) * sandwich(upper_w, e3);
-    const Vector<double> wrist_w = elbow_w + (size * read(Field::lengths, 1)) * sandwich(fore_w, e3);
+    const Bones bones = bones_of(crowd, limb);
+    const Vector<double> elbow_w = shoulder + bones.upper * sandwich(upper_w, e3);
+    const Vector<double> wrist_w = elbow_w + bones.fore * sandwich(fore_w, e3);
     const bool with_hand = crowd.features & feature::hand;
     return {shoulder, elbow_w, wrist_w, with_hand ? wrist_parent_w * read.rotor_of(Field::wrist) : wrist_parent_w};
 }
@@ -110,10 +122,9 @@ double distance_missed(const swivel_crowd& crowd, const Group& group, std::size_
 
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
-    const Reader read{crowd, limb};
     const double missed = distance_missed(crowd, group, limb);
-    const double scale = crowd.features & feature::world ? read(Field::parent_scale, 0) : 1.0;
-    const double length = scale * (read(Field::lengths, 0) + read(Field::lengths, 1));
+    const Bones bones = bones_of(crowd, limb);
+    const double length = bones.upper + bones.fore;
     return length > 0 || std::isnan(missed) ? missed / length : 0;
 }
 

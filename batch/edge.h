@@ -22,7 +22,7 @@ struct ArmRotors {
 ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 
 // How far the wrist, or the effector, is from the target, or with an aim the target from the hand's ray. residual() is
-// that over scale * (upper + fore): 0 for a limb of no length. NaN for a limb with bad input.
+// that over both bones' length, scaled and stretched: 0 for a limb of no length. NaN for a limb with bad input.
 double distance_missed(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 double residual(const swivel_crowd& crowd, const Group& group, std::size_t limb);
 

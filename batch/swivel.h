@@ -147,7 +147,8 @@ typedef uint64_t swivel_features;
 // twist is the one of swing and twist: of a rotation (v, w) from rest the angle 2 atan2(dot(v, axis), w), by the right
 // hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
 // - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
-//   angle is off by at most 1e-6.
+//   angle is off by at most 1e-6. In a box it is the sine of the middle angle, and the sines of the others times the
+//   middle one's cosine. So near a right angle the middle one may be off by 0.082 degrees, and the others may be free.
 // - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.
@@ -197,8 +198,8 @@ typedef enum swivel_field {
     SWIVEL_WEIGHTS,
     // 4, WITH_REACH: far soft zone, near soft zone, most stretch 1..1000, least distance. Zones and distance are shares
     // of both bones' length. Let R be the far end of the reach and s the far zone. A wanted distance d from R - s to R
-    // + s becomes d - (d - R + s)^2 / (4 s), a larger one R. The near end mirrors this. Stretch then lengthens the
-    // bones to close the gap, up to its most.
+    // + s becomes d - (d - R + s)^2 / (4 s), a larger one R. The near end mirrors this. A zone is at most half of the
+    // range between the two ends. Stretch then lengthens the bones to close the gap, up to its most.
     SWIVEL_REACH,
     // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL.
     SWIVEL_MOST_SWIVEL,

@@ -46,21 +46,28 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
     return front || back || (x.box != y.box && crosswise);
 }
 
+// Rooms and cosines that differ by less than this are equal: rounding decides nothing.
+inline constexpr double kTie = 1e-6;
+
 // The swivel at which the limits have the most room, though this is less than none. The room is the least over lines,
 // and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
-// are equal. This is long and rarely needed, so it is a function of its own.
+// are equal. Of equal peaks the one nearest to the wish is taken, then that of the lower line. This is long and rarely
+// needed, so it is a function of its own.
 template <class T>
 SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
 {
     Edge<T> edge[kMostEdges];
     const int count = edges(limits, true, edge);
     Turned<T> best{T(1), T(0)};
-    T most = room(limits, best);
+    T best_room = room(limits, best), most = best_room;
     const auto consider = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_INLINE_LAMBDA {
         const T left = room(limits, swivel);
-        const Mask<T> better = exists & (left > most);
+        most = select(exists, hi(left, most), most);
+        const T enough = select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));  // an allowed swivel ties with no other
+        const Mask<T> preferred = (best_room < enough) | (swivel.cos > best.cos + T(kTie));
+        const Mask<T> better = exists & (left >= enough) & preferred;
         best = select(better, swivel, best);
-        most = select(better, left, most);
+        best_room = select(better, left, best_room);
     };
     for (int n = 0; n < count; ++n) {
         const OnCircle<T>& line = edge[n].line;

@@ -65,7 +65,8 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
         const T shoulder2 = len2(shoulder), elbow2 = len2(elbow);
         const Vector<T> was = (T(1) / (shoulder2 * elbow2)) * ((goal.arm.upper * elbow2) * sandwich(shoulder, e3) +
                                                                goal.arm.fore * sandwich(shoulder * elbow, e3));
-        wrist.place = was + goal.weights.position * (wrist.place - was);
+        const T weight = goal.weights.position;
+        wrist.place = (T(1) - weight) * was + weight * wrist.place;  // exactly one of them at 0 and at 1
     }
     return wrist;
 }

@@ -68,13 +68,18 @@ SWIVEL_INLINE constexpr Ends<T> ends(const Range<T>& range)
             m,
             h.cos < T(0)};
 }
-// How much room a direction (x, y) of any length has between the ends; sign -1: the opposite direction.
+// How much room there is if the middle angle's cosine is taken as positive (front) or as negative (back).
 template <class T>
-SWIVEL_INLINE constexpr T room_between(const Ends<T>& ends, const T& x, const T& y, const T& sign)
+struct Rooms {
+    T front, back;
+};
+// How much room a direction (x, y) of any length has between the ends, and how much the opposite direction has.
+template <class T>
+SWIVEL_INLINE constexpr Rooms<T> room_between(const Ends<T>& ends, const T& x, const T& y)
 {
-    const T past_low = sign * past(ends.low, x, y), before_high = -(sign * past(ends.high, x, y));
-    const T narrow = lo(lo(past_low, before_high), sign * along(ends.middle, x, y));
-    return select(ends.wide, hi(past_low, before_high), narrow);
+    const T past_low = past(ends.low, x, y), before_high = -past(ends.high, x, y), ahead = along(ends.middle, x, y);
+    const T less = lo(past_low, before_high), more = hi(past_low, before_high);
+    return {select(ends.wide, more, lo(less, ahead)), -select(ends.wide, less, hi(more, ahead))};
 }
 
 // The sines of the angles in a range whose cosine has one given sign. They lie between low and high. With `beyond`,
@@ -118,11 +123,10 @@ SWIVEL_INLINE constexpr T room(const EulerBox<T>& box, const Turned<T>& swivel)
     const T sine = box.sine.at(swivel);
     const T first_cos = box.first_cos.at(swivel), first_sin = box.first_sin.at(swivel);
     const T last_cos = box.last_cos.at(swivel), last_sin = box.last_sin.at(swivel);
-    const auto room_with = [&](const Sines<T>& sines, const T& sign) SWIVEL_INLINE_LAMBDA {
-        return lo(room_between(sines, sine), lo(room_between(box.first, first_cos, first_sin, sign),
-                                                room_between(box.last, last_cos, last_sin, sign)));
-    };
-    return hi(room_with(box.front, T(1)), room_with(box.back, T(-1)));
+    const Rooms<T> first = room_between(box.first, first_cos, first_sin),
+                   last = room_between(box.last, last_cos, last_sin);
+    return hi(lo(room_between(box.front, sine), lo(first.front, last.front)),
+              lo(room_between(box.back, sine), lo(first.back, last.back)));
 }
 
 // Orders of axes: which the first, middle and last are, 0 to 2, and whether they are in cyclic order.

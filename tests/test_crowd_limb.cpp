@@ -167,7 +167,7 @@ TEST_CASE("stretched bones reach and give their stretch back; no wrist is nearer
     CHECK(residuals[1] <= 1e-6);
     CHECK(stretch[2][0] == 1.5f);
     CHECK(flags[2] == (SWIVEL_CLAMPED_FAR | SWIVEL_STRETCHED));
-    CHECK(residuals[2] == Approx(0.5));  // of two bones of length 1, stretched to 3
+    CHECK(residuals[2] == Approx(1.0 / 3));  // 1 from the target, of two bones of length 1.5 each
 
     crowd.write_all(SWIVEL_REACH, 0, Float4{0, 0, 1, 0.5f});  // no nearer than half of the arm
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 0.25f});
@@ -175,6 +175,28 @@ TEST_CASE("stretched bones reach and give their stretch back; no wrist is nearer
     crowd.residuals(0, residuals);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == SWIVEL_CLAMPED_NEAR);
     CHECK(residuals[0] == Approx(0.375));
+}
+
+TEST_CASE("a soft zone is at most half of the range of reach")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_REACH, 2);
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 0.6f});
+    // Zones as wide as the arm. The bones reach from 0.4 to 1.6, and the second limb's least distance is 1.
+    const Float4 zones[] = {{1, 1, 1, 0}, {1, 1, 1, 0.625f}};
+    crowd.write(SWIVEL_REACH, 0, zones);
+    for (double d = 0.05; d < 2.4; d += 0.05) {
+        crowd.write_all(SWIVEL_TARGET, 0, floats(Vector3d(0, 0, d)));
+        crowd.solve();
+        std::vector<std::array<double, 3>> wrists(2);
+        crowd.wrists(0, wrists);
+        for (const std::uint32_t n : {0u, 1u}) {
+            const double near = n == 0 ? 0.4 : 1, far = 1.6, zone = (far - near) / 2, middle = (far + near) / 2;
+            const double past = std::clamp(std::fabs(d - middle), 0.0, 2 * zone);  // both zones start in the middle
+            const double eased = std::copysign(past - past * past / (4 * zone), d - middle);
+            INFO("limb " << n << ", target at " << d);
+            CHECK(Vector3d(wrists[n].data()).norm() == Approx(middle + eased).margin(2e-6));
+        }
+    }
 }
 
 TEST_CASE("the elbow bends within its range, and says where that keeps the wrist from its target")

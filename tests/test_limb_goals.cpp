@@ -58,8 +58,8 @@ TEST_CASE("everything on and at rest changes nothing")
         for_arms(seed, [&](Random&, const Arm& arm) {
             const Solved<float> got = solve(all, limb_goal<float>(arm));
             const ArmPose<float> plain = solve<float>(arm);
-            // Each solver's cross product knows the plane to 4.5e-7 over the sine of the pole's angle, the most of 2.4
-            // million arms. In the plane elbows were 4.2e-7 apart at most, of 80,000 arms.
+            // Each solver's cross product knows the plane to 4.4e-7 over the sine of the pole's angle, the most of a
+            // billion plain arms and 100 million limbs. In the plane elbows were 4.2e-7 apart at most, of 80,000 arms.
             const Vector3d apart = got.elbow - elbow_place(plain, arm);
             const double sine = arm.wrist.normalized().cross(arm.pole.normalized()).norm();
             const double across = apart.dot(arm.normal());
@@ -164,6 +164,20 @@ TEST_CASE("weights blend with the incoming pose")
             RC_ASSERT((got.wrist - pose.wrist_place(arm)).norm() <= 2e-6 * arm.length());
             RC_ASSERT((got.elbow - pose.shoulder * Vector3d(0, 0, arm.upper)).norm() <= 1e-5 * arm.length());
             RC_ASSERT(distance(got.hand, pose.shoulder * pose.elbow * pose.wrist) <= 3e-6);
+        });
+    });
+    rc::prop("1 takes the target itself, however near the shoulder it is", [](std::uint64_t seed) {
+        LimbUse without, with;
+        without.incoming = with.incoming = with.weights = true;
+        for_arms(seed, [&](Random& random, const Arm& arm) {
+            const double distance_wanted = arm.length() * random.spread(1e-12, 1);
+            Arm near = arm;
+            near.wrist *= distance_wanted / arm.wrist.norm();
+            LimbGoal<float> goal = limb_goal<float>(rounded(near));
+            goal.incoming = incoming_of<float>(random_incoming(random));
+            const ArmPose<float> want = solve(without, goal).pose.arm, got = solve(with, goal).pose.arm;
+            RC_ASSERT(distance(eigen(got.shoulder), eigen(want.shoulder)) <= 1e-6);
+            RC_ASSERT(got.cos_half == want.cos_half && got.sin_half == want.sin_half && got.flags == want.flags);
         });
     });
     rc::prop("between: the wrist on the straight way, the hand and the swivel between the two",

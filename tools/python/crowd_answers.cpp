@@ -99,7 +99,7 @@ void add_answers(CrowdClass& crowd)
         "targets; without Feature.WITH_HAND those of the forearms.");
     add("residuals", &residuals,
         "How far each wrist, or effector, is from its target: (count,) float64, in arm lengths (upper arm and\n"
-        "forearm, scaled). 0 for limbs of no length and those with Flag.BAD_INPUT.");
+        "forearm, scaled and stretched). 0 for limbs of no length, NaN for those with Flag.BAD_INPUT.");
     crowd.def("joint_angles", &joint_angles, py::arg("shoulder_order") = 0, py::arg("wrist_order") = 0,
               py::arg("family") = 0, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
               py::arg("out") = py::none(),
