@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "batch/lane_mask.h"
+#include "batch/sized.h"
 #include "batch/solve.h"
 #include "batch/streams.h"
 #include "simd/rows.h"
@@ -21,10 +22,12 @@ namespace {
 constexpr std::uint32_t kRunBlocks = 8;
 // With chosen limbs, a run is longer, so that single limbs of several blocks are solved together.
 constexpr std::uint32_t kChosenRunBlocks = 64;
-// Copies field after field, for two blocks at a time. The fields of a limb often share cache lines. If values are a
-// kilobyte apart, they fall on so few places of a cache that the lines of 8 blocks do not stay. There this took 0.8 of
-// the time, and 1.03 where values lie close.
-constexpr std::size_t kCopyLimbs = 2 * SWIVEL_LANES;
+// Copies field after field and group after group, for two blocks at a time: their lines stay in the nearest cache.
+constexpr std::uint32_t kCopyBlocks = 2;
+// So many successive groups are solved together. Characters with more limbs are rare.
+constexpr std::uint32_t kGroupsTogether = 8;
+
+std::uint32_t run_blocks(const Work& work) { return work.mask ? kChosenRunBlocks : kRunBlocks; }
 
 // Values from limb first on.
 swivel_in from(const swivel_in& values, std::size_t first)
@@ -44,10 +47,11 @@ struct Copies {
         FieldRows rows;
         swivel_out values;
     } out[kFieldCount - kInputCount];
-    std::size_t in_count = 0, out_count = 0;
+    std::size_t in_count, out_count;
 
-    Copies(const swivel_crowd& crowd, const Group& group, const swivel_frame& frame)
+    void set(const swivel_crowd& crowd, const Group& group, const swivel_frame& frame)
     {
+        in_count = out_count = 0;
         for (const FrameInput& input : kFrameInputs)
             if (const swivel_in& values = frame.*input.member; values.data)
                 in[in_count++] = {rows_of(crowd, group, input.field), values,
@@ -77,18 +81,16 @@ struct Copies {
     }
 };
 
-// Calls copy(first, limb_count) for a group's limbs in a run of blocks, counted within the group: all of them, or those
-// of the mask.
+// Calls copy(first, limb_count) for a group's limbs in some blocks, counted within the group: all of them, or those of
+// the mask.
 template <class Copy>
 void for_each_limbs(const Group& group, const std::uint32_t* mask, std::uint32_t block, std::uint32_t block_count,
                     const Copy& copy)
 {
     const std::size_t first = std::size_t{block - group.first_block} * SWIVEL_LANES;
     if (!mask) {
-        const std::size_t end =
-            std::min(first + std::size_t{block_count} * SWIVEL_LANES, std::size_t{group.limb_count});
-        for (std::size_t n = first; n < end; n += kCopyLimbs) copy(n, std::min(kCopyLimbs, end - n));
-        return;
+        const std::size_t end = first + std::size_t{block_count} * SWIVEL_LANES;
+        return copy(first, std::min(end, std::size_t{group.limb_count}) - first);
     }
     for (std::uint32_t k = 0; k < block_count; ++k) {
         LaneMask lanes = lanes_of(mask, block + k) & lanes_of_limbs(group, block + k);
@@ -101,22 +103,105 @@ void for_each_limbs(const Group& group, const std::uint32_t* mask, std::uint32_t
     }
 }
 
+// A group's blocks among those of the job.
+struct Share {
+    std::uint32_t group, first, count;
+};
+
+// Calls take(shares, count, round_count) for the groups that the blocks touch, kGroupsTogether at a time. Round n is
+// run n of each share that has so many.
+template <class Take>
+void for_each_bundle(const swivel_crowd& crowd, swivel_blocks blocks, std::uint32_t run, const Take& take)
+{
+    Share shares[kGroupsTogether];
+    std::uint32_t count = 0, most = 0;
+    const auto flush = [&] {
+        if (count > 0) take(shares, count, (most + run - 1) / run);
+        count = most = 0;
+    };
+    for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t block_count) {
+        shares[count++] = {g, first, block_count};
+        most = std::max(most, block_count);
+        if (count == kGroupsTogether) flush();
+    });
+    flush();
+}
+
+// The shares that are solved together.
+struct Bundle {
+    const swivel_crowd& crowd;
+    const Kernels& kernels;
+    const std::uint32_t* mask;
+    const std::uint32_t run;
+    std::uint32_t count;
+    Share shares[kGroupsTogether];
+    Copies copies[kGroupsTogether];
+
+    Bundle(const swivel_crowd& of, const Kernels& with, const Work& work)
+        : crowd(of), kernels(with), mask(work.mask), run(run_blocks(work))
+    {
+    }
+
+    const Group& group(std::uint32_t n) const { return crowd.groups[shares[n].group]; }
+
+    void read_solve_write(std::uint32_t round) const
+    {
+        for_each_part(round, kCopyBlocks, [&](std::uint32_t n, std::uint32_t block, std::uint32_t blocks) {
+            for_each_limbs(group(n), mask, block, blocks,
+                           [&](std::size_t first, std::size_t limb_count) { copies[n].read(first, limb_count); });
+        });
+        for_each_part(round, run, [&](std::uint32_t n, std::uint32_t block, std::uint32_t blocks) {
+            if (mask)
+                solve_chosen_group(crowd, kernels, group(n), mask, block, blocks);
+            else
+                solve_group(crowd, kernels, group(n), block, blocks);
+        });
+        for_each_part(round, kCopyBlocks, [&](std::uint32_t n, std::uint32_t block, std::uint32_t blocks) {
+            for_each_limbs(group(n), mask, block, blocks,
+                           [&](std::size_t first, std::size_t limb_count) { copies[n].write(first, limb_count); });
+        });
+    }
+
+private:
+    // Calls take(n, first_block, block_count) for the blocks of a round, a few of each share in turn.
+    template <class Take>
+    void for_each_part(std::uint32_t round, std::uint32_t few, const Take& take) const
+    {
+        for (std::uint32_t from = round * run, end = from + run; from < end; from += few)
+            for (std::uint32_t n = 0; n < count; ++n)
+                if (from < shares[n].count) take(n, shares[n].first + from, std::min(few, shares[n].count - from));
+    }
+};
+
 }  // namespace
 
-void solve_frame_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const swivel_frame& frame,
-                       const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count)
+std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
 {
-    const Copies copies(crowd, group, frame);
-    const std::uint32_t most = mask ? kChosenRunBlocks : kRunBlocks;
-    for (std::uint32_t done = 0; done < block_count; done += most) {
-        const std::uint32_t block = first_block + done, run = std::min(most, block_count - done);
-        for_each_limbs(group, mask, block, run, [&](std::size_t n, std::size_t count) { copies.read(n, count); });
-        if (mask)
-            solve_chosen_group(crowd, kernels, group, mask, block, run);
-        else
-            solve_group(crowd, kernels, group, block, run);
-        for_each_limbs(group, mask, block, run, [&](std::size_t n, std::size_t count) { copies.write(n, count); });
-    }
+    std::uint32_t all = 0;
+    for_each_bundle(crowd, blocks, run_blocks(work),
+                    [&](const Share*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
+    return all;
+}
+
+void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
+                  std::uint32_t first, std::uint32_t count)
+{
+    Bundle bundle(crowd, kernels, work);
+    std::uint32_t before = 0;  // rounds of earlier bundles
+    const auto solve = [&](const Share* shares, std::uint32_t share_count, std::uint32_t rounds) {
+        const std::uint32_t from = std::max(first, before), to = std::min(first + count, before + rounds);
+        if (from < to) {
+            bundle.count = share_count;
+            for (std::uint32_t n = 0; n < share_count; ++n) {
+                bundle.shares[n] = shares[n];
+                bundle.copies[n].set(crowd, crowd.groups[shares[n].group],
+                                     element(work.frames, shares[n].group, swivel_default_frame()));
+            }
+            for (std::uint32_t round = from; round < to; ++round) bundle.read_solve_write(round - before);
+        }
+        before += rounds;
+    };
+    for_each_bundle(crowd, blocks, bundle.run, solve);
 }
 
 }  // namespace swivel

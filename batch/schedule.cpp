@@ -58,12 +58,18 @@ void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& wo
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;
         // This context is isolated, because a cancelled context of the caller must not leave blocks out.
         oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
+        const bool in_rounds = work.frames != nullptr;
+        const std::uint32_t rounds = in_rounds ? round_count(crowd, work, blocks) : 0;
         const auto on_range = [&](const Range& range) {
-            solve_here(crowd, kernels, work, {range.begin(), range.end() - range.begin()});
+            const std::uint32_t count = range.end() - range.begin();
+            if (!in_rounds) return solve_here(crowd, kernels, work, {range.begin(), count});
+            const FloatEnv of_this_thread;
+            solve_rounds(crowd, kernels, work, blocks, range.begin(), count);
         };
         // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
         oneapi::tbb::this_task_arena::isolate([&] {
-            const Range all(blocks.first, blocks.first + blocks.count, chunk);
+            const Range all = in_rounds ? Range(0, rounds, std::max(1u, chunk * rounds / blocks.count))
+                                        : Range(blocks.first, blocks.first + blocks.count, chunk);
             oneapi::tbb::parallel_for(all, on_range, partitioner_of(crowd), context);
         });
         return;

@@ -30,18 +30,28 @@ struct Out {
     static void one(char* value, const float* lane) { value_from_rows<C>(lane, value); }
 };
 
-// Block by block, since the lanes of one block lie side by side.
+// Limbs of one block, from any lane on.
+template <class Copy, class Byte>
+void copy_lanes(float* lanes, std::size_t limb_count, Byte* values, std::size_t stride)
+{
+    for (; limb_count >= 4; limb_count -= 4, lanes += 4, values += 4 * stride) Copy::four(values, stride, lanes);
+    for (; limb_count > 0; --limb_count, ++lanes, values += stride) Copy::one(values, lanes);
+}
+
+// Block by block, since the lanes of one block lie side by side. Whole ones are copied without a loop.
 template <class Copy, class Byte>
 void copy_blocks(const FieldRows& rows, std::size_t first, std::size_t limb_count, Byte* values, std::size_t stride)
 {
-    float* const base = rows.base;  // the compiler cannot know that values do not overlap `rows`
-    const std::uint32_t row_count = rows.row_count;
-    for (std::size_t limb = first, end = first + limb_count; limb < end;) {
-        float* lanes = base + row_offset(limb, row_count, 0);
-        const std::size_t block_end = std::min(end, limb / SWIVEL_LANES * SWIVEL_LANES + SWIVEL_LANES);
-        for (; limb + 4 <= block_end; limb += 4, lanes += 4, values += 4 * stride) Copy::four(values, stride, lanes);
-        for (; limb < block_end; ++limb, ++lanes, values += stride) Copy::one(values, lanes);
+    const std::size_t step = std::size_t{rows.row_count} * SWIVEL_LANES, lane = first % SWIVEL_LANES;
+    float* block = rows.base + first / SWIVEL_LANES * step;
+    if (lane > 0) {
+        const std::size_t count = std::min(limb_count, SWIVEL_LANES - lane);
+        copy_lanes<Copy>(block + lane, count, values, stride);
+        block += step, limb_count -= count, values += count * stride;
     }
+    for (; limb_count >= SWIVEL_LANES; limb_count -= SWIVEL_LANES, block += step)
+        for (std::size_t n = 0; n < SWIVEL_LANES; n += 4, values += 4 * stride) Copy::four(values, stride, block + n);
+    copy_lanes<Copy>(block, limb_count, values, stride);
 }
 
 // Long values go four components at a time.
@@ -69,7 +79,7 @@ FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field)
     const bool input = is_input(field);
     const std::uint32_t row_count = input ? crowd.input_row_count : crowd.result_row_count;
     const std::size_t offset =
-        row_offset(std::size_t{group.first_block} * SWIVEL_LANES, row_count, field_first_row(crowd.features, field));
+        row_offset(std::size_t{group.first_block} * SWIVEL_LANES, row_count, crowd.first_row[index_of(field)]);
     return {(input ? crowd.input : crowd.results) + offset, row_count, field_row_count(crowd.features, field)};
 }
 
