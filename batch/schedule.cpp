@@ -61,10 +61,9 @@ void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& wo
         const bool in_rounds = work.frames != nullptr;
         const std::uint32_t rounds = in_rounds ? round_count(crowd, work, blocks) : 0;
         const auto on_range = [&](const Range& range) {
-            const std::uint32_t count = range.end() - range.begin();
-            if (!in_rounds) return solve_here(crowd, kernels, work, {range.begin(), count});
+            if (!in_rounds) return solve_here(crowd, kernels, work, {range.begin(), range.end() - range.begin()});
             const FloatEnv of_this_thread;
-            solve_rounds(crowd, kernels, work, blocks, range.begin(), count);
+            solve_rounds(crowd, kernels, work, blocks, range.begin(), range.end());
         };
         // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
         oneapi::tbb::this_task_arena::isolate([&] {

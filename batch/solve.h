@@ -52,12 +52,12 @@ struct Work {
     const swivel_frame* frames = nullptr;
 };
 
-// Work with frames goes in rounds, so that lines which limbs of one character share are fetched once. Round n is the nth
-// run of blocks of every group. A thread takes successive rounds. It copies the caller's values in, solves, and copies
-// out, in the floating-point environment that the caller has set (FloatEnv).
-std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks);
+// Work with frames goes in rounds, because limbs of one character often share cache lines: round n is the nth run of
+// blocks of each group. These solve rounds first ... end - 1 of a job's blocks, in the floating-point environment that
+// the caller has set (FloatEnv), and count them all.
 void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
-                  std::uint32_t first, std::uint32_t count);
+                  std::uint32_t first, std::uint32_t end);
+std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks);
 
 // Solves blocks on this thread; or in chunks in the caller's oneTBB arena, if there are enough.
 void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
