@@ -16,20 +16,33 @@ namespace swivel {
 
 namespace {
 
-// The rows of a run stay in a level 1 cache of 32 KiB. A run is so long that loading the kernels' constants does not
-// count, nor starting the copies. 8 and 16 blocks took the same time, 4 took 1.02 of it.
-constexpr std::uint32_t kRunBlocks = 8;
-// With chosen limbs, a run is longer, so that single limbs of several blocks are solved together.
+// So many successive groups are solved together. Characters with more limbs are rare.
+constexpr std::uint32_t kGroupsTogether = 4;
+// The blocks of a round, which the groups share. Fewer blocks keep more lines that limbs share in the nearest cache,
+// and start more loops. For arms in pose buffers, 16 took 0.97 of the time in a level 3 cache, and 1.1 in memory. For
+// values side by side, 16 took 1.05, and 64 took 0.97.
+constexpr std::uint32_t kRoundBlocks = 32;
+// With chosen limbs, runs are longer, so that single limbs of several blocks are solved together.
 constexpr std::uint32_t kChosenRunBlocks = 64;
 // The fields of a limb often share cache lines. If values are a multiple of half a kilobyte apart, they fall on so few
 // places of a cache that the lines of a whole run do not stay. Then two blocks of all fields are copied at a time. That
 // took 0.8 of the time there, and 1.06 where it is not needed.
 constexpr std::size_t kCrowdedStride = 512;
 constexpr std::uint32_t kCrowdedBlocks = 2;
-// So many successive groups are solved together. Characters with more limbs are rare.
-constexpr std::uint32_t kGroupsTogether = 8;
 
-std::uint32_t run_blocks(const Work& work) { return work.mask ? kChosenRunBlocks : kRunBlocks; }
+// Blocks of each group in a round.
+std::uint32_t run_blocks(const Work& work, std::uint32_t group_count)
+{
+    return work.mask ? kChosenRunBlocks : kRoundBlocks / group_count;
+}
+
+// Streams of a frame that has every field.
+constexpr std::uint32_t kMostStreams = [] {
+    std::uint32_t count = 0;
+    for (std::size_t n = 0; n < kFieldCount; ++n)
+        count += stream_count(field_row_count(kEveryFeature, static_cast<Field>(n)));
+    return count;
+}();
 
 // Calls copy(first, limb_count) for a group's limbs in some blocks, counted within the group: all of them, or those of
 // the mask.
@@ -58,15 +71,16 @@ struct Blocks {
     std::uint32_t group, first, count;
 };
 
-// Calls take(blocks, group_count, round_count) for the groups that a job's blocks touch, kGroupsTogether at a time. So
-// a group that is much longer than many others does not look through all of these again and again.
+// Calls take(blocks, group_count, round_count) for the groups that a job's blocks touch, kGroupsTogether at a time.
 template <class Take>
-void for_each_bundle(const swivel_crowd& crowd, swivel_blocks all, std::uint32_t run, const Take& take)
+void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks all, const Take& take)
 {
     Blocks blocks[kGroupsTogether];
     std::uint32_t count = 0, most = 0;
     const auto flush = [&] {
-        if (count > 0) take(blocks, count, (most + run - 1) / run);
+        if (count == 0) return;
+        const std::uint32_t run = run_blocks(work, count);
+        take(blocks, count, (most + run - 1) / run);
         count = most = 0;
     };
     for_each_group(crowd, all, [&](std::uint32_t g, std::uint32_t first, std::uint32_t block_count) {
@@ -81,51 +95,44 @@ void for_each_bundle(const swivel_crowd& crowd, swivel_blocks all, std::uint32_t
 struct Share {
     const Group* group;
     Blocks blocks;
-    const Stream *in_end, *out_end;
-    Stream in[kMostStreams], out[kMostStreams];
+    Stream streams[kMostStreams];
+    Stream *in_end, *out_end;  // inputs come first
 
     void set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of)
     {
         group = crowd.groups + of.group;
         blocks = of;
-        Stream* to = in;
+        in_end = streams;
         for (const auto& [field, member] : kFrameInputs) {
             const swivel_in& values = frame.*member;
             if (!values.data) continue;
             const FieldRows rows = rows_of(crowd, *group, field);
+            const swivel_in origin = has_origin(crowd.features, field) ? frame.origin : swivel_in{};
             const bool has_doubles = frame.origin.data && is_position(field);
-            to = has_doubles ? streams_of_doubles(rows, 0, values,
-                                                  has_origin(crowd.features, field) ? frame.origin : swivel_in{}, to)
-                             : streams_in(rows, 0, values, to);
+            in_end =
+                has_doubles ? streams_of_doubles(rows, 0, values, origin, in_end) : streams_in(rows, 0, values, in_end);
         }
-        in_end = to;
-        to = out;
+        out_end = in_end;
         for (const auto& [field, member] : kFrameOutputs)
             if (const swivel_out& values = frame.*member; values.data)
-                to = streams_out(rows_of(crowd, *group, field), 0, values, to);
-        out_end = to;
+                out_end = streams_out(rows_of(crowd, *group, field), 0, values, out_end);
     }
     bool is_crowded() const
     {
-        const auto is_so = [](const Stream& stream) {
+        return std::any_of(streams, static_cast<const Stream*>(out_end), [](const Stream& stream) {
             return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
-        };
-        return std::any_of(in, in_end, is_so) || std::any_of(out, out_end, is_so);
+        });
     }
+    void read(std::size_t first, std::size_t limb_count) const { copy(streams, in_end, first, limb_count); }
+    void write(std::size_t first, std::size_t limb_count) const { copy(in_end, out_end, first, limb_count); }
 };
-
-void copy_all(const Stream* stream, const Stream* end, std::size_t first, std::size_t limb_count)
-{
-    for (; stream != end; ++stream) stream->copy(first, limb_count);
-}
 
 // Groups whose runs make the same rounds.
 struct Bundle {
     const swivel_crowd& crowd;
     const Kernels& kernels;
     const Work& work;
-    const std::uint32_t run = run_blocks(work);
-    std::uint32_t count = 0, few = 0;  // how many groups, and how many blocks of each are copied at a time
+    std::uint32_t count, run, few;  // how many groups, how many blocks of each in a round, and copied at a time
     Share shares[kGroupsTogether];
 
     Bundle(const swivel_crowd& of, const Kernels& with, const Work& todo) : crowd(of), kernels(with), work(todo) {}
@@ -133,7 +140,7 @@ struct Bundle {
     void set(const Blocks* blocks, std::uint32_t group_count)
     {
         count = group_count;
-        few = run;
+        run = few = run_blocks(work, count);
         for (std::uint32_t n = 0; n < count; ++n) {
             swivel_frame filled;
             shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n]);
@@ -143,26 +150,14 @@ struct Bundle {
     void solve(std::uint32_t round) const
     {
         const std::uint32_t first = round * run;
-        for (std::uint32_t n = 0; n < run; n += few)
-            for_each_share(first + n, few, [&](const Share& share, std::uint32_t block, std::uint32_t block_count) {
-                for_each_limbs(*share.group, work.mask, block, block_count,
-                               [&](std::size_t limb, std::size_t limb_count) {
-                                   copy_all(share.in, share.in_end, limb, limb_count);
-                               });
-            });
+        copy_run(first, &Share::read);
         for_each_share(first, run, [&](const Share& share, std::uint32_t block, std::uint32_t block_count) {
             if (work.mask)
                 solve_chosen_group(crowd, kernels, *share.group, work.mask, block, block_count);
             else
                 solve_group(crowd, kernels, *share.group, block, block_count);
         });
-        for (std::uint32_t n = 0; n < run; n += few)
-            for_each_share(first + n, few, [&](const Share& share, std::uint32_t block, std::uint32_t block_count) {
-                for_each_limbs(*share.group, work.mask, block, block_count,
-                               [&](std::size_t limb, std::size_t limb_count) {
-                                   copy_all(share.out, share.out_end, limb, limb_count);
-                               });
-            });
+        copy_run(first, &Share::write);
     }
 
 private:
@@ -174,6 +169,14 @@ private:
             if (const Blocks& blocks = share->blocks; first < blocks.count)
                 take(*share, blocks.first + first, std::min(most, blocks.count - first));
     }
+    void copy_run(std::uint32_t first, void (Share::*copy)(std::size_t, std::size_t) const) const
+    {
+        for (std::uint32_t n = 0; n < run; n += few)
+            for_each_share(first + n, few, [&](const Share& share, std::uint32_t block, std::uint32_t block_count) {
+                for_each_limbs(*share.group, work.mask, block, block_count,
+                               [&](std::size_t limb, std::size_t limb_count) { (share.*copy)(limb, limb_count); });
+            });
+    }
 };
 
 }  // namespace
@@ -181,8 +184,7 @@ private:
 std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
 {
     std::uint32_t all = 0;
-    for_each_bundle(crowd, blocks, run_blocks(work),
-                    [&](const Blocks*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
+    for_each_bundle(crowd, work, blocks, [&](const Blocks*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
     return all;
 }
 
@@ -191,13 +193,13 @@ void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work&
 {
     Bundle bundle(crowd, kernels, work);
     std::uint32_t before = 0;  // rounds of earlier bundles
-    for_each_bundle(crowd, blocks, bundle.run,
-                    [&](const Blocks* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
-                        const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
-                        if (from < to) bundle.set(of_groups, group_count);
-                        for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);
-                        before += rounds;
-                    });
+    const auto solve = [&](const Blocks* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
+        const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
+        if (from < to) bundle.set(of_groups, group_count);
+        for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);
+        before += rounds;
+    };
+    for_each_bundle(crowd, work, blocks, solve);
 }
 
 }  // namespace swivel

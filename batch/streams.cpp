@@ -86,6 +86,9 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
     }
 }
 
+// Of the field with the most components.
+constexpr std::uint32_t kMostStreams = stream_count(field_row_count(kEveryFeature, Field::twist_bones));
+
 // Long values go four components at a time.
 template <template <std::size_t> class Copy>
 Stream* streams(FieldRows rows, std::size_t first, const void* data, std::size_t stride, Stream* to)
@@ -103,11 +106,6 @@ Stream* streams(FieldRows rows, std::size_t first, const void* data, std::size_t
                  nullptr,
                  0};
     return to;
-}
-
-void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_t limb_count)
-{
-    for (; stream != end; ++stream) stream->copy(first, limb_count);
 }
 
 }  // namespace
@@ -145,9 +143,14 @@ Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values,
     return streams<Out>(rows, first, values.data, values.stride, to);
 }
 
+void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_t limb_count)
+{
+    for (; stream != end; ++stream) stream->copy(first, limb_count);
+}
+
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
-    Stream all[kMostFieldStreams];
+    Stream all[kMostStreams];
     copy(all, streams_in(rows, first, values, all), first, limb_count);
 }
 
@@ -160,7 +163,7 @@ void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_
 
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)
 {
-    Stream all[kMostFieldStreams];
+    Stream all[kMostStreams];
     copy(all, streams_out(rows, first, values, all), first, limb_count);
 }
 

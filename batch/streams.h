@@ -39,9 +39,10 @@ Stream* streams_in(const FieldRows& rows, std::size_t first, swivel_in values, S
 Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in values, swivel_in origins,
                            Stream* streams);
 Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values, Stream* streams);
-inline constexpr std::size_t kMostFieldStreams = kMostTwistBones;  // of one field
-// Of all inputs, or of all results, of a group.
-inline constexpr std::size_t kMostStreams = 35;
+constexpr std::uint32_t stream_count(std::uint32_t component_count) { return (component_count + 3) / 4; }
+
+// Copies by each of some streams.
+void copy(const Stream* streams, const Stream* end, std::size_t first, std::size_t limb_count);
 
 // The same at once, for limbs first ... first + limb_count - 1 of the group.
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values);
