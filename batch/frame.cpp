@@ -10,6 +10,7 @@
 #include "batch/lane_mask.h"
 #include "batch/solve.h"
 #include "batch/streams.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -191,6 +192,7 @@ std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_bl
 void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
                   std::uint32_t first, std::uint32_t end)
 {
+    const FloatEnv env;
     Bundle bundle(crowd, kernels, work);
     std::uint32_t before = 0;  // rounds of earlier bundles
     const auto solve = [&](const Blocks* of_groups, std::uint32_t group_count, std::uint32_t rounds) {

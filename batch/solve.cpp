@@ -101,8 +101,8 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
 
 void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)
 {
-    const FloatEnv env;
     if (work.frames) return solve_rounds(crowd, kernels, work, blocks, 0, ~0u);
+    const FloatEnv env;
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
         const Group& group = crowd.groups[g];
         if (work.mask)

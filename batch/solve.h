@@ -53,8 +53,7 @@ struct Work {
 };
 
 // Work with frames goes in rounds, because limbs of one character often share cache lines: round n is the nth run of
-// blocks of each group. These solve rounds first ... end - 1 of a job's blocks, in the floating-point environment that
-// the caller has set (FloatEnv), and count them all.
+// blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.
 void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
                   std::uint32_t first, std::uint32_t end);
 std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks);
