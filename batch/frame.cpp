@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole frame, round after round. A round is a run of blocks of each of some groups. These are copied in, solved
-// and copied out, while their rows are in the nearest cache. If limbs are chosen, only these are.
+// The whole frame, round after round. A round has a run of blocks of each of a few groups. A run is copied in, solved
+// and copied out, while its rows are in a near cache. If limbs are chosen, only these are.
 #include "batch/frame.h"
 
 #include <algorithm>
@@ -17,11 +17,10 @@ namespace swivel {
 
 namespace {
 
-// So many successive groups are solved together. Characters with more limbs are rare.
+// So many successive groups share rounds. Characters with more limbs are rare.
 constexpr std::uint32_t kGroupsTogether = 4;
-// The blocks of a round, which the groups share. Fewer blocks keep more lines that limbs share in the nearest cache,
-// and start more loops. For arms in pose buffers, 16 took 0.97 of the time in a level 3 cache, and 1.1 in memory. For
-// values side by side, 16 took 1.05, and 64 took 0.97.
+// The blocks of a round. With fewer, more time goes into starting loops; with more, fewer rows stay in the nearest
+// cache. 16 and 64 blocks took 1.02 to 1.04 times as long.
 constexpr std::uint32_t kRoundBlocks = 32;
 // With chosen limbs, runs are longer, so that single limbs of several blocks are solved together.
 constexpr std::uint32_t kChosenRunBlocks = 64;
@@ -51,20 +50,26 @@ template <class Copy>
 void for_each_limbs(const Group& group, const std::uint32_t* mask, std::uint32_t block, std::uint32_t block_count,
                     const Copy& copy)
 {
-    const std::size_t first = std::size_t{block - group.first_block} * SWIVEL_LANES;
+    std::size_t first = std::size_t{block - group.first_block} * SWIVEL_LANES;
     if (!mask) {
         const std::size_t end = first + std::size_t{block_count} * SWIVEL_LANES;
         return copy(first, std::min(end, std::size_t{group.limb_count}) - first);
     }
-    for (std::uint32_t k = 0; k < block_count; ++k) {
-        LaneMask lanes = lanes_of(mask, block + k) & lanes_of_limbs(group, block + k);
-        for (std::size_t lane = first + std::size_t{k} * SWIVEL_LANES; lanes != 0;) {
+    std::size_t from = first, to = first;  // chosen limbs that lie side by side, not yet copied
+    for (const std::uint32_t end = block + block_count; block < end; ++block, first += SWIVEL_LANES) {
+        LaneMask lanes = lanes_of(mask, block) & lanes_of_limbs(group, block);
+        for (std::size_t limb = first; lanes != 0;) {
             const int skipped = std::countr_zero(lanes), taken = std::countr_one(lanes >> skipped);
-            copy(lane + static_cast<std::size_t>(skipped), static_cast<std::size_t>(taken));
-            lane += static_cast<std::size_t>(skipped + taken);
+            limb += static_cast<std::size_t>(skipped);
+            if (limb > to) {
+                if (from < to) copy(from, to - from);
+                from = limb;
+            }
+            to = limb += static_cast<std::size_t>(taken);
             lanes >>= skipped + taken;
         }
     }
+    if (from < to) copy(from, to - from);
 }
 
 // A group's blocks among those of the job.
@@ -96,10 +101,11 @@ void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks 
 struct Share {
     const Group* group;
     Blocks blocks;
+    std::uint32_t few;  // blocks that are copied at a time
     Stream streams[kMostStreams];
     Stream *in_end, *out_end;  // inputs come first
 
-    void set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of)
+    void set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of, std::uint32_t run)
     {
         group = crowd.groups + of.group;
         blocks = of;
@@ -117,12 +123,10 @@ struct Share {
         for (const auto& [field, member] : kFrameOutputs)
             if (const swivel_out& values = frame.*member; values.data)
                 out_end = streams_out(rows_of(crowd, *group, field), 0, values, out_end);
-    }
-    bool is_crowded() const
-    {
-        return std::any_of(streams, static_cast<const Stream*>(out_end), [](const Stream& stream) {
+        const bool is_crowded = std::any_of(streams, out_end, [](const Stream& stream) {
             return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
         });
+        few = is_crowded ? kCrowdedBlocks : run;
     }
     void read(std::size_t first, std::size_t limb_count) const { copy(streams, in_end, first, limb_count); }
     void write(std::size_t first, std::size_t limb_count) const { copy(in_end, out_end, first, limb_count); }
@@ -133,7 +137,7 @@ struct Bundle {
     const swivel_crowd& crowd;
     const Kernels& kernels;
     const Work& work;
-    std::uint32_t count, run, few;  // how many groups, how many blocks of each in a round, and copied at a time
+    std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
     Share shares[kGroupsTogether];
 
     Bundle(const swivel_crowd& of, const Kernels& with, const Work& todo) : crowd(of), kernels(with), work(todo) {}
@@ -141,42 +145,35 @@ struct Bundle {
     void set(const Blocks* blocks, std::uint32_t group_count)
     {
         count = group_count;
-        run = few = run_blocks(work, count);
+        run = run_blocks(work, count);
         for (std::uint32_t n = 0; n < count; ++n) {
             swivel_frame filled;
-            shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n]);
-            if (shares[n].is_crowded()) few = kCrowdedBlocks;
+            shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n], run);
         }
     }
     void solve(std::uint32_t round) const
     {
-        const std::uint32_t first = round * run;
-        copy_run(first, &Share::read);
-        for_each_share(first, run, [&](const Share& share, std::uint32_t block, std::uint32_t block_count) {
-            if (work.mask)
-                solve_chosen_group(crowd, kernels, *share.group, work.mask, block, block_count);
-            else
-                solve_group(crowd, kernels, *share.group, block, block_count);
-        });
-        copy_run(first, &Share::write);
+        for (const Share* share = shares; share != shares + count; ++share)
+            if (const std::uint32_t first = round * run; first < share->blocks.count)
+                solve_run(*share, share->blocks.first + first, std::min(run, share->blocks.count - first));
     }
 
 private:
-    // Calls take(share, block, block_count) for up to `most` blocks of each group from its block `first` of the job on.
-    template <class Take>
-    void for_each_share(std::uint32_t first, std::uint32_t most, const Take& take) const
+    void solve_run(const Share& share, std::uint32_t block, std::uint32_t block_count) const
     {
-        for (const Share* share = shares; share != shares + count; ++share)
-            if (const Blocks& blocks = share->blocks; first < blocks.count)
-                take(*share, blocks.first + first, std::min(most, blocks.count - first));
+        copy_run(share, block, block_count, &Share::read);
+        if (work.mask)
+            solve_chosen_group(crowd, kernels, *share.group, work.mask, block, block_count);
+        else
+            solve_group(crowd, kernels, *share.group, block, block_count);
+        copy_run(share, block, block_count, &Share::write);
     }
-    void copy_run(std::uint32_t first, void (Share::*copy)(std::size_t, std::size_t) const) const
+    void copy_run(const Share& share, std::uint32_t block, std::uint32_t block_count,
+                  void (Share::*copy)(std::size_t, std::size_t) const) const
     {
-        for (std::uint32_t n = 0; n < run; n += few)
-            for_each_share(first + n, few, [&](const Share& share, std::uint32_t block, std::uint32_t block_count) {
-                for_each_limbs(*share.group, work.mask, block, block_count,
-                               [&](std::size_t limb, std::size_t limb_count) { (share.*copy)(limb, limb_count); });
-            });
+        for (std::uint32_t done = 0; done < block_count; done += share.few)
+            for_each_limbs(*share.group, work.mask, block + done, std::min(share.few, block_count - done),
+                           [&](std::size_t limb, std::size_t limb_count) { (share.*copy)(limb, limb_count); });
     }
 };
 
