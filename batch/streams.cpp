@@ -40,7 +40,8 @@ void copy_lanes(float* lanes, std::size_t limb_count, Byte* values, std::size_t 
     for (; limb_count > 0; --limb_count, ++lanes, values += stride) Copy::one(values, lanes);
 }
 
-// Block by block, since the lanes of one block lie side by side. Whole ones are copied without a loop.
+// Block by block, since the lanes of one block lie side by side. Whole blocks take the short loop, which stays a loop:
+// loads that are unrolled lie too far apart for the CPU to foresee the next ones.
 template <class Copy>
 void copy_blocks(const Stream& stream, std::size_t first, std::size_t limb_count)
 {
@@ -53,6 +54,7 @@ void copy_blocks(const Stream& stream, std::size_t first, std::size_t limb_count
         block += step, limb_count -= count, values += count * stride;
     }
     for (; limb_count >= SWIVEL_LANES; limb_count -= SWIVEL_LANES, block += step)
+#pragma GCC unroll 1
         for (std::size_t n = 0; n < SWIVEL_LANES; n += 4, values += 4 * stride) Copy::four(values, stride, block + n);
     if (limb_count > 0) copy_lanes<Copy>(block, limb_count, values, stride);
 }
