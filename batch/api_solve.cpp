@@ -67,7 +67,8 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
     swivel_status status = check_size<swivel_frame>("the first frame", size_of(frames));
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
         if (status == SWIVEL_OK) status = check_element("frame", frames, g);
-        if (status == SWIVEL_OK) status = check_frame(crowd, g, element(frames, g, swivel_default_frame()));
+        swivel_frame filled;
+        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(frames, g, filled));
     });
     return status;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole frame. A few blocks at a time are copied in, solved and copied out, while their rows are in the nearest
-// cache. If limbs are chosen, only these are.
+// The whole frame, round after round. A round has a run of blocks of each of a few groups. A run is copied in, solved
+// and copied out, while its rows are in a near cache. If limbs are chosen, only these are.
 #include "batch/frame.h"
 
 #include <algorithm>
@@ -10,113 +10,195 @@
 #include "batch/lane_mask.h"
 #include "batch/solve.h"
 #include "batch/streams.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
 
 namespace {
 
-// The rows of a run stay in a level 1 cache of 32 KiB. A run is so long that loading the kernels' constants does not
-// count. 4 to 16 blocks took the same time within 3 %.
-constexpr std::uint32_t kRunBlocks = 8;
-// With chosen limbs, a run is longer, so that single limbs of several blocks are solved together.
+// So many successive groups share rounds. Characters with more limbs are rare.
+constexpr std::uint32_t kGroupsTogether = 4;
+// The blocks of a round. With fewer, more time goes into starting loops; with more, fewer rows stay in the nearest
+// cache. 16 and 64 blocks took 1.02 to 1.04 times as long.
+constexpr std::uint32_t kRoundBlocks = 32;
+// With chosen limbs, runs are longer, so that single limbs of several blocks are solved together.
 constexpr std::uint32_t kChosenRunBlocks = 64;
-// Copies field after field, for two blocks at a time. The fields of a limb often share cache lines. If values are a
-// kilobyte apart, they fall on so few places of a cache that the lines of 8 blocks do not stay. There this took 0.8 of
-// the time, and 1.03 where values lie close.
-constexpr std::size_t kCopyLimbs = 2 * SWIVEL_LANES;
+// The fields of a limb often share cache lines. If values are a multiple of half a kilobyte apart, they fall on so few
+// places of a cache that the lines of a whole run do not stay. Then two blocks of all fields are copied at a time. That
+// took 0.8 of the time there, and 1.06 where it is not needed.
+constexpr std::size_t kCrowdedStride = 512;
+constexpr std::uint32_t kCrowdedBlocks = 2;
 
-// Values from limb first on.
-swivel_in from(const swivel_in& values, std::size_t first)
+// Blocks of each group in a round.
+std::uint32_t run_blocks(const Work& work, std::uint32_t group_count)
 {
-    if (!values.data) return values;
-    return {static_cast<const char*>(values.data) + first * values.stride, values.stride};
+    return work.mask ? kChosenRunBlocks : kRoundBlocks / group_count;
 }
 
-// The copies of one group's frame, its null members left out.
-struct Copies {
-    struct In {
-        FieldRows rows;
-        swivel_in values, origin;
-        bool doubles;
-    } in[kInputCount];
-    struct Out {
-        FieldRows rows;
-        swivel_out values;
-    } out[kFieldCount - kInputCount];
-    std::size_t in_count = 0, out_count = 0;
+// Streams of a frame that has every field.
+constexpr std::uint32_t kMostStreams = [] {
+    std::uint32_t count = 0;
+    for (std::size_t n = 0; n < kFieldCount; ++n)
+        count += stream_count(field_row_count(kEveryFeature, static_cast<Field>(n)));
+    return count;
+}();
 
-    Copies(const swivel_crowd& crowd, const Group& group, const swivel_frame& frame)
-    {
-        for (const FrameInput& input : kFrameInputs)
-            if (const swivel_in& values = frame.*input.member; values.data)
-                in[in_count++] = {rows_of(crowd, group, input.field), values,
-                                  has_origin(crowd.features, input.field) ? frame.origin : swivel_in{},
-                                  frame.origin.data && is_position(input.field)};
-        for (const FrameOutput& output : kFrameOutputs)
-            if (const swivel_out& values = frame.*output.member; values.data)
-                out[out_count++] = {rows_of(crowd, group, output.field), values};
-    }
-
-    void read(std::size_t first, std::size_t limb_count) const
-    {
-        for (std::size_t n = 0; n < in_count; ++n) {
-            const swivel_in values = from(in[n].values, first);
-            if (in[n].doubles)
-                copy_doubles_in(in[n].rows, first, limb_count, values, from(in[n].origin, first));
-            else
-                copy_in(in[n].rows, first, limb_count, values);
-        }
-    }
-    void write(std::size_t first, std::size_t limb_count) const
-    {
-        for (std::size_t n = 0; n < out_count; ++n) {
-            const auto& [data, stride] = out[n].values;
-            copy_out(out[n].rows, first, limb_count, {static_cast<char*>(data) + first * stride, stride});
-        }
-    }
-};
-
-// Calls copy(first, limb_count) for a group's limbs in a run of blocks, counted within the group: all of them, or those
-// of the mask.
+// Calls copy(first, limb_count) for a group's limbs in some blocks, counted within the group: all of them, or those of
+// the mask.
 template <class Copy>
 void for_each_limbs(const Group& group, const std::uint32_t* mask, std::uint32_t block, std::uint32_t block_count,
                     const Copy& copy)
 {
-    const std::size_t first = std::size_t{block - group.first_block} * SWIVEL_LANES;
+    std::size_t first = std::size_t{block - group.first_block} * SWIVEL_LANES;
     if (!mask) {
-        const std::size_t end =
-            std::min(first + std::size_t{block_count} * SWIVEL_LANES, std::size_t{group.limb_count});
-        for (std::size_t n = first; n < end; n += kCopyLimbs) copy(n, std::min(kCopyLimbs, end - n));
-        return;
+        const std::size_t end = first + std::size_t{block_count} * SWIVEL_LANES;
+        return copy(first, std::min(end, std::size_t{group.limb_count}) - first);
     }
-    for (std::uint32_t k = 0; k < block_count; ++k) {
-        LaneMask lanes = lanes_of(mask, block + k) & lanes_of_limbs(group, block + k);
-        for (std::size_t lane = first + std::size_t{k} * SWIVEL_LANES; lanes != 0;) {
+    std::size_t from = first, to = first;  // chosen limbs that lie side by side, not yet copied
+    for (const std::uint32_t end = block + block_count; block < end; ++block, first += SWIVEL_LANES) {
+        LaneMask lanes = lanes_of(mask, block) & lanes_of_limbs(group, block);
+        for (std::size_t limb = first; lanes != 0;) {
             const int skipped = std::countr_zero(lanes), taken = std::countr_one(lanes >> skipped);
-            copy(lane + static_cast<std::size_t>(skipped), static_cast<std::size_t>(taken));
-            lane += static_cast<std::size_t>(skipped + taken);
+            limb += static_cast<std::size_t>(skipped);
+            if (limb > to) {
+                if (from < to) copy(from, to - from);
+                from = limb;
+            }
+            to = limb += static_cast<std::size_t>(taken);
             lanes >>= skipped + taken;
         }
     }
+    if (from < to) copy(from, to - from);
 }
+
+// A group's blocks among those of the job.
+struct Blocks {
+    std::uint32_t group, first, count;
+};
+
+// Calls take(blocks, group_count, round_count) for the groups that a job's blocks touch, kGroupsTogether at a time.
+template <class Take>
+void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks all, const Take& take)
+{
+    Blocks blocks[kGroupsTogether];
+    std::uint32_t count = 0, most = 0;
+    const auto flush = [&] {
+        if (count == 0) return;
+        const std::uint32_t run = run_blocks(work, count);
+        take(blocks, count, (most + run - 1) / run);
+        count = most = 0;
+    };
+    for_each_group(crowd, all, [&](std::uint32_t g, std::uint32_t first, std::uint32_t block_count) {
+        blocks[count++] = {g, first, block_count};
+        most = std::max(most, block_count);
+        if (count == kGroupsTogether) flush();
+    });
+    flush();
+}
+
+// One group's share of the rounds: its blocks, and the copies of its frame, null members left out.
+struct Share {
+    const Group* group;
+    Blocks blocks;
+    std::uint32_t few;  // blocks that are copied at a time
+    Stream streams[kMostStreams];
+    Stream *in_end, *out_end;  // inputs come first
+
+    void set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of, std::uint32_t run)
+    {
+        group = crowd.groups + of.group;
+        blocks = of;
+        in_end = streams;
+        for (const auto& [field, member] : kFrameInputs) {
+            const swivel_in& values = frame.*member;
+            if (!values.data) continue;
+            const FieldRows rows = rows_of(crowd, *group, field);
+            const swivel_in origin = has_origin(crowd.features, field) ? frame.origin : swivel_in{};
+            const bool has_doubles = frame.origin.data && is_position(field);
+            in_end =
+                has_doubles ? streams_of_doubles(rows, 0, values, origin, in_end) : streams_in(rows, 0, values, in_end);
+        }
+        out_end = in_end;
+        for (const auto& [field, member] : kFrameOutputs)
+            if (const swivel_out& values = frame.*member; values.data)
+                out_end = streams_out(rows_of(crowd, *group, field), 0, values, out_end);
+        const bool is_crowded = std::any_of(streams, out_end, [](const Stream& stream) {
+            return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
+        });
+        few = is_crowded ? kCrowdedBlocks : run;
+    }
+    void read(std::size_t first, std::size_t limb_count) const { copy(streams, in_end, first, limb_count); }
+    void write(std::size_t first, std::size_t limb_count) const { copy(in_end, out_end, first, limb_count); }
+};
+
+// Groups whose runs make the same rounds.
+struct Bundle {
+    const swivel_crowd& crowd;
+    const Kernels& kernels;
+    const Work& work;
+    std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
+    Share shares[kGroupsTogether];
+
+    Bundle(const swivel_crowd& of, const Kernels& with, const Work& todo) : crowd(of), kernels(with), work(todo) {}
+
+    void set(const Blocks* blocks, std::uint32_t group_count)
+    {
+        count = group_count;
+        run = run_blocks(work, count);
+        for (std::uint32_t n = 0; n < count; ++n) {
+            swivel_frame filled;
+            shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n], run);
+        }
+    }
+    void solve(std::uint32_t round) const
+    {
+        for (const Share* share = shares; share != shares + count; ++share)
+            if (const std::uint32_t first = round * run; first < share->blocks.count)
+                solve_run(*share, share->blocks.first + first, std::min(run, share->blocks.count - first));
+    }
+
+private:
+    void solve_run(const Share& share, std::uint32_t block, std::uint32_t block_count) const
+    {
+        copy_run(share, block, block_count, &Share::read);
+        if (work.mask)
+            solve_chosen_group(crowd, kernels, *share.group, work.mask, block, block_count);
+        else
+            solve_group(crowd, kernels, *share.group, block, block_count);
+        copy_run(share, block, block_count, &Share::write);
+    }
+    void copy_run(const Share& share, std::uint32_t block, std::uint32_t block_count,
+                  void (Share::*copy)(std::size_t, std::size_t) const) const
+    {
+        for (std::uint32_t done = 0; done < block_count; done += share.few)
+            for_each_limbs(*share.group, work.mask, block + done, std::min(share.few, block_count - done),
+                           [&](std::size_t limb, std::size_t limb_count) { (share.*copy)(limb, limb_count); });
+    }
+};
 
 }  // namespace
 
-void solve_frame_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const swivel_frame& frame,
-                       const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count)
+std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
 {
-    const Copies copies(crowd, group, frame);
-    const std::uint32_t most = mask ? kChosenRunBlocks : kRunBlocks;
-    for (std::uint32_t done = 0; done < block_count; done += most) {
-        const std::uint32_t block = first_block + done, run = std::min(most, block_count - done);
-        for_each_limbs(group, mask, block, run, [&](std::size_t n, std::size_t count) { copies.read(n, count); });
-        if (mask)
-            solve_chosen_group(crowd, kernels, group, mask, block, run);
-        else
-            solve_group(crowd, kernels, group, block, run);
-        for_each_limbs(group, mask, block, run, [&](std::size_t n, std::size_t count) { copies.write(n, count); });
-    }
+    std::uint32_t all = 0;
+    for_each_bundle(crowd, work, blocks, [&](const Blocks*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
+    return all;
+}
+
+void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
+                  std::uint32_t first, std::uint32_t end)
+{
+    const FloatEnv env;
+    Bundle bundle(crowd, kernels, work);
+    std::uint32_t before = 0;  // rounds of earlier bundles
+    const auto solve = [&](const Blocks* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
+        const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
+        if (from < to) bundle.set(of_groups, group_count);
+        for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);
+        before += rounds;
+    };
+    for_each_bundle(crowd, work, blocks, solve);
 }
 
 }  // namespace swivel

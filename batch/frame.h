@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The members of a swivel_frame and the fields they stand for.
+// The frames of a job, the members of a frame and the fields they stand for.
 #pragma once
 
 #include <iterator>
 
+#include "batch/sized.h"
 #include "batch/swivel.h"
 #include "simd/fields.h"
 
@@ -59,5 +60,12 @@ inline constexpr FrameOutput kFrameOutputs[] = {
     {Field::clavicle_turn, &swivel_frame::clavicle_turn},
 };
 static_assert(std::size(kFrameOutputs) == kFieldCount - kInputCount, "every result");
+
+// The frame of a group. If an older header made the frames shorter, it is a copy in `filled`.
+inline const swivel_frame& frame_at(const swivel_frame* frames, std::size_t group, swivel_frame& filled)
+{
+    const char* const at = reinterpret_cast<const char*>(frames) + group * size_of(frames);
+    return whole(reinterpret_cast<const swivel_frame*>(at), swivel_default_frame, filled);
+}
 
 }  // namespace swivel

@@ -58,14 +58,20 @@ void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& wo
         using Range = oneapi::tbb::blocked_range<std::uint32_t>;
         // This context is isolated, because a cancelled context of the caller must not leave blocks out.
         oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
+        // Threads take rounds of frames, so that one thread has the same characters of all groups; or else blocks.
+        const bool in_rounds = work.frames != nullptr;
+        const std::uint32_t first = in_rounds ? 0 : blocks.first;
+        const std::uint32_t count = in_rounds ? round_count(crowd, work, blocks) : blocks.count;
+        const Range all(first, first + count, std::max(1u, chunk / (blocks.count / count)));
         const auto on_range = [&](const Range& range) {
-            solve_here(crowd, kernels, work, {range.begin(), range.end() - range.begin()});
+            if (in_rounds)
+                solve_rounds(crowd, kernels, work, blocks, range.begin(), range.end());
+            else
+                solve_here(crowd, kernels, work, {range.begin(), range.end() - range.begin()});
         };
         // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
-        oneapi::tbb::this_task_arena::isolate([&] {
-            const Range all(blocks.first, blocks.first + blocks.count, chunk);
-            oneapi::tbb::parallel_for(all, on_range, partitioner_of(crowd), context);
-        });
+        oneapi::tbb::this_task_arena::isolate(
+            [&] { oneapi::tbb::parallel_for(all, on_range, partitioner_of(crowd), context); });
         return;
     }
 #endif

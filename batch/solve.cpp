@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "batch/sized.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -96,13 +95,11 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
 
 void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)
 {
+    if (work.frames) return solve_rounds(crowd, kernels, work, blocks, 0, ~0u);
     const FloatEnv env;
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
         const Group& group = crowd.groups[g];
-        if (work.frames)
-            solve_frame_group(crowd, kernels, group, element(work.frames, g, swivel_default_frame()), work.mask, first,
-                              count);
-        else if (work.mask)
+        if (work.mask)
             solve_chosen_group(crowd, kernels, group, work.mask, first, count);
         else
             solve_group(crowd, kernels, group, first, count);

@@ -27,14 +27,10 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
 // - solve_group: every limb.
 // - solve_chosen_group: the limbs whose bits are set in mask, which has one bit for each lane of the crowd. Bits of
 //   padding lanes are ignored. Other limbs keep their results.
-// - solve_frame_group: either of these; mask is null for every limb. It copies the caller's values in before and out
-//   after.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count);
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
                         const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count);
-void solve_frame_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const swivel_frame& frame,
-                       const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count);
 
 // The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
 // build's kernels.
@@ -54,6 +50,12 @@ struct Work {
     const std::uint32_t* mask = nullptr;
     const swivel_frame* frames = nullptr;
 };
+
+// Work with frames goes in rounds, because limbs of one character often share cache lines: round n is the nth run of
+// blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.
+void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
+                  std::uint32_t first, std::uint32_t end);
+std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks);
 
 // Solves blocks on this thread; or in chunks in the caller's oneTBB arena, if there are enough.
 void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: frames of several groups, whose limbs lie side by side in characters, give the bits of writing, solving
+// and reading apart. This holds for groups of any number and size, any blocks, mask and list, on this thread and on
+// several. Bytes beside the values of the chosen limbs stay.
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_random.h"
+
+#include <rapidcheck/catch.h>
+#include <algorithm>
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+using Double3 = std::array<double, 3>;
+constexpr double kFar = 1e6;  // where the characters are, if positions are doubles
+
+// What a character has of each limb. The positions are floats or doubles.
+struct InCharacter {
+    Double3 origin, target, pole;
+    Float4 shoulder, elbow;
+    std::uint32_t flags;
+};
+
+struct Problem {
+    std::vector<swivel_group_def> groups;
+    bool in_doubles = false;
+    std::size_t stride = 0;
+    Bytes characters;
+    swivel_blocks blocks = {};
+    std::vector<std::uint32_t> mask;  // empty: none is given
+
+    Crowd crowd() const { return Crowd(SWIVEL_JOINTS, groups); }
+    template <class Bytes>
+    auto* member(Bytes& bytes, std::uint32_t group, std::uint32_t n, std::size_t offset) const
+    {
+        return bytes.data() + n * stride + group * sizeof(InCharacter) + offset;
+    }
+    bool is_chosen(const Crowd& crowd, std::uint32_t group, std::uint32_t n) const
+    {
+        const std::uint32_t limb = swivel_group_first_limb(crowd.get(), group) + n, block = limb / SWIVEL_LANES;
+        return block >= blocks.first && block - blocks.first < blocks.count &&
+               (mask.empty() || (mask[limb / 32] >> limb % 32 & 1));
+    }
+};
+
+template <class T>
+void store(unsigned char* at, const T& value)
+{
+    std::memcpy(at, &value, sizeof value);
+}
+template <class T>
+T load(const unsigned char* at)
+{
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+}
+
+void fill_limb(Random& random, const Problem& problem, Bytes& bytes, std::uint32_t group, std::uint32_t n)
+{
+    const auto at = [&](std::size_t offset) { return problem.member(bytes, group, n, offset); };
+    const Vector3d target = random.between(0.1, 2.2) * random.direction(), pole = random.direction();
+    if (!problem.in_doubles) {
+        store(at(offsetof(InCharacter, target)), floats(target));
+        store(at(offsetof(InCharacter, pole)), floats(pole));
+        return;
+    }
+    const Vector3d origin = kFar * random.direction(), far_target = origin + target, far_pole = origin + pole;
+    store(at(offsetof(InCharacter, origin)), origin);
+    store(at(offsetof(InCharacter, target)), far_target);
+    store(at(offsetof(InCharacter, pole)), far_pole);
+}
+
+// Groups of very different sizes, up to several rounds of several together.
+Problem random_problem(Random& random)
+{
+    Problem problem;
+    problem.in_doubles = random.below(3) == 0;
+    std::uint32_t most = 0;
+    for (std::uint32_t g = 1 + random.below(9); g > 0; --g) {
+        const std::uint32_t sizes[] = {1 + random.below(20), 16, 1 + random.below(200), 1 + random.below(1500)};
+        problem.groups.push_back(group_of(g % 2 == 0 && most > 0 ? most : sizes[random.below(4)]));
+        most = std::max(most, problem.groups.back().limb_count);
+    }
+    const std::size_t bytes = problem.groups.size() * sizeof(InCharacter), strides[] = {bytes, bytes + 1, 1024, 1536};
+    do problem.stride = strides[random.below(4)];
+    while (problem.stride < bytes);
+    problem.characters.resize(most * problem.stride);
+    for (unsigned char& byte : problem.characters) byte = static_cast<unsigned char>(random.word());
+    for (std::uint32_t g = 0; g < problem.groups.size(); ++g)
+        for (std::uint32_t n = 0; n < problem.groups[g].limb_count; ++n)
+            fill_limb(random, problem, problem.characters, g, n);
+
+    const std::uint32_t block_count = swivel_block_count(problem.crowd().get());
+    problem.blocks = {0, block_count};
+    if (random.below(2) == 0) {
+        problem.blocks.first = random.below(block_count);
+        problem.blocks.count = random.below(block_count - problem.blocks.first + 1);
+    }
+    if (const std::uint32_t one_in = std::array{0u, 0u, 1u, 2u, 60u}[random.below(5)]; one_in > 0) {
+        problem.mask.resize((block_count + 1) / 2);
+        for (std::uint32_t limb = 0; limb < 32 * problem.mask.size(); ++limb)
+            if (random.below(one_in) == 0) problem.mask[limb / 32] |= 1u << limb % 32;
+    }
+    return problem;
+}
+
+std::vector<swivel_frame> frames_in(const Problem& problem, Bytes& bytes)
+{
+    std::vector<swivel_frame> frames;
+    for (std::uint32_t g = 0; g < problem.groups.size(); ++g) {
+        const auto at = [&](std::size_t offset) { return problem.member(bytes, g, 0, offset); };
+        swivel_frame frame = swivel_default_frame();
+        if (problem.in_doubles) frame.origin = {at(offsetof(InCharacter, origin)), problem.stride};
+        frame.target = {at(offsetof(InCharacter, target)), problem.stride};
+        frame.pole = {at(offsetof(InCharacter, pole)), problem.stride};
+        frame.shoulder = {at(offsetof(InCharacter, shoulder)), problem.stride};
+        frame.elbow = {at(offsetof(InCharacter, elbow)), problem.stride};
+        frame.flags = {at(offsetof(InCharacter, flags)), problem.stride};
+        frames.push_back(frame);
+    }
+    return frames;
+}
+
+Float3 position(const Problem& problem, const unsigned char* value, const unsigned char* origin)
+{
+    if (!problem.in_doubles) return load<Float3>(value);
+    const auto at = load<Double3>(value), from = load<Double3>(origin);
+    return {static_cast<float>(at[0] - from[0]), static_cast<float>(at[1] - from[1]),
+            static_cast<float>(at[2] - from[2])};
+}
+
+// One limb after the other into rows; the solve; one limb after the other out of rows.
+void solve_by_limbs(const Problem& problem, Crowd& crowd, Bytes& bytes)
+{
+    const auto each_chosen = [&](auto take) {
+        for (std::uint32_t g = 0; g < problem.groups.size(); ++g)
+            for (std::uint32_t n = 0; n < problem.groups[g].limb_count; ++n)
+                if (problem.is_chosen(crowd, g, n))
+                    take(g, n, [&, g, n](std::size_t offset) { return problem.member(bytes, g, n, offset); });
+    };
+    each_chosen([&](std::uint32_t g, std::uint32_t n, auto at) {
+        const unsigned char* const origin = at(offsetof(InCharacter, origin));
+        const Float3 target = position(problem, at(offsetof(InCharacter, target)), origin),
+                     pole = position(problem, at(offsetof(InCharacter, pole)), origin);
+        crowd.write(SWIVEL_TARGET, g, std::span(&target, 1), n);
+        crowd.write(SWIVEL_POLE, g, std::span(&pole, 1), n);
+    });
+    if (problem.mask.empty())
+        crowd.solve({.blocks = problem.blocks, .on_this_thread = true});
+    else
+        crowd.solve({.blocks = problem.blocks, .mask = problem.mask, .on_this_thread = true});
+    each_chosen([&](std::uint32_t g, std::uint32_t n, auto at) {
+        const auto read = [&](swivel_field field, std::size_t offset) {
+            check(swivel_read(crowd.get(), field, g, n, 1, {at(offset), problem.stride}));
+        };
+        read(SWIVEL_SHOULDER, offsetof(InCharacter, shoulder));
+        read(SWIVEL_ELBOW, offsetof(InCharacter, elbow));
+        read(SWIVEL_FLAGS, offsetof(InCharacter, flags));
+    });
+}
+
+std::uint32_t solve_by_frames(const Problem& problem, Crowd& crowd, Bytes& bytes, bool on_this_thread)
+{
+    const std::vector<swivel_frame> frames = frames_in(problem, bytes);
+    if (problem.mask.empty())
+        return crowd.solve({.blocks = problem.blocks, .frames = frames, .on_this_thread = on_this_thread});
+    return crowd.solve(
+        {.blocks = problem.blocks, .mask = problem.mask, .frames = frames, .on_this_thread = on_this_thread});
+}
+
+}  // namespace
+
+TEST_CASE("frames of groups whose limbs share characters give the bits of limbs written, solved and read apart")
+{
+    rc::prop("random groups, blocks, masks, doubles, threads", [](std::uint64_t seed) {
+        Random random{seed};
+        const Problem problem = random_problem(random);
+        Bytes by_limbs = problem.characters, here = problem.characters, on_threads = problem.characters;
+        Crowd limbs = problem.crowd(), one = problem.crowd(), several = problem.crowd();
+        solve_by_limbs(problem, limbs, by_limbs);
+        const std::uint32_t count = solve_by_frames(problem, one, here, true);
+        RC_ASSERT(solve_by_frames(problem, several, on_threads, false) == count);
+        const bool same_rows = all_words(one) == all_words(limbs) && all_words(several) == all_words(limbs);
+        RC_ASSERT(same_rows);
+        const bool same_values = here == by_limbs && on_threads == by_limbs;
+        RC_ASSERT(same_values);
+    });
+}
+
+TEST_CASE("frames of a list of limbs give the bits of the same limbs in a mask")
+{
+    rc::prop("random groups and limbs", [](std::uint64_t seed) {
+        Random random{seed};
+        Problem problem = random_problem(random);
+        Crowd masked = problem.crowd(), listed = problem.crowd();
+        const std::uint32_t block_count = swivel_block_count(masked.get());
+        problem.blocks = {0, block_count};
+        problem.mask.assign((block_count + 1) / 2, 0);
+        std::vector<std::uint32_t> list;
+        for (std::uint32_t n = random.below(300); n > 0; --n) {
+            const std::uint32_t g = random.below(static_cast<std::uint32_t>(problem.groups.size()));
+            list.push_back(swivel_group_first_limb(masked.get(), g) + random.below(problem.groups[g].limb_count));
+            problem.mask[list.back() / 32] |= 1u << list.back() % 32;
+        }
+        Bytes by_mask = problem.characters, by_list = problem.characters;
+        solve_by_limbs(problem, masked, by_mask);
+        listed.solve({.limbs = list, .frames = frames_in(problem, by_list)});
+        const bool same = by_list == by_mask && all_words(listed) == all_words(masked);
+        RC_ASSERT(same);
+    });
+}
