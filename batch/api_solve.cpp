@@ -169,7 +169,8 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.most_blocks, crowd->chosen);
 
-    const Work work{job.limbs || job.priorities ? crowd->chosen : job.mask, job.frames};
+    const Work work{job.limbs || job.priorities ? crowd->chosen : job.mask, job.frames,
+                    is_from_memory(*crowd, blocks.count)};
     if (job.on_this_thread)
         solve_here(*crowd, isa->kernels, work, blocks);
     else

@@ -17,13 +17,16 @@ constexpr FeatureSet kFormulaFeatures = feature::world | feature::joints | featu
 // With any of these features, a crowd's limbs are whole limbs, which have one kernel (simd/limb_run.h).
 constexpr FeatureSet kLimbFeatures = ~(kFormulaFeatures | feature::pole_direction | feature::compact | feature::budget);
 
+// Rows of more bytes than this are not in the caches from one solve to the next. It is a common size of level 3 caches.
+constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
+
 // Result rows of a compact crowd are on the stack until they are packed. Those of so many blocks stay in the nearest
 // cache.
 constexpr std::uint32_t kPackBlocks = 8;
 constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand);
 
 SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* input, float* results,
-                std::uint32_t block_count)
+                std::uint32_t block_count, bool from_memory)
 {
     return {input,
             results,
@@ -34,17 +37,19 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* inpu
             static_cast<std::uint32_t>(crowd.shoulder_order),
             static_cast<std::uint32_t>(crowd.wrist_order),
             &group.frames,
-            crowd.first_row};
+            crowd.first_row,
+            from_memory};
 }
 
 void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                   std::uint32_t block_count)
+                   std::uint32_t block_count, bool from_memory)
 {
     alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
     for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {
         const std::uint32_t block = first_block + done, count = std::min(kPackBlocks, block_count - done);
         const std::size_t limb = std::size_t{block} * SWIVEL_LANES;
-        solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0), results, count);
+        solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0), results, count,
+                   from_memory);
         pack_rows(crowd, kernels, results, crowd.words + row_offset(limb, crowd.result_row_count, 0), count);
     }
 }
@@ -52,9 +57,9 @@ void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Grou
 }  // namespace
 
 void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
-                float* results, std::uint32_t block_count)
+                float* results, std::uint32_t block_count, bool from_memory)
 {
-    const SolveRun run = run_of(crowd, group, input, results, block_count);
+    const SolveRun run = run_of(crowd, group, input, results, block_count, from_memory);
     if (crowd.features & kLimbFeatures)
         kernels.limbs.solve(run);
     else
@@ -69,12 +74,18 @@ void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* r
 }
 
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                 std::uint32_t block_count)
+                 std::uint32_t block_count, bool from_memory)
 {
-    if (crowd.features & feature::compact) return solve_compact(crowd, kernels, group, first_block, block_count);
+    if (crowd.features & feature::compact)
+        return solve_compact(crowd, kernels, group, first_block, block_count, from_memory);
     const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
     solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0),
-               crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count);
+               crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count, from_memory);
+}
+
+bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
+{
+    return block_count * block_bytes(crowd.features) > kCachedBytes;
 }
 
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
@@ -87,7 +98,7 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
     const float* const input = crowd.input + row_offset(first, crowd.input_row_count, 0);
     ArcEnds ends[kMostArcs];
     const std::uint32_t count =
-        scalar.limbs.allowed_arcs(run_of(crowd, group, input, results, group.block_count), limb, ends);
+        scalar.limbs.allowed_arcs(run_of(crowd, group, input, results, group.block_count, false), limb, ends);
     for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
         arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
     return count;
@@ -102,7 +113,7 @@ void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& w
         if (work.mask)
             solve_chosen_group(crowd, kernels, group, work.mask, first, count);
         else
-            solve_group(crowd, kernels, group, first, count);
+            solve_group(crowd, kernels, group, first, count, work.from_memory);
     });
 }
 

@@ -24,11 +24,11 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
 }
 
 // These solve blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv).
-// - solve_group: every limb.
+// - solve_group: every limb. from_memory: the rows are not in a cache.
 // - solve_chosen_group: the limbs whose bits are set in mask, which has one bit for each lane of the crowd. Bits of
 //   padding lanes are ignored. Other limbs keep their results.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                 std::uint32_t block_count);
+                 std::uint32_t block_count, bool from_memory = false);
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
                         const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count);
 
@@ -40,16 +40,18 @@ std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, con
 // The two steps of solve_group, on rows anywhere in memory. The first makes result rows of floats from blocks of input
 // rows. The second makes words from these, in a compact crowd.
 void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
-                float* results, std::uint32_t block_count);
+                float* results, std::uint32_t block_count, bool from_memory = false);
 void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
                std::uint32_t block_count);
 
 // Checked members of a swivel_job. mask: which limbs are solved, null for all. frames: where values come from, null for
-// rows.
+// rows. from_memory: the rows of all blocks do not fit the caches.
 struct Work {
     const std::uint32_t* mask = nullptr;
     const swivel_frame* frames = nullptr;
+    bool from_memory = false;
 };
+bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 
 // Work with frames goes in rounds, because limbs of one character often share cache lines: round n is the nth run of
 // blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.

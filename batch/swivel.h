@@ -610,14 +610,14 @@ static inline swivel_job swivel_default_job(void)
 // Solves limbs; job may be null, for every limb from and to rows. The caller's floating-point environment is restored.
 //
 // With frames, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
-// given. The bits are the same. It takes a few blocks at a time, so that their rows stay in the nearest cache from copy
-// to copy. Rows hold inputs and results afterwards. Only the bytes of the values are read or written. Inputs may
-// overlap each other. A limb's inputs are read before its results are written, so its results may overlap its own
-// inputs: a pose may be read and written in place. Inputs of other limbs may be read later, by any thread. So a limb's
-// result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each other. No value
-// may overlap the crowd's own memory. It fails for a field that this crowd does not have and for a stride smaller than
-// a value. It also fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or where they
-// lie. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
+// given. The bits are the same. It takes a run of blocks of each group in turn, so limbs of one character use shared
+// cache lines together. Rows hold inputs and results afterwards. Only the bytes of the values are read or written.
+// Inputs may overlap each other. A limb's inputs are read before its results are written, so its results may overlap
+// its own inputs: a pose may be read and written in place. Inputs of other limbs may be read later, by any thread. So a
+// limb's result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each other.
+// No value may overlap the crowd's own memory. It fails for a field that this crowd does not have and for a stride
+// smaller than a value. It also fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or
+// where they lie. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
 //     swivel_frame frame = swivel_default_frame();
 //     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
 //     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
@@ -733,8 +733,8 @@ SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order or
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far the wrist, or the effector, of each limb is from its target; with WITH_AIM, how far the target is from the
-// hand's ray. One double each, in arm lengths: upper + fore, scaled. 0 for a limb of no length, NaN for one with bad
-// input. Means nothing before the first solve.
+// hand's ray. One double each, in arm lengths: upper + fore, scaled and stretched. 0 for a limb of no length, NaN for
+// one with bad input. Means nothing before the first solve.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 

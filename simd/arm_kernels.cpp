@@ -162,6 +162,14 @@ void solve_aside(const SolveRun& run, LimbsAside& aside)
     }
 }
 
+// Calls for input rows in the order in which they lie, so that the CPU's own prefetching follows. The formula takes
+// them in another order. From memory, arms with parents then took two thirds of the time, and from a cache 1.03 times
+// as long. Arms without parents have so few rows that they took 1.2 times as long.
+SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
+{
+    for (std::uint32_t row = 0; row < row_count; ++row) __builtin_prefetch(input + std::size_t{row} * kLanes);
+}
+
 // Solves whole steps from block on, and returns the first block that is left. It is a function of its own for each T,
 // so that its constants do not take registers from another loop.
 template <class T, FeatureSet Features>
@@ -173,6 +181,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
     for (; block + blocks <= run.block_count; block += blocks) {
+        if (has(Features, feature::world) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
         std::uint32_t others = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const Mask<T> holds = solve_step(Rows<T, Features>{input + lane, results + lane}, shared);

@@ -32,6 +32,7 @@ struct SolveRun {
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
     const RestFrames* frames;
     const std::uint16_t* first_row;  // of each field, among input or result rows
+    bool from_memory;                // the rows are not in a cache
 };
 
 // Results of a run of blocks, to be packed into the words of a compact crowd.
