@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from compare import Refused, read_results  # noqa: E402
+from results import Refused, read_results  # noqa: E402
 
 # Okabe and Ito's colours, told apart by everyone, and marks that do not need them.
 STYLES = [("#0072B2", "o"), ("#D55E00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#56B4E9", "v")]

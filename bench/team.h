@@ -31,6 +31,9 @@ private:
     std::vector<std::thread> workers_;
 };
 
+// Cores that this process may run on.
+int core_count();
+
 // The share of a part: from first to end of count things, equal but for one.
 struct Share {
     std::size_t first, end;

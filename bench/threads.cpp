@@ -20,7 +20,7 @@ using Frames = std::span<const swivel_frame>;
 
 std::vector<int> thread_counts()
 {
-    const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+    const int cores = core_count();
     std::vector<int> counts;
     for (int threads = 1; threads < cores; threads *= 2) counts.push_back(threads);
     counts.push_back(cores);
