@@ -25,12 +25,15 @@ void add_features(Suite& suite)
 {
     for (const std::string& isa : suite.isas)
         add_solve(suite, "resident/" + isa + "/L2", isa, kResident, arms_within(1, kResident));
-    add_solve(suite, "resident/" + suite.best_isa() + "/memory", suite.best_isa(), kResident,
-              arms_within(3, kResident));
+    for (const std::size_t level : {0u, 2u, 3u})
+        add_solve(suite, "resident/" + suite.best_isa() + "/" + kMemoryLevels[level], suite.best_isa(), kResident,
+                  arms_within(level, kResident));
     // As many arms as without: the memory saved is the point.
-    for (const swivel_features features : {swivel_features{0}, kResident})
-        add_solve(suite, (features == 0 ? "compact/" : "resident_compact/") + suite.best_isa() + "/memory",
-                  suite.best_isa(), features | SWIVEL_COMPACT, arms_within(3, features));
+    for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
+        add_solve(suite, "compact/" + suite.best_isa() + "/" + kMemoryLevels[level], suite.best_isa(), SWIVEL_COMPACT,
+                  arms_within(level, 0));
+    add_solve(suite, "resident_compact/" + suite.best_isa() + "/memory", suite.best_isa(), kResident | SWIVEL_COMPACT,
+              arms_within(3, kResident));
     for (const auto& [name, features] : {std::pair("cone+twist", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST),
                                          {"box", SWIVEL_WITH_SHOULDER_BOX},
                                          {"full_arm", kFullArm},

@@ -82,6 +82,7 @@ int run(int argc, char** argv)
 
     Suite suite;
     note_context(suite);
+    add_bounds(suite);
     add_problem_p(suite);
     add_hard(suite);
     add_reading(suite);

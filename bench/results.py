@@ -44,7 +44,7 @@ def read_all(path):
     document = read_document(path)
     medians, rounds, notes = {}, {}, {}
     for entry in document["benchmarks"]:
-        name = entry.get("run_name", entry.get("name"))
+        name = entry.get("run_name", entry.get("name")).removesuffix("/real_time")
         if entry.get("error_occurred"):
             continue
         if entry.get("run_type") != "aggregate":

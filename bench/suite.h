@@ -48,6 +48,7 @@ void add_solve(Suite& suite, const std::string& name, const std::string& isa, sw
 void add_solve(const std::string& name, const std::string& isa, std::shared_ptr<swivel::Crowd> crowd, Notes notes = {});
 
 // One for each family. They also check what they are going to time, and throw if someone's results are wrong.
+void add_bounds(Suite& suite);
 void add_problem_p(Suite& suite);
 void add_hard(Suite& suite);
 void add_reading(Suite& suite);

@@ -18,6 +18,7 @@ MEMORY = {"L1": "level 1 cache", "L2": "level 2 cache", "L3": "level 3 cache", "
 LOOPS = {"loop_trig": "loop with two acos", "loop_light": "loop with one acos", "loop_roots": "loop with half-angle roots"}
 LIMITED = {"cone+twist": "cone and twist", "full_arm": "full arm", "full_arm+box": "full arm and Euler box"}
 SHARES = (5, 14, 50, 100)
+BOUNDS = {"avx512": 1.6, "avx2": 2.0, "sse2": 2.3}
 NOISE = 1.03  # ratios nearer to 1 decide nothing
 
 
@@ -56,12 +57,13 @@ class Result:
         return next((level for level, of in self.levels.items() if of == isa), None)
 
     def bound(self, isa):
-        value = self.context.get(f"port_bound_ns/{isa}")
-        return float(value) if value else None
+        """The least time of an arm of P that divider and arithmetic allow."""
+        times = [self.ns(f"bound/{isa}/{part}") for part in ("divider", "arithmetic")]
+        return max(times) if all(times) else None
 
 
 def number(ns):
-    return f"{ns:.0f}" if ns >= 99.5 else f"{ns:.3g}" if ns >= 10 else f"{ns:.2f}"
+    return f"{ns:.0f}" if ns >= 99.5 else f"{ns:.1f}" if ns >= 9.95 else f"{ns:.2f}"
 
 
 def judged(ratio, most):
@@ -106,15 +108,14 @@ def limits(result):
     rows = []
 
     def row(work, own, other, name, most=None):
-        a, b = own if isinstance(own, float) else result.ns(own), other if isinstance(other, float) else result.ns(other)
+        a, b = result.ns(own), result.ns(other) if isinstance(other, str) else other
         if a is None or b is None:
             return
-        verdict = judged(a / b, most) if most else "**swivel loses**" if a / b > NOISE else ""
-        rows.append([work, number(a), name, number(b), f"{a / b:.2f}", f"{most:g}" if most else "–", verdict])
+        rows.append([work, number(a), name, number(b), f"{a / b:.2f}", f"{most:g}" if most else "–", judged(a / b, most) if most else ""])
 
     best, level = result.best, result.level_of(result.best)
-    for isa, most in (("avx512", 1.6), ("avx2", 2.0), ("sse2", 2.3), ("scalar", None), ("neon64", None)):
-        row(f"P in cache, {ISAS[isa]}", f"P/{isa}/L2", result.bound(isa) if isa in result.isas else None, "bound of the ports", most)
+    for isa in result.isas:
+        row(f"P in cache, {ISAS[isa]}", f"P/{isa}/L2", result.bound(isa), "bound of the ports", BOUNDS.get(isa))
     for isa in result.isas:
         row(f"P in cache, {ISAS[isa]}", f"P/{isa}/L2", f"hand_staged/{isa}", "the same stages by hand", 1.05)
         row(f"P in cache, {ISAS[isa]}", f"P/{isa}/L2", f"hand/{isa}", "by hand, at once", 1.05)
@@ -129,7 +130,7 @@ def limits(result):
     for threads in thread_counts(result):
         for arms in (16384, 262144):
             row(f"whole frame, {arms:,} arms, {threads} threads", f"frame_threads/{threads}/{arms}", f"bare_threads/{threads}/{arms}",
-                "bare loops")
+                "as many bare loops")
     return Table("Beside the machine: nanoseconds an arm, and how many times as long swivel takes",
                  ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
 
@@ -161,7 +162,7 @@ def itself(result):
     for name, most in (("full_arm", 5), ("cone+twist", 4), ("box", 15)):
         row(f"{LIMITED.get(name, 'Euler box')}{shares_text(result, f'features/{name}/{best}')}", f"features/{name}/{best}", former,
             "P by hand, at once", most)
-    for step, most in (("apart", 1), ("write", None), ("solve", None), ("read", None)):
+    for step, most in (("apart", NOISE), ("write", None), ("solve", None), ("read", None)):
         row("whole frame in one call", f"frame/{best}/in_one", f"frame/{best}/{step}",
             "write, solve, read" if step == "apart" else f"its {step} alone", most)
     for isa in result.isas:
@@ -189,8 +190,13 @@ def calls(result):
             others = [result.ns(f"calls/{kind}/{isa}/{arms}") for kind in ("job", "frame")]
             rows.append([f"{arms}, {ISAS[isa]}", number(here), number(kernel), f"{max(here - kernel, 0):.0f}", "150",
                          judged(here - kernel, 150), *(number(ns) if ns else "–" for ns in others)])
-    return Table("Calls: nanoseconds a call", ["arms", "on this thread", "kernel by hand", "difference", "goal, at most", "",
-                                               "default job", "frame, on this thread"], rows)
+    few, many = (result.ns(f"calls/frame/{result.best}/{arms}") for arms in (16, 256))
+    if few and many:
+        fixed = few - 16 * (many - few) / 240
+        rows.append(["16 of a frame", number(few), number(few - fixed), f"{fixed:.0f}", "150", judged(fixed, 150), "–", "–"])
+    return Table("Calls: nanoseconds a call", ["arms", "on this thread", "kernel", "difference", "goal, at most", "", "default job",
+                                               "frame, on this thread"], rows,
+                 ("The kernel is the one by hand. Of a frame it is what 16 arms more take in calls of up to 256.",))
 
 
 def held(result):
@@ -209,14 +215,16 @@ def held(result):
 
 
 def memory(result):
-    """P and reading by level of memory."""
+    """Solving, and reading right after it, by level of memory."""
     rows = []
     for isa in result.isas:
-        for family, text in (("P", "solve"), ("read", "solve, and read the rows"), ("read_fields", "solve, and `swivel_read`")):
+        for family, text in (("P", "P"), ("read", "P, and read the rows"), ("read_hand", "the same by hand, ordinary stores"),
+                             ("read_fields", "P, and `swivel_read`"), ("resident", "resident"), ("read_resident", "resident, and read"),
+                             ("compact", "P, compact"), ("read_compact", "P, compact, and read")):
             times = [result.ns(f"{family}/{isa}/{level}") for level in MEMORY]
             if all(times):
                 rows.append([f"{text}, {ISAS[isa]}", *map(number, times)])
-    return Table("P by the level of memory that its rows are in: nanoseconds an arm", ["", *MEMORY.values()], rows)
+    return Table("By the level of memory that the rows are in: nanoseconds an arm", ["", *MEMORY.values()], rows)
 
 
 def features(result):

@@ -16,7 +16,14 @@ namespace bench {
 
 namespace {
 
-using Frames = std::span<const swivel_frame>;
+using Frames = std::span<const swivel_frame>;  // none: from and to rows
+
+swivel::Job job_of(Frames frames)
+{
+    swivel::Job job;
+    if (!frames.empty()) job.frames = frames;
+    return job;
+}
 
 std::vector<int> thread_counts()
 {
@@ -32,7 +39,7 @@ std::vector<int> thread_counts()
 Work solve_on(int threads, swivel::Crowd& crowd, Frames frames)
 {
     const auto arena = std::make_shared<oneapi::tbb::task_arena>(threads);
-    return [arena, &crowd, frames] { arena->execute([&] { crowd.solve({.frames = frames}); }); };
+    return [arena, &crowd, job = job_of(frames)] { arena->execute([&] { crowd.solve(job); }); };
 }
 #else
 Work solve_on(int threads, swivel::Crowd& crowd, Frames frames)
@@ -40,9 +47,11 @@ Work solve_on(int threads, swivel::Crowd& crowd, Frames frames)
     const auto team = std::make_shared<Team>(threads);
     return [team, &crowd, frames] {
         team->run([&](int part) {
+            swivel::Job job = job_of(frames);
             const auto [first, end] = share_of(swivel_block_count(crowd.get()), part, team->size());
-            const swivel_blocks blocks{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
-            crowd.solve({.blocks = blocks, .frames = frames, .on_this_thread = true});
+            job.blocks = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
+            job.on_this_thread = true;
+            crowd.solve(job);
         });
     };
 }
