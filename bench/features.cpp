@@ -3,20 +3,42 @@
 // Crowds with features, from rows to rows. Resident crowds (world targets to local rotations) run with each instruction
 // set. Other sets of features, among them whole limbs, run with the best one. They are within the level 2 cache;
 // resident crowds and compact results are also measured in memory.
-#include "bench/suite.h"
+#include "bench/shares.h"
 
 namespace bench {
+
+namespace {
+
+// Limbs with limits as bodies have them, and how many these hold back.
+void add_limited(Suite& suite, const std::string& name, swivel_features features)
+{
+    const std::size_t arm_count = arms_within(1, features);
+    swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
+    solve_all(crowd, suite.best_isa());
+    add_solve(suite, "features/" + name + "/" + suite.best_isa(), suite.best_isa(), features, arm_count,
+              shares_of(crowd));
+}
+
+}  // namespace
 
 void add_features(Suite& suite)
 {
     for (const std::string& isa : suite.isas)
         add_solve(suite, "resident/" + isa + "/L2", isa, kResident, arms_within(1, kResident));
-    add_solve(suite, "resident/" + suite.best_isa() + "/memory", suite.best_isa(), kResident,
-              arms_within(3, kResident));
+    for (const std::size_t level : {0u, 2u, 3u})
+        add_solve(suite, "resident/" + suite.best_isa() + "/" + kMemoryLevels[level], suite.best_isa(), kResident,
+                  arms_within(level, kResident));
     // As many arms as without: the memory saved is the point.
-    for (const swivel_features features : {swivel_features{0}, kResident})
-        add_solve(suite, (features == 0 ? "compact/" : "resident_compact/") + suite.best_isa() + "/memory",
-                  suite.best_isa(), features | SWIVEL_COMPACT, arms_within(3, features));
+    for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
+        add_solve(suite, "compact/" + suite.best_isa() + "/" + kMemoryLevels[level], suite.best_isa(), SWIVEL_COMPACT,
+                  arms_within(level, 0));
+    add_solve(suite, "resident_compact/" + suite.best_isa() + "/memory", suite.best_isa(), kResident | SWIVEL_COMPACT,
+              arms_within(3, kResident));
+    for (const auto& [name, features] : {std::pair("cone+twist", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST),
+                                         {"box", SWIVEL_WITH_SHOULDER_BOX},
+                                         {"full_arm", kFullArm},
+                                         {"full_arm+box", kFullArm | SWIVEL_WITH_SHOULDER_BOX}})
+        add_limited(suite, name, features);
 
     struct Named {
         const char* name;
@@ -26,10 +48,7 @@ void add_features(Suite& suite)
          {Named{"world", SWIVEL_WORLD}, Named{"joints", SWIVEL_JOINTS}, Named{"hand", SWIVEL_WITH_HAND},
           Named{"world+hand", SWIVEL_WORLD | SWIVEL_WITH_HAND}, Named{"joints+hand", SWIVEL_JOINTS | SWIVEL_WITH_HAND},
           Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"compact", SWIVEL_COMPACT},
-          Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE},
-          Named{"cone+twist", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST},
-          Named{"box", SWIVEL_WITH_SHOULDER_BOX}, Named{"full_arm", kFullArm},
-          Named{"full_arm+box", kFullArm | SWIVEL_WITH_SHOULDER_BOX}})
+          Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE}})
         add_solve(suite, std::string("features/") + name + "/" + suite.best_isa(), suite.best_isa(), features,
                   arms_within(1, features));
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Whole frames, from and to the pose buffers of 8,192 characters with 16,384 arms, on one thread. swivel runs in one
-// call, with each instruction set. With the best one, its three steps also run apart. The rival solves one arm at a
-// time with glm. And in one call on several threads.
+// call, with each instruction set. With the best one, its three steps also run apart. The rivals solve one arm at a
+// time: a textbook with glm, and ozz-animation where it was built in. A bare loop moves the same bytes and solves
+// nothing.
 #include <cstdio>
 #include <stdexcept>
 
 #include "bench/rivals/check.h"
 #include "bench/rivals/level.h"
+#include "bench/rivals/ozz_frame.h"
 #include "bench/rivals/whole_frame.h"
 #include "bench/suite.h"
 
@@ -51,11 +53,17 @@ void add_frames(Suite& suite)
     timed("frame/" + best + "/write", best, [frame] { frame->write(); });
     timed("frame/" + best + "/solve", best, [frame] { frame->solve(); });
     timed("frame/" + best + "/read", best, [frame] { frame->read(); });
+    const auto ozz = std::make_shared<OzzFrame>(frame->view());
     for (const Level* level : runnable_levels()) {
-        const std::string name = std::string("frame_glm/") + level->name;
-        const Work work = [frame, solve = level->solve_frame] { solve(frame->view()); };
-        require_right(name, *frame, work);
-        timed(name, best, work);
+        const std::string name = std::string("/") + level->name;
+        const Work glm = [frame, level] { level->solve_frame(frame->view()); };
+        require_right("frame_glm" + name, *frame, glm);
+        timed("frame_glm" + name, best, glm);
+        timed("frame_bare" + name, best, [frame, level] { level->touch_frame(frame->view()); });
+        if (!level->solve_frame_ozz) continue;
+        const Work by_ozz = [frame, ozz, level] { level->solve_frame_ozz(frame->view(), ozz->view()); };
+        require_right("frame_ozz" + name, *frame, by_ozz);
+        timed("frame_ozz" + name, best, by_ozz);
     }
 }
 

@@ -15,7 +15,7 @@ void add_growth(Suite& suite)
         def.groups = &group;
         for (const std::string& isa : suite.isas)
             add_solve(suite, "growth/" + isa + "/" + std::to_string(arm_count), isa, 0, arm_count,
-                      swivel_crowd_bytes(&def));
+                      {{"bytes/arm", static_cast<double>(swivel_crowd_bytes(&def)) / static_cast<double>(arm_count)}});
     }
 }
 

@@ -5,19 +5,20 @@
 // limits. Before timing, it checks all results by forward kinematics: the wrists of ordinary arms must be on their
 // targets.
 //
-//   cmake --preset dev && cmake --build --preset dev && build/dev/bench/swivel_bench
+//   cmake --preset dev && cmake --build --preset dev && bench/run
 //
-// Repetitions in random order, medians shown (of the CPU time; threads/ by the clock on the wall), and at the end
-// tables of ratios. Takes some minutes and 2 GB. Google Benchmark's own flags come after: --benchmark_filter=P/,
-// --benchmark_repetitions=..., --benchmark_out=result.json, which compare.py and plot.py read. Debian's libbenchmark
-// says that it "was built as DEBUG"; that is its own build and does not touch what is measured.
+// bench/run starts it and then makes tables of ratios by tables.py. Repetitions are in random order, and medians are
+// shown: of the CPU time, or of threads by the clock on the wall. It takes some minutes and 2 GB. Google Benchmark's
+// own flags come after: --benchmark_filter=P/, --benchmark_repetitions=..., --benchmark_out=result.json. Debian's
+// libbenchmark says that it "was built as DEBUG"; that is its own build and does not touch what is measured.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <exception>
 
+#include "bench/progress.h"
 #include "bench/rivals/level.h"
-#include "bench/tables.h"
+#include "bench/suite.h"
 
 namespace {
 
@@ -42,6 +43,8 @@ void note_context(const Suite& suite)
     note("library_build", library_build());
     for (const Level* level : runnable_levels()) {
         note(std::string("rivals_build/") + level->name, level->flags);
+        note(std::string("level_of/") + level->name, level->isa);
+        if (level->ozz_flags) note(std::string("ozz_build/") + level->name, level->ozz_flags);
         for (const Loop& loop : level->loops) note(std::string("how/") + loop.name + "/" + level->name, loop.how);
     }
     for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
@@ -79,18 +82,22 @@ int run(int argc, char** argv)
 
     Suite suite;
     note_context(suite);
+    add_bounds(suite);
     add_problem_p(suite);
+    add_hard(suite);
+    add_reading(suite);
     add_features(suite);
+    add_limits(suite);
     add_choice(suite);
     add_frames(suite);
+    add_calls(suite);
     add_copies(suite);
     add_threads(suite);
     add_growth(suite);
 
-    Medians medians;
-    benchmark::RunSpecifiedBenchmarks(&medians);
+    Progress progress;
+    benchmark::RunSpecifiedBenchmarks(&progress);
     benchmark::Shutdown();
-    print_tables(suite, medians);
     return 0;
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws the pictures of docs/speed.md from a result file of swivel_bench: speed.svg, nanoseconds an arm against the crowd's size,
-and roofline.svg, what the kernels do beside what this machine can do. The same file gives the same bytes.
+roofline.svg, what the kernels do beside what this machine can do, and limits.svg, nanoseconds an arm against the share of limbs that
+limits hold back. The same file gives the same bytes.
 
 usage: bench/plot.py RESULT.json     (python3-matplotlib)
 """
@@ -11,7 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from compare import Refused, read_results  # noqa: E402
+from results import Refused, read_results  # noqa: E402
 
 # Okabe and Ito's colours, told apart by everyone, and marks that do not need them.
 STYLES = [("#0072B2", "o"), ("#D55E00", "s"), ("#009E73", "^"), ("#CC79A7", "D"), ("#56B4E9", "v")]
@@ -30,6 +31,17 @@ def growth_of(times, isa):
     """[(arms, nanoseconds an arm)], by arms."""
     prefix = f"growth/{isa}/"
     return sorted((int(name[len(prefix):]), ns) for name, ns in times.items() if name.startswith(prefix))
+
+
+def limits_of(times):
+    """By limits and kind: [(percent of limbs, nanoseconds an arm)], by percent. Free limbs start both kinds."""
+    curves = {}
+    for name, ns in times.items():
+        if name.startswith("limits/"):
+            _, limits, kind, share, _ = name.split("/")
+            for each in ("limited", "infeasible") if kind == "free" else (kind,):
+                curves.setdefault((limits, each), []).append((int(share), ns))
+    return {key: sorted(points) for key, points in curves.items()}
 
 
 def roofline_of(context, times, isas):
@@ -76,6 +88,20 @@ def draw_speed(plt, context, times, isas):
     return figure
 
 
+def draw_limits(plt, context, times, isas):
+    figure, axes = new_figure(plt, f"Whole limbs, {ISA_TEXT.get(isas[0], isas[0])}: time an arm against the share held back", context)
+    curves = limits_of(times)
+    for (color, marker), limits in zip(STYLES, sorted({limits for limits, _ in curves})):
+        for kind, line in (("limited", "--"), ("infeasible", "-")):
+            axes.plot(*zip(*curves[limits, kind]), color=color, marker=marker, markersize=5, linestyle=line,
+                      label=f"{limits.replace('_', ' ').replace('+', ', ')}: {kind}")
+    axes.set_xlabel("% of limbs whose limits forbid the wish (limited) or every swivel (infeasible)")
+    axes.set_ylabel("nanoseconds an arm")
+    axes.set_ylim(bottom=0)
+    axes.legend(frameon=False, fontsize=9)
+    return figure
+
+
 def draw_roofline(plt, context, times, isas):
     roofline = roofline_of(context, times, isas)
     figure, axes = new_figure(plt, "Problem P under this machine's roofs", context)
@@ -109,8 +135,8 @@ def draw_roofline(plt, context, times, isas):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="plot.py", description="Draws speed.svg and roofline.svg from a result file of "
-                                                                 "swivel_bench.")
+    parser = argparse.ArgumentParser(prog="plot.py", description="Draws speed.svg, roofline.svg and limits.svg from a result file "
+                                                                 "of swivel_bench.")
     parser.add_argument("result", metavar="RESULT.json", help="a full run's result")
     parser.add_argument("--out", metavar="FOLDER", default=str(Path(__file__).resolve().parent.parent / "docs"),
                         help="where to write them (default: docs)")
@@ -120,6 +146,8 @@ def main(arguments):
         isas = context.get("isas", "").split()
         if not any(growth_of(times, isa) for isa in isas):
             raise Refused(f"{options.result}: no growth/ in it; run swivel_bench without a filter")
+        if not limits_of(times):
+            raise Refused(f"{options.result}: no limits/ in it; run swivel_bench without a filter")
         try:
             import matplotlib
         except ImportError as error:
@@ -128,7 +156,8 @@ def main(arguments):
         matplotlib.rcParams.update({"svg.hashsalt": "swivel", "svg.fonttype": "path", "font.family": "DejaVu Sans",
                                     "font.size": 10, "xtick.labelsize": 9, "ytick.labelsize": 9})
         from matplotlib import pyplot as plt
-        figures = {"speed.svg": draw_speed(plt, context, times, isas), "roofline.svg": draw_roofline(plt, context, times, isas)}
+        draws = {"speed.svg": draw_speed, "roofline.svg": draw_roofline, "limits.svg": draw_limits}
+        figures = {name: draw(plt, context, times, isas) for name, draw in draws.items()}
         for name, figure in figures.items():
             path = Path(options.out) / name
             figure.savefig(path, metadata={"Date": None, "Creator": None})

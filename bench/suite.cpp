@@ -13,8 +13,7 @@ swivel::Crowd& Crowds::get(swivel_features features, std::size_t arm_count)
     return crowds_.emplace(key, make_crowd(features, arm_count, limbs_)).first->second;
 }
 
-void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare,
-         std::size_t crowd_bytes)
+void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare, Notes notes)
 {
     auto* timed = benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
         const Work work = prepare();
@@ -28,22 +27,37 @@ void add(const std::string& name, std::size_t arm_count, Clock clock, std::funct
         state.counters["time/arm"] = {arms,
                                       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
         state.counters["arms"] = arms;
-        if (crowd_bytes > 0) state.counters["bytes/arm"] = static_cast<double>(crowd_bytes) / arms;
+        for (const auto& [note, value] : notes) state.counters[note] = value;
     });
     if (clock == Clock::wall) timed->UseRealTime();
 }
 
-void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,
-               std::size_t arm_count, std::size_t crowd_bytes)
+namespace {
+
+Work solve_here(swivel::Crowd& crowd, const std::string& isa)
 {
-    const auto prepare = [&suite, isa, features, arm_count]() -> Work {
-        swivel::check(swivel_use_isa(isa.c_str()));
-        swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
-        swivel_job job = swivel_default_job();
-        job.on_this_thread = 1;
-        return [&crowd, job] { swivel::check(swivel_solve(crowd.get(), &job)); };
+    swivel::check(swivel_use_isa(isa.c_str()));
+    swivel_job job = swivel_default_job();
+    job.on_this_thread = 1;
+    return [&crowd, job] { swivel::check(swivel_solve(crowd.get(), &job)); };
+}
+
+}  // namespace
+
+void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,
+               std::size_t arm_count, Notes notes)
+{
+    const auto prepare = [&suite, isa, features, arm_count] {
+        return solve_here(suite.crowds.get(features, arm_count), isa);
     };
-    add(name, arm_count, Clock::cpu, prepare, crowd_bytes);
+    add(name, arm_count, Clock::cpu, prepare, std::move(notes));
+}
+
+void add_solve(const std::string& name, const std::string& isa, std::shared_ptr<swivel::Crowd> crowd, Notes notes)
+{
+    const std::size_t arm_count = swivel_group_limb_count(crowd->get(), 0);
+    add(
+        name, arm_count, Clock::cpu, [isa, crowd] { return solve_here(*crowd, isa); }, std::move(notes));
 }
 
 }  // namespace bench

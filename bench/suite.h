@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the suite's files share: the machine, the crowds that several benchmarks solve, and how one is added. Names have
-// slashes, so that --benchmark_filter picks families: P/, features/, resident/, compact/, choice/, frame/, copy/,
-// threads/...
+// slashes, so that --benchmark_filter picks families: P/, hard/, read/, limits/, calls/, frame/, threads/...
 #pragma once
 
 #include <functional>
@@ -39,21 +38,25 @@ struct Suite {
 
 enum class Clock { cpu, wall };  // of the one thread that works; of several threads together
 using Work = std::function<void()>;
+using Notes = std::vector<std::pair<std::string, double>>;  // shown beside a time: "bytes/arm", 64
 
-// prepare is called at the start of every repetition; what it returns is timed. crowd_bytes: memory of the crowd, shown
-// by the arm; 0: not shown.
-void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare,
-         std::size_t crowd_bytes = 0);
-// A crowd solved by that instruction set on one thread.
+// prepare is called at the start of every repetition; what it returns is timed.
+void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare, Notes notes = {});
+// A crowd solved by that instruction set on one thread: one of the suite's, or one's own.
 void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,
-               std::size_t arm_count, std::size_t crowd_bytes = 0);
+               std::size_t arm_count, Notes notes = {});
+void add_solve(const std::string& name, const std::string& isa, std::shared_ptr<swivel::Crowd> crowd, Notes notes = {});
 
-// One for each family. Those with rivals also check what they are going to time; they throw if someone's results are
-// wrong.
+// One for each family. They also check what they are going to time, and throw if someone's results are wrong.
+void add_bounds(Suite& suite);
 void add_problem_p(Suite& suite);
+void add_hard(Suite& suite);
+void add_reading(Suite& suite);
 void add_features(Suite& suite);
+void add_limits(Suite& suite);
 void add_choice(Suite& suite);
 void add_frames(Suite& suite);
+void add_calls(Suite& suite);
 void add_copies(Suite& suite);
 void add_threads(Suite& suite);
 void add_growth(Suite& suite);

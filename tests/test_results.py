@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The scripts that read result files of swivel_bench, as people run them: bench/compare.py and bench/plot.py."""
+"""The scripts that read result files of swivel_bench, as people run them: compare.py, plot.py, tables.py, pages.py and in_turns.py. The
+page on speed shows its results."""
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -26,6 +28,8 @@ def result(ns, cpu="A"):
 def full_result():
     ns = {f"growth/{isa}/{10 ** n}": 10.0 + n for isa in ("avx2", "sse2") for n in range(8)}
     ns |= {f"P/{isa}/{level}": 5.0 for isa in ("avx2", "sse2") for level in LEVELS}
+    ns |= {"limits/full_arm/free/0/avx2": 4.0} | {f"limits/full_arm/{kind}/{share}/avx2": 4.0 + share for share in (5, 14, 50, 100)
+                                                  for kind in ("limited", "infeasible")}
     full = result(ns)
     full["context"] |= {f"copy_bytes_per_ns/{level}": "50" for level in LEVELS}
     full["context"] |= {"flops_per_ns/avx2": "100", "flops_per_ns/sse2": "50", "row_bytes": "60"}
@@ -82,8 +86,70 @@ class Scripts(unittest.TestCase):
         self.require_refused("compare.py", "not a result", self.file("list.json", "[]"), good)
         self.require_refused("compare.py", "no benchmark", self.file("empty.json", result({})), good)
         self.require_refused("plot.py", "no growth/", good)
-        for script in ("compare.py", "plot.py"):
+        self.require_refused("tables.py", "No such file", str(self.folder / "missing.json"))
+        self.require_refused("record.py", "not a name", "../elsewhere")
+        for script in ("compare.py", "plot.py", "tables.py", "pages.py", "record.py", "in_turns.py"):
             self.assertIn("usage:", self.run_script(script, "--help").stdout)
+
+    def test_tables(self):
+        ns = {"P/avx512/L2": 2.0, "P/avx2/L2": 3.0, "loop_trig/v4": 6.8, "loop_trig/v3": 6.0, "single_glm/v4": 1.5, "hand_staged/avx512": 1.9,
+              "P/avx512/memory": 3.0, "copy/P/memory": 2.4, "calls/here/avx512/16": 190.0, "calls/hand/avx512/16": 30.0,
+              "bound/avx512/divider": 1.3, "bound/avx512/arithmetic": 1.2, "bound/avx2/divider": 0.9, "bound/avx2/arithmetic": 1.0}
+        document = result(ns)
+        document["context"] |= {"isas": "avx512 avx2", "level_of/v4": "avx512", "level_of/v3": "avx2"}
+        run = self.run_script("tables.py", self.file("few.json", document))
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        rows = {tuple(re.split(r"  +", line)[:-2]): re.split(r"  +", line)[-2:] for line in run.stdout.splitlines()}
+        for row, end in {("P in cache", "AVX-512", "2.00", "loop with two acos", "6.80", "3.4"): ["3.3", "kept"],
+                         ("P in cache", "AVX2", "3.00", "loop with two acos", "6.00", "2.0"): ["3.3", "missed"],
+                         ("P in cache, AVX-512", "2.00", "bound of the ports", "1.30", "1.54"): ["1.6", "kept"],
+                         ("P in cache, AVX2", "3.00", "bound of the ports", "1.00", "3.00"): ["2", "missed"],
+                         ("P in cache, AVX-512", "2.00", "the same stages by hand", "1.90", "1.05"): ["1.05", "missed"],
+                         ("P out of cache, AVX-512", "3.00", "copy of its rows", "2.40", "1.25"): ["1.2", "missed"],
+                         ("16, AVX-512", "190", "30.0", "160", "150", "missed"): ["–", "–"]}.items():
+            self.assertEqual(rows.get(row), end, run.stdout)
+        self.assertNotIn("whole frame", run.stdout)  # it was not measured
+        # Without a goal, a rival that is faster is told; and a goal that the bound rules out is none.
+        document["benchmarks"] = result({"P/avx2/L2": 3.0, "loop_light/v3": 2.0, "loop_trig/v3": 6.0, "bound/avx2/divider": 2.0,
+                                         "bound/avx2/arithmetic": 1.0})["benchmarks"]
+        said = self.run_script("tables.py", self.file("less.json", document)).stdout
+        self.assertRegex(said, r"loop with one acos +2\.00 +0\.7 +– +\*\*swivel loses")
+        self.assertRegex(said, r"loop with two acos +6\.00 +2\.0 +–\n")
+
+    def test_pages(self):
+        (self.folder / "cpu.json").write_text(json.dumps(full_result()), encoding="utf-8")
+        page = self.file("page.md", "Text.\n\n<!-- bench: held cpu -->\nold\n<!-- bench end -->\n\nMore.\n")
+        options = ("--page", page, "--results", str(self.folder))
+        self.assertEqual(self.run_script("pages.py", "--check", *options).returncode, 1)
+        if importlib.util.find_spec("matplotlib"):
+            self.assertEqual(self.run_script("pages.py", *options).returncode, 0)
+            self.assertEqual(self.run_script("pages.py", "--check", *options).returncode, 0)
+            text = Path(page).read_text(encoding="utf-8")
+            self.assertIn("| full arm, limited | 4.00 | 9.00 | 18.0 | 54.0 | 104 |", text)
+            self.assertTrue(text.startswith("Text.\n\n<!-- bench: held cpu -->\n") and text.endswith("<!-- bench end -->\n\nMore.\n"))
+        for wrong, said in (("<!-- bench: none cpu -->\n<!-- bench end -->\n", "no table none"), ("<!-- bench: held cpu -->\n", "not well-formed"),
+                            ("<!-- bench: held gone -->\n<!-- bench end -->\n", "No such file")):
+            self.require_refused("pages.py", said, "--page", self.file("wrong.md", wrong), "--results", str(self.folder))
+
+    def test_the_page_on_speed_shows_its_results(self):
+        run = self.run_script("pages.py", "--check")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_in_turns(self):
+        binaries = []
+        for name, ns in (("old", 2.0), ("new", 2.1)):
+            path = self.folder / name
+            document = json.dumps(result({"P": ns, name: 1.0}))
+            path.write_text(f"#!{sys.executable}\nimport sys\n"
+                            "out = next(a for a in sys.argv if a.startswith('--benchmark_out='))\n"
+                            f"open(out.split('=')[1], 'w').write({document!r})\n", encoding="utf-8")
+            path.chmod(0o755)
+            binaries.append(str(path))
+        run = self.run_script("in_turns.py", *binaries, "--rounds", "2")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertRegex(run.stdout, r"P +2\.00 +2\.10 +1\.050 +1\.05 +1\.05  slower\n1 of 1 rows")
+        self.assertEqual(self.run_script("in_turns.py", *reversed(binaries), "--rounds", "1").returncode, 0)
+        self.require_refused("in_turns.py", "No such file", "/nowhere", binaries[0])
 
     @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "python3-matplotlib is not installed")
     def test_pictures(self):
@@ -92,7 +158,7 @@ class Scripts(unittest.TestCase):
         for _ in range(2):
             run = self.run_script("plot.py", path, "--out", str(self.folder))
             self.assertEqual(run.returncode, 0, run.stderr)
-            pictures.append([(self.folder / name).read_text(encoding="utf-8") for name in ("speed.svg", "roofline.svg")])
+            pictures.append([(self.folder / name).read_text(encoding="utf-8") for name in ("speed.svg", "roofline.svg", "limits.svg")])
         self.assertEqual(pictures[0], pictures[1])
         for picture in pictures[0]:
             self.assertIn("<svg", picture)

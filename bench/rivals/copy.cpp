@@ -54,4 +54,13 @@ void copy_rows(const float* input, std::size_t input_rows, float* results, std::
     finish_streams();
 }
 
+void read_rows(const float* results, std::size_t result_rows, std::size_t block_count)
+{
+    alignas(64) float place[kMostReadRows * kRow];
+    for (std::size_t block = 0; block < block_count; ++block, results += result_rows * kRow) {
+        for (std::size_t n = 0; n < result_rows * kRow; n += kWide) store(place + n, load(results + n));
+        asm volatile("" ::"r"(place) : "memory");  // every block is read
+    }
+}
+
 }  // namespace bench::SWIVEL_ISA

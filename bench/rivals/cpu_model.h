@@ -7,7 +7,8 @@
 
 namespace bench {
 
-// As Linux has it in /proc/cpuinfo; "unknown" where it says nothing.
+// As Linux has it in /proc/cpuinfo, with family and model, because virtual CPUs have names that say little: "AMD EPYC,
+// family 25, model 17". "unknown" where it says nothing.
 std::string cpu_model();
 
 }  // namespace bench

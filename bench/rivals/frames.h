@@ -44,4 +44,20 @@ struct FrameView {
     std::size_t character_count;
 };
 
+// What ozz-animation reads beside: the world matrices of the joints in the pose before, by columns, that pose's local
+// rotations, and the hinge of each elbow, about which a positive turn opens it.
+struct alignas(16) Matrix {
+    float columns[4][4];
+};
+struct CharacterModel {
+    struct {
+        Matrix shoulder, elbow, wrist;
+    } arm[kArms];
+};
+struct OzzView {
+    const CharacterModel* models;
+    const CharacterPose* before;
+    float mid_axes[kArms][4];
+};
+
 }  // namespace bench

@@ -19,6 +19,14 @@ constexpr const char* kTrig = "one arm at a time: no acos for vectors here";
 constexpr const char* kRoots = "vectorised by g++";
 #endif
 
+#ifdef SWIVEL_OZZ_FLAGS
+constexpr const char* kOzzFlags = SWIVEL_OZZ_FLAGS;
+constexpr auto kSolveFrameOzz = solve_frame_ozz;
+#else
+constexpr const char* kOzzFlags = nullptr;
+constexpr void (*kSolveFrameOzz)(const FrameView&, const OzzView&) = nullptr;
+#endif
+
 }  // namespace
 
 extern const Level level;
@@ -29,6 +37,9 @@ const Level level{SWIVEL_LEVEL_NAME,
                    {"loop_light", kTrig, solve_loop_light},
                    {"loop_roots", kRoots, solve_loop_roots}},
                   solve_single,
-                  solve_frame};
+                  solve_frame,
+                  touch_frame,
+                  kOzzFlags,
+                  kSolveFrameOzz};
 
 }  // namespace bench::SWIVEL_LEVEL

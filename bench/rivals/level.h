@@ -37,6 +37,9 @@ struct Level {
     Loop loops[3];      // trig, light, roots: see loop.cpp
     void (*solve_single)(const SingleArm* arms, SinglePose* poses, std::size_t count);
     void (*solve_frame)(const FrameView& frame);  // one arm at a time, too
+    void (*touch_frame)(const FrameView& frame);  // reads and writes the same fields, and solves nothing
+    const char* ozz_flags;                        // null, and so is the next one: built without SWIVEL_OZZ_DIR
+    void (*solve_frame_ozz)(const FrameView& frame, const OzzView& given);
 };
 
 // The levels that this CPU runs, widest first; none on x86 CPUs older than x86-64-v2.
@@ -52,6 +55,8 @@ void solve_loop_light(const Arms& arms, Poses& poses);
 void solve_loop_roots(const Arms& arms, Poses& poses);
 void solve_single(const SingleArm* arms, SinglePose* poses, std::size_t count);
 void solve_frame(const FrameView& frame);
+void touch_frame(const FrameView& frame);
+void solve_frame_ozz(const FrameView& frame, const OzzView& given);
 
 }  // namespace SWIVEL_LEVEL
 #endif

@@ -28,12 +28,49 @@ struct Random {
 };
 
 template <std::size_t N, class Make>
-void write(swivel::Crowd& crowd, std::uint32_t count, swivel_field field, Make make)
+void write(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, swivel_field field, Make make)
 {
     if (swivel_field_row_count(crowd.get(), field) == 0) return;
     std::vector<std::array<float, N>> values(count);
     for (std::array<float, N>& value : values) make(value.data());
-    crowd.write(field, 0, values);
+    crowd.write(field, 0, values, first);
+}
+
+void write_poses(swivel::Crowd& crowd, std::uint32_t count, Random& random)
+{
+    const auto rotation = [&](float* to) {
+        for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(random(-1, 1));
+        to[3] += 2;
+    };
+    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
+        write<4>(crowd, 0, count, q, rotation);
+    write<3>(crowd, 0, count, SWIVEL_WEIGHTS, [&](float* to) {
+        for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(random(0.5, 1));
+    });
+    write<2>(crowd, 0, count, SWIVEL_FLEXION_LIMIT, [&](float* to) {
+        swivel::check(swivel_flexion(random(0, 10) * kDegree, random(130, 160) * kDegree, to));
+    });
+}
+
+void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, double width, Random& random)
+{
+    const auto range = [&](float* to, double least, double most) {
+        const double middle = random(-20, 20), half = width * random(least, most);
+        swivel::check(swivel_range((middle - half) * kDegree, (middle + half) * kDegree, to));
+    };
+    const auto cone = [&](float* to) {
+        const double axis[] = {random(-0.5, 0.5), random(-0.5, 0.5), 1};
+        swivel::check(swivel_cone(axis, width * random(90, 130) * kDegree, to));
+    };
+    const auto box = [&](float* to) {
+        for (int angle = 0; angle < 3; ++angle) range(to + 4 * angle, 80, 140);
+    };
+    write<4>(crowd, first, count, SWIVEL_SHOULDER_CONE, cone);
+    write<4>(crowd, first, count, SWIVEL_HAND_CONE, cone);
+    write<4>(crowd, first, count, SWIVEL_HUMERAL_TWIST, [&](float* to) { range(to, 60, 120); });
+    write<4>(crowd, first, count, SWIVEL_FOREARM_TWIST, [&](float* to) { range(to, 60, 120); });
+    write<12>(crowd, first, count, SWIVEL_SHOULDER_BOX, box);
+    write<12>(crowd, first, count, SWIVEL_WRIST_BOX, box);
 }
 
 }  // namespace
@@ -41,35 +78,14 @@ void write(swivel::Crowd& crowd, std::uint32_t count, swivel_field field, Make m
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count)
 {
     Random random;
-    const auto range = [&](float* to, double least, double most) {
-        const double middle = random(-20, 20), half = random(least, most);
-        swivel::check(swivel_range((middle - half) * kDegree, (middle + half) * kDegree, to));
-    };
-    const auto cone = [&](float* to) {
-        const double axis[] = {random(-0.5, 0.5), random(-0.5, 0.5), 1};
-        swivel::check(swivel_cone(axis, random(90, 130) * kDegree, to));
-    };
-    const auto box = [&](float* to) {
-        for (int angle = 0; angle < 3; ++angle) range(to + 4 * angle, 80, 140);
-    };
-    const auto rotation = [&](float* to) {
-        for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(random(-1, 1));
-        to[3] += 2;
-    };
-    for (const swivel_field q : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
-        write<4>(crowd, count, q, rotation);
-    write<3>(crowd, count, SWIVEL_WEIGHTS, [&](float* to) {
-        for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(random(0.5, 1));
-    });
-    write<2>(crowd, count, SWIVEL_FLEXION_LIMIT, [&](float* to) {
-        swivel::check(swivel_flexion(random(0, 10) * kDegree, random(130, 160) * kDegree, to));
-    });
-    write<4>(crowd, count, SWIVEL_SHOULDER_CONE, cone);
-    write<4>(crowd, count, SWIVEL_HAND_CONE, cone);
-    write<4>(crowd, count, SWIVEL_HUMERAL_TWIST, [&](float* to) { range(to, 60, 120); });
-    write<4>(crowd, count, SWIVEL_FOREARM_TWIST, [&](float* to) { range(to, 60, 120); });
-    write<12>(crowd, count, SWIVEL_SHOULDER_BOX, box);
-    write<12>(crowd, count, SWIVEL_WRIST_BOX, box);
+    write_poses(crowd, count, random);
+    write_limits(crowd, 0, count, 1, random);
+}
+
+void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, double width)
+{
+    Random random;
+    write_limits(crowd, first, count, width, random);
 }
 
 }  // namespace bench

@@ -39,6 +39,8 @@ inline constexpr swivel_features kFullArm = SWIVEL_WORLD | SWIVEL_WITH_HAND | SW
                                             SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_SHOULDER_CONE;
 // Incoming poses, weights and limits of the first limbs of a crowd, where it has them.
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count);
+// Other limits for some of them, with half-widths so many times as large.
+void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, double width);
 
 // A crowd of one group with all inputs written; limbs repeat where the crowd is larger than they are.
 swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs);

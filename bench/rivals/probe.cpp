@@ -82,7 +82,8 @@ void divide_and_root(std::size_t count)
 #define SWIVEL_NAME(isa) SWIVEL_NAME_OF(isa)
 
 extern const Probe probe;
-const Probe probe{SWIVEL_NAME(SWIVEL_ISA), kWide, multiply_add,  divide,    root_only,
-                  divide_and_root,         copy,  copy_streamed, copy_rows, solve_by_hand};
+const Probe probe{SWIVEL_NAME(SWIVEL_ISA), kWide,          multiply_add,  divide,    root_only,
+                  divide_and_root,         copy,           copy_streamed, copy_rows, read_rows,
+                  solve_by_hand,           solve_by_stages};
 
 }  // namespace bench::SWIVEL_ISA

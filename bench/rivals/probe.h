@@ -23,10 +23,16 @@ struct Probe {
     // which there are no more, past the caches.
     void (*copy_rows)(const float* input, std::size_t input_rows, float* results, std::size_t result_rows,
                       std::size_t block_count);
-    // Problem P for the rows of a crowd without features, by hand (hand.cpp). False if one of the arms is out of the
-    // ordinary: then its step's results mean nothing.
+    // What a reader of results does at least: copies each block's rows to the same place, which stays in the nearest
+    // cache.
+    void (*read_rows)(const float* results, std::size_t result_rows, std::size_t block_count);
+    // Problem P for the rows of a crowd without features, by hand (hand.cpp): an arm's whole formula at once, or in
+    // three stages over strips of blocks. False if one of the arms is out of the ordinary: then its step's results mean
+    // nothing.
     bool (*solve_by_hand)(const float* input, float* results, std::size_t block_count);
+    bool (*solve_by_stages)(const float* input, float* results, std::size_t block_count);
 };
+inline constexpr std::size_t kMostReadRows = 16;  // by read_rows
 
 // Of an instruction set that swivel_isa_at() names.
 const Probe& probe_of(const char* isa);
@@ -42,7 +48,9 @@ void copy(const float* from, float* to, std::size_t count);
 void copy_streamed(const float* from, float* to, std::size_t count);
 void copy_rows(const float* input, std::size_t input_rows, float* results, std::size_t result_rows,
                std::size_t block_count);
+void read_rows(const float* results, std::size_t result_rows, std::size_t block_count);
 bool solve_by_hand(const float* input, float* results, std::size_t block_count);
+bool solve_by_stages(const float* input, float* results, std::size_t block_count);
 
 }  // namespace SWIVEL_ISA
 #endif

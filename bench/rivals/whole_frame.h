@@ -19,6 +19,8 @@ public:
 
     std::size_t arm_count() const { return kArms * world_.size(); }
     FrameView view() { return {world_.data(), goals_.data(), local_.data(), rigs_.data(), world_.size()}; }
+    swivel::Crowd& crowd() { return crowd_; }
+    const std::array<swivel_frame, kArms>& frames() const { return frames_; }
 
     // On this thread:
     void write();  // positions of wrists and poles, parents' frames; lengths are in the rows since the beginning
@@ -32,8 +34,6 @@ public:
         crowd_.solve(
             {.blocks = swivel_blocks{0, swivel_block_count(crowd_.get())}, .frames = frames_, .on_this_thread = true});
     }
-    // The last on the arena's threads.
-    void solve_on_threads() { crowd_.solve({.frames = frames_}); }
 
     // By forward kinematics from the pose buffer: the worst error of the wrists well within reach, in arm lengths;
     // infinite for a NaN.

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// How many limbs of a crowd their limits hold back, and crowds with a wanted share of them.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "bench/suite.h"
+
+namespace bench {
+
+enum class Held {
+    free,        // the limits allow the swivel that is wished for
+    limited,     // they forbid it and allow another one
+    infeasible,  // they allow none
+};
+inline constexpr std::array<const char*, 3> kHeldNames{"free", "limited", "infeasible"};
+
+// Of the flags of a limb. A flexion limit does not count: it holds back the wrist, not the swivel.
+Held held_of(std::uint32_t flags);
+// The shares of limbs that are limited and infeasible, by the flags of the last solve.
+Notes shares_of(const swivel::Crowd& crowd);
+
+// Solved limbs of every kind.
+struct Pool {
+    swivel_features features;
+    swivel::Crowd crowd;
+    std::array<std::vector<std::uint32_t>, 3> limbs;  // by kind
+};
+Pool make_pool(swivel_features features, const std::string& isa);
+
+// Crowds of limbs from the pool: this share is of that kind, the others are free. They are in no order.
+std::shared_ptr<swivel::Crowd> mixed_crowd(const Pool& pool, std::size_t arm_count, Held kind, double share);
+
+}  // namespace bench
