@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/arm.h"
+#include "core/frame_rotor.h"
 #include "core/limits.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -48,11 +49,12 @@ struct JointLimits {
     Range<T> shoulder_box[3], wrist_box[3];  // first, middle, last
 };
 
-// The arm that swivels: shoulder rotor = from_line * (cos(phi/2) + sin(phi/2) k) * to_arm, the two of any length.
+// The arm that swivels about a line. The line's frame has e3 along it, and e1 along the swivel plane's normal at phi =
+// 0.
 template <class T, class Lift>
 struct SwivellingArm {
-    Rotor<T> from_line;  // carries the line's frame to the arm frame
-    Lift to_arm;         // the arm's pose in the line's frame at phi = 0
+    Vector<T> line, normal;  // unit and orthogonal
+    Lift to_arm;             // the arm's pose in the line's frame at phi = 0, of any length
     Hinge<T> elbow;
     Rotor<T> hand;  // orientation, in the arm frame
 };
@@ -76,15 +78,17 @@ template <class T, class Lift>
 SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
                                                       const SwivellingArm<T, Lift>& arm)
 {
-    constexpr BladeSet rotors = Rotor<T>::set;
     const auto e3 = unit<T, kE3>();
     const auto k = unit<T, kK>();
-    const Rotor<T>& from_line = arm.from_line;
     const Lift& to_arm = arm.to_arm;
-    // Each of the rotors also scales a vector by the square of its length, and appears twice in a twist's products.
-    const T per_size = T(1) / (len2(from_line) * len2(to_arm));
+    const Vector<T> side = cross(arm.line, arm.normal);
+    const auto in_line = [&](const auto& v) SWIVEL_INLINE_LAMBDA {
+        return vector(scalar_product(arm.normal, v), scalar_product(side, v), scalar_product(arm.line, v));
+    };
+    // What moves with the arm is as much longer as to_arm's square.
+    const T per_size = T(1) / len2(to_arm);
     const auto cosine = [&](const Vector<T>& fixed, const auto& moving)
-                            SWIVEL_INLINE_LAMBDA { return per_size * inner(fixed, widen<Vector<T>::set>(moving)); };
+                            SWIVEL_INLINE_LAMBDA { return per_size * inner(fixed, moving); };
     SwivelLimits<T> out;
     const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
         out.line_flag[out.limits.line_count] = flag;
@@ -95,59 +99,57 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
         out.limits.box[out.limits.box_count++] = box;
     };
 
+    // The entries of the matrix whose rows are fixed axes, and whose columns turn with the arm.
+    const auto matrix = [&](const Vector<T>& row1, const Vector<T>& row2, const Vector<T>& row3, const auto& turning)
+                            SWIVEL_INLINE_LAMBDA {
+                                const auto column1 = sandwich(turning, unit<T, kE1>());
+                                const auto column2 = sandwich(turning, unit<T, kE2>());
+                                const auto column3 = sandwich(turning, unit<T, kE3>());
+                                return [=](int row, int column) SWIVEL_INLINE_LAMBDA {
+                                    const Vector<T>& fixed = row == 0 ? row1 : row == 1 ? row2 : row3;
+                                    if (column == 0) return cosine(fixed, column1);
+                                    return column == 1 ? cosine(fixed, column2) : cosine(fixed, column3);
+                                };
+                            };
+
     if (use.shoulder_cone)
-        add(cone_limit(cosine(sandwich(~from_line, limits.shoulder_cone.axis), sandwich(to_arm, e3)),
+        add(cone_limit(cosine(in_line(limits.shoulder_cone.axis), sandwich(to_arm, e3)),
                        limits.shoulder_cone.cos_opening),
             flag::limited_shoulder_cone);
-    if (use.humeral_twist) {
-        const Rotor<T> at_0 = from_line * to_arm, at_pi = from_line * k * to_arm;
-        add(per_size * twist_limit(OnHalfCircle<T>{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
-                                   OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()},
-                                   limits.humeral_twist),
-            flag::limited_humeral_twist);
+    if (use.humeral_twist || use.shoulder_box) {
+        const auto entry = matrix(in_line(unit<T, kE1>()), in_line(unit<T, kE2>()), in_line(unit<T, kE3>()), to_arm);
+        if (use.humeral_twist) add(twist_limit(entry, limits.humeral_twist), flag::limited_humeral_twist);
+        if (use.shoulder_box)
+            add_box(euler_box<T>(use.shoulder_order, entry, limits.shoulder_box[0], limits.shoulder_box[1],
+                                 limits.shoulder_box[2]),
+                    flag::limited_shoulder_box);
     }
-    const auto matrix_entry = [&](const Turn<T>& fixed, const Turn<T>& moving) SWIVEL_INLINE_LAMBDA {
-        return [=, &cosine](int row, int column) SWIVEL_INLINE_LAMBDA {
-            const auto axis = [](const Turn<T>& turn, int n) SWIVEL_INLINE_LAMBDA {
-                return n == 0 ? turn.e1 : n == 1 ? turn.e2 : turn.e3;
-            };
-            return cosine(axis(fixed, row), axis(moving, column));
-        };
-    };
-    if (use.shoulder_box)
-        add_box(euler_box<T>(use.shoulder_order, matrix_entry(turn_by(~from_line), turn_by(widen<rotors>(to_arm))),
-                             limits.shoulder_box[0], limits.shoulder_box[1], limits.shoulder_box[2]),
-                flag::limited_shoulder_box);
     if (!(use.hand_cone || use.forearm_twist || use.hand_twist || use.wrist_box)) return out;
 
     // The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
     const auto forearm = to_arm * arm.elbow;
-    const Rotor<T> hand = ~from_line * arm.hand;
     if (use.hand_cone)
-        add(cone_limit(cosine(sandwich(hand, limits.hand_cone.axis), sandwich(forearm, e3)),
+        add(cone_limit(cosine(in_line(sandwich(arm.hand, limits.hand_cone.axis)), sandwich(forearm, e3)),
                        limits.hand_cone.cos_opening),
             flag::limited_hand_cone);
-    if (use.forearm_twist || use.hand_twist) {
-        const Rotor<T> at_0 = ~forearm * hand, at_pi = ~forearm * ~k * hand;
-        const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()};
-        if (use.forearm_twist)
-            add(per_size * twist_limit(w, OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()},
-                                       limits.forearm_twist),
-                flag::limited_forearm_twist);
-        if (use.hand_twist)
-            add(per_size *
-                    twist_limit(
-                        w, OnHalfCircle<T>{about(limits.hand_twist.axis, at_0), about(limits.hand_twist.axis, at_pi)},
-                        limits.hand_twist.range),
-                flag::limited_hand_twist);
+    // Its matrix has the forearm's axes in its rows, so what moves belongs to the row.
+    if (use.forearm_twist || use.wrist_box) {
+        const Turn<T> hand = turn_by(arm.hand);
+        const auto transposed = matrix(in_line(hand.e1), in_line(hand.e2), in_line(hand.e3), forearm);
+        const auto entry = [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); };
+        if (use.forearm_twist) add(twist_limit(entry, limits.forearm_twist), flag::limited_forearm_twist);
+        if (use.wrist_box)
+            add_box(euler_box<T>(use.wrist_order, entry, limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),
+                    flag::limited_wrist_box);
     }
-    // Its matrix has the forearm's axes in its rows, so the moving vector belongs to the row.
-    if (use.wrist_box) {
-        const auto transposed = matrix_entry(turn_by(hand), turn_by(widen<rotors>(forearm)));
-        add_box(euler_box<T>(
-                    use.wrist_order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); },
-                    limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),
-                flag::limited_wrist_box);
+    if (use.hand_twist) {
+        const Rotor<T> from_line = frame_along(arm.line, arm.normal);
+        const Rotor<T> at_0 = ~forearm * ~from_line * arm.hand, at_pi = ~forearm * ~k * ~from_line * arm.hand;
+        const Vector<T>& axis = limits.hand_twist.axis;
+        add((per_size / len2(from_line)) *
+                twist_limit(OnHalfCircle<T>{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
+                            OnHalfCircle<T>{about(axis, at_0), about(axis, at_pi)}, limits.hand_twist.range),
+            flag::limited_hand_twist);
     }
     return out;
 }

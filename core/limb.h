@@ -127,9 +127,8 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
         limb.flags = limb.flags | bits_where(limb.step.limited, flag::limited_step);
     }
 
-    // Steps 3 to 5: the frame along the line, its e1 the swivel plane's normal.
     const Hinge<T> elbow = hinge(limb.bones.cos_half, -limb.bones.sin_half);
-    limb.arm = {frame_along(limb.line, limb.normal), limb.bones.lift, elbow, wrist.hand};
+    limb.arm = {limb.line, limb.normal, limb.bones.lift, elbow, wrist.hand};
     return limb;
 }
 
@@ -140,7 +139,6 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
 {
     const Mask<T> valid = good & is_valid(use, goal);
     const auto limb = place_limb<Aims>(use, goal);
-    Rotor<T> shoulder = limb.arm.from_line * limb.arm.to_arm;
     Vector<T> normal = limb.normal;
     Bits<T> flags = limb.flags;
     SolvedLimb<T> pose;
@@ -150,14 +148,14 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
         const ChosenSwivel<T> chosen = choose_swivel<Searches>(limits.limits);
         if constexpr (!Searches) pose.settled = chosen.allowed | !valid;
         flags = flags | broken(limits) | bits_where(!chosen.allowed, flag::infeasible);
-        shoulder = limb.arm.from_line * half_turn(chosen.swivel) * limb.arm.to_arm;
         normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);
         if (use.continuity) {
             const Mask<T> beyond = is_beyond(limb.step.previous, normal, limb.line, goal.continuity.most, 1e-6);
             flags = flags | bits_where(limb.step.has_previous & beyond, flag::jumped);
         }
     }
-    shoulder = normalise(shoulder);
+    // Steps 3 to 5: the frame along the line, its e1 the swivel plane's normal.
+    const Rotor<T> shoulder = normalise(frame_along(limb.line, normal) * limb.arm.to_arm);
 
     pose.arm = {select(valid, shoulder, one<T>()), select(valid, limb.bones.cos_half, T(1)),
                 select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(flag::bad_input)), valid};

@@ -25,16 +25,6 @@ SWIVEL_INLINE constexpr Turned<T> select(const Mask<T>& mask, const Turned<T>& a
     return {select(mask, a.cos, b.cos), select(mask, a.sin, b.sin)};
 }
 
-// A turn's half along the rotor first + second k, times a positive number.
-template <class T>
-SWIVEL_INLINE constexpr auto half_turn(const Turned<T>& turn)
-{
-    const T large = T(1) + abs(turn.cos);
-    const Mask<T> obtuse = turn.cos < T(0);
-    return select(obtuse, abs(turn.sin), large) * unit<T, kScalar>() +
-           select(obtuse, copysign(large, turn.sin), turn.sin) * unit<T, kK>();
-}
-
 // A number that goes as a cos phi + b sin phi + c.
 template <class T>
 struct OnCircle {
@@ -63,13 +53,23 @@ SWIVEL_INLINE constexpr OnCircle<T> constant(const T& c)
     return {T(0), T(0), c};
 }
 
-// fixed . moving, both as the line's frame has them at phi = 0; only moving turns.
-template <class T>
-SWIVEL_INLINE constexpr OnCircle<T> inner(const Vector<T>& fixed, const Vector<T>& moving)
+// fixed . moving, both as the line's frame has them at phi = 0; only moving turns. It may lack e1, or e2 and e3.
+template <class T, BladeSet S>
+SWIVEL_INLINE constexpr OnCircle<T> inner(const Vector<T>& fixed, const Mv<T, S>& moving)
 {
-    const T f1 = fixed.template at<kE1>(), f2 = fixed.template at<kE2>(), f3 = fixed.template at<kE3>();
-    const T m1 = moving.template at<kE1>(), m2 = moving.template at<kE2>(), m3 = moving.template at<kE3>();
-    return {f1 * m1 + f2 * m2, f2 * m1 - f1 * m2, f3 * m3};
+    const T f1 = fixed.template at<kE1>(), f2 = fixed.template at<kE2>();
+    if constexpr (S == blades(kE1)) {
+        const T m1 = moving.template at<kE1>();
+        return {f1 * m1, f2 * m1, T(0)};
+    } else {
+        const T m2 = moving.template at<kE2>(), c = fixed.template at<kE3>() * moving.template at<kE3>();
+        if constexpr (S == blades(kE2, kE3))
+            return {f2 * m2, -(f1 * m2), c};
+        else {
+            const T m1 = moving.template at<kE1>();
+            return {f1 * m1 + f2 * m2, f2 * m1 - f1 * m2, c};
+        }
+    }
 }
 
 // A rotor component that goes as at_0 cos(phi/2) + at_pi sin(phi/2), and the product of two.

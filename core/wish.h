@@ -33,37 +33,38 @@ template <class T>
 SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const LimbGoal<T>& goal,
                                                       const Vector<T>& line)
 {
-    const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
     // Whether a direction of this squared length says where the elbow goes. Its part across the line is then the
     // normal.
     const auto is_off = [](const Vector<T>& normal, const T& of2)
                             SWIVEL_INLINE_LAMBDA { return len2(normal) > T(kPoleOff * kPoleOff) * of2; };
-    // The stand-ins, the best last.
-    Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
-    Mask<T> kept = T(1) < T(0);
-    const auto prefer = [&](const Vector<T>& normal, const Mask<T>& off) SWIVEL_INLINE_LAMBDA {
-        kept = kept | off;
-        instead = select(off, normal, instead);
-    };
-    Vector<T> was = instead;
-    Mask<T> was_off = kept;
+    Vector<T> was = vector(T(0), T(0), T(0));
+    Mask<T> was_off = T(1) < T(0);
     if (use.incoming) {
         const T length2 = len2(goal.incoming.shoulder);
         was = across(sandwich(goal.incoming.shoulder, unit<T, kE1>()), line);
         was_off = is_off(was, length2 * length2);
-        prefer(was, was_off);
-    }
-    if (use.continuity) {
-        const Vector<T> previous = across(goal.continuity.previous_normal, line);
-        prefer(previous, is_off(previous, T(1)));
     }
 
-    const Vector<T> pole = use.wish == Wish::incoming ? was : scaled(goal.arm.pole);
-    const Vector<T> wish = use.wish == Wish::pole ? cross(line, pole) : pole;
-    Mask<T> says = was_off;
-    if (use.wish != Wish::incoming) says = is_off(across(wish, line), len2(pole)) & (len2(goal.arm.pole) >= T(kTiny2));
+    Vector<T> normal = was;  // of any length until the end
+    Mask<T> says = was_off, kept = was_off;
+    if (use.wish != Wish::incoming) {
+        const Vector<T> pole = scaled(goal.arm.pole);
+        normal = across(use.wish == Wish::pole ? cross(line, pole) : pole, line);
+        says = is_off(normal, len2(pole)) & (len2(goal.arm.pole) >= T(kTiny2));
+    }
     const Mask<T> undefined = !says;
-    Vector<T> normal = across(select(undefined, instead, wish), line);  // of any length until the end
+    if (any(undefined)) {  // the stand-ins, the best last
+        const Vector<T> hinge = vector(T(1), T(0), T(0)), other = vector(T(0), T(1), T(0));
+        Vector<T> instead = select(is_off(across(hinge, line), T(1)), across(hinge, line), across(other, line));
+        if (use.incoming) instead = select(was_off, was, instead);
+        if (use.continuity) {
+            const Vector<T> previous = across(goal.continuity.previous_normal, line);
+            const Mask<T> off = is_off(previous, T(1));
+            kept = kept | off;
+            instead = select(off, previous, instead);
+        }
+        normal = select(undefined, across(instead, line), normal);
+    }
     if (use.angle) {  // where the elbow stays as it was, the angle is in that already
         const Vector<T> turned = scaled(goal.angle.cos * normal + goal.angle.sin * cross(line, normal));
         normal = select(undefined & kept, normal, turned);

@@ -14,17 +14,39 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
+// Sets of features that are compiled as constants, because both are common and gain a third: a cone with a twist, and a
+// whole arm. All others are told at run time.
+inline constexpr FeatureSet kToldFeatures = 0, kConeAndTwist = feature::shoulder_cone | feature::humeral_twist,
+                            kWholeArm = feature::world | feature::hand | feature::incoming | feature::weights |
+                                        feature::flexion_limit | feature::shoulder_cone;
+
+template <FeatureSet Features>
+SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
+{
+    return Features == kToldFeatures ? run.features : Features;
+}
+template <FeatureSet Features>
+struct FirstRows {
+    std::uint32_t row[kFieldCount];
+    constexpr FirstRows()
+    {
+        for (std::size_t n = 0; n < kFieldCount; ++n) row[n] = field_first_row(Features, static_cast<Field>(n));
+    }
+};
+
 // The rows of one step of T's lanes, which lie in one block.
-template <class T>
+template <class T, FeatureSet Features>
 struct LimbRows {
     const SolveRun& run;
     const float* input;
     float* results;
 
-    SWIVEL_INLINE bool has(FeatureSet features) const { return (run.features & features) != 0; }
+    SWIVEL_INLINE bool has(FeatureSet features) const { return (features_of<Features>(run) & features) != 0; }
     SWIVEL_INLINE std::uint32_t row(Field field, int component) const
     {
-        return run.first_row[index_of(field)] + static_cast<std::uint32_t>(component);
+        constexpr FirstRows<Features> first;
+        const std::size_t n = index_of(field);
+        return (Features == kToldFeatures ? run.first_row[n] : first.row[n]) + static_cast<std::uint32_t>(component);
     }
     SWIVEL_INLINE T load(Field field, int component) const { return lanes(input, row(field, component)); }
     SWIVEL_INLINE T load_result(Field field, int component) const { return lanes(results, row(field, component)); }
@@ -66,9 +88,11 @@ struct LimbRows {
 };
 
 // What a crowd's features make the formula use.
-inline LimbUse limb_use(const SolveRun& run)
+template <FeatureSet Features>
+SWIVEL_INLINE LimbUse limb_use(const SolveRun& run)
 {
-    const auto has = [&](FeatureSet feature) { return (run.features & feature) != 0; };
+    const auto has = [&](FeatureSet feature)
+                         SWIVEL_INLINE_LAMBDA { return (features_of<Features>(run) & feature) != 0; };
     LimbUse use;
     use.hand = has(feature::hand);
     use.effector = has(feature::effector);
@@ -99,11 +123,11 @@ struct LimbBinding {
     Rotor<T> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
     Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
 };
-template <class T>
+template <class T, FeatureSet Features>
 SWIVEL_INLINE LimbBinding<T> limb_binding(const SolveRun& run)
 {
     const Rotor<T> q = one<T>();
-    if (!(run.features & feature::joints)) return {q, q, q, q, q, q, q, q, q};
+    if (!(features_of<Features>(run) & feature::joints)) return {q, q, q, q, q, q, q, q, q};
     const RestFrames& b = *run.frames;
     const Rotor<T> wrist_parent = broadcast<T>(b.wrist_parent_from_arm), wrist_rest = broadcast<T>(b.wrist_rest);
     return {broadcast<T>(b.parent_from_arm),
@@ -117,8 +141,8 @@ SWIVEL_INLINE LimbBinding<T> limb_binding(const SolveRun& run)
             wrist_rest};
 }
 
-template <class T>
-SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T>& rows)
+template <class T, FeatureSet Features>
+SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T, Features>& rows)
 {
     JointLimits<T> limits;
     if (use.flexion) limits.flexion = {rows.load(Field::flexion_limit, 0), rows.load(Field::flexion_limit, 1)};
@@ -144,8 +168,8 @@ struct LimbEntry {
 };
 
 // Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
-template <class T>
-SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
+template <class T, FeatureSet Features>
+SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows,
                                  bool pole_is_point, LimbGoal<T>& goal, LimbEntry<T>& entry)
 {
     const Vector<T> bone = sandwich(~bind.parent_from_arm, rows.load_vector(Field::clavicle));
@@ -160,8 +184,8 @@ SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const LimbBinding<T>& bind,
 }
 
 // Loads a goal as the formula takes it; what is not used stays as it is.
-template <class T>
-SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
+template <class T, FeatureSet Features>
+SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows,
                                      LimbGoal<T>& goal)
 {
     LimbEntry<T> entry;
@@ -221,8 +245,8 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
     return entry;
 }
 
-template <class T>
-SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows,
+template <class T, FeatureSet Features>
+SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows,
                               const LimbEntry<T>& entry, const SolvedLimb<T>& pose)
 {
     const auto store = [&](Field field, Field incoming, const Rotor<T>& q, const Rotor<T>& rest) SWIVEL_INLINE_LAMBDA {
@@ -246,7 +270,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
     if (use.hand)
         store(Field::wrist, Field::incoming_wrist,
               joints ? bind.wrist_parent_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist, bind.wrist_rest);
-    if (const int bones = static_cast<int>(twist_bone_count(rows.run.features)); bones > 0) {
+    if (const int bones = static_cast<int>(twist_bone_count(features_of<Features>(rows.run))); bones > 0) {
         const Turned<T> twist = twist_rotor(pose.wrist);
         for (int n = 0; n < bones; ++n) {
             const Turned<T> share = shared_twist(twist, (n + 1.0) / (bones + 1.0));
@@ -271,17 +295,20 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
 }
 
 // The rows of the step that starts with a limb of a run.
-template <class T>
-SWIVEL_INLINE LimbRows<T> rows_of(const SolveRun& run, std::size_t limb)
+template <class T, FeatureSet Features>
+SWIVEL_INLINE LimbRows<T, Features> rows_of(const SolveRun& run, std::size_t limb)
 {
-    return {run, run.input + row_offset(limb, run.input_row_count, 0),
-            run.results ? run.results + row_offset(limb, run.result_row_count, 0) : nullptr};
+    const bool told = Features == kToldFeatures;
+    const std::uint32_t inputs = told ? run.input_row_count : input_row_count(Features);
+    const std::uint32_t results = told ? run.result_row_count : result_row_count(Features);
+    return {run, run.input + row_offset(limb, inputs, 0),
+            run.results ? run.results + row_offset(limb, results, 0) : nullptr};
 }
 
 // Solves one step. Where it returns false, the limits allow no swivel and Searches is false, so the results mean
 // nothing.
-template <bool Aims, bool Searches, class T>
-SWIVEL_INLINE Mask<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T>& rows)
+template <bool Aims, bool Searches, class T, FeatureSet Features>
+SWIVEL_INLINE Mask<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows)
 {
     LimbGoal<T> goal;
     const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
