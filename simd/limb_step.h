@@ -203,13 +203,15 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
                                     rows.load(Field::parent_scale, 0)};
         entry.valid =
             entry.valid & is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
-        const Rotor<T> arm_from_world = ~(joints ? parent.rotation * bind.parent_from_arm : parent.rotation);
-        const Turn<T> turn = turn_by(arm_from_world);
-        const T shrink = T(1) / (parent.scale * turn.length2);
+        // The arm frame goes with the parent.
+        const Rotor<T> rotation = joints ? parent.rotation * bind.parent_from_arm : parent.rotation;
         const bool pole_is_point = use.wish == Wish::pole && !rows.has(feature::pole_direction);
-        goal.arm.wrist = shrink * turn(goal.arm.wrist - parent.position);
-        goal.arm.pole = shrink * turn(pole_is_point ? goal.arm.pole - parent.position : goal.arm.pole);
-        if (use.hand && !use.aim) goal.hand = arm_from_world * goal.hand;
+        const SeenGoal<T> seen = seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, goal.arm.wrist,
+                                         goal.arm.pole, T(pole_is_point));
+        const T shrink = T(1) / seen.size;
+        goal.arm.wrist = shrink * seen.wrist;
+        goal.arm.pole = shrink * seen.pole;
+        if (use.hand && !use.aim) goal.hand = ~rotation * goal.hand;
         if (rows.has(feature::clavicle)) turn_clavicle(use, bind, rows, pole_is_point, goal, entry);
     }
     if (use.hand && joints)
