@@ -9,6 +9,7 @@
 
 #include "batch/swivel.h"
 #include "simd/kernels.h"
+#include "simd/rows.h"
 
 namespace swivel {
 
@@ -39,6 +40,12 @@ struct swivel_crowd {
 };
 
 namespace swivel {
+
+// Bytes of a block's rows, from the counts that the crowd keeps: jobs ask for this in each call.
+inline std::size_t block_bytes(const swivel_crowd& crowd)
+{
+    return crowd.input_row_count * kInputRowBytes + crowd.result_row_count * result_row_bytes(crowd.features);
+}
 
 // Words of one bit for each lane.
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }

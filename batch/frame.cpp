@@ -33,7 +33,7 @@ constexpr std::uint32_t kCrowdedBlocks = 2;
 // Blocks of each group in a round.
 std::uint32_t run_blocks(const Work& work, std::uint32_t group_count)
 {
-    return work.mask ? kChosenRunBlocks : kRoundBlocks / group_count;
+    return (work.mask ? kChosenRunBlocks : kRoundBlocks) / group_count;
 }
 
 // Streams of a frame that has every field.
@@ -101,7 +101,7 @@ void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks 
 struct Share {
     const Group* group;
     Blocks blocks;
-    std::uint32_t few;  // blocks that are copied at a time
+    std::uint32_t copied_blocks;  // at a time
     Stream streams[kMostStreams];
     Stream *in_end, *out_end;  // inputs come first
 
@@ -126,7 +126,7 @@ struct Share {
         const bool is_crowded = std::any_of(streams, out_end, [](const Stream& stream) {
             return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
         });
-        few = is_crowded ? kCrowdedBlocks : run;
+        copied_blocks = is_crowded ? kCrowdedBlocks : run;
     }
     void read(std::size_t first, std::size_t limb_count) const { copy(streams, in_end, first, limb_count); }
     void write(std::size_t first, std::size_t limb_count) const { copy(in_end, out_end, first, limb_count); }
@@ -171,8 +171,8 @@ private:
     void copy_run(const Share& share, std::uint32_t block, std::uint32_t block_count,
                   void (Share::*copy)(std::size_t, std::size_t) const) const
     {
-        for (std::uint32_t done = 0; done < block_count; done += share.few)
-            for_each_limbs(*share.group, work.mask, block + done, std::min(share.few, block_count - done),
+        for (std::uint32_t done = 0; done < block_count; done += share.copied_blocks)
+            for_each_limbs(*share.group, work.mask, block + done, std::min(share.copied_blocks, block_count - done),
                            [&](std::size_t limb, std::size_t limb_count) { (share.*copy)(limb, limb_count); });
     }
 };

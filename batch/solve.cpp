@@ -33,6 +33,7 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* inpu
             block_count,
             crowd.input_row_count,
             result_row_count(crowd.features & ~feature::compact),
+            std::size_t{block_count} * SWIVEL_LANES,
             crowd.features,
             static_cast<std::uint32_t>(crowd.shoulder_order),
             static_cast<std::uint32_t>(crowd.wrist_order),
@@ -85,7 +86,7 @@ void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group&
 
 bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
 {
-    return block_count * block_bytes(crowd.features) > kCachedBytes;
+    return block_count * block_bytes(crowd) > kCachedBytes;
 }
 
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,

@@ -24,7 +24,7 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
 }
 
 // These solve blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv).
-// - solve_group: every limb. from_memory: the rows are not in a cache.
+// - solve_group: every limb. from_memory: the job's rows do not fit the caches.
 // - solve_chosen_group: the limbs whose bits are set in mask, which has one bit for each lane of the crowd. Bits of
 //   padding lanes are ignored. Other limbs keep their results.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
@@ -45,7 +45,7 @@ void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* r
                std::uint32_t block_count);
 
 // Checked members of a swivel_job. mask: which limbs are solved, null for all. frames: where values come from, null for
-// rows. from_memory: the rows of all blocks do not fit the caches.
+// rows. from_memory: the job's rows do not fit the caches.
 struct Work {
     const std::uint32_t* mask = nullptr;
     const swivel_frame* frames = nullptr;

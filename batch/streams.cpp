@@ -89,7 +89,7 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
 }
 
 // Of the field with the most components.
-constexpr std::uint32_t kMostStreams = stream_count(field_row_count(kEveryFeature, Field::twist_bones));
+constexpr std::uint32_t kMostFieldStreams = stream_count(field_row_count(kEveryFeature, Field::twist_bones));
 
 // Long values go four components at a time.
 template <template <std::size_t> class Copy>
@@ -152,7 +152,7 @@ void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_
 
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
-    Stream all[kMostStreams];
+    Stream all[kMostFieldStreams];
     copy(all, streams_in(rows, first, values, all), first, limb_count);
 }
 
@@ -165,7 +165,7 @@ void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_
 
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)
 {
-    Stream all[kMostStreams];
+    Stream all[kMostFieldStreams];
     copy(all, streams_out(rows, first, values, all), first, limb_count);
 }
 

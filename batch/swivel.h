@@ -147,8 +147,9 @@ typedef uint64_t swivel_features;
 // twist is the one of swing and twist: of a rotation (v, w) from rest the angle 2 atan2(dot(v, axis), w), by the right
 // hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
 // - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
-//   angle is off by at most 1e-6. In a box it is the sine of the middle angle, and the sines of the others times the
-//   middle one's cosine. So near a right angle the middle one may be off by 0.082 degrees, and the others may be free.
+//   angle is off by at most 1e-6. In a box, what is off by at most 1e-6 is the sine of the middle angle, and the
+//   sines of the others times the middle one's cosine. So near a right angle the middle one may be off by 0.082
+//   degrees, and the others may be free.
 // - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.

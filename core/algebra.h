@@ -190,17 +190,6 @@ SWIVEL_INLINE constexpr Mv<T, Part> part(const Mv<T, S>& m)
 {
     return for_each_blade<T, Part>([&]<Blade B>() SWIVEL_INLINE_LAMBDA { return m.template at<B>(); });
 }
-// With zeros for the blades of Whole that it does not have.
-template <BladeSet Whole, class T, BladeSet S>
-SWIVEL_INLINE constexpr Mv<T, Whole> widen(const Mv<T, S>& m)
-{
-    return for_each_blade<T, Whole>([&]<Blade B>() SWIVEL_INLINE_LAMBDA {
-        if constexpr (S >> B & 1u)
-            return m.template at<B>();
-        else
-            return T(0);
-    });
-}
 template <int Grade, class T, BladeSet S>
 SWIVEL_INLINE constexpr auto grade_part(const Mv<T, S>& m)
 {

@@ -46,10 +46,7 @@ inline constexpr double kPoleOff = 1e-3;
 // In arm lengths.
 // - kSwallowed: a shorter bone is lost in the digits of the other.
 // - kNearest: no wrist comes nearer to the shoulder.
-// - kOutOfReach: a wrist this far away is out of reach by any rounding.
-// - kPoleAway: a pole is put this far away. Then half2 stays a normal float even for the nearest wrist, where it is
-//   1e-24 times the pole's square.
-inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9, kOutOfReach = 4, kPoleAway = 1e6;
+inline constexpr double kSwallowed = 1e-7, kNearest = 1e-9;
 
 template <class T>
 struct ArmGoal {

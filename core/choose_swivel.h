@@ -46,13 +46,14 @@ SWIVEL_INLINE constexpr bool meet(const Edge<T>& x, const Edge<T>& y, int sign)
     return front || back || (x.box != y.box && crosswise);
 }
 
-// Rooms and cosines that differ by less than this are equal: rounding decides nothing.
+// Rooms and cosines that differ by less than this count as equal, so rounding seldom decides.
 inline constexpr double kTie = 1e-6;
 
 // The swivel at which the limits have the most room, though this is less than none. The room is the least over lines,
 // and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
-// are equal. Of equal peaks the one nearest to the wish is taken, then that of the lower line. This is long and rarely
-// needed, so it is a function of its own.
+// are equal. Of equal peaks the one nearest to the wish is taken, then the first. Each is compared with the best so
+// far: of three peaks, where each is equal to the next one only, the order decides. This is long and rarely needed, so
+// it is a function of its own.
 template <class T>
 SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
 {
@@ -63,7 +64,8 @@ SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const
     const auto consider = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_INLINE_LAMBDA {
         const T left = room(limits, swivel);
         most = select(exists, hi(left, most), most);
-        const T enough = select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));  // an allowed swivel ties with no other
+        const T enough =
+            select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));  // an allowed one never ties with a forbidden one
         const Mask<T> preferred = (best_room < enough) | (swivel.cos > best.cos + T(kTie));
         const Mask<T> better = exists & (left >= enough) & preferred;
         best = select(better, swivel, best);

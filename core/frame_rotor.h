@@ -13,8 +13,9 @@ namespace swivel::inline SWIVEL_ISA {
 // Before it starts from -e3, it is turned by pi about e1.
 template <class T>
 struct FrameStart {
-    T side;            // only its sign counts: the start is e3 with it
-    T length, height;  // of the line; and both together: the line and the start of that length, along the start
+    T side;    // only its sign counts: the start is e3 with it
+    T length;  // of the line
+    T height;  // along the start: of the line plus the start, made as long as the line
 
     // Half the squared length of the middle line between the two.
     SWIVEL_INLINE constexpr T middle_half2() const { return length * height; }
@@ -33,14 +34,14 @@ struct FrameRotor {
     T start;                     // only its sign counts: e3's
 };
 
-// line: of length `length`. per_length2: about 1 / length^2; it keeps the numbers in range, and cancels with the
-// rotor's length. normal: orthogonal to the line up to rounding, of length normal_length, not zero.
+// per_length2: about 1 / length^2 of the line; it keeps the numbers in range, and cancels with the rotor's length.
+// normal: orthogonal to the line up to rounding, of length normal_length, not zero.
 template <class T>
-SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, const T& length, const T& per_length2,
-                                                       const Vector<T>& normal, const T& normal_length)
+SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, const FrameStart<T>& from,
+                                                       const T& per_length2, const Vector<T>& normal,
+                                                       const T& normal_length)
 {
     // Steps 3 and 4: the middle line between the start and the line, here of squared length 2 length height.
-    const FrameStart<T> from = frame_start(line, length);
     const T start = from.side, height = from.height;
     const Vector<T> middle = part<blades(kE1, kE2)>(line) + copysign(height, start) * unit<T, kE3>();
 
@@ -64,7 +65,7 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_along(const Vector<T>& line, const Vector<T>& normal)
 {
-    const FrameRotor<T> frame = frame_from_start(line, T(1), T(1), normal, T(1));
+    const FrameRotor<T> frame = frame_from_start(line, frame_start(line, T(1)), T(1), normal, T(1));
     return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(frame.from_start), frame.from_start);
 }
 
@@ -74,7 +75,7 @@ SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector
 {
     const T length2 = len2(line);
     const FrameRotor<T> frame =
-        frame_from_start(line, sqrt(length2), per_power_of_two(length2), normal, sqrt(len2(normal)));
+        frame_from_start(line, frame_start(line, sqrt(length2)), per_power_of_two(length2), normal, sqrt(len2(normal)));
     const Rotor<T> q = (T(1) / sqrt((frame.middle_half2 + frame.middle_half2) * frame.twist_len2)) * frame.from_start;
     return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(q), q);
 }

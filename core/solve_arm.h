@@ -79,28 +79,28 @@ SWIVEL_INLINE constexpr BentElbow<T> bend_elbow(const FrameStart<T>& start, cons
 // Stage 3: the shoulder's rotor. One root divides all lengths out.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> turn_shoulder(const Vector<T>& wrist, const SwivelPlane<T>& plane,
-                                               const Hinge<T>& lift, const T& lift2)
+                                               const FrameStart<T>& start, const BentElbow<T>& elbow)
 {
-    const FrameRotor<T> frame =
-        frame_from_start(wrist, plane.length, plane.per_length2, plane.normal, plane.normal_length);
-    const T half2 = (frame.middle_half2 * frame.twist_len2) * lift2;  // the lift comes last
-    return (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * lift);
+    const FrameRotor<T> frame = frame_from_start(wrist, start, plane.per_length2, plane.normal, plane.normal_length);
+    const T half2 = (frame.middle_half2 * frame.twist_len2) * elbow.lift2;  // the lift comes last
+    return (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * elbow.lift);
 }
 
 // The three stages, one after the other.
 template <class T>
 struct PlainArm {
     ArmPose<T> pose;
-    Mask<T> holds;
+    Mask<T> holds;  // where false, the pose may be anything, NaN too
 };
 template <class T>
 SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
 {
     const SwivelPlane<T> plane = swivel_plane(goal);
-    const BentElbow<T> elbow = bend_elbow(frame_start(goal.wrist, plane.length), goal.upper, goal.fore);
-    const Rotor<T> shoulder = turn_shoulder(goal.wrist, plane, elbow.lift, elbow.lift2);
+    const FrameStart<T> start = frame_start(goal.wrist, plane.length);
+    const BentElbow<T> elbow = bend_elbow(start, goal.upper, goal.fore);
+    const Rotor<T> shoulder = turn_shoulder(goal.wrist, plane, start, elbow);
     const Mask<T> holds = plane.holds & elbow.holds;
-    return {{shoulder, elbow.cos_half, elbow.sin_half, elbow.flags, holds}, holds};
+    return {{shoulder, elbow.cos_half, elbow.sin_half, elbow.flags, T(0) == T(0)}, holds};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -60,8 +60,9 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
     return is_valid(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
-// A goal in the world, as the parent's frame sees it: the parent's rotation is turned back. All of it is `size` times
-// as long as in the world's units, so that nothing is divided. An arm of another size has the same pose.
+// A goal in the world, as the parent's frame sees it: the parent's rotation is turned back. Wrist and pole are `size`
+// times as long as in the parent's units, so that nothing is divided. An arm with bones as much longer has the same
+// pose.
 template <class T>
 struct SeenGoal {
     Vector<T> wrist, pole;

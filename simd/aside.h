@@ -20,6 +20,7 @@ inline SolveRun blocks_of(SolveRun run, std::uint32_t block, std::uint32_t block
     run.input += row_offset(limb, run.input_row_count, 0);
     run.results += row_offset(limb, run.result_row_count, 0);
     run.block_count = block_count;
+    run.limb_count = std::size_t{block_count} * kLanes;
     return run;
 }
 
@@ -36,7 +37,8 @@ struct LimbsAside {
     void take(const SolveRun& run, std::size_t from)
     {
         copy_lane(run.input_row_count, run.input + row_offset(from, run.input_row_count, 0), input + count);
-        copy_lane(run.result_row_count, run.results + row_offset(from, run.result_row_count, 0), results + count);
+        if (run.features & feature::most_swivel)  // what is carried from solve to solve is read from the results
+            copy_lane(run.result_row_count, run.results + row_offset(from, run.result_row_count, 0), results + count);
         limb[count++] = from;
     }
     // The gathered limbs as a run. Lanes that none is put into get the first limb, and so hold numbers.
@@ -44,11 +46,12 @@ struct LimbsAside {
     {
         for (std::size_t lane = count; lane < kLanes; ++lane) {
             copy_lane(run.input_row_count, input, input + lane);
-            copy_lane(run.result_row_count, results, results + lane);
+            if (run.features & feature::most_swivel) copy_lane(run.result_row_count, results, results + lane);
         }
         run.input = input;
         run.results = results;
         run.block_count = 1;
+        run.limb_count = count;
         return run;
     }
     void give_back(const SolveRun& run)

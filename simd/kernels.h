@@ -28,11 +28,12 @@ struct SolveRun {
     const float* input;  // input rows of the run's first block
     float* results;      // result rows of the same block, floats
     std::uint32_t block_count, input_row_count, result_row_count;
+    std::size_t limb_count;  // the run may end within its last block
     FeatureSet features;
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
     const RestFrames* frames;
     const std::uint16_t* first_row;  // of each field, among input or result rows
-    bool from_memory;                // the rows are not in a cache
+    bool from_memory;                // the job's rows do not fit the caches
 };
 
 // Results of a run of blocks, to be packed into the words of a compact crowd.

@@ -194,20 +194,22 @@ SWIVEL_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
 template <class A, int R>
 SWIVEL_INLINE std::uint32_t lane_bits(const LanesMask<A, R>& mask)
 {
-    std::uint32_t bits = 0;
-    for (std::size_t n = 0; n < R; ++n) {
-#if defined(__AVX512F__)
-        const std::uint32_t of_register = mask.r[n].data;
-#elif defined(__AVX2__)
-        const auto of_register = static_cast<std::uint32_t>(_mm256_movemask_ps(mask.r[n]));
-#elif defined(__x86_64__)
-        const auto of_register = static_cast<std::uint32_t>(_mm_movemask_ps(mask.r[n]));
-#else
+    static_assert(Lanes<A, R>::count <= 32);
+    const auto of_register = [](const auto& lanes) SWIVEL_INLINE_LAMBDA {
+#ifdef __aarch64__
         const uint32x4_t one_each = {1, 2, 4, 8};
-        const std::uint32_t of_register = vaddvq_u32(vandq_u32(mask.r[n], one_each));
+        return vaddvq_u32(vandq_u32(lanes, one_each));
+#else
+        if constexpr (Lanes<A, R>::width == 16)
+            return std::uint32_t{lanes.data};
+        else if constexpr (Lanes<A, R>::width == 8)
+            return static_cast<std::uint32_t>(_mm256_movemask_ps(lanes));
+        else
+            return static_cast<std::uint32_t>(_mm_movemask_ps(lanes));
 #endif
-        bits |= of_register << n * Lanes<A, R>::width;
-    }
+    };
+    std::uint32_t bits = 0;
+    for (std::size_t n = 0; n < R; ++n) bits |= of_register(mask.r[n]) << n * Lanes<A, R>::width;
     return bits;
 }
 #ifdef __x86_64__

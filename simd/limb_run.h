@@ -20,7 +20,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const SolveRun& run, Sett
     LimbUse use = limb_use<Features>(run);
     use.aim = Aims;  // as it is, but now the compiler knows
     const LimbBinding<T> bind = limb_binding<T, Features>(run);
-    for (std::size_t limb = 0; limb < std::size_t{run.block_count} * kLanes; limb += lane_count<T>)
+    for (std::size_t limb = 0; limb < run.limb_count; limb += lane_count<T>)
         settled(limb, solve_limb_step<Aims, Searches>(use, bind, rows_of<T, Features>(run, limb)));
 }
 
@@ -60,10 +60,11 @@ void solve_limbs(const SolveRun& run)
 template <class T>
 void solve_limbs(const SolveRun& run)
 {
-    if (run.features == kConeAndTwist)
+    const FeatureSet seen = run.features & ~(feature::compact | feature::budget);  // kernels do not see these
+    if (seen == kConeAndTwist)
         search_limbs<T, kConeAndTwist, false>(run);
-    else if (run.features == kWholeArm)
-        search_limbs<T, kWholeArm, false>(run);
+    else if (seen == kFullArm)
+        search_limbs<T, kFullArm, false>(run);
     else if (run.features & feature::aim)
         solve_limbs<T, true>(run);
     else
