@@ -116,14 +116,28 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
         add(cone_limit(cosine(in_line(limits.shoulder_cone.axis), sandwich(to_arm, e3)),
                        limits.shoulder_cone.cos_opening),
             flag::limited_shoulder_cone);
-    if (use.humeral_twist || use.shoulder_box) {
-        const auto entry = matrix(in_line(unit<T, kE1>()), in_line(unit<T, kE2>()), in_line(unit<T, kE3>()), to_arm);
-        if (use.humeral_twist) add(twist_limit(entry, limits.humeral_twist), flag::limited_humeral_twist);
-        if (use.shoulder_box)
-            add_box(euler_box<T>(use.shoulder_order, entry, limits.shoulder_box[0], limits.shoulder_box[1],
-                                 limits.shoulder_box[2]),
-                    flag::limited_shoulder_box);
+    // Twists come from products of a rotor's components. Near a swing of half a turn all of them are small, and sums of
+    // a matrix's entries would leave their rounding errors.
+    const Rotor<T> from_line =
+        use.humeral_twist || use.forearm_twist || use.hand_twist ? frame_along(arm.line, arm.normal) : Rotor<T>{};
+    // s: the rotor's part along the twist's axis, as twist_limit() takes it.
+    const auto twist = [&](const Range<T>& range, const Rotor<T>& at_0, const Rotor<T>& at_pi, const OnHalfCircle<T>& s)
+                           SWIVEL_INLINE_LAMBDA {
+                               const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()};
+                               return (per_size / len2(from_line)) * twist_limit(w, s, range);
+                           };
+    const auto along_e3 = [](const Rotor<T>& at_0, const Rotor<T>& at_pi) SWIVEL_INLINE_LAMBDA {
+        return OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()};
+    };
+    if (use.humeral_twist) {
+        const Rotor<T> at_0 = from_line * to_arm, at_pi = from_line * k * to_arm;
+        add(twist(limits.humeral_twist, at_0, at_pi, along_e3(at_0, at_pi)), flag::limited_humeral_twist);
     }
+    if (use.shoulder_box)
+        add_box(euler_box<T>(use.shoulder_order,
+                             matrix(in_line(unit<T, kE1>()), in_line(unit<T, kE2>()), in_line(unit<T, kE3>()), to_arm),
+                             limits.shoulder_box[0], limits.shoulder_box[1], limits.shoulder_box[2]),
+                flag::limited_shoulder_box);
     if (!(use.hand_cone || use.forearm_twist || use.hand_twist || use.wrist_box)) return out;
 
     // The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
@@ -132,24 +146,24 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
         add(cone_limit(cosine(in_line(sandwich(arm.hand, limits.hand_cone.axis)), sandwich(forearm, e3)),
                        limits.hand_cone.cos_opening),
             flag::limited_hand_cone);
-    // Its matrix has the forearm's axes in its rows, so what moves belongs to the row.
-    if (use.forearm_twist || use.wrist_box) {
+    if (use.forearm_twist || use.hand_twist) {
+        const Rotor<T> hand = ~from_line * arm.hand;
+        const Rotor<T> at_0 = ~forearm * hand, at_pi = ~forearm * ~k * hand;
+        if (use.forearm_twist)
+            add(twist(limits.forearm_twist, at_0, at_pi, along_e3(at_0, at_pi)), flag::limited_forearm_twist);
+        if (use.hand_twist) {
+            const Vector<T>& axis = limits.hand_twist.axis;
+            add(twist(limits.hand_twist.range, at_0, at_pi, {about(axis, at_0), about(axis, at_pi)}),
+                flag::limited_hand_twist);
+        }
+    }
+    if (use.wrist_box) {  // its matrix has the forearm's axes in its rows, so what moves belongs to the row
         const Turn<T> hand = turn_by(arm.hand);
         const auto transposed = matrix(in_line(hand.e1), in_line(hand.e2), in_line(hand.e3), forearm);
-        const auto entry = [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); };
-        if (use.forearm_twist) add(twist_limit(entry, limits.forearm_twist), flag::limited_forearm_twist);
-        if (use.wrist_box)
-            add_box(euler_box<T>(use.wrist_order, entry, limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),
-                    flag::limited_wrist_box);
-    }
-    if (use.hand_twist) {
-        const Rotor<T> from_line = frame_along(arm.line, arm.normal);
-        const Rotor<T> at_0 = ~forearm * ~from_line * arm.hand, at_pi = ~forearm * ~k * ~from_line * arm.hand;
-        const Vector<T>& axis = limits.hand_twist.axis;
-        add((per_size / len2(from_line)) *
-                twist_limit(OnHalfCircle<T>{at_0.template at<kScalar>(), at_pi.template at<kScalar>()},
-                            OnHalfCircle<T>{about(axis, at_0), about(axis, at_pi)}, limits.hand_twist.range),
-            flag::limited_hand_twist);
+        add_box(euler_box<T>(
+                    use.wrist_order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); },
+                    limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),
+                flag::limited_wrist_box);
     }
     return out;
 }

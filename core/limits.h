@@ -41,17 +41,6 @@ SWIVEL_INLINE constexpr OnCircle<T> twist_limit(const OnHalfCircle<T>& w, const 
     return range.middle.cos * (ww - ss) + (range.middle.sin + range.middle.sin) * ws - range.half.cos * (ww + ss);
 }
 
-// The same for a twist about e3, by entry(row, column) of the rotation's matrix R. R_11 + R_22 is 2 (w^2 - s^2), R_21 -
-// R_12 is 4 w s, and 1 + R_33 is 2 (w^2 + s^2).
-template <class T, class Entry>
-SWIVEL_INLINE constexpr OnCircle<T> twist_limit(const Entry& entry, const Range<T>& range)
-{
-    const T half = T(0.5);
-    return (half * range.middle.cos) * (entry(0, 0) + entry(1, 1)) +
-           (half * range.middle.sin) * (entry(1, 0) - entry(0, 1)) -
-           (half * range.half.cos) * (constant(T(1)) + entry(2, 2));
-}
-
 // Turns (x, y) back by `turn`. past() is then its sine and along() its cosine, both times the length of (x, y).
 template <class N, class T>
 SWIVEL_INLINE constexpr N past(const Turned<T>& turn, const N& x, const N& y)
