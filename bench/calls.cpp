@@ -32,12 +32,14 @@ void add_calls(Suite& suite)
             if (isa == "scalar" && suite.isas.size() > 1) continue;
             swivel_job here = swivel_default_job();
             here.on_this_thread = 1;
-            add_call("calls/here/", arm_count, isa, [crowd, here] { swivel_solve(crowd->get(), &here); });
+            add_call("calls/here/", arm_count, isa,
+                     [crowd, here] { swivel::check(swivel_solve(crowd->get(), &here)); });
             add_call("calls/hand/", arm_count, isa, [crowd, in, out, by_hand = probe_of(isa.c_str()).solve_by_hand] {
                 by_hand(in.base, out.base, in.block_count);
             });
         }
-        add_call("calls/job/", arm_count, suite.best_isa(), [crowd] { swivel_solve(crowd->get(), nullptr); });
+        add_call("calls/job/", arm_count, suite.best_isa(),
+                 [crowd] { swivel::check(swivel_solve(crowd->get(), nullptr)); });
         if (arm_count < 2 * kArms) continue;  // frames are of whole characters
         const auto frame = std::make_shared<WholeFrame>(arm_count / kArms);
         add_call("calls/frame/", arm_count, suite.best_isa(), [frame] { frame->solve_in_one(); });

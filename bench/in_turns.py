@@ -33,9 +33,13 @@ def ratios(options):
     rounds = {}
     with tempfile.TemporaryDirectory() as folder:
         for turn in range(options.rounds):
-            pair = [measured(binary, options, folder) for binary in (options.old, options.new)]
-            for name in pair[0].keys() & pair[1].keys():
-                rounds.setdefault(name, []).append((pair[0][name], pair[1][name]))
+            first = turn % 2  # in every other round the new one goes first, so that neither gains by its place
+            times = [None, None]
+            for which in (first, 1 - first):
+                times[which] = measured((options.old, options.new)[which], options, folder)
+            old, new = times
+            for name in old.keys() & new.keys():
+                rounds.setdefault(name, []).append((old[name], new[name]))
             print(f"round {turn + 1} of {options.rounds}", file=sys.stderr)
     return rounds
 

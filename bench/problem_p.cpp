@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Problem P: targets, poles and bone lengths in; shoulder rotors, half flexions and flags out. By swivel with each
-// instruction set in each level of memory. On the same arms within the level 2 cache: by hand, at once and in stages,
-// and by the rivals at each level of flags.
+// instruction set in each level of memory. On the same arms within the level 2 cache: by hand, at once and in loops
+// over strips, and by the rivals at each level of flags.
 #include <cstdio>
 #include <cstring>
 #include <memory>

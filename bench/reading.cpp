@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Results read right after the solve. A solve that writes past the caches looks fast until someone reads what it wrote.
-// In each level of memory:
+// Results read right after the solve, as callers read them. In each level of memory:
 // - read/: problem P, then a reader that copies the result rows.
-// - read_hand/: P by the kernel by hand, which writes by ordinary stores, then the same reader.
 // - read_fields/: P, then swivel_read() of rotations, flexions and flags, into arrays of the caller.
 // - read_resident/, read_compact/: a resident crowd, and P with compact results, then the same reader.
 #include "bench/rivals/probe.h"
@@ -65,13 +63,6 @@ void add_level(Suite& suite, const std::string& isa, std::size_t level)
         return [&crowd, read = reader(crowd, probe)] { solve(crowd), read(); };
     };
     add_row(suite, "read", isa, level, 0, solve_and_read);
-    add_row(suite, "read_hand", isa, level, 0, [&probe](swivel::Crowd& crowd) -> Work {
-        const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
-        return [&probe, in, out, read = reader(crowd, probe)] {
-            probe.solve_by_stages(in.base, out.base, in.block_count);
-            read();
-        };
-    });
     if (isa != suite.best_isa()) return;
     add_row(suite, "read_resident", isa, level, kResident, solve_and_read);
     add_row(suite, "read_compact", isa, level, SWIVEL_COMPACT, solve_and_read);

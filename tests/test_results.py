@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The scripts that read result files of swivel_bench, as people run them: compare.py, plot.py, tables.py, pages.py and in_turns.py. The
-page on speed shows its results."""
+"""The scripts that read result files of swivel_bench, as people run them: compare.py, plot.py, tables.py, pages.py, record.py and
+in_turns.py. The pages that show results show those of bench/results."""
 import importlib.util
 import json
 import re
@@ -92,8 +92,9 @@ class Scripts(unittest.TestCase):
             self.assertIn("usage:", self.run_script(script, "--help").stdout)
 
     def test_tables(self):
-        ns = {"P/avx512/L2": 2.0, "P/avx2/L2": 3.0, "loop_trig/v4": 6.8, "loop_trig/v3": 6.0, "single_glm/v4": 1.5, "hand_staged/avx512": 1.9,
+        ns = {"P/avx512/L2": 2.0, "P/avx2/L2": 3.0, "loop_trig/v4": 6.8, "loop_trig/v3": 6.0, "single_glm/v4": 1.5, "hand/avx512": 1.9,
               "P/avx512/memory": 3.0, "copy/P/memory": 2.4, "calls/here/avx512/16": 190.0, "calls/hand/avx512/16": 30.0,
+              "calls/here/avx512/64": 110.0, "calls/hand/avx512/64": 125.0, "threads/1/resident/memory": 3.0, "threads/2/resident/memory": 2.0,
               "bound/avx512/divider": 1.3, "bound/avx512/arithmetic": 1.2, "bound/avx2/divider": 0.9, "bound/avx2/arithmetic": 1.0}
         document = result(ns)
         document["context"] |= {"isas": "avx512 avx2", "level_of/v4": "avx512", "level_of/v3": "avx2"}
@@ -106,7 +107,9 @@ class Scripts(unittest.TestCase):
                          ("P in cache, AVX2", "3.00", "bound of the ports", "1.00", "3.00"): ["2", "missed"],
                          ("P in cache, AVX-512", "2.00", "the same stages by hand", "1.90", "1.05"): ["1.05", "missed"],
                          ("P out of cache, AVX-512", "3.00", "copy of its rows", "2.40", "1.25"): ["1.2", "missed"],
-                         ("16, AVX-512", "190", "30.0", "160", "150", "missed"): ["–", "–"]}.items():
+                         ("16, AVX-512", "190", "30.0", "+160", "150", "missed"): ["–", "–"],
+                         ("64, AVX-512", "110", "125", "-15", "150", "kept"): ["–", "–"],
+                         ("resident, in memory", "2", "3.00"): ["2.00", "1.50"]}.items():
             self.assertEqual(rows.get(row), end, run.stdout)
         self.assertNotIn("whole frame", run.stdout)  # it was not measured
         # Without a goal, a rival that is faster is told; and a goal that the bound rules out is none.
@@ -115,6 +118,10 @@ class Scripts(unittest.TestCase):
         said = self.run_script("tables.py", self.file("less.json", document)).stdout
         self.assertRegex(said, r"loop with one acos +2\.00 +0\.7 +– +\*\*swivel loses")
         self.assertRegex(said, r"loop with two acos +6\.00 +2\.0 +–\n")
+        # Where the bound is not known, the goal stays.
+        document["benchmarks"] = result({"P/avx2/L2": 3.0, "loop_trig/v3": 6.0, "bound/avx2/divider": 2.0})["benchmarks"]
+        said = self.run_script("tables.py", self.file("no_bound.json", document)).stdout
+        self.assertRegex(said, r"loop with two acos +6\.00 +2\.0 +3\.3 +missed\n")
 
     def test_pages(self):
         (self.folder / "cpu.json").write_text(json.dumps(full_result()), encoding="utf-8")
@@ -131,16 +138,45 @@ class Scripts(unittest.TestCase):
                             ("<!-- bench: held gone -->\n<!-- bench end -->\n", "No such file")):
             self.require_refused("pages.py", said, "--page", self.file("wrong.md", wrong), "--results", str(self.folder))
 
-    def test_the_page_on_speed_shows_its_results(self):
+    def test_pages_of_the_newest_result(self):
+        for name, date, ns in (("a", "2026-01-02T00:00:00+01:00", 2.5), ("b", "2026-01-01T23:30:00+00:00", 3.5)):
+            document = full_result()
+            document["context"]["date"] = date
+            document["benchmarks"] += result({"P/avx2/L2": ns})["benchmarks"]
+            (self.folder / f"{name}.json").write_text(json.dumps(document), encoding="utf-8")
+        sentence = "An arm takes <!-- bench: arm newest -->{}<!-- bench end -->.\n"
+        says = sentence.format("3.50 nanoseconds on one core with AVX2")  # b, whose date is later by the clock of the world
+        table = "<!-- bench: summary newest -->\n<!-- bench end -->\n"
+        options = ("--check", "--results", str(self.folder), "--page")
+        for page, code in ((says, 0), (sentence.format("2.50 nanoseconds on one core with AVX2"), 1), (says + table, 1)):
+            run = self.run_script("pages.py", *options, self.file("page.md", page))
+            self.assertEqual(run.returncode, code, run.stderr)
+        self.require_refused("pages.py", "no sentence held", *options[1:], self.file("page.md", sentence.format("").replace("arm newest", "held b")))
+        self.require_refused("pages.py", "features/at_rest/avx2", *options[1:],
+                             self.file("page.md", sentence.format("").replace("arm newest", "answer b")))
+
+    def test_record_without_ozz(self):
+        binary = self.folder / "swivel_bench"
+        binary.write_text(f"#!{sys.executable}\nimport sys\n"
+                          f"open(sys.argv[1].removeprefix('--benchmark_out='), 'w').write({json.dumps(full_result())!r})\n", encoding="utf-8")
+        binary.chmod(0o755)
+        run = self.run_script("record.py", "cpu", "--busy", "--binary", str(binary), "--results", str(self.folder), "--page",
+                              self.file("page.md", "No block.\n"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stderr, "^note: this build has no ozz-animation.*\n$")
+        self.assertIn('"run_name": "P/avx2/L2"', (self.folder / "cpu.json").read_text(encoding="utf-8"))
+
+    def test_the_pages_show_their_results(self):
         run = self.run_script("pages.py", "--check")
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_in_turns(self):
-        binaries = []
+        binaries, turns = [], self.folder / "turns"
         for name, ns in (("old", 2.0), ("new", 2.1)):
             path = self.folder / name
             document = json.dumps(result({"P": ns, name: 1.0}))
             path.write_text(f"#!{sys.executable}\nimport sys\n"
+                            f"open({str(turns)!r}, 'a').write('{name} ')\n"
                             "out = next(a for a in sys.argv if a.startswith('--benchmark_out='))\n"
                             f"open(out.split('=')[1], 'w').write({document!r})\n", encoding="utf-8")
             path.chmod(0o755)
@@ -148,6 +184,7 @@ class Scripts(unittest.TestCase):
         run = self.run_script("in_turns.py", *binaries, "--rounds", "2")
         self.assertEqual(run.returncode, 1, run.stderr)
         self.assertRegex(run.stdout, r"P +2\.00 +2\.10 +1\.050 +1\.05 +1\.05  slower\n1 of 1 rows")
+        self.assertEqual(turns.read_text(encoding="utf-8"), "old new new old ")
         self.assertEqual(self.run_script("in_turns.py", *reversed(binaries), "--rounds", "1").returncode, 0)
         self.require_refused("in_turns.py", "No such file", "/nowhere", binaries[0])
 
