@@ -110,9 +110,10 @@ def judged(ratio, most):
 def row(result, cells, own, other, name, rival=False):
     """What swivel's benchmark takes beside another's: both times, their ratio, its goal and whether it is kept. There is no row if one of
     them did not run. The ratio says how many times as long swivel takes; beside a rival, how many times as fast it is."""
-    a, b, goal = result.ns(own), result.ns(other), result.goal(own, other)
+    a, b = result.ns(own), result.ns(other)
     if a is None or b is None:
         return []
+    goal = result.goal(own, other)
     if rival:
         verdict = judged(goal, b / a) if goal else "**swivel loses**" if b / a < 1 / NOISE else ""
     else:
