@@ -279,8 +279,7 @@ def summary(result):
         a, b = result.ns(own), result.ns(other)
         if a:
             rows.append([work, number(a), *((number(b), f"{b / a:.1f}") if b else ("–", "–"))])
-    return Table("In short: nanoseconds an arm", ["", "swivel", "one at a time", "ratio"], rows,
-                 (f"CPU: {machine(result)}.",))
+    return Table("In short: nanoseconds an arm", [machine(result), "swivel", "one at a time", "ratio"], rows)
 
 
 TABLES = {"rivals": rivals, "limits": limits, "itself": itself, "calls": calls, "held": held, "memory": memory, "features": features,

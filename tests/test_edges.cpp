@@ -430,6 +430,35 @@ TEST_CASE("a target or pole that is too long in the arm frame is bad")
     }
 }
 
+TEST_CASE("a bad parent is bad, though its arm is ordinary in the arm frame")
+{
+    // Arms that are as long as the parent's numbers make them ordinary, and the parent's numbers on either side of
+    // their ends.
+    const struct {
+        double position, turn, scale, length;
+        bool bad;
+    } parents[] = {
+        {0, 1.5e9, 1, 1.2e-15, true}, {0, 0.5e9, 1, 1.2e-15, false}, {0, 0.5e-9, 1, 4e14, true},
+        {0, 2e-9, 1, 4e14, false},    {0, 1, 2e15, 1.2e-15, true},   {0, 1, 0.5e15, 1.2e-15, false},
+        {0, 1, 0.5e-15, 4e14, true},  {0, 1, 2e-15, 4e14, false},    {2e15, 1, 1, 1, true},
+        {0.5e15, 1, 1, 1, false},
+    };
+    for (const auto& [position, turn, scale, length, bad] : parents) {
+        Crowd crowd = crowd_of(SWIVEL_WORLD, 1);
+        const float bone = static_cast<float>(length), at = static_cast<float>(position),
+                    reach = static_cast<float>(scale * length);
+        crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{at, 0, 0});
+        crowd.write_all(SWIVEL_PARENT_ROTATION, 0, Float4{0, 0, 0, static_cast<float>(turn)});
+        crowd.write_all(SWIVEL_PARENT_SCALE, 0, Float1{static_cast<float>(scale)});
+        crowd.write_all(SWIVEL_LENGTHS, 0, Float2{bone, bone});
+        crowd.write_all(SWIVEL_TARGET, 0, Float3{at, reach, 0});
+        crowd.write_all(SWIVEL_POLE, 0, Float3{at, 0, reach});
+        crowd.solve();
+        INFO("position " << position << ", rotation of length " << turn << ", scale " << scale);
+        CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == (bad ? kBad : kReached));
+    }
+}
+
 TEST_CASE("quaternions of any allowed length mean the same rotation")
 {
     constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND;
