@@ -63,8 +63,6 @@ void solve_limbs(const SolveRun& run)
     const FeatureSet seen = run.features & ~(feature::compact | feature::budget);  // kernels do not see these
     if (seen == kConeAndTwist)
         search_limbs<T, kConeAndTwist, false>(run);
-    else if (seen == kFullArm)
-        search_limbs<T, kFullArm, false>(run);
     else if (run.features & feature::aim)
         solve_limbs<T, true>(run);
     else
