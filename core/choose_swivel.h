@@ -12,14 +12,14 @@
 namespace swivel::inline SWIVEL_ISA {
 
 template <class T>
-struct ChosenSwivel {
+struct FoundSwivel {
     Turned<T> swivel;
-    Mask<T> allowed;  // false: no swivel is, this one violates the limits least
+    Mask<T> allowed;  // false: no swivel was found that is
 };
 
 // The nearest end of an allowed arc, where there is one.
 template <class T>
-SWIVEL_INLINE constexpr ChosenSwivel<T> nearest_end(const Limits<T>& limits)
+SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T>& limits)
 {
     Edge<T> edge[kMostEdges];
     const int count = edges(limits, false, edge);
@@ -55,7 +55,7 @@ inline constexpr double kTie = 1e-6;
 // far: of three peaks, where each is equal to the next one only, the order decides. This is long and rarely needed, so
 // it is a function of its own.
 template <class T>
-SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const Limits<T>& limits)
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
 {
     Edge<T> edge[kMostEdges];
     const int count = edges(limits, true, edge);
@@ -92,21 +92,36 @@ SWIVEL_FLATTEN [[gnu::noinline]] constexpr ChosenSwivel<T> least_violation(const
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 
-// Searches: whether to look for the least violation. If not, the answer means nothing where no swivel is allowed.
-template <bool Searches, class T>
+enum class Search { nearest_end, least_violation };
+
+template <class T>
+struct ChosenSwivel {
+    Turned<T> swivel;
+    Mask<T> allowed;  // false: no swivel is, this one violates the limits least
+    Mask<T> settled;  // false: a search is put off, and the rest means nothing
+    Search next;      // the search that is put off
+};
+
+// A policy says whether a search is worth its time now, as these lanes need it. Else it is put off.
+struct SearchNow {
+    SWIVEL_INLINE static constexpr bool is_worth(Search, const auto& /*lanes*/) { return true; }
+};
+
+template <class Policy = SearchNow, class T>
 SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
     const Mask<T> granted = room(limits, wish) >= T(kNoRoom);
-    if (all(granted)) return {wish, granted};
-    const ChosenSwivel<T> end = nearest_end(limits);
+    if (all(granted) || !Policy::is_worth(Search::nearest_end, !granted))
+        return {wish, granted, granted, Search::nearest_end};
+    const FoundSwivel<T> end = nearest_end(limits);
     const Mask<T> allowed = granted | end.allowed;
     const Turned<T> near = select(granted, wish, end.swivel);
-    if constexpr (!Searches) return {near, allowed};
-    if (all(allowed)) return {near, allowed};
-    const ChosenSwivel<T> least = least_violation(limits);
-    const Mask<T> any_allowed = allowed | least.allowed;
-    return {select(allowed, near, least.swivel), any_allowed};
+    if (all(allowed) || !Policy::is_worth(Search::least_violation, !allowed))
+        return {near, allowed, allowed, Search::least_violation};
+    const FoundSwivel<T> least = least_violation(limits);
+    const Mask<T> any_allowed = allowed | least.allowed, always = T(0) == T(0);
+    return {select(allowed, near, least.swivel), any_allowed, always, Search::least_violation};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -26,7 +26,8 @@ struct SolvedLimb {
     Rotor<T> wrist;
     Vector<T> normal;  // of the swivel plane, unit
     T stretch;         // of the bones
-    Mask<T> settled;   // false where a search would be needed that was not wanted: then the rest means nothing
+    Mask<T> settled;   // false where a search is put off: then the rest means nothing
+    Search next;       // that search
 };
 
 template <class T>
@@ -132,9 +133,9 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
     return limb;
 }
 
-// good: false where the caller already knows that the input is bad. Searches: see choose_swivel. Without it, a limb
-// that is not settled gives back the previous normal.
-template <bool Aims, bool Searches = true, class T>
+// good: false where the caller already knows that the input is bad. Policy: see choose_swivel.h. A limb that is not
+// settled gives back the previous normal.
+template <bool Aims, class Policy = SearchNow, class T>
 SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
 {
     const Mask<T> valid = good & is_valid(use, goal);
@@ -143,10 +144,12 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     Bits<T> flags = limb.flags;
     SolvedLimb<T> pose;
     pose.settled = T(0) == T(0);
+    pose.next = Search::nearest_end;
     if (use.limits.on_swivel()) {
         const SwivelLimits<T> limits = swivel_limits(use.limits, goal.limits, limb.arm);
-        const ChosenSwivel<T> chosen = choose_swivel<Searches>(limits.limits);
-        if constexpr (!Searches) pose.settled = chosen.allowed | !valid;
+        const ChosenSwivel<T> chosen = choose_swivel<Policy>(limits.limits);
+        pose.settled = chosen.settled | !valid;
+        pose.next = chosen.next;
         flags = flags | broken(limits) | bits_where(!chosen.allowed, flag::infeasible);
         normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);
         if (use.continuity) {
@@ -162,7 +165,7 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     pose.stretch = select(valid, limb.bones.stretch, T(1));
     if (use.continuity) {
         pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));
-        if constexpr (!Searches) pose.normal = select(pose.settled, pose.normal, goal.continuity.previous_normal);
+        pose.normal = select(pose.settled, pose.normal, goal.continuity.previous_normal);
     }
     if (use.hand) {
         const Rotor<T> wrist = Aims ? limb.arm.hand : ~(shoulder * limb.arm.elbow) * limb.arm.hand;

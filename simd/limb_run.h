@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A run of whole limbs, step by step. A step takes as long as its slowest limb. Finding the least violation of Euler
-// boxes takes five to ten times as long as the rest. So limbs that need it are put aside, and solved together.
+// A run of whole limbs, step by step. A step takes as long as its slowest limb, and with Euler boxes a search takes far
+// longer than the rest: two times for the nearest end, ten for the least violation. So limbs that need one are put
+// aside, and solved together.
 #pragma once
 
 #include <bit>
@@ -12,50 +13,91 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Solves the steps of a run, and calls settled(first limb, mask) after each. A step has one register. Two were no
+// Solves the steps of a run, and calls left(first limb, Waiting) after each. A step has one register. Two were no
 // faster, because their values do not stay in registers.
-template <class T, FeatureSet Features, bool Aims, bool Searches, class Settled>
-SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const SolveRun& run, Settled settled)
+template <class T, FeatureSet Features, bool Aims, class Policy, class Left>
+SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const SolveRun& run, Left left)
 {
     LimbUse use = limb_use<Features>(run);
     use.aim = Aims;  // as it is, but now the compiler knows
     const LimbBinding<T> bind = limb_binding<T, Features>(run);
     for (std::size_t limb = 0; limb < run.limb_count; limb += lane_count<T>)
-        settled(limb, solve_limb_step<Aims, Searches>(use, bind, rows_of<T, Features>(run, limb)));
+        left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb)));
 }
-
 template <class T, FeatureSet Features, bool Aims>
 void search_limbs(const SolveRun& run)
 {
-    solve_limb_steps<T, Features, Aims, true>(run, [](std::size_t, const Mask<T>&) SWIVEL_INLINE_LAMBDA {});
+    solve_limb_steps<T, Features, Aims, SearchNow>(run, [](std::size_t, const Waiting<T>&) SWIVEL_INLINE_LAMBDA {});
 }
 
+// Aside, a limb is copied and solved again, which takes about as long as two limbs without a search. The nearest end
+// takes about as long as one, so it is put off unless more than a third of the lanes need it. The least violation takes
+// as long as ten, and is always put off.
+struct SearchForMany {
+    template <class Arch, int Registers>
+    SWIVEL_INLINE static bool is_worth(Search search, const LanesMask<Arch, Registers>& lanes)
+    {
+        const int count = Lanes<Arch, Registers>::count;
+        return search == Search::nearest_end && 3 * std::popcount(lane_bits(lanes)) > count;
+    }
+};
+
+// A run of limbs with Euler boxes.
 template <class T, bool Aims>
-[[gnu::noinline]] void search_aside(const SolveRun& run, LimbsAside& aside)
-{
-    search_limbs<T, kToldFeatures, Aims>(aside.block_of(run));
-    aside.give_back(run);
-}
+struct BoxedLimbs {
+    const SolveRun& run;
+    LimbsAside for_end, for_least;
+
+    void solve()
+    {
+        solve_steps(run, nullptr);
+        if (for_end.count > 0) find_ends();
+        if (for_least.count > 0) find_least();
+    }
+    // Lanes that wait for a search are put aside, or added to `waits`, a bit for each.
+    void solve_steps(const SolveRun& steps, std::uint32_t* waits)
+    {
+        solve_limb_steps<T, kToldFeatures, Aims, SearchForMany>(
+            steps, [&](std::size_t first, const Waiting<T>& waiting) SWIVEL_INLINE_LAMBDA {
+                if (!any(waiting.lanes)) return;
+                if (waits)
+                    *waits |= lane_bits(waiting.lanes) << first;
+                else
+                    put_aside(first, lane_bits(waiting.lanes), waiting.search);
+            });
+    }
+    void put_aside(std::size_t first, std::uint32_t lanes, Search search)
+    {
+        LimbsAside& aside = search == Search::nearest_end ? for_end : for_least;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            aside.take(run, first + static_cast<std::size_t>(std::countr_zero(lanes)));
+            if (aside.count == kLanes) search == Search::nearest_end ? find_ends() : find_least();
+        }
+    }
+    // All limbs aside need the nearest end, so it is not put off. Those that then wait again need the least violation.
+    void find_ends()
+    {
+        std::uint32_t waits = 0;
+        solve_steps(for_end.block_of(run), &waits);
+        waits &= (1u << for_end.count) - 1;
+        for_end.give_back(run);
+        for (; waits != 0; waits &= waits - 1)
+            put_aside(for_end.limb[std::countr_zero(waits)], 1, Search::least_violation);
+    }
+    void find_least()
+    {
+        search_limbs<T, kToldFeatures, Aims>(for_least.block_of(run));
+        for_least.give_back(run);
+    }
+};
 
 template <class T, bool Aims>
 void solve_limbs(const SolveRun& run)
 {
-    if constexpr (lane_count<T> == 1) {  // no neighbour has to wait
-        search_limbs<T, kToldFeatures, Aims>(run);
-    } else if (!(run.features & (feature::shoulder_box | feature::wrist_box))) {  // a short search
-        search_limbs<T, kToldFeatures, Aims>(run);
-    } else {
-        LimbsAside aside;
-        solve_limb_steps<T, kToldFeatures, Aims, false>(
-            run, [&](std::size_t first, const Mask<T>& settled) SWIVEL_INLINE_LAMBDA {
-                if (all(settled)) return;
-                for (std::uint32_t waits = lane_bits(!settled); waits != 0; waits &= waits - 1) {
-                    aside.take(run, first + static_cast<std::size_t>(std::countr_zero(waits)));
-                    if (aside.count == kLanes) search_aside<T, Aims>(run, aside);
-                }
-            });
-        if (aside.count > 0) search_aside<T, Aims>(run, aside);
-    }
+    if constexpr (lane_count < T >> 1)  // a limb alone keeps no neighbour waiting
+        if (run.features & (feature::shoulder_box | feature::wrist_box))
+            return BoxedLimbs<T, Aims>{run, {}, {}}.solve();
+    search_limbs<T, kToldFeatures, Aims>(run);
 }
 template <class T>
 void solve_limbs(const SolveRun& run)

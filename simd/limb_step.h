@@ -305,16 +305,22 @@ SWIVEL_INLINE LimbRows<T, Features> rows_of(const SolveRun& run, std::size_t lim
             run.results ? run.results + row_offset(limb, results, 0) : nullptr};
 }
 
-// Solves one step. Where it returns false, the limits allow no swivel and Searches is false, so the results mean
-// nothing.
-template <bool Aims, bool Searches, class T, FeatureSet Features>
-SWIVEL_INLINE Mask<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows)
+// Lanes of a step that wait for a search: their results mean nothing yet.
+template <class T>
+struct Waiting {
+    Mask<T> lanes;
+    Search search;
+};
+// Solves one step.
+template <bool Aims, class Policy, class T, FeatureSet Features>
+SWIVEL_INLINE Waiting<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind,
+                                         const LimbRows<T, Features>& rows)
 {
     LimbGoal<T> goal;
     const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
-    const SolvedLimb<T> pose = solve_limb<Aims, Searches>(use, goal, entry.valid);
+    const SolvedLimb<T> pose = solve_limb<Aims, Policy>(use, goal, entry.valid);
     store_limb(use, bind, rows, entry, pose);
-    return pose.settled;
+    return {!pose.settled, pose.next};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -85,10 +85,10 @@ Tally judge(std::uint64_t seed, int arms, int often)
         ++tally.scanned;
         const Scan seen = scan(a, circle, kScanSteps);
         tally.missed += !allowed && seen.allowed > 1;
-        // Outside of a box there is no one way to measure how far. Of least violations, 1e-6 apart are equal.
+        // Outside of a box there is no one way to measure how far.
         if (!allowed && !a.use.shoulder_box && !a.use.wrist_box) {
-            tally.not_least += violation(a, circle.at(swivel)) > seen.least + 1.5e-6;
-            tally.not_least += by > seen.least + 1.5e-6 + elbow_error(circle);
+            tally.not_least += violation(a, circle.at(swivel)) > seen.least + 1e-6;
+            tally.not_least += by > seen.least + 1e-6 + 2e-7 / circle.away;
         }
         tally.too_far += allowed && seen.allowed > 0 && std::fabs(swivel) > seen.best + allowance(seen);
     }
