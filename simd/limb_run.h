@@ -94,7 +94,7 @@ struct BoxedLimbs {
 template <class T, bool Aims>
 void solve_limbs(const SolveRun& run)
 {
-    if constexpr (lane_count < T >> 1)  // a limb alone keeps no neighbour waiting
+    if constexpr (1 < lane_count<T>)  // a limb alone keeps no neighbour waiting
         if (run.features & (feature::shoulder_box | feature::wrist_box))
             return BoxedLimbs<T, Aims>{run, {}, {}}.solve();
     search_limbs<T, kToldFeatures, Aims>(run);
