@@ -20,27 +20,11 @@ struct ParentFrame {
     T scale;             // uniform, > 0
 };
 
-// What a group's binding (batch/swivel.h: swivel_binding) makes of an arm's rotors. All of them of unit length.
-template <class T>
-struct Binding {
-    Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm;
-    Rotor<T> elbow_straight, elbow_hinge;  // the elbow's local rotation is cos elbow_straight - sin elbow_hinge
-};
-
 // One of a binding's quaternions.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> broadcast(const float (&q)[4])
 {
     return rotor(T(q[0]), T(q[1]), T(q[2]), T(q[3]));
-}
-
-template <class T>
-SWIVEL_INLINE constexpr Binding<T> binding(const Rotor<T>& parent_from_arm, const Rotor<T>& upper_from_arm,
-                                           const Rotor<T>& elbow_parent_from_arm, const Rotor<T>& fore_from_arm,
-                                           const Rotor<T>& wrist_parent_from_arm)
-{
-    return {parent_from_arm, ~upper_from_arm, wrist_parent_from_arm, elbow_parent_from_arm * ~fore_from_arm,
-            times_blade<kI>(elbow_parent_from_arm) * ~fore_from_arm};
 }
 
 template <class T>

@@ -6,12 +6,9 @@
 #include <bit>
 
 #include "core/solve_arm.h"
-#include "core/space.h"
 #include "simd/aside.h"
-#include "simd/kernels.h"
-#include "simd/lanes.h"
 #include "simd/pack.h"
-#include "simd/rows.h"
+#include "simd/step.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -19,59 +16,22 @@ extern const LimbKernels limb_kernels;
 
 namespace {
 
-// The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
-// step covers whole blocks or lies in one. So every other place is a constant away.
-template <class T, FeatureSet Features>
-struct Rows {
-    const float* input;
-    float* results;
-
-    SWIVEL_INLINE T load(Field field, std::uint32_t component) const
-    {
-        const std::uint32_t row = field_first_row(Features, field) + component;
-        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-            return input + row_offset(lane, input_row_count(Features), row);
-        });
-    }
-    SWIVEL_INLINE Vector<T> load_vector(Field field) const
-    {
-        return vector(load(field, 0), load(field, 1), load(field, 2));
-    }
-    SWIVEL_INLINE Rotor<T> load_rotor(Field field) const
-    {
-        return rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3));
-    }
-    template <class Value>
-    SWIVEL_INLINE void store(Field field, std::uint32_t component, const Value& value) const
-    {
-        const std::uint32_t row = field_first_row(Features, field) + component;
-        store_lanes([&](std::size_t lane)
-                        SWIVEL_INLINE_LAMBDA { return results + row_offset(lane, result_row_count(Features), row); },
-                    value);
-    }
-    SWIVEL_INLINE void store_rotor(Field field, const Rotor<T>& q) const
-    {
-        store(field, 0, q.template at<kI>());
-        store(field, 1, q.template at<kJ>());
-        store(field, 2, q.template at<kK>());
-        store(field, 3, q.template at<kScalar>());
-    }
-};
-
-// What all steps of a run share.
+// What all steps of a run share. The elbow's local rotation is cos elbow_straight - sin elbow_hinge.
 template <class T>
 struct Shared {
-    Binding<T> bind;
+    Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm, elbow_straight, elbow_hinge;
     T pole_is_point;
 };
-template <class T>
+template <class T, FeatureSet Features>
 SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
 {
-    const RestFrames& b = *run.frames;
-    return {
-        binding(broadcast<T>(b.parent_from_arm), broadcast<T>(b.upper_from_arm), broadcast<T>(b.elbow_parent_from_arm),
-                broadcast<T>(b.fore_from_arm), broadcast<T>(b.wrist_parent_from_arm)),
-        T(run.features & feature::pole_direction ? 0 : 1)};
+    const Binding<T> bind = binding_of<T, Features>(run);
+    return {bind.parent_from_arm,
+            ~bind.upper_from_arm,
+            bind.wrist_parent_from_arm,
+            bind.elbow_parent_from_arm * ~bind.fore_from_arm,
+            times_blade<kI>(bind.elbow_parent_from_arm) * ~bind.fore_from_arm,
+            T(run.features & feature::pole_direction ? 0 : 1)};
 }
 
 constexpr bool has(FeatureSet features, FeatureSet one) { return features & one; }
@@ -82,13 +42,6 @@ SWIVEL_INLINE ArmGoal<T> load_goal(const Rows<T, Features>& rows)
     return {rows.load_vector(Field::target), rows.load_vector(Field::pole), rows.load(Field::lengths, 0),
             rows.load(Field::lengths, 1)};
 }
-template <class T, FeatureSet Features>
-SWIVEL_INLINE ParentFrame<T> load_parent(const Rows<T, Features>& rows)
-{
-    return {rows.load_vector(Field::shoulder_position), rows.load_rotor(Field::parent_rotation),
-            rows.load(Field::parent_scale, 0)};
-}
-
 // Stores a rotation as its quaternion with w > 0. Returns false where w is 0 or NaN: there the result means nothing.
 template <class T, FeatureSet Features>
 SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, Field field, const Rotor<T>& q)
@@ -100,19 +53,19 @@ SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, Field field,
 
 // Stores the rotations and flags of a pose. Returns false where the hand is bad, or a joint turns by half a turn.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Binding<T>& bind, const ArmPose<T>& pose)
+SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Shared<T>& shared, const ArmPose<T>& pose)
 {
     constexpr bool world = has(Features, feature::world), joints = has(Features, feature::joints);
     Rotor<T> shoulder = pose.shoulder;
     if constexpr (joints) {
-        shoulder = pose.shoulder * bind.arm_from_upper;
-        const Rotor<T> elbow = pose.cos_half * bind.elbow_straight - pose.sin_half * bind.elbow_hinge;
+        shoulder = pose.shoulder * shared.arm_from_upper;
+        const Rotor<T> elbow = pose.cos_half * shared.elbow_straight - pose.sin_half * shared.elbow_hinge;
         rows.store_rotor(Field::elbow, hemisphere(elbow));  // folded arms turn by pi
     } else {
         rows.store(Field::elbow, 0, pose.cos_half);
         rows.store(Field::elbow, 1, pose.sin_half);
     }
-    if constexpr (joints && !world) shoulder = bind.parent_from_arm * shoulder;
+    if constexpr (joints && !world) shoulder = shared.parent_from_arm * shoulder;
     rows.store(Field::flags, 0, pose.flags);
     Mask<T> holds = store_rotation(rows, Field::shoulder, shoulder);
     if constexpr (has(Features, feature::hand)) {
@@ -120,7 +73,7 @@ SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Binding<T>
         Rotor<T> hand = given;
         if constexpr (world) hand = ~rows.load_rotor(Field::parent_rotation) * given;
         Rotor<T> wrist = wrist_rotor(pose, hand);
-        if constexpr (joints) wrist = bind.wrist_parent_from_arm * wrist;
+        if constexpr (joints) wrist = shared.wrist_parent_from_arm * wrist;
         holds = holds & store_rotation(rows, Field::wrist, wrist) & is_valid(given);
     }
     return holds;
@@ -133,13 +86,13 @@ SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>&
     ArmGoal<T> goal = load_goal(rows);
     Mask<T> ordinary = T(0) == T(0);
     if constexpr (has(Features, feature::world)) {
-        const ParentFrame<T> parent = load_parent(rows);
+        const ParentFrame<T> parent = rows.load_parent();
         const SeenGoal<T> seen = seen_by(parent, goal.wrist, goal.pole, shared.pole_is_point);
         goal = {seen.wrist, seen.pole, seen.size * goal.upper, seen.size * goal.fore};
         ordinary = is_ordinary(parent, seen);
     }
     const PlainArm<T> arm = solve_plain(goal);
-    const Mask<T> holds = arm.holds & store_pose(rows, shared.bind, arm.pose);
+    const Mask<T> holds = arm.holds & store_pose(rows, shared, arm.pose);
     if constexpr (!has(Features, feature::world)) return holds;
     return holds & ordinary;
 }
@@ -176,7 +129,7 @@ template <class T, FeatureSet Features>
 SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block, LimbsAside& aside)
 {
     constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > kLanes ? lanes / kLanes : 1;
-    const Shared<T> shared = shared_by<T>(run);
+    const Shared<T> shared = shared_by<T, Features>(run);
     const std::size_t from = std::size_t{block} * kLanes, step = blocks * kLanes;
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
@@ -184,7 +137,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
         if (has(Features, feature::world) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
         std::uint32_t others = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
-            const Mask<T> holds = solve_step(Rows<T, Features>{input + lane, results + lane}, shared);
+            const Mask<T> holds = solve_step(Rows<T, Features>{run, input + lane, results + lane}, shared);
             if (!all(holds)) [[unlikely]]
                 others |= lane_bits(!holds) << lane;
         }

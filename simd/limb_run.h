@@ -20,7 +20,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const SolveRun& run, Left
 {
     LimbUse use = limb_use<Features>(run);
     use.aim = Aims;  // as it is, but now the compiler knows
-    const LimbBinding<T> bind = limb_binding<T, Features>(run);
+    const Binding<T> bind = binding_of<T, Features>(run);
     for (std::size_t limb = 0; limb < run.limb_count; limb += lane_count<T>)
         left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb)));
 }
@@ -117,7 +117,7 @@ inline AllowedArcs<float> allowed_arcs_of(const SolveRun& run, std::size_t limb)
     const LimbUse use = limb_use<kToldFeatures>(run);
     LimbGoal<float> goal;
     const LimbEntry<float> entry =
-        load_limb(use, limb_binding<float, kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb), goal);
+        load_limb(use, binding_of<float, kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb), goal);
     if (!entry.valid || !is_valid(use, goal)) return {};
     if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
     return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);

@@ -7,83 +7,13 @@
 #include "core/clavicle.h"
 #include "core/forearm_twist.h"
 #include "core/limb.h"
-#include "core/space.h"
-#include "simd/kernels.h"
-#include "simd/lanes.h"
-#include "simd/rows.h"
+#include "simd/step.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
 // A set of features that is compiled as a constant: a cone with a twist, which gained 1.4 times the speed with AVX-512.
-// A full arm gained 1.25 times, too little for the time that the build takes. All other sets are told at run time.
-inline constexpr FeatureSet kToldFeatures = 0, kConeAndTwist = feature::shoulder_cone | feature::humeral_twist;
-
-template <FeatureSet Features>
-SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
-{
-    return Features == kToldFeatures ? run.features : Features;
-}
-template <FeatureSet Features>
-struct FirstRows {
-    std::uint32_t row[kFieldCount];
-    constexpr FirstRows()
-    {
-        for (std::size_t n = 0; n < kFieldCount; ++n) row[n] = field_first_row(Features, static_cast<Field>(n));
-    }
-};
-
-// The rows of one step of T's lanes, which lie in one block.
-template <class T, FeatureSet Features>
-struct LimbRows {
-    const SolveRun& run;
-    const float* input;
-    float* results;
-
-    SWIVEL_INLINE bool has(FeatureSet features) const { return (features_of<Features>(run) & features) != 0; }
-    SWIVEL_INLINE std::uint32_t row(Field field, int component) const
-    {
-        constexpr FirstRows<Features> first;
-        const std::size_t n = index_of(field);
-        return (Features == kToldFeatures ? run.first_row[n] : first.row[n]) + static_cast<std::uint32_t>(component);
-    }
-    SWIVEL_INLINE T load(Field field, int component) const { return lanes(input, row(field, component)); }
-    SWIVEL_INLINE T load_result(Field field, int component) const { return lanes(results, row(field, component)); }
-    SWIVEL_INLINE T lanes(const float* rows, std::uint32_t row) const
-    {
-        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + lane; });
-    }
-    SWIVEL_INLINE Vector<T> load_vector(Field field) const
-    {
-        return vector(load(field, 0), load(field, 1), load(field, 2));
-    }
-    SWIVEL_INLINE Rotor<T> load_rotor(Field field) const
-    {
-        return rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3));
-    }
-    SWIVEL_INLINE Turned<T> load_turned(Field field, int first = 0) const
-    {
-        return {load(field, first), load(field, first + 1)};
-    }
-    SWIVEL_INLINE Range<T> load_range(Field field, int first = 0) const
-    {
-        return {load_turned(field, first), load_turned(field, first + 2)};
-    }
-    SWIVEL_INLINE Cone<T> load_cone(Field field) const { return {load_vector(field), load(field, 3)}; }
-
-    template <class Value>
-    SWIVEL_INLINE void store(Field field, int component, const Value& value) const
-    {
-        float* const to = results + row(field, component) * kLanes;
-        store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return to + lane; }, value);
-    }
-    SWIVEL_INLINE void store_rotor(Field field, const Rotor<T>& q, int first = 0) const
-    {
-        store(field, first, q.template at<kI>());
-        store(field, first + 1, q.template at<kJ>());
-        store(field, first + 2, q.template at<kK>());
-        store(field, first + 3, q.template at<kScalar>());
-    }
-};
+// A full arm gained 1.25 times, too little for the time that the build takes.
+inline constexpr FeatureSet kConeAndTwist = feature::shoulder_cone | feature::humeral_twist;
 
 // What a crowd's features make the formula use.
 template <FeatureSet Features>
@@ -114,33 +44,8 @@ SWIVEL_INLINE LimbUse limb_use(const SolveRun& run)
     return use;
 }
 
-// How the skeleton's joints lie to the arm frame; all identities in crowds without joints.
-template <class T>
-struct LimbBinding {
-    Rotor<T> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
-    Rotor<T> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
-    Rotor<T> shoulder_rest, elbow_rest, wrist_rest;
-};
 template <class T, FeatureSet Features>
-SWIVEL_INLINE LimbBinding<T> limb_binding(const SolveRun& run)
-{
-    const Rotor<T> q = one<T>();
-    if (!(features_of<Features>(run) & feature::joints)) return {q, q, q, q, q, q, q, q, q};
-    const RestFrames& b = *run.frames;
-    const Rotor<T> wrist_parent = broadcast<T>(b.wrist_parent_from_arm), wrist_rest = broadcast<T>(b.wrist_rest);
-    return {broadcast<T>(b.parent_from_arm),
-            broadcast<T>(b.upper_from_arm),
-            broadcast<T>(b.elbow_parent_from_arm),
-            broadcast<T>(b.fore_from_arm),
-            wrist_parent,
-            normalise(~wrist_parent * wrist_rest),
-            broadcast<T>(b.shoulder_rest),
-            broadcast<T>(b.elbow_rest),
-            wrist_rest};
-}
-
-template <class T, FeatureSet Features>
-SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const LimbRows<T, Features>& rows)
+SWIVEL_INLINE JointLimits<T> load_limits(const LimitUse& use, const Rows<T, Features>& rows)
 {
     JointLimits<T> limits;
     if (use.flexion) limits.flexion = {rows.load(Field::flexion_limit, 0), rows.load(Field::flexion_limit, 1)};
@@ -167,7 +72,7 @@ struct LimbEntry {
 
 // Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows,
+SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows,
                                  bool pole_is_point, LimbGoal<T>& goal, LimbEntry<T>& entry)
 {
     const Vector<T> bone = sandwich(~bind.parent_from_arm, rows.load_vector(Field::clavicle));
@@ -183,7 +88,7 @@ SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const LimbBinding<T>& bind,
 
 // Loads a goal as the formula takes it; what is not used stays as it is.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows,
+SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows,
                                      LimbGoal<T>& goal)
 {
     LimbEntry<T> entry;
@@ -197,8 +102,7 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
         entry.valid = entry.valid & is_orientation(goal.hand);
     }
     if (rows.has(feature::world)) {
-        const ParentFrame<T> parent{rows.load_vector(Field::shoulder_position), rows.load_rotor(Field::parent_rotation),
-                                    rows.load(Field::parent_scale, 0)};
+        const ParentFrame<T> parent = rows.load_parent();
         entry.valid =
             entry.valid & is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
         // The arm frame goes with the parent.
@@ -246,7 +150,7 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const LimbBinding<T>& b
 }
 
 template <class T, FeatureSet Features>
-SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, const LimbRows<T, Features>& rows,
+SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows,
                               const LimbEntry<T>& entry, const SolvedLimb<T>& pose)
 {
     const auto store = [&](Field field, Field incoming, const Rotor<T>& q, const Rotor<T>& rest) SWIVEL_INLINE_LAMBDA {
@@ -256,28 +160,30 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
         rows.store_rotor(field, with_sign_of(select(pose.arm.valid, side, T(1)), safe));
     };
     const bool joints = rows.has(feature::joints);
+    const RestFrames& frames = *rows.run.frames;
+    const auto if_joints = [&](const float(&q)[4]) SWIVEL_INLINE_LAMBDA { return joints ? broadcast<T>(q) : one<T>(); };
     const Hinge<T> elbow = hinge(pose.arm.cos_half, -pose.arm.sin_half);
     store(Field::shoulder, Field::incoming_shoulder,
           joints ? bind.parent_from_arm * pose.arm.shoulder * ~bind.upper_from_arm : pose.arm.shoulder,
-          bind.shoulder_rest);
+          if_joints(frames.shoulder_rest));
     if (joints) {
         store(Field::elbow, Field::incoming_elbow, bind.elbow_parent_from_arm * elbow * ~bind.fore_from_arm,
-              bind.elbow_rest);
+              broadcast<T>(frames.elbow_rest));
     } else {
         rows.store(Field::elbow, 0, pose.arm.cos_half);
         rows.store(Field::elbow, 1, pose.arm.sin_half);
     }
     if (use.hand)
         store(Field::wrist, Field::incoming_wrist,
-              joints ? bind.wrist_parent_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist, bind.wrist_rest);
+              joints ? bind.wrist_parent_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist,
+              if_joints(frames.wrist_rest));
     if (const int bones = static_cast<int>(twist_bone_count(features_of<Features>(rows.run))); bones > 0) {
         const Turned<T> twist = twist_rotor(pose.wrist);
         for (int n = 0; n < bones; ++n) {
             const Turned<T> share = shared_twist(twist, (n + 1.0) / (bones + 1.0));
             const auto turn = share.cos * unit<T, kScalar>() + share.sin * unit<T, kK>();
-            const RestFrames& b = *rows.run.frames;
-            const Rotor<T> parent = joints ? broadcast<T>(b.twist_parent_from_arm[n]) : one<T>(),
-                           bone = joints ? broadcast<T>(b.twist_from_arm[n]) : one<T>();
+            const Rotor<T> parent = if_joints(frames.twist_parent_from_arm[n]),
+                           bone = if_joints(frames.twist_from_arm[n]);
             rows.store_rotor(Field::twist_bones, hemisphere(parent * turn * ~bone), 4 * n);
         }
     }
@@ -296,7 +202,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const LimbBinding<T>& bind, co
 
 // The rows of the step that starts with a limb of a run.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE LimbRows<T, Features> rows_of(const SolveRun& run, std::size_t limb)
+SWIVEL_INLINE Rows<T, Features> rows_of(const SolveRun& run, std::size_t limb)
 {
     const bool told = Features == kToldFeatures;
     const std::uint32_t inputs = told ? run.input_row_count : input_row_count(Features);
@@ -313,8 +219,7 @@ struct Waiting {
 };
 // Solves one step.
 template <bool Aims, class Policy, class T, FeatureSet Features>
-SWIVEL_INLINE Waiting<T> solve_limb_step(const LimbUse& use, const LimbBinding<T>& bind,
-                                         const LimbRows<T, Features>& rows)
+SWIVEL_INLINE Waiting<T> solve_limb_step(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows)
 {
     LimbGoal<T> goal;
     const LimbEntry<T> entry = load_limb(use, bind, rows, goal);

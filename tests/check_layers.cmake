@@ -92,11 +92,12 @@ may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
 
 # ---- simd: the two files of kernels and their headers see formulas and lanes; the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/(solve_arm|space)[.]h\"|\"simd/(aside|kernels|lanes|pack|rows)[.]h\"")
+may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|step)[.]h\"")
 may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"simd/(kernels|lanes|limb_run)[.]h\"")
-may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb)[.]h\"|\"simd/step[.]h\"")
 may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(aside|limb_step)[.]h\"")
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
+may_include(simd "simd/step[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/(dispatch[.](h|cpp)|fields[.]h|kernels[.]h|rows[.]h)$"
             "${standard}|\"simd/(dispatch|fields|kernels)[.]h\"|\"core/isa[.]h\"")

@@ -76,13 +76,11 @@ bool is_plain(const Inputs& inputs, swivel_features features, std::uint32_t grou
     }
     const PlainArm<float> arm = solve_plain(goal);
     const swivel::corpus::Binding& own = kBindings[group];
-    const Rotor<float> upper = rotor_of(own.upper_from_arm), fore = rotor_of(own.fore_from_arm);
-    const auto bind = binding(rotor_of(own.parent_from_arm), upper, upper, fore, fore);
     Rotor<float> shoulder = arm.pose.shoulder, wrist = wrist_rotor(arm.pose, hand);
     if (features & kJoints) {
-        shoulder = shoulder * bind.arm_from_upper;
-        if (!(features & kWorld)) shoulder = bind.parent_from_arm * shoulder;
-        wrist = bind.wrist_parent_from_arm * wrist;
+        shoulder = shoulder * ~rotor_of(own.upper_from_arm);
+        if (!(features & kWorld)) shoulder = rotor_of(own.parent_from_arm) * shoulder;
+        wrist = rotor_of(own.fore_from_arm) * wrist;
     }
     const auto has_side = [](const Rotor<float>& q) { return std::fabs(q.at<kScalar>()) > 0; };
     return arm.holds && plain && has_side(shoulder) && (!(features & kHand) || has_side(wrist));

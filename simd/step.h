@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// What one step of lanes reads and writes: its rows, and how a skeleton's joints lie to its arms. The kernels of plain
+// arms and of whole limbs both use it.
+#pragma once
+
+#include "core/joint_limits.h"
+#include "core/space.h"
+#include "simd/kernels.h"
+#include "simd/lanes.h"
+#include "simd/rows.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// A kernel is compiled for one set of features, or for all sets, and is then told the features with each run.
+inline constexpr FeatureSet kToldFeatures = ~FeatureSet{0};
+
+template <FeatureSet Features>
+SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
+{
+    return Features == kToldFeatures ? run.features : Features;
+}
+
+// The first row of each field, where the compiler knows the features.
+template <FeatureSet Features>
+struct FirstRows {
+    std::uint32_t row[kFieldCount];
+    constexpr FirstRows()
+    {
+        for (std::size_t n = 0; n < kFieldCount; ++n) row[n] = field_first_row(Features, static_cast<Field>(n));
+    }
+};
+
+// The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
+// step covers whole blocks or lies in one. So every other place is a constant away. A step whose features are told lies
+// in one.
+template <class T, FeatureSet Features>
+struct Rows {
+    const SolveRun& run;
+    const float* input;
+    float* results;
+
+    SWIVEL_INLINE bool has(FeatureSet features) const { return (features_of<Features>(run) & features) != 0; }
+    SWIVEL_INLINE std::uint32_t row(Field field, int component) const
+    {
+        constexpr FirstRows<Features> first;
+        const std::size_t n = index_of(field);
+        return (Features == kToldFeatures ? run.first_row[n] : first.row[n]) + static_cast<std::uint32_t>(component);
+    }
+    SWIVEL_INLINE T load(Field field, int component) const
+    {
+        return lanes(input, input_row_count(Features), row(field, component));
+    }
+    SWIVEL_INLINE T load_result(Field field, int component) const
+    {
+        return lanes(results, result_row_count(Features), row(field, component));
+    }
+    SWIVEL_INLINE static T lanes(const float* rows, std::uint32_t row_count, std::uint32_t row)
+    {
+        return load_lanes<T>([&](std::size_t lane)
+                                 SWIVEL_INLINE_LAMBDA { return rows + row_offset(lane, row_count, row); });
+    }
+    SWIVEL_INLINE Vector<T> load_vector(Field field) const
+    {
+        return vector(load(field, 0), load(field, 1), load(field, 2));
+    }
+    SWIVEL_INLINE Rotor<T> load_rotor(Field field) const
+    {
+        return rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3));
+    }
+    SWIVEL_INLINE Turned<T> load_turned(Field field, int first = 0) const
+    {
+        return {load(field, first), load(field, first + 1)};
+    }
+    SWIVEL_INLINE Range<T> load_range(Field field, int first = 0) const
+    {
+        return {load_turned(field, first), load_turned(field, first + 2)};
+    }
+    SWIVEL_INLINE Cone<T> load_cone(Field field) const { return {load_vector(field), load(field, 3)}; }
+    SWIVEL_INLINE ParentFrame<T> load_parent() const
+    {
+        return {load_vector(Field::shoulder_position), load_rotor(Field::parent_rotation),
+                load(Field::parent_scale, 0)};
+    }
+
+    template <class Value>
+    SWIVEL_INLINE void store(Field field, int component, const Value& value) const
+    {
+        const std::uint32_t to = row(field, component);
+        store_lanes([&](std::size_t lane)
+                        SWIVEL_INLINE_LAMBDA { return results + row_offset(lane, result_row_count(Features), to); },
+                    value);
+    }
+    SWIVEL_INLINE void store_rotor(Field field, const Rotor<T>& q, int first = 0) const
+    {
+        store(field, first, q.template at<kI>());
+        store(field, first + 1, q.template at<kJ>());
+        store(field, first + 2, q.template at<kK>());
+        store(field, first + 3, q.template at<kScalar>());
+    }
+};
+
+// How a skeleton's joints lie to the arm frame, all of unit length; identities in crowds without joints.
+template <class T>
+struct Binding {
+    Rotor<T> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
+    Rotor<T> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
+};
+template <class T, FeatureSet Features>
+SWIVEL_INLINE Binding<T> binding_of(const SolveRun& run)
+{
+    const Rotor<T> q = rotor(T(0), T(0), T(0), T(1));
+    if (!(features_of<Features>(run) & feature::joints)) return {q, q, q, q, q, q};
+    const RestFrames& b = *run.frames;
+    const Rotor<T> wrist_parent = broadcast<T>(b.wrist_parent_from_arm);
+    return {broadcast<T>(b.parent_from_arm),
+            broadcast<T>(b.upper_from_arm),
+            broadcast<T>(b.elbow_parent_from_arm),
+            broadcast<T>(b.fore_from_arm),
+            wrist_parent,
+            normalise(~wrist_parent * broadcast<T>(b.wrist_rest))};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA
