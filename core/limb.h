@@ -127,6 +127,9 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
         limb.normal = limb.step.normal;
         limb.flags = limb.flags | bits_where(limb.step.limited, flag::limited_step);
     }
+    // Once more: of a wish close to the line, rounding has left some of the line. What this shortens is less than
+    // rounding.
+    limb.normal = across(limb.normal, limb.line);
 
     const Hinge<T> elbow = hinge(limb.bones.cos_half, -limb.bones.sin_half);
     limb.arm = {limb.line, limb.normal, limb.bones.lift, elbow, wrist.hand};

@@ -78,11 +78,8 @@ inline LimitedArm random_limited_arm(Random& random)
 }
 
 template <class T>
-SolvedLimb<T> solve(const LimitedArm& a)
+LimbGoal<T> goal_of(const LimitedArm& a)
 {
-    LimbUse use;
-    use.hand = true;
-    use.limits = a.use;
     LimbGoal<T> goal{};
     goal.arm = {mv<T>(a.arm.wrist), mv<T>(a.arm.pole), static_cast<T>(a.arm.upper), static_cast<T>(a.arm.fore)};
     goal.hand = rotor(static_cast<T>(a.hand.x()), static_cast<T>(a.hand.y()), static_cast<T>(a.hand.z()),
@@ -97,7 +94,22 @@ SolvedLimb<T> solve(const LimitedArm& a)
         limits.shoulder_box[n] = formula_range<T>(a.shoulder_box.range[n]);
         limits.wrist_box[n] = formula_range<T>(a.wrist_box.range[n]);
     }
+    return goal;
+}
+// wish: what the goal's pole is.
+template <class T>
+SolvedLimb<T> solve(const LimitedArm& a, const LimbGoal<T>& goal, Wish wish)
+{
+    LimbUse use;
+    use.hand = true;
+    use.limits = a.use;
+    use.wish = wish;
     return solve_limb<false>(use, goal, Mask<T>(true));
+}
+template <class T>
+SolvedLimb<T> solve(const LimitedArm& a)
+{
+    return solve(a, goal_of<T>(a), Wish::pole);
 }
 
 // The arm at a swivel from the wish, in double, from its elbow's place.

@@ -124,6 +124,24 @@ TEST_CASE("in float, a million arms: limits hold, the nearest swivel is found, a
     check<float>(2, kArms, 500);
 }
 
+TEST_CASE("limits hold, too, where the wished normal is close to the target's line")
+{
+    Random random{3};
+    int moved = 0;
+    for (int n = 0; n < 100'000; ++n) {
+        const LimitedArm a = random_limited_arm(random);
+        LimbGoal<float> goal = goal_of<float>(a);
+        const double along = random.spread(1, 900) * (random.below(2) ? 1 : -1);
+        goal.arm.pole = mv<float>(Vector3d(a.arm.normal() + along * a.arm.wrist.normalized()));
+        const SolvedLimb<float> pose = solve(a, goal, Wish::normal);
+        if (pose.arm.flags & flag::infeasible) continue;
+        moved += std::fabs(swivel_of(a, pose)) > 1e-2;
+        CAPTURE(n, along);
+        REQUIRE(violation(a, pose) <= 1e-6);
+    }
+    CHECK(moved > 10'000);
+}
+
 TEST_CASE("a locked angle does not allow its opposite")
 {
     const Ends<float> locked = ends(Range<float>{{1, 0}, {1, 0}});
