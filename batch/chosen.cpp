@@ -65,13 +65,6 @@ void merge_lanes(LaneMask chosen, std::uint32_t row_count, const Word* from, Wor
     }
 }
 
-// Copies one lane of row_count rows.
-template <class Word>
-void copy_lane(std::uint32_t row_count, const Word* from, Word* to)
-{
-    for (std::uint32_t row = 0; row < row_count; ++row) to[row * SWIVEL_LANES] = from[row * SWIVEL_LANES];
-}
-
 // Blocks on the stack that are solved together and whose results are then copied to where they belong.
 struct Aside {
     const swivel_crowd& crowd;

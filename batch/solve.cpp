@@ -30,7 +30,6 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* inpu
 {
     return {input,
             results,
-            block_count,
             crowd.input_row_count,
             result_row_count(crowd.features & ~feature::compact),
             std::size_t{block_count} * SWIVEL_LANES,

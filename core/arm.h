@@ -76,6 +76,18 @@ SWIVEL_INLINE constexpr Mask<T> is_length(const T& x)
     return ((x >= T(kTiny)) & (x <= T(kHuge))) | (x == T(0));
 }
 
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_within(const T& x, double least, double most)
+{
+    return (x >= T(least)) & (x <= T(most));
+}
+// A rotor may have any length in 1e-9..1e9. Its square times a scale is then a normal float.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_orientation(const Rotor<T>& q)
+{
+    return is_within(len2(q), 1e-18, 1e18);
+}
+
 // Forward kinematics, for rotors of unit length: elbow = q_s L1 e3 ~q_s, wrist = q_s (L1 e3 + q_e L2 e3 ~q_e) ~q_s.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> elbow_of(const ArmPose<T>& pose, const T& upper)

@@ -107,11 +107,12 @@ struct SearchNow {
     SWIVEL_INLINE static constexpr bool is_worth(Search, const auto& /*lanes*/) { return true; }
 };
 
+// valid: false where the input is bad, so that nothing is searched for.
 template <class Policy = SearchNow, class T>
-SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits)
+SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits, const Mask<T>& valid)
 {
     const Turned<T> wish{T(1), T(0)};
-    const Mask<T> granted = room(limits, wish) >= T(kNoRoom);
+    const Mask<T> granted = (room(limits, wish) >= T(kNoRoom)) | !valid;
     if (all(granted) || !Policy::is_worth(Search::nearest_end, !granted))
         return {wish, granted, granted, Search::nearest_end};
     const FoundSwivel<T> end = nearest_end(limits);

@@ -29,9 +29,8 @@ SWIVEL_INLINE constexpr FrameStart<T> frame_start(const Vector<T>& line, const T
 
 template <class T>
 struct FrameRotor {
-    Rotor<T> from_start;         // carries the start to the line and e1 to the normal; of any length
-    T middle_half2, twist_len2;  // half the squared length of its middle line, and the squared length of its twist
-    T start;                     // only its sign counts: e3's
+    Rotor<T> from_start;  // carries the start to the line and e1 to the normal; of any length
+    T twist_len2;         // the squared length of its twist
 };
 
 // per_length2: about 1 / length^2 of the line; it keeps the numbers in range, and cancels with the rotor's length.
@@ -58,15 +57,23 @@ SWIVEL_INLINE constexpr FrameRotor<T> frame_from_start(const Vector<T>& line, co
     const Mask<T> obtuse = c < T(0);
     const auto twist = select(obtuse, s, large) * unit<T, kScalar>() + select(obtuse, large, s) * unit<T, kK>();
 
-    return {central_line(middle) * twist, from.middle_half2(), large * large + s * s, start};
+    return {central_line(middle) * twist, large * large + s * s};
 }
 
-// The same, both of unit length: the rotor is 1.4 to 9 long.
+// A rotor from the start, as a rotor from e3.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> from_e3(const FrameStart<T>& start, const Rotor<T>& from_start)
+{
+    return select(copysign(T(1), start.side) < T(0), times_blade<kI>(from_start), from_start);
+}
+
+// For a line and a normal of unit length: the rotor that carries e3 to the line and e1 to the normal. It is 1.4 to 9
+// long.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_along(const Vector<T>& line, const Vector<T>& normal)
 {
-    const FrameRotor<T> frame = frame_from_start(line, frame_start(line, T(1)), T(1), normal, T(1));
-    return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(frame.from_start), frame.from_start);
+    const FrameStart<T> start = frame_start(line, T(1));
+    return from_e3(start, frame_from_start(line, start, T(1), normal, T(1)).from_start);
 }
 
 // The rotor of unit length that carries e3 to the line and e1 to a normal orthogonal to it, both of any length.
@@ -74,10 +81,10 @@ template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector<T>& normal)
 {
     const T length2 = len2(line);
-    const FrameRotor<T> frame =
-        frame_from_start(line, frame_start(line, sqrt(length2)), per_power_of_two(length2), normal, sqrt(len2(normal)));
-    const Rotor<T> q = (T(1) / sqrt((frame.middle_half2 + frame.middle_half2) * frame.twist_len2)) * frame.from_start;
-    return select(copysign(T(1), frame.start) < T(0), times_blade<kI>(q), q);
+    const FrameStart<T> start = frame_start(line, sqrt(length2));
+    const FrameRotor<T> frame = frame_from_start(line, start, per_power_of_two(length2), normal, sqrt(len2(normal)));
+    const T half2 = start.middle_half2() * frame.twist_len2;
+    return from_e3(start, (T(1) / sqrt(half2 + half2)) * frame.from_start);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -150,8 +150,8 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     pose.next = Search::nearest_end;
     if (use.limits.on_swivel()) {
         const SwivelLimits<T> limits = swivel_limits(use.limits, goal.limits, limb.arm);
-        const ChosenSwivel<T> chosen = choose_swivel<Policy>(limits.limits);
-        pose.settled = chosen.settled | !valid;
+        const ChosenSwivel<T> chosen = choose_swivel<Policy>(limits.limits, valid);
+        pose.settled = chosen.settled;
         pose.next = chosen.next;
         flags = flags | broken(limits) | bits_where(!chosen.allowed, flag::infeasible);
         normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);

@@ -66,12 +66,12 @@ struct LimbGoal {
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_share(const T& x)
 {
-    return (x >= T(0)) & (x <= T(1));
+    return is_within(x, 0, 1);
 }
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_unit2(const T& length2)
 {
-    return (length2 >= T(0.999)) & (length2 <= T(1.001));
+    return is_within(length2, 0.999, 1.001);
 }
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Range<T>& range)
@@ -103,12 +103,6 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimitUse& use, const JointLimits<
     }
     return valid;
 }
-template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_orientation(const Rotor<T>& q)
-{
-    const T length2 = len2(q);
-    return (length2 >= T(1e-18)) & (length2 <= T(1e18));
-}
 
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& goal)
@@ -116,11 +110,11 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& 
     Mask<T> valid = (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2)) &
                     is_length(goal.arm.upper) & is_length(goal.arm.fore) & is_valid(use.limits, goal.limits);
     // A product of two rotors as is_orientation() allows them.
-    if (use.hand) valid = valid & (len2(goal.hand) >= T(1e-37)) & (len2(goal.hand) <= T(1e37));
+    if (use.hand) valid = valid & is_within(len2(goal.hand), 1e-37, 1e37);
     if (use.effector) valid = valid & (len2(goal.effector) <= T(kHuge2));
     if (use.angle) {
         const T length2 = goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin;
-        valid = valid & (length2 >= T(1e-18)) & (length2 <= T(1e18));
+        valid = valid & is_within(length2, 1e-18, 1e18);
     }
     if (use.incoming)
         valid = valid & is_orientation(goal.incoming.shoulder) & is_orientation(goal.incoming.elbow) &

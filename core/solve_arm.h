@@ -22,8 +22,9 @@ namespace swivel::inline SWIVEL_ISA {
 // Stage 1: the plane that the arm lies in.
 template <class T>
 struct SwivelPlane {
-    T length, per_length2;  // of the target's line; and about 1 / length^2
-    Vector<T> normal;       // of length normal_length
+    FrameStart<T> start;  // of the frame along the target's line
+    T per_length2;        // about 1 / length^2 of that line
+    Vector<T> normal;     // of length normal_length
     T normal_length;
     Mask<T> holds;
 };
@@ -39,7 +40,7 @@ SWIVEL_INLINE constexpr SwivelPlane<T> swivel_plane(const ArmGoal<T>& goal)
     const Mask<T> holds = (lo(wrist2, pole1) >= T(kPlainLeast)) &
                           ((wrist2 + pole1) + (goal.upper + goal.fore) <= T(kPlainMost)) &
                           (normal_length > T(kPoleOff) * (length * pole1));
-    return {length, per_power_of_two(wrist2), normal, normal_length, holds};
+    return {frame_start(goal.wrist, length), per_power_of_two(wrist2), normal, normal_length, holds};
 }
 
 // Stage 2: the elbow bends, and the upper arm is lifted off the target's line.
@@ -79,10 +80,11 @@ SWIVEL_INLINE constexpr BentElbow<T> bend_elbow(const FrameStart<T>& start, cons
 // Stage 3: the shoulder's rotor. One root divides all lengths out.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> turn_shoulder(const Vector<T>& wrist, const SwivelPlane<T>& plane,
-                                               const FrameStart<T>& start, const BentElbow<T>& elbow)
+                                               const BentElbow<T>& elbow)
 {
-    const FrameRotor<T> frame = frame_from_start(wrist, start, plane.per_length2, plane.normal, plane.normal_length);
-    const T half2 = (frame.middle_half2 * frame.twist_len2) * elbow.lift2;  // the lift comes last
+    const FrameRotor<T> frame =
+        frame_from_start(wrist, plane.start, plane.per_length2, plane.normal, plane.normal_length);
+    const T half2 = (plane.start.middle_half2() * frame.twist_len2) * elbow.lift2;  // the lift comes last
     return (T(0.707106781186547524) / sqrt(half2)) * (frame.from_start * elbow.lift);
 }
 
@@ -96,9 +98,8 @@ template <class T>
 SWIVEL_INLINE constexpr PlainArm<T> solve_plain(const ArmGoal<T>& goal)
 {
     const SwivelPlane<T> plane = swivel_plane(goal);
-    const FrameStart<T> start = frame_start(goal.wrist, plane.length);
-    const BentElbow<T> elbow = bend_elbow(start, goal.upper, goal.fore);
-    const Rotor<T> shoulder = turn_shoulder(goal.wrist, plane, start, elbow);
+    const BentElbow<T> elbow = bend_elbow(plane.start, goal.upper, goal.fore);
+    const Rotor<T> shoulder = turn_shoulder(goal.wrist, plane, elbow);
     const Mask<T> holds = plane.holds & elbow.holds;
     return {{shoulder, elbow.cos_half, elbow.sin_half, elbow.flags, T(0) == T(0)}, holds};
 }

@@ -28,20 +28,9 @@ SWIVEL_INLINE constexpr Rotor<T> broadcast(const float (&q)[4])
 }
 
 template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_within(const T& x, double least, double most)
-{
-    return (x >= T(least)) & (x <= T(most));
-}
-// A rotor may have any length in 1e-9..1e9. Its square times a scale is then a normal float.
-template <class T>
-SWIVEL_INLINE constexpr Mask<T> is_valid(const Rotor<T>& q)
-{
-    return is_within(len2(q), 1e-18, 1e18);
-}
-template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const ParentFrame<T>& frame)
 {
-    return is_valid(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
+    return is_orientation(frame.rotation) & (len2(frame.position) <= T(kHuge2)) & is_within(frame.scale, kTiny, kHuge);
 }
 
 // A goal in the world, as the parent's frame sees it: the parent's rotation is turned back. Wrist and pole are `size`

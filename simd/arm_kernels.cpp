@@ -74,7 +74,7 @@ SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Shared<T>&
         if constexpr (world) hand = ~rows.load_rotor(Field::parent_rotation) * given;
         Rotor<T> wrist = wrist_rotor(pose, hand);
         if constexpr (joints) wrist = shared.wrist_parent_from_arm * wrist;
-        holds = holds & store_rotation(rows, Field::wrist, wrist) & is_valid(given);
+        holds = holds & store_rotation(rows, Field::wrist, wrist) & is_orientation(given);
     }
     return holds;
 }
@@ -129,11 +129,12 @@ template <class T, FeatureSet Features>
 SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block, LimbsAside& aside)
 {
     constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > kLanes ? lanes / kLanes : 1;
+    const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
     const Shared<T> shared = shared_by<T, Features>(run);
     const std::size_t from = std::size_t{block} * kLanes, step = blocks * kLanes;
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
-    for (; block + blocks <= run.block_count; block += blocks) {
+    for (; block + blocks <= block_count; block += blocks) {
         if (has(Features, feature::world) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
         std::uint32_t others = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {

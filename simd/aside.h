@@ -19,7 +19,6 @@ inline SolveRun blocks_of(SolveRun run, std::uint32_t block, std::uint32_t block
     const std::size_t limb = std::size_t{block} * kLanes;
     run.input += row_offset(limb, run.input_row_count, 0);
     run.results += row_offset(limb, run.result_row_count, 0);
-    run.block_count = block_count;
     run.limb_count = std::size_t{block_count} * kLanes;
     return run;
 }
@@ -30,10 +29,6 @@ struct LimbsAside {
     std::size_t limb[kLanes];  // where each lane belongs in the run
     std::size_t count = 0;
 
-    static void copy_lane(std::uint32_t row_count, const float* from, float* to)
-    {
-        for (std::uint32_t row = 0; row < row_count; ++row) to[row * kLanes] = from[row * kLanes];
-    }
     void take(const SolveRun& run, std::size_t from)
     {
         copy_lane(run.input_row_count, run.input + row_offset(from, run.input_row_count, 0), input + count);
@@ -50,7 +45,6 @@ struct LimbsAside {
         }
         run.input = input;
         run.results = results;
-        run.block_count = 1;
         run.limb_count = count;
         return run;
     }

@@ -27,8 +27,8 @@ struct RestFrames {
 struct SolveRun {
     const float* input;  // input rows of the run's first block
     float* results;      // result rows of the same block, floats
-    std::uint32_t block_count, input_row_count, result_row_count;
-    std::size_t limb_count;  // the run may end within its last block
+    std::uint32_t input_row_count, result_row_count;
+    std::size_t limb_count;  // padding included, but gathered limbs may end within their block
     FeatureSet features;
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
     const RestFrames* frames;

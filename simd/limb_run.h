@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A run of whole limbs, step by step. A step takes as long as its slowest limb, and with Euler boxes a search takes far
-// longer than the rest: two times for the nearest end, ten for the least violation. So limbs that need one are put
-// aside, and solved together.
+// A run of whole limbs, step by step. A step takes as long as its slowest limb. With Euler boxes, a search for the
+// nearest end takes as long as the rest of the limb, and one for the least violation ten times as long. So limbs that
+// need a search are put aside, and solved together.
 #pragma once
 
 #include <bit>
@@ -48,14 +48,15 @@ struct BoxedLimbs {
     const SolveRun& run;
     LimbsAside for_end, for_least;
 
+    explicit BoxedLimbs(const SolveRun& of) : run(of) {}
     void solve()
     {
-        solve_steps(run, nullptr);
+        solve_or_put_aside(run, nullptr);
         if (for_end.count > 0) find_ends();
         if (for_least.count > 0) find_least();
     }
     // Lanes that wait for a search are put aside, or added to `waits`, a bit for each.
-    void solve_steps(const SolveRun& steps, std::uint32_t* waits)
+    void solve_or_put_aside(const SolveRun& steps, std::uint32_t* waits)
     {
         solve_limb_steps<T, kToldFeatures, Aims, SearchForMany>(
             steps, [&](std::size_t first, const Waiting<T>& waiting) SWIVEL_INLINE_LAMBDA {
@@ -78,7 +79,7 @@ struct BoxedLimbs {
     void find_ends()
     {
         std::uint32_t waits = 0;
-        solve_steps(for_end.block_of(run), &waits);
+        solve_or_put_aside(for_end.block_of(run), &waits);
         waits &= (1u << for_end.count) - 1;
         for_end.give_back(run);
         for (; waits != 0; waits &= waits - 1)
@@ -92,11 +93,10 @@ struct BoxedLimbs {
 };
 
 template <class T, bool Aims>
-void solve_limbs(const SolveRun& run)
+void solve_told(const SolveRun& run)
 {
     if constexpr (1 < lane_count<T>)  // a limb alone keeps no neighbour waiting
-        if (run.features & (feature::shoulder_box | feature::wrist_box))
-            return BoxedLimbs<T, Aims>{run, {}, {}}.solve();
+        if (run.features & (feature::shoulder_box | feature::wrist_box)) return BoxedLimbs<T, Aims>(run).solve();
     search_limbs<T, kToldFeatures, Aims>(run);
 }
 template <class T>
@@ -106,9 +106,9 @@ void solve_limbs(const SolveRun& run)
     if (seen == kConeAndTwist)
         search_limbs<T, kConeAndTwist, false>(run);
     else if (run.features & feature::aim)
-        solve_limbs<T, true>(run);
+        solve_told<T, true>(run);
     else
-        solve_limbs<T, false>(run);
+        solve_told<T, false>(run);
 }
 
 // The swivels that the limits of one limb of a run allow.

@@ -145,4 +145,11 @@ constexpr std::size_t row_offset(std::size_t limb, std::uint32_t row_count, std:
     return ((limb / kLanes) * row_count + row) * kLanes + limb % kLanes;
 }
 
+// Copies one lane of row_count rows from block to block.
+template <class Word>
+[[gnu::always_inline]] inline void copy_lane(std::uint32_t row_count, const Word* from, Word* to)
+{
+    for (std::uint32_t row = 0; row < row_count; ++row) to[row * kLanes] = from[row * kLanes];
+}
+
 }  // namespace swivel

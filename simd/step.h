@@ -36,6 +36,7 @@ struct FirstRows {
 // in one.
 template <class T, FeatureSet Features>
 struct Rows {
+    static_assert(Features != kToldFeatures || lane_count<T> <= kLanes);
     const SolveRun& run;
     const float* input;
     float* results;

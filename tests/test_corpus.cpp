@@ -64,7 +64,7 @@ bool is_plain(const Inputs& inputs, swivel_features features, std::uint32_t grou
     bool plain = true;
     if (features & kHand) {
         hand = rotor_of(inputs.hands[n]);
-        plain = is_valid(hand);
+        plain = is_orientation(hand);
     }
     if (features & kWorld) {
         const ParentFrame<float> parent{vector_of(inputs.positions[n]), rotor_of(inputs.rotations[n]),

@@ -81,8 +81,8 @@ TEST_CASE("of two least violations within 1e-6, the one nearer to the wish is ta
         for (int n = 0; n < 100; ++n) {
             const double far = random.between(1.7, 4.5), near = far + kPi;  // by their distance from 0
             const double room = random.between(-0.9, -0.01);
-            RC_ASSERT(is_at(choose_swivel(two_peaks(far, room, random.between(-3e-7, 3e-7))), near));
-            RC_ASSERT(is_at(choose_swivel(two_peaks(far, room, 3e-6)), far));  // 6e-6 more room
+            RC_ASSERT(is_at(choose_swivel(two_peaks(far, room, random.between(-3e-7, 3e-7)), true), near));
+            RC_ASSERT(is_at(choose_swivel(two_peaks(far, room, 3e-6), true), far));  // 6e-6 more room
         }
     });
 }
@@ -98,9 +98,9 @@ TEST_CASE("of two as near, the lower line's is taken")
             const double less = random.between(-2e-7, 2e-7), c = 0.5 * std::cos(turn), s = 0.5 * std::sin(turn);
             Limits<float> limits = both(line(-slope, 0, -0.5), line(c, -s, -0.5));
             limits.line[2] = line(c, s, -0.5 - less), limits.line_count = 3;
-            RC_ASSERT(choose_swivel(limits).swivel.sin > 0.1f);
+            RC_ASSERT(choose_swivel(limits, true).swivel.sin > 0.1f);
             std::swap(limits.line[1], limits.line[2]);
-            RC_ASSERT(choose_swivel(limits).swivel.sin < -0.1f);
+            RC_ASSERT(choose_swivel(limits, true).swivel.sin < -0.1f);
         }
     });
 }
@@ -111,7 +111,7 @@ TEST_CASE("an allowed swivel ties with no other")
     for (const double far : {2.0, 2.5, 3.0, 4.0}) {
         const Limits<float> limits = two_peaks(far, -7.5e-7, 4e-7);
         CHECK_FALSE(nearest_end(limits).allowed);
-        const ChosenSwivel<float> chosen = choose_swivel(limits);
+        const ChosenSwivel<float> chosen = choose_swivel(limits, true);
         CHECK(chosen.allowed);
         CHECK(is_at(chosen, far));
     }
