@@ -53,7 +53,7 @@ struct Work {
 };
 bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 
-// Work with frames goes in rounds, because limbs of one character often share cache lines: round n is the nth run of
+// Work with frames goes in rounds, because limbs of one character often share cache lines. Round n is the nth run of
 // blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.
 void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
                   std::uint32_t first, std::uint32_t end);

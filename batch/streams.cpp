@@ -40,13 +40,13 @@ void copy_lanes(float* lanes, std::size_t limb_count, Byte* values, std::size_t 
     for (; limb_count > 0; --limb_count, ++lanes, values += stride) Copy::one(values, lanes);
 }
 
-// Block by block, since the lanes of one block lie side by side. Whole blocks take the short loop, which stays a loop:
-// loads that are unrolled lie too far apart for the CPU to foresee the next ones.
+// Block by block, since the lanes of one block lie side by side. Whole blocks take the short loop, which stays a loop.
+// Loads that are unrolled lie too far apart for the CPU to foresee the next ones.
 template <class Copy>
 void copy_blocks(const Stream& stream, std::size_t first, std::size_t limb_count)
 {
     const std::size_t stride = stream.stride, step = stream.block_floats, lane = first % SWIVEL_LANES;
-    auto* values = const_cast<typename Copy::Byte*>(stream.values) + (first - stream.values_first) * stride;
+    typename Copy::Byte* values = stream.values + (first - stream.values_first) * stride;
     float* block = stream.rows + first / SWIVEL_LANES * step;
     if (lane > 0) {
         const std::size_t count = std::min(limb_count, SWIVEL_LANES - lane);
@@ -91,13 +91,15 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
 // Of the field with the most components.
 constexpr std::uint32_t kMostFieldStreams = stream_count(field_row_count(kEveryFeature, Field::twist_bones));
 
+// Streams in only read the caller's values.
+char* bytes_of(swivel_in values) { return static_cast<char*>(const_cast<void*>(values.data)); }
+
 // Long values go four components at a time.
 template <template <std::size_t> class Copy>
-Stream* streams(FieldRows rows, std::size_t first, const void* data, std::size_t stride, Stream* to)
+Stream* streams(FieldRows rows, std::size_t first, char* values, std::size_t stride, Stream* to)
 {
     constexpr decltype(Stream::run) run[] = {copy_blocks<Copy<1>>, copy_blocks<Copy<2>>, copy_blocks<Copy<3>>,
                                              copy_blocks<Copy<4>>};
-    const char* values = static_cast<const char*>(data);
     for (std::uint32_t c = 0; c < rows.component_count; c += 4)
         *to++ = {run[std::min(rows.component_count - c, 4u) - 1],
                  rows.base + c * SWIVEL_LANES,
@@ -123,7 +125,7 @@ FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field)
 
 Stream* streams_in(const FieldRows& rows, std::size_t first, swivel_in values, Stream* to)
 {
-    return streams<In>(rows, first, values.data, values.stride, to);
+    return streams<In>(rows, first, bytes_of(values), values.stride, to);
 }
 
 Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in values, swivel_in origins, Stream* to)
@@ -132,7 +134,7 @@ Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in v
     *to++ = {copy_doubles,
              rows.base,
              std::size_t{rows.row_count} * SWIVEL_LANES,
-             static_cast<const char*>(values.data),
+             bytes_of(values),
              values.stride,
              first,
              static_cast<const char*>(origins.data ? origins.data : nowhere),
@@ -142,7 +144,7 @@ Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in v
 
 Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values, Stream* to)
 {
-    return streams<Out>(rows, first, values.data, values.stride, to);
+    return streams<Out>(rows, first, static_cast<char*>(values.data), values.stride, to);
 }
 
 void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_t limb_count)

@@ -20,7 +20,7 @@ struct Stream {
     void (*run)(const Stream& stream, std::size_t first, std::size_t limb_count);
     float* rows;               // lane 0 of the first component's row in the group's first block
     std::size_t block_floats;  // from block to block
-    const char* values;        // written by streams of streams_out() alone
+    char* values;              // only streams of streams_out() write them
     std::size_t stride;
     std::size_t values_first;  // the limb whose value that is, counted within the group
     const char* origin;        // of the same limb, for doubles
@@ -30,15 +30,15 @@ struct Stream {
     void copy(std::size_t first, std::size_t limb_count) const { run(*this, first, limb_count); }
 };
 
-// Stores the streams of all components of a field, and returns their end. values and origins are those of limb first.
+// Stores the streams of all components of a field from `to` on, and returns their end. values and origins are those of
+// limb first.
 // - streams_in: from floats.
 // - streams_of_doubles: from 3 doubles. The limb's origin is subtracted, unless the data of origins is null. They are
 //   rounded in the floating-point environment that the caller of copy() has set (FloatEnv).
 // - streams_out: to floats.
-Stream* streams_in(const FieldRows& rows, std::size_t first, swivel_in values, Stream* streams);
-Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in values, swivel_in origins,
-                           Stream* streams);
-Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values, Stream* streams);
+Stream* streams_in(const FieldRows& rows, std::size_t first, swivel_in values, Stream* to);
+Stream* streams_of_doubles(const FieldRows& rows, std::size_t first, swivel_in values, swivel_in origins, Stream* to);
+Stream* streams_out(const FieldRows& rows, std::size_t first, swivel_out values, Stream* to);
 constexpr std::uint32_t stream_count(std::uint32_t component_count) { return (component_count + 3) / 4; }
 
 // Copies by each of some streams.

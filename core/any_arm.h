@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any arm in the arm frame, as kernels solve it: by the plain formula where it holds, else as a whole limb that uses
-// nothing else. Degenerate and extreme arms are answered there (limb.h).
+// One arm in the arm frame, by the same two ways as the kernels take, for tests and swivel_verify(). The plain formula
+// solves it where it holds. Any other arm is solved as a whole limb without features (limb.h).
 #pragma once
 
 #include "core/limb.h"

@@ -36,7 +36,7 @@ Vector<float> vector_of(const std::array<float, 3>& v) { return swivel::vector(v
 Rotor<float> rotor_of(const std::array<float, 4>& q) { return rotor(q[0], q[1], q[2], q[3]); }
 Rotor<float> rotor_of(const Quaternion& q) { return rotor(q.x, q.y, q.z, q.w); }
 
-// The inputs of a group that kernels test before they take the short way.
+// The inputs of a group on which it depends whether the plain formula holds.
 struct Inputs {
     std::vector<std::array<float, 3>> targets, poles, positions;
     std::vector<std::array<float, 2>> lengths;
@@ -55,7 +55,7 @@ struct Inputs {
     }
 };
 
-// Whether a kernel takes its short way for the limb: its step's tests, in one lane.
+// Whether the plain formula holds for the limb, by the tests of solve_step() (simd/arm_kernels.cpp).
 bool is_plain(const Inputs& inputs, swivel_features features, std::uint32_t group, std::size_t n)
 {
     ArmGoal<float> goal{vector_of(inputs.targets[n]), vector_of(inputs.poles[n]), inputs.lengths[n][0],

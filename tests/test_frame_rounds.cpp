@@ -123,7 +123,7 @@ Problem random_problem(Random& random)
     return problem;
 }
 
-// A mask, and so many rounds that threads share them: a round of chosen limbs has 64 blocks of each group.
+// A mask, and so many rounds that threads share them: three groups share a round of 64 blocks.
 Problem problem_of_many_rounds(Random& random)
 {
     Problem problem;
@@ -238,7 +238,7 @@ TEST_CASE("frames of groups whose limbs share characters give the bits of limbs 
     });
 }
 
-TEST_CASE("five rounds of chosen limbs give the same bits on several threads")
+TEST_CASE("many rounds of chosen limbs give the same bits on several threads")
 {
     Random random{18};
     for (int n = 0; n < 4; ++n) CHECK(gives_same_bits(problem_of_many_rounds(random)));

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/solve_arm.h"
+#include "core/space.h"
 #include "tests/test_isa_scope.h"
 #include "tests/test_whole_limb.h"
 
@@ -14,7 +16,7 @@ using namespace swivel::test;
 
 namespace {
 
-// The plain formula holds for none of these.
+// The plain formula holds for none of these; see formula_holds().
 void harden(Random& random, Limb& limb)
 {
     switch (random.below(6)) {
@@ -39,6 +41,28 @@ void harden(Random& random, Limb& limb)
     }
 }
 
+// A limb for which the plain formula holds. The parent's rotation is of unit length.
+Limb ordinary_limb(Random& random, swivel_features features)
+{
+    Limb limb = random_limb(random, features, {1, static_cast<float>(random.between(0.8, 1.25))});
+    limb.rotation = floats(quat(limb.rotation).normalized());
+    return limb;
+}
+
+// Whether the plain formula holds for the limb's arm, by the tests of solve_step() (simd/arm_kernels.cpp).
+bool formula_holds(const Limb& limb, swivel_features features)
+{
+    const auto vector_of = [](const Float3& v) { return swivel::vector(v[0], v[1], v[2]); };
+    const Vector<float> target = vector_of(limb.target), pole = vector_of(limb.pole);
+    if (!(features & SWIVEL_WORLD))
+        return solve_plain(ArmGoal<float>{target, pole, limb.lengths[0], limb.lengths[1]}).holds;
+    const Float4& q = limb.rotation;
+    const ParentFrame<float> parent{vector_of(limb.position), rotor(q[0], q[1], q[2], q[3]), limb.scale[0]};
+    const SeenGoal<float> seen = seen_by(parent, target, pole, 1.0f);
+    const ArmGoal<float> goal{seen.wrist, seen.pole, seen.size * limb.lengths[0], seen.size * limb.lengths[1]};
+    return is_ordinary(parent, seen) && solve_plain(goal).holds;
+}
+
 // Which arms are hard: one in so many, by chance, or in runs of two and a half blocks.
 bool is_hard(Random& random, std::uint32_t one_in, std::uint32_t n)
 {
@@ -50,9 +74,10 @@ Crowd mixed_crowd(Random& random, swivel_features features, std::uint32_t count,
     Crowd crowd = crowd_of(features, count, binding);
     const std::uint32_t one_in = std::array{0u, 1u, 2u, 3u, 64u}[random.below(5)];
     for (std::uint32_t n = 0; n < count; ++n) {
-        const float fore = static_cast<float>(random.between(0.8, 1.25));
-        Limb limb = random_limb(random, features, {1, fore});
-        if (is_hard(random, one_in, n)) harden(random, limb);
+        Limb limb = ordinary_limb(random, features);
+        const bool hard = is_hard(random, one_in, n);
+        if (hard) harden(random, limb);
+        CHECK(formula_holds(limb, features) == !hard);
         write_limb(crowd, 0, n, limb);
     }
     return crowd;

@@ -89,7 +89,7 @@ TEST_CASE("of two least violations within 1e-6, the one nearer to the wish is ta
 
 TEST_CASE("of two as near, the lower line's is taken")
 {
-    // The first line falls towards the wish, the others away from it on either side. `less`: the third line falls
+    // The first line falls towards the wish. The others fall away from it, on either side. `less`: the third line falls
     // a little sooner, so its peak is nearer by as much.
     rc::prop("whichever rounding prefers", [](std::uint64_t seed) {
         Random random{seed};
