@@ -52,10 +52,9 @@ inline constexpr double kTie = 1e-6;
 // The swivel at which the limits have the most room, though this is less than none. The room is the least over lines,
 // and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
 // are equal. Of equal peaks the one nearest to the wish is taken, then the first. Each is compared with the best so
-// far: of three peaks, where each is equal to the next one only, the order decides. This is long and rarely needed, so
-// it is a function of its own.
+// far: of three peaks, where each is equal to the next one only, the order decides.
 template <class T>
-SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
+SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
 {
     Edge<T> edge[kMostEdges];
     const int count = edges(limits, true, edge);
@@ -91,6 +90,12 @@ SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation(const 
     }
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
+// The same as a function of its own, because with boxes it is long.
+template <class T>
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation_called(const Limits<T>& limits)
+{
+    return least_violation(limits);
+}
 
 enum class Search { nearest_end, least_violation };
 
@@ -102,9 +107,14 @@ struct ChosenSwivel {
     Search next;      // the search that is put off
 };
 
-// A policy says whether a search is worth its time now, as these lanes need it. Else it is put off.
+// A policy says whether a search is worth its time now, as these lanes need it. Else it is put off. is_short: the
+// compiler knows the limits, and few candidates are left.
 struct SearchNow {
+    static constexpr bool is_short = false;
     SWIVEL_INLINE static constexpr bool is_worth(Search, const auto& /*lanes*/) { return true; }
+};
+struct ShortSearch : SearchNow {
+    static constexpr bool is_short = true;
 };
 
 // valid: false where the input is bad, so that nothing is searched for.
@@ -120,7 +130,7 @@ SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits, c
     const Turned<T> near = select(granted, wish, end.swivel);
     if (all(allowed) || !Policy::is_worth(Search::least_violation, !allowed))
         return {near, allowed, allowed, Search::least_violation};
-    const FoundSwivel<T> least = least_violation(limits);
+    const FoundSwivel<T> least = Policy::is_short ? least_violation(limits) : least_violation_called(limits);
     const Mask<T> any_allowed = allowed | least.allowed, always = T(0) == T(0);
     return {select(allowed, near, least.swivel), any_allowed, always, Search::least_violation};
 }

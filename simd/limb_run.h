@@ -24,16 +24,17 @@ SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const SolveRun& run, Left
     for (std::size_t limb = 0; limb < run.limb_count; limb += lane_count<T>)
         left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb)));
 }
-template <class T, FeatureSet Features, bool Aims>
+template <class T, FeatureSet Features, bool Aims, class Policy = SearchNow>
 void search_limbs(const SolveRun& run)
 {
-    solve_limb_steps<T, Features, Aims, SearchNow>(run, [](std::size_t, const Waiting<T>&) SWIVEL_INLINE_LAMBDA {});
+    solve_limb_steps<T, Features, Aims, Policy>(run, [](std::size_t, const Waiting<T>&) SWIVEL_INLINE_LAMBDA {});
 }
 
 // Aside, a limb is copied and solved again, which takes about as long as two limbs without a search. The nearest end
 // takes about as long as one, so it is put off unless more than a third of the lanes need it. The least violation takes
 // as long as ten, and is always put off.
 struct SearchForMany {
+    static constexpr bool is_short = false;
     template <class Arch, int Registers>
     SWIVEL_INLINE static bool is_worth(Search search, const LanesMask<Arch, Registers>& lanes)
     {
@@ -104,7 +105,7 @@ void solve_limbs(const SolveRun& run)
 {
     const FeatureSet seen = run.features & ~(feature::compact | feature::budget);  // kernels do not see these
     if (seen == kConeAndTwist)
-        search_limbs<T, kConeAndTwist, false>(run);
+        search_limbs<T, kConeAndTwist, false, ShortSearch>(run);
     else if (run.features & feature::aim)
         solve_told<T, true>(run);
     else
