@@ -32,6 +32,7 @@ template <class T>
 SWIVEL_INLINE constexpr SwivelPlane<T> swivel_plane(const ArmGoal<T>& goal)
 {
     const T wrist2 = len2(goal.wrist), length = sqrt(wrist2);
+    const FrameStart<T> start = frame_start(goal.wrist, length);
     const Vector<T> normal = cross(goal.wrist, goal.pole);
     const T normal_length = sqrt(len2(normal));
 
@@ -40,7 +41,7 @@ SWIVEL_INLINE constexpr SwivelPlane<T> swivel_plane(const ArmGoal<T>& goal)
     const Mask<T> holds = (lo(wrist2, pole1) >= T(kPlainLeast)) &
                           ((wrist2 + pole1) + (goal.upper + goal.fore) <= T(kPlainMost)) &
                           (normal_length > T(kPoleOff) * (length * pole1));
-    return {frame_start(goal.wrist, length), per_power_of_two(wrist2), normal, normal_length, holds};
+    return {start, per_power_of_two(wrist2), normal, normal_length, holds};
 }
 
 // Stage 2: the elbow bends, and the upper arm is lifted off the target's line.

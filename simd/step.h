@@ -21,16 +21,6 @@ SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
     return Features == kToldFeatures ? run.features : Features;
 }
 
-// The first row of each field, where the compiler knows the features.
-template <FeatureSet Features>
-struct FirstRows {
-    std::uint32_t row[kFieldCount];
-    constexpr FirstRows()
-    {
-        for (std::size_t n = 0; n < kFieldCount; ++n) row[n] = field_first_row(Features, static_cast<Field>(n));
-    }
-};
-
 // The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
 // step covers whole blocks or lies in one. So every other place is a constant away. A step whose features are told lies
 // in one.
@@ -44,9 +34,9 @@ struct Rows {
     SWIVEL_INLINE bool has(FeatureSet features) const { return (features_of<Features>(run) & features) != 0; }
     SWIVEL_INLINE std::uint32_t row(Field field, int component) const
     {
-        constexpr FirstRows<Features> first;
-        const std::size_t n = index_of(field);
-        return (Features == kToldFeatures ? run.first_row[n] : first.row[n]) + static_cast<std::uint32_t>(component);
+        const std::uint32_t first =
+            Features == kToldFeatures ? run.first_row[index_of(field)] : field_first_row(Features, field);
+        return first + static_cast<std::uint32_t>(component);
     }
     SWIVEL_INLINE T load(Field field, int component) const
     {
