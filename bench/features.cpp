@@ -48,7 +48,14 @@ void add_features(Suite& suite)
          {Named{"world", SWIVEL_WORLD}, Named{"joints", SWIVEL_JOINTS}, Named{"hand", SWIVEL_WITH_HAND},
           Named{"world+hand", SWIVEL_WORLD | SWIVEL_WITH_HAND}, Named{"joints+hand", SWIVEL_JOINTS | SWIVEL_WITH_HAND},
           Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"compact", SWIVEL_COMPACT},
-          Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE}})
+          Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE},
+          Named{"reach", SWIVEL_WITH_REACH}, Named{"flexion_limit", SWIVEL_WITH_FLEXION_LIMIT},
+          Named{"most_swivel", SWIVEL_WITH_MOST_SWIVEL}, Named{"incoming", SWIVEL_WITH_INCOMING},
+          Named{"incoming+weights", SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS},
+          Named{"hand+effector", SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR},
+          Named{"hand+aim", SWIVEL_WITH_HAND | SWIVEL_WITH_AIM},
+          Named{"world+clavicle", SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE},
+          Named{"hand+2_twist_bones", SWIVEL_WITH_HAND | 2 * SWIVEL_WITH_TWIST_BONES}})
         add_solve(suite, std::string("features/") + name + "/" + suite.best_isa(), suite.best_isa(), features,
                   arms_within(1, features));
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Compares two builds of swivel_bench, run in turns: the same machine, the same minutes. Of each row it takes the ratio of both times in
-each round, and the median of these ratios.
+each round, and the median of these ratios. A row is slower if the new one was slower in every round.
 
-usage: bench/in_turns.py OLD NEW [--rounds 5] [--filter REGEX] [--core 0]
+usage: bench/in_turns.py OLD NEW [--rounds 7] [--filter REGEX] [--core 0]
 """
 import argparse
 import subprocess
@@ -49,7 +49,7 @@ def main(arguments):
                                      epilog="Exit codes: 0 none slower, 1 some rows are slower, 2 bad usage or a run that fails.")
     parser.add_argument("old", metavar="OLD", help="swivel_bench of the former library")
     parser.add_argument("new", metavar="NEW", help="swivel_bench to judge")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--filter", default=".", metavar="REGEX", help="rows to run, as for --benchmark_filter")
     parser.add_argument("--core", help="the core to run on, by taskset; not for rows with threads")
     parser.add_argument("--threshold", type=float, default=3, metavar="PERCENT", help="mark rows that are slower by more (default: 3)")
@@ -64,7 +64,7 @@ def main(arguments):
     for name, pairs in sorted(rounds.items()):
         each = sorted(new / old for old, new in pairs)
         middle = median(each)
-        mark = "  slower" if middle > 1 + options.threshold / 100 else ""
+        mark = "  slower" if middle > 1 + options.threshold / 100 and each[0] > 1 else ""
         slower += bool(mark)
         print(f"{name:48} {min(old for old, _ in pairs):9.2f} {min(new for _, new in pairs):9.2f} {middle:8.3f} {each[0]:6.2f} "
               f"{each[-1]:6.2f}{mark}")

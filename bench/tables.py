@@ -261,7 +261,7 @@ def threads(result):
                 if one and all_ns:
                     what = f"{text}, {int(arms):,} arms" if arms.isdigit() else arms.replace("/", ", in ")
                     rows.append([what, str(count), number(one), number(all_ns), f"{one / all_ns:.2f}",
-                                 "**swivel loses**" if one / all_ns < 1 / NOISE else ""])
+                                 "no gain" if one / all_ns < 1 / NOISE else ""])
     return Table("Threads: nanoseconds an arm by the clock on the wall", ["work", "threads", "one thread", "all of them", "ratio", ""], rows)
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What whole limbs have beside their targets: an incoming pose, weights, and limits as bodies have them, each limb's
-// its own. The limits leave most targets a swivel; for some they do not, as in a game.
+// What whole limbs have beside their targets: an incoming pose, weights, limits as bodies have them, and further goals,
+// each limb's its own. The limits leave most targets a swivel; for some they do not, as in a game.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -73,6 +73,26 @@ void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count
     write<12>(crowd, first, count, SWIVEL_WRIST_BOX, box);
 }
 
+void write_goals(swivel::Crowd& crowd, std::uint32_t count, Random& random)
+{
+    write<3>(crowd, 0, count, SWIVEL_EFFECTOR, [&](float* to) {
+        for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(random(-0.05, 0.05));
+    });
+    write<4>(crowd, 0, count, SWIVEL_REACH, [&](float* to) {
+        const double reach[] = {random(0, 0.1), random(0, 0.1), random(1, 1.2), random(0, 0.3)};
+        for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(reach[n]);
+    });
+    write<2>(crowd, 0, count, SWIVEL_MOST_SWIVEL, [&](float* to) { swivel_turn(random(5, 60) * kDegree, to); });
+    write<5>(crowd, 0, count, SWIVEL_AIM, [&](float* to) {
+        const double axis[] = {random(-0.2, 0.2), random(-0.2, 0.2), 1};
+        swivel::check(swivel_aim(axis, random(20, 100) * kDegree, to));
+    });
+    write<4>(crowd, 0, count, SWIVEL_CLAVICLE, [&](float* to) {
+        const double clavicle[] = {random(0.1, 0.2), random(-0.05, 0.05), random(-0.05, 0.05), random(0, 1)};
+        for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(clavicle[n]);
+    });
+}
+
 }  // namespace
 
 void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count)
@@ -80,6 +100,7 @@ void write_limb_inputs(swivel::Crowd& crowd, std::uint32_t count)
     Random random;
     write_poses(crowd, count, random);
     write_limits(crowd, 0, count, 1, random);
+    write_goals(crowd, count, random);
 }
 
 void write_limits(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, double width)
