@@ -275,7 +275,7 @@ def summary(result):
     rows = []
     for work, own, other in (("a plain arm, rows in cache", f"P/{best}/L2", f"single_glm/{level}"),
                              ("the same with parent frames and a skeleton's rotations", f"resident/{best}/L2", ""),
-                             ("a whole frame: an engine's own structures in and out", f"frame/{best}/in_one", f"frame_glm/{level}")):
+                             ("a whole frame of 16,384 arms: an engine's own structures in and out", f"frame/{best}/in_one", f"frame_glm/{level}")):
         a, b = result.ns(own), result.ns(other)
         if a:
             rows.append([work, number(a), *((number(b), f"{b / a:.1f}") if b else ("–", "–"))])
