@@ -87,8 +87,13 @@ swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** cr
     } else if (full.allocate) {
         arena = full.allocate(bytes, kArenaAlignment, full.user);
     } else {
+#ifdef _WIN32  // its C library has no aligned_alloc
+        arena = _aligned_malloc(bytes, kArenaAlignment);
+        release = [](void* memory, size_t, void*) { _aligned_free(memory); };
+#else
         arena = std::aligned_alloc(kArenaAlignment, bytes);
         release = [](void* memory, size_t, void*) { std::free(memory); };
+#endif
     }
     if (!arena) return fail(SWIVEL_OUT_OF_MEMORY, "no memory for a crowd of %zu bytes", bytes);
     *crowd = place_crowd(full, arena);

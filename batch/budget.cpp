@@ -6,10 +6,10 @@
 #include "batch/budget.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 #include "batch/lane_mask.h"
+#include "core/bit_cast.h"
 #include "simd/float_env.h"
 
 namespace swivel {
@@ -47,7 +47,7 @@ std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& p
 }
 
 // An urgency as a number to pick by: above 0 for blocks that are wanted, 0 for others.
-std::uint32_t key_of(float urgency) { return urgency > 0 ? std::bit_cast<std::uint32_t>(urgency) : 0; }
+std::uint32_t key_of(float urgency) { return urgency > 0 ? bit_cast<std::uint32_t>(urgency) : 0; }
 
 // Blocks of a larger key are picked, and equal_count blocks of just this key, in the crowd's order.
 struct Limit {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "batch/edge.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -107,7 +106,7 @@ ArmRotors arm_rotors(const swivel_crowd& crowd, const Group& group, std::size_t 
 double distance_missed(const swivel_crowd& crowd, const Group& group, std::size_t limb)
 {
     const Reader read{crowd, limb};
-    if (std::bit_cast<std::uint32_t>(read.lane(Field::flags, 0)) & SWIVEL_BAD_INPUT)
+    if (bit_cast<std::uint32_t>(read.lane(Field::flags, 0)) & SWIVEL_BAD_INPUT)
         return std::numeric_limits<double>::quiet_NaN();
     const double scale = crowd.features & feature::world ? read(Field::parent_scale, 0) : 1.0;
     const LimbPose pose = forward(crowd, group, limb);

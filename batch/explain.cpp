@@ -5,7 +5,6 @@
 // wished to. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
 #include "batch/explain.h"
 
-#include <bit>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -16,6 +15,7 @@
 #include "batch/edge.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
+#include "core/bit_cast.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
@@ -101,7 +101,7 @@ public:
         solve_group(*crowd_, find_isa("scalar")->kernels, crowd_->groups[0], 0, 1);
         const std::size_t at = std::size_t{field_first_row(crowd_->features, Field::flags)} * SWIVEL_LANES;
         if (crowd_->words) return crowd_->words[at] | std::uint32_t{crowd_->words[at + SWIVEL_LANES]} << 16;
-        return std::bit_cast<std::uint32_t>(crowd_->results[at]);
+        return bit_cast<std::uint32_t>(crowd_->results[at]);
     }
     // Whether these are the results that the limb has.
     bool has_bits_of(const swivel_crowd& of) const

@@ -132,10 +132,11 @@ bool is_binding(const swivel_binding& b)
     const auto is_unit = [](const float(&q)[4]) {
         return std::fabs(len2(rotor_of(q)) - 1) <= 1e-5;  // ten times what rounding to floats leaves
     };
+    const auto are_unit = [&](const auto& list) { return std::all_of(std::begin(list), std::end(list), is_unit); };
     return is_unit(b.parent_from_arm) && is_unit(b.upper_from_arm) && is_unit(b.elbow_parent_from_arm) &&
            is_unit(b.fore_from_arm) && is_unit(b.wrist_parent_from_arm) && is_unit(b.shoulder_rest) &&
            is_unit(b.elbow_rest) && is_unit(b.wrist_rest) && b.twist_bone_count <= SWIVEL_MOST_TWIST_BONES &&
-           std::ranges::all_of(b.twist_parent_from_arm, is_unit) && std::ranges::all_of(b.twist_from_arm, is_unit);
+           are_unit(b.twist_parent_from_arm) && are_unit(b.twist_from_arm);
 }
 
 swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotation)[4], const double (&direction)[3],

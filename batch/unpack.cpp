@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "batch/unpack.h"
 
-#include <bit>
 #include <cstring>
 
 #include "core/arm.h"
@@ -50,18 +49,17 @@ float unpack_half(std::uint16_t word)
     const std::uint32_t sign = std::uint32_t{word} >> 15 << 31, exponent = word >> 10 & 31u, digits = word & 1023u;
     if (exponent == 0) {
         const float size = static_cast<float>(digits) * 0x1p-24f;
-        return std::bit_cast<float>(std::bit_cast<std::uint32_t>(size) | sign);
+        return bit_cast<float>(bit_cast<std::uint32_t>(size) | sign);
     }
     const std::uint32_t of_float = exponent == 31 ? 255 : exponent + 112;  // 112: the biases' difference
-    return std::bit_cast<float>(sign | of_float << 23 | digits << 13);
+    return bit_cast<float>(sign | of_float << 23 | digits << 13);
 }
 
 std::array<float, 4> unpack_value(const swivel_crowd& crowd, Field field, std::size_t limb)
 {
     const std::uint16_t* const words =
         crowd.words + row_offset(limb, crowd.result_row_count, field_first_row(crowd.features, field));
-    if (field == Field::flags)
-        return {std::bit_cast<float>(words[0] | std::uint32_t{words[SWIVEL_LANES]} << 16), 0, 0, 0};
+    if (field == Field::flags) return {bit_cast<float>(words[0] | std::uint32_t{words[SWIVEL_LANES]} << 16), 0, 0, 0};
     if (field == Field::elbow && !(crowd.features & feature::joints))
         return {unpack_half(words[0]), unpack_half(words[SWIVEL_LANES]), 0, 0};
     return unpack_rotation(words, SWIVEL_LANES);

@@ -5,11 +5,10 @@
 // correctly rounded IEEE 754 operation, or moves bits. So every T of the same precision gives the same bits.
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "core/isa.h"
+#include "core/bit_cast.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -38,21 +37,18 @@ SWIVEL_INLINE double flip_sign(double x, double sign) { return std::signbit(sign
 
 // For a normal number x > 0: the largest power of two that is not above it. per_power_of_two() is 1/2 divided by that
 // power. Its product with x is at least 1/2 and under 1 (x up to 2^125). Products with either are not rounded.
-SWIVEL_INLINE float power_of_two(float x)
-{
-    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7f800000u);
-}
+SWIVEL_INLINE float power_of_two(float x) { return bit_cast<float>(bit_cast<std::uint32_t>(x) & 0x7f800000u); }
 SWIVEL_INLINE double power_of_two(double x)
 {
-    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u);
+    return bit_cast<double>(bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u);
 }
 SWIVEL_INLINE float per_power_of_two(float x)
 {
-    return std::bit_cast<float>(0x7e800000u - (std::bit_cast<std::uint32_t>(x) & 0x7f800000u));
+    return bit_cast<float>(0x7e800000u - (bit_cast<std::uint32_t>(x) & 0x7f800000u));
 }
 SWIVEL_INLINE double per_power_of_two(double x)
 {
-    return std::bit_cast<double>(0x7fd0000000000000u - (std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u));
+    return bit_cast<double>(0x7fd0000000000000u - (bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u));
 }
 
 SWIVEL_INLINE float select(bool mask, float a, float b) { return mask ? a : b; }

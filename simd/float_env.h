@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // The bits of a result depend on the floating-point environment. While it lives, this object sets it: round to nearest,
-// keep denormals, mask exceptions. Then it restores the caller's environment, sticky flags included.
+// keep denormals, mask exceptions. Then it restores the caller's environment, sticky flags included. WebAssembly has no
+// other environment than this one.
 #pragma once
 
 #include <cstdint>
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
+#elif !defined(__aarch64__) && !defined(__wasm__)
+#include <cfenv>
 #endif
 
 namespace swivel {
@@ -24,17 +27,27 @@ public:
         asm volatile("msr fpcr, xzr");
     }
     ~FloatEnv() { asm volatile("msr fpcr, %0\n\tmsr fpsr, %1" : : "r"(saved_), "r"(saved_flags_)); }
+#elif defined(__wasm__)
+    FloatEnv() {}  // not defaulted: a variable of a type that does nothing would be unused
+    ~FloatEnv() {}
 #else
-#error "swivel: this CPU family has no floating-point environment code yet (simd/float_env.h)"
+    FloatEnv()
+    {
+        std::fegetenv(&saved_);
+        std::fesetenv(FE_DFL_ENV);
+    }
+    ~FloatEnv() { std::fesetenv(&saved_); }
 #endif
     FloatEnv(const FloatEnv&) = delete;
     FloatEnv& operator=(const FloatEnv&) = delete;
 
 private:
-#if defined(__aarch64__)
-    std::uint64_t saved_, saved_flags_;
-#else
+#if defined(__x86_64__)
     std::uint32_t saved_;
+#elif defined(__aarch64__)
+    std::uint64_t saved_, saved_flags_;
+#elif !defined(__wasm__)
+    std::fenv_t saved_;
 #endif
 };
 

@@ -6,7 +6,6 @@
 // quotient are the exact instructions.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -16,6 +15,36 @@
 #include "core/num.h"
 
 namespace swivel::inline SWIVEL_ISA {
+
+// How many lanes a number has, and how they move in and out of rows. address(lane) gives the place of a lane. The lanes
+// of one register lie side by side there, aligned to the register.
+template <class T>
+inline constexpr std::size_t lane_count = 1;
+
+template <class T, class Address>
+requires std::is_same_v<T, float> SWIVEL_INLINE float load_lanes(Address address) { return *address(0); }
+template <class Address>
+SWIVEL_INLINE void store_lanes(Address address, float x)
+{
+    *address(0) = x;
+}
+template <class Address>
+SWIVEL_INLINE void store_lanes(Address address, std::uint32_t bits)
+{
+    *address(0) = bit_cast<float>(bits);
+}
+// A bit for each lane, the first lane's lowest.
+SWIVEL_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
+
+// The number type of a kernel built for Arch: lanes, or plain float for the scalar build.
+template <class Arch, int Registers>
+struct KernelNumber;
+template <int Registers>
+struct KernelNumber<float, Registers> {
+    using type = float;
+};
+
+#ifndef XSIMD_NO_SUPPORTED_ARCHITECTURE  // other CPUs have the scalar build alone
 
 template <class Arch, int Registers>
 struct Lanes {
@@ -51,7 +80,7 @@ struct LanesBits {
     LanesBits() = default;
     explicit LanesBits(std::uint32_t word)
     {
-        for (Batch& b : r) b = Batch(std::bit_cast<float>(word));
+        for (Batch& b : r) b = Batch(bit_cast<float>(word));
     }
 };
 
@@ -140,7 +169,7 @@ template <class A, int R>
 SWIVEL_INLINE Lanes<A, R> power_of_two(const Lanes<A, R>& a)
 {
     using Batch = xsimd::batch<float, A>;
-    const Batch exponent(std::bit_cast<float>(0x7f800000u));
+    const Batch exponent(bit_cast<float>(0x7f800000u));
     return each_register<Lanes<A, R>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return a.r[n] & exponent; });
 }
 template <class A, int R>
@@ -189,8 +218,6 @@ SWIVEL_INLINE bool all(const LanesMask<A, R>& mask)
     for (int n = 1; n < R; ++n) both = both & mask.r[n];
     return xsimd::all(both);
 }
-// A bit for each lane, the first lane's lowest.
-SWIVEL_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
 template <class A, int R>
 SWIVEL_INLINE std::uint32_t lane_bits(const LanesMask<A, R>& mask)
 {
@@ -243,30 +270,16 @@ SWIVEL_INLINE LanesBits<A, R> bits_where(const LanesMask<A, R>& mask, std::uint3
     return select(mask, LanesBits<A, R>(word), LanesBits<A, R>(0u));
 }
 
-// How many lanes a number has, and how they move in and out of rows. address(lane) gives the place of a lane. The lanes
-// of one register lie side by side there, aligned to the register.
-template <class T>
-inline constexpr std::size_t lane_count = 1;
 template <class A, int R>
 inline constexpr std::size_t lane_count<Lanes<A, R>> = Lanes<A, R>::count;
+template <class A, int R>
+inline constexpr std::size_t lane_count<LanesMask<A, R>> = Lanes<A, R>::count;
 
-template <class T, class Address>
-requires std::is_same_v<T, float> SWIVEL_INLINE float load_lanes(Address address) { return *address(0); }
 template <class T, class Address>
 requires(lane_count<T> > 1) SWIVEL_INLINE T load_lanes(Address address)
 {
     return each_register<T>([&](std::size_t n)
                                 SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
-}
-template <class Address>
-SWIVEL_INLINE void store_lanes(Address address, float x)
-{
-    *address(0) = x;
-}
-template <class Address>
-SWIVEL_INLINE void store_lanes(Address address, std::uint32_t bits)
-{
-    *address(0) = std::bit_cast<float>(bits);
 }
 template <class Address, template <class, int> class L, class A, int R>
 SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x)
@@ -274,14 +287,11 @@ SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x)
     for (std::size_t n = 0; n < R; ++n) x.r[n].store_aligned(address(n * Lanes<A, R>::width));
 }
 
-// The number type of a kernel built for Arch: lanes, or plain float for the scalar build.
 template <class Arch, int Registers>
 struct KernelNumber {
     using type = Lanes<Arch, Registers>;
 };
-template <int Registers>
-struct KernelNumber<float, Registers> {
-    using type = float;
-};
+
+#endif
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -35,11 +35,10 @@ void search_limbs(const SolveRun& run)
 // as long as ten, and is always put off.
 struct SearchForMany {
     static constexpr bool is_short = false;
-    template <class Arch, int Registers>
-    SWIVEL_INLINE static bool is_worth(Search search, const LanesMask<Arch, Registers>& lanes)
+    template <class M>
+    SWIVEL_INLINE static bool is_worth(Search search, const M& lanes)
     {
-        const int count = Lanes<Arch, Registers>::count;
-        return search == Search::nearest_end && 3 * std::popcount(lane_bits(lanes)) > count;
+        return search == Search::nearest_end && 3 * std::popcount(lane_bits(lanes)) > static_cast<int>(lane_count<M>);
     }
 };
 

@@ -83,8 +83,8 @@ set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
 
 # ---- core: formulas and the standard library; the oracle shares nothing with the formulas
-may_include(core "core/(isa|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
-            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"")
+may_include(core "core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
+            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
@@ -108,10 +108,10 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<(std(def|int)|string)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
-may_include(batch "batch/(api_solve|api_pose|sized|budget|chosen|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/(api_solve|api_pose|sized|chosen|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
-may_include(batch "batch/(rig|skeleton|angles|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|skeleton|angles|budget|check|edge|explain|joint_angles|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<(std(def|int)|string)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver
