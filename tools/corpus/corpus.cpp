@@ -50,7 +50,10 @@ void put_hard_cases(const Recipe& recipe, std::uint32_t group, std::uint32_t fra
         if (run_of(recipe, limb) == Run::cases) arms[limb] = case_of(recipe, group, limb, frame);
 }
 
-bool is_of_arms(Field field) { return std::find(std::begin(kArmFields), std::end(kArmFields), field) != std::end(kArmFields); }
+bool is_of_arms(Field field)
+{
+    return std::find(std::begin(kArmFields), std::end(kArmFields), field) != std::end(kArmFields);
+}
 
 void write_arms(Crowd& crowd, Field field, std::uint32_t group, std::span<Arm> arms)
 {
