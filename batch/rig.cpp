@@ -83,7 +83,8 @@ swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb)
     limb.shoulder.rotation = rotor_of(chain.shoulder_rotation);
     limb.elbow.rotation = rotor_of(chain.elbow_rotation);
     limb.wrist.rotation = rotor_of(chain.wrist_rotation);
-    if (!is_usable(limb.shoulder.rotation) || !is_usable(limb.elbow.rotation) || !is_usable(limb.wrist.rotation))
+    if (!is_orientation(limb.shoulder.rotation) || !is_orientation(limb.elbow.rotation) ||
+        !is_orientation(limb.wrist.rotation))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_bind: a rest rotation is zero or not finite; give quaternions x, y, z, w");
     limb.elbow.place = vector_of(chain.elbow_offset);
@@ -147,7 +148,7 @@ swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotat
     if (!is_binding(binding))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_arm_axis: the binding holds a quaternion not of unit length; make it with swivel_bind()");
-    if (!is_usable(parent))
+    if (!is_orientation(parent))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "swivel_arm_axis: the parent's rotation is zero or not finite; give a quaternion x, y, z, w");
     if (!is_usable_bone(wanted))

@@ -37,7 +37,4 @@ swivel_status arm_axis(const swivel_binding& binding, const float (&parent_rotat
 // Whether its quaternions are of unit length, and its twist bones not too many.
 bool is_binding(const swivel_binding& binding);
 
-// Numbers that have a direction and can be squared.
-inline bool is_usable(const Rotor<double>& q) { return len2(q) >= 1e-18 && len2(q) <= 1e18; }
-
 }  // namespace swivel

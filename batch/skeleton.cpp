@@ -114,7 +114,7 @@ swivel_status read_rotation(const swivel_skeleton& skeleton, std::uint32_t joint
     };
     const auto q = value_of<Numbers>(skeleton.rotations, joint);
     rotation = rotor<double>(q.x, q.y, q.z, q.w);
-    if (is_usable(rotation)) return SWIVEL_OK;
+    if (is_orientation(rotation)) return SWIVEL_OK;
     return fail(SWIVEL_INVALID_ARGUMENT,
                 "swivel_bind_joints: joint %u's rest rotation is zero or not finite; give a quaternion x, y, z, w",
                 joint);

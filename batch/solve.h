@@ -23,10 +23,10 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
     }
 }
 
-// These solve blocks of one group on this thread, in the floating-point environment that the caller has set (FloatEnv).
-// - solve_group: every limb. from_memory: the job's rows do not fit the caches.
-// - solve_chosen_group: the limbs whose bits are set in mask, which has one bit for each lane of the crowd. Bits of
-//   padding lanes are ignored. Other limbs keep their results.
+// These solve blocks of one group on this thread. The caller has set the floating-point environment (FloatEnv).
+// solve_group() solves every limb; from_memory says that the job's rows do not fit the caches. solve_chosen_group()
+// solves the limbs whose bits are set in mask, which has one bit for each lane of the crowd. It ignores the bits of
+// padding lanes. Other limbs keep their results.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count, bool from_memory = false);
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,

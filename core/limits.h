@@ -177,14 +177,14 @@ SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
     return least;
 }
 
-// The edges of all limits. The allowed arcs can begin and end only where an edge crosses zero. live: the lanes in which
-// it is an edge at all. front, back: the sign with which it is part of the room, if its box takes the middle angle's
-// cosine as positive (front) or negative (back). 0: it is no part of that room. Lines without a box are part of both.
+// The edges of all limits. The allowed arcs can begin and end only where an edge crosses zero. A box has two rooms,
+// front and back, for either sign of the middle angle's cosine. Lines without a box are part of both.
 template <class T>
 struct Edge {
     OnCircle<T> line;
-    Mask<T> live;
-    int box, front, back;
+    Mask<T> live;     // the lanes in which it is an edge at all
+    int box;          // -1: none
+    int front, back;  // the sign with which it is part of that room; 0: it is no part
 };
 // middles: also gives the lines that matter only where nothing is allowed. Edges that are live in no lane are left out.
 template <class T>
