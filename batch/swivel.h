@@ -44,7 +44,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(SWIVEL_SHARED) && defined(__GNUC__)
+#if defined(SWIVEL_SHARED) && defined(_WIN32)  // SWIVEL_SHARED: the shared library itself is being compiled
+#define SWIVEL_API __declspec(dllexport)
+#elif defined(SWIVEL_SHARED)
 #define SWIVEL_API __attribute__((visibility("default")))
 #else
 #define SWIVEL_API
@@ -738,6 +740,12 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 // one with bad input. Means nothing before the first solve.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
+
+// A digest of all results, to compare crowds across machines: equal results give equal digests on every CPU, and other
+// results almost surely another one. Padding lanes do not count. One 64-bit FNV-1a hash for each of the SWIVEL_LANES
+// lanes takes the rows in their order, a row's number a step: the bits of a float, or a word of SWIVEL_COMPACT. One
+// more takes these hashes, lane 0 first. 0 for a null crowd. Takes some nanoseconds a limb; no allocation.
+SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this
 // CPU runs. Null, with swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails

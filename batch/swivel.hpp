@@ -352,6 +352,7 @@ public:
     {
         check(swivel_residuals(crowd_, group, first.value_or(0), checked(group, count(values), first), out(values)));
     }
+    std::uint64_t digest() const { return swivel_digest(crowd_); }
 
 private:
     // How many values there are for limbs from `first` on: without it one for each limb of the group.

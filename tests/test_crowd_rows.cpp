@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: groups and fields lie in rows as swivel.h's table says, and data goes in and out whole.
+#include <bit>
 #include <map>
 
 #include "tests/test_arm.h"
@@ -200,4 +201,80 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
         REQUIRE(swivel_read(crowd.get(), field, 1, first, count, {all.data(), bytes}) == SWIVEL_OK);
         for (std::uint32_t n = 0; n < count; ++n) CHECK(std::memcmp(all.data() + n * rows_of_field, one, bytes) == 0);
     }
+}
+
+namespace {
+
+// swivel_digest() as the header describes it, by limbs and their values: floats and words of rows by swivel.h's layout.
+std::uint64_t described_digest(const Crowd& crowd)
+{
+    const swivel_rows floats = swivel_result_rows(crowd.get());
+    const swivel_words words = swivel_compact_rows(crowd.get());
+    const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
+    std::uint64_t hashes[SWIVEL_LANES], whole = 0xcbf29ce484222325u;
+    std::ranges::fill(hashes, whole);
+    const auto step = [](std::uint64_t& hash, std::uint64_t number) { hash = (hash ^ number) * 0x100000001b3u; };
+    for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g)
+        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), g); ++n)
+            for (std::uint32_t row = 0; row < row_count; ++row) {
+                const std::uint32_t limb = swivel_group_first_limb(crowd.get(), g) + n;
+                const std::size_t at = (std::size_t{limb / 16} * row_count + row) * 16 + limb % 16;
+                step(hashes[limb % 16], floats.base ? std::bit_cast<std::uint32_t>(floats.base[at]) : words.base[at]);
+            }
+    for (const std::uint64_t hash : hashes) step(whole, hash);
+    return whole;
+}
+
+}  // namespace
+
+TEST_CASE("the digest is that of the results, and of nothing else")
+{
+    const std::uint32_t counts[] = {1, 16, 37};
+    for (const swivel_features features : {swivel_features{0}, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_COMPACT}) {
+        INFO("features " << features);
+        std::vector<swivel_group_def> groups;
+        for (const std::uint32_t count : counts) groups.push_back(group_of(count));
+        Crowd crowd(features, groups);
+        Random random(7);
+        for (std::uint32_t g = 0; g < 3; ++g) {
+            std::vector<Float3> targets(counts[g]);
+            for (Float3& target : targets)
+                for (float& x : target) x = static_cast<float>(random.between(-1, 1));
+            crowd.write(SWIVEL_TARGET, g, targets);
+            crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 0.75f});
+        }
+        const std::uint64_t at_rest = crowd.digest();
+        CHECK(at_rest == described_digest(crowd));
+        crowd.solve();
+        const std::uint64_t solved = crowd.digest();
+        CHECK(solved == described_digest(crowd));
+        CHECK(solved != at_rest);
+
+        // Inputs do not count, padding does not, every limb does.
+        crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 0.5f});
+        CHECK(crowd.digest() == solved);
+        const swivel_rows floats = swivel_result_rows(crowd.get());
+        const swivel_words words = swivel_compact_rows(crowd.get());
+        const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
+        const auto change = [&](std::uint32_t limb, std::uint32_t row) {
+            const std::size_t at = (std::size_t{limb / 16} * row_count + row) * 16 + limb % 16;
+            if (floats.base)
+                floats.base[at] = -floats.base[at];
+            else
+                words.base[at] ^= 1;
+        };
+        change(1, 0);        // padding of the first group
+        change(32 + 37, 0);  // and of the last
+        CHECK(crowd.digest() == solved);
+        for (std::uint32_t g = 0; g < 3; ++g)
+            for (std::uint32_t n = 0; n < counts[g]; ++n)
+                for (const std::uint32_t row : {0u, 3u}) {
+                    const std::uint32_t limb = swivel_group_first_limb(crowd.get(), g) + n;
+                    change(limb, row);
+                    CHECK(crowd.digest() != solved);
+                    change(limb, row);
+                }
+        CHECK(crowd.digest() == solved);
+    }
+    CHECK(swivel_digest(nullptr) == 0);
 }

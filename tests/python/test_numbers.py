@@ -166,6 +166,18 @@ class Poses(unittest.TestCase):
         self.assertIsNone(crowd.find(Flag.CLAMPED_FAR, 1, 34))
         self.assertIsNone(crowd.find(Flag.REACHED, 2))
 
+    def test_the_digest_is_that_of_the_results(self):
+        first, second = swivel.Crowd([5, 40]), swivel.Crowd([5, 40])
+        for crowd in (first, second):
+            for group in (0, 1):
+                crowd.write(Field.TARGET, (0.3, 0.2, 0.4), group)
+                crowd.write(Field.LENGTHS, (1, 1), group)
+        self.assertEqual(first.digest(), second.digest())
+        first.solve()
+        self.assertNotEqual(first.digest(), second.digest())
+        second.solve()
+        self.assertEqual(first.digest(), second.digest())
+
     def test_joint_angles_rebuild_the_shoulder(self):
         sample = Sample(N)
         crowd = crowd_of(sample)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints the digests of the corpus's parts, with the instruction set in use. On another platform or under an emulator,
-// it shows the promise of equal bits. With `each`, prints a line for each instruction set that runs here. With
-// `golden`, prints the tables of tools/corpus/golden.h instead.
+// it shows the promise of equal bits. With `each`, prints a line for each instruction set that runs here, and the bits
+// must stay wherever the stack is. With `golden`, prints the tables of tools/corpus/golden.h instead.
 #include <cstdio>
 #include <cstring>
-#include <exception>
-#include <vector>
+#include <stdexcept>
+#include <string>
 
 #include "tools/corpus/corpus.h"
 
@@ -27,12 +27,24 @@ void print_golden()
                         static_cast<unsigned long long>(digest_of(recipe, solve)));
 }
 
-void print_digests()
+std::string digests()
 {
-    std::printf("%s", swivel_isa_name());
-    for (const Part part : kParts) std::printf(" %016llx", static_cast<unsigned long long>(digest_of(part, solve)));
-    std::printf("\n");
-    std::fflush(stdout);
+    std::string text;
+    char number[18];
+    for (const Part part : kParts) {
+        std::snprintf(number, sizeof number, " %016llx", static_cast<unsigned long long>(digest_of(part, solve)));
+        text += number;
+    }
+    return text;
+}
+
+// The same with the stack further down. Windows aligns it to 16 bytes, and kernels for larger registers must see to
+// their own alignment.
+[[gnu::noinline]] std::string digests_below(std::size_t bytes)
+{
+    volatile char* const room = static_cast<char*>(__builtin_alloca(bytes));
+    room[0] = 0;
+    return digests();
 }
 
 void print_each()
@@ -40,7 +52,12 @@ void print_each()
     for (std::uint32_t n = 0; const char* isa = swivel_isa_at(n); ++n) {
         if (!swivel_isa_runs(isa)) continue;
         check(swivel_use_isa(isa));
-        print_digests();
+        const std::string text = digests();
+        for (const std::size_t bytes : {16, 32, 48})
+            if (digests_below(bytes) != text)
+                throw std::runtime_error(std::string(isa) + ": the bits depend on where the stack is");
+        std::printf("%s%s\n", isa, text.c_str());
+        std::fflush(stdout);
     }
 }
 
@@ -55,7 +72,7 @@ int main(int argc, char** argv)
         else if (std::strcmp(what, "each") == 0)
             print_each();
         else
-            print_digests();
+            std::printf("%s%s\n", swivel_isa_name(), digests().c_str());
     } catch (const std::exception& error) {
         std::fprintf(stderr, "print_digest: %s\n", error.what());
         return 1;

@@ -119,6 +119,10 @@ void add_answers(CrowdClass& crowd)
         "Why a limb is as it is, from its present inputs, in a sentence or two.\n\n"
         "By keywords, as find() gives the group first: group, limb = crowd.find(Flag.BAD_INPUT);\n"
         "crowd.explain(limb=limb, group=group).");
+    crowd.def(
+        "digest", [](HeldCrowd& held) { return run(held, Way::kReading, [&] { return held.crowd.digest(); }); },
+        "A number for all results, to compare crowds across machines. Equal results give equal digests on every\n"
+        "CPU, and other results almost surely another one.");
     crowd.def("allowed_arcs", &allowed_arcs, py::arg("limb"), py::arg("group") = 0,
               "The swivels that one limb's limits allow for its inputs as they are: (arcs, 2, 2) float32.\n\n"
               "For each arc its two ends, for each end cos and sin of the angle about the line from shoulder to\n"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// The module's memory and the functions that it exports. Memory has a fixed size, so views of it stay valid.
+import { layout, Status } from "./layout.js";
+
+/** The functions of swivel.h as WebAssembly has them: pointers and counts are numbers. */
+type Name =
+    | "last_error" | "bind" | "bind_joints" | "crowd_create" | "crowd_destroy" | "group_first_limb" | "field_first_row"
+    | "field_row_count" | "input_rows" | "result_rows" | "compact_rows" | "write" | "read" | "solve" | "reset" | "find"
+    | "explain" | "allowed_arcs" | "forward" | "residuals" | "joint_angles" | "range" | "cone" | "flexion" | "aim" | "turn"
+    | "arm_axis" | "mirror" | "isa_name" | "use_isa";
+export interface Exports extends Record<`swivel_${Name}`, (...values: number[]) => number> {
+    swivel_digest(crowd: number): bigint;
+    malloc(bytes: number): number;
+    free(at: number): void;
+    _initialize(): void;
+}
+
+/** A failed call: its status, one of Status, and the library's own line. */
+export class SwivelError extends Error {
+    constructor(readonly status: number, text: string) {
+        super(text);
+        this.name = "SwivelError";
+    }
+}
+
+/** An argument that the library would not see as it was given. */
+export function refuse(text: string): never {
+    throw new SwivelError(Status.INVALID_ARGUMENT, text);
+}
+
+/** A count or an index: WebAssembly would take -1 for 4294967295, and NaN for 0. */
+export function whole(name: string, number: number): number {
+    if (!Number.isInteger(number) || number < 0 || number > 0xffffffff) refuse(`${name} is ${number}; give a whole number from 0`);
+    return number;
+}
+
+export type Numbers = ArrayLike<number>;
+export type Layout = typeof layout;
+
+/** A C structure in memory. Members that nobody sets are zero. */
+export class Structure<Name extends keyof Layout> {
+    constructor(private readonly memory: Memory, private readonly name: Name, readonly at: number) {
+        memory.bytes(at, layout[name].bytes).fill(0);
+        if ("size" in layout[name]) this.words("size" as keyof Layout[Name], layout[name].bytes);
+    }
+    private place(member: keyof Layout[Name]): number {
+        return this.at + (layout[this.name][member] as unknown as number);
+    }
+    /** Pointers, sizes and counts. */
+    words(member: keyof Layout[Name], ...values: number[]): this {
+        this.memory.words(this.place(member), values.length).set(values);
+        return this;
+    }
+    floats(member: keyof Layout[Name], values: Numbers, count = values.length): this {
+        if (values.length !== count) refuse(`${String(member)} has ${values.length} numbers; give ${count}`);
+        this.memory.floats(this.place(member), count).set(values);
+        return this;
+    }
+    wide(member: keyof Layout[Name], value: bigint): this {
+        new BigUint64Array(this.memory.buffer, this.place(member), 1)[0] = value;
+        return this;
+    }
+    copy(member: keyof Layout[Name], bytes: Uint8Array): this {
+        this.memory.bytes(this.place(member), bytes.length).set(bytes);
+        return this;
+    }
+}
+
+/** Memory that a call borrows: it is free again when the call ends. */
+export interface Borrowed {
+    bytes(count: number): number;
+    structure<Name extends keyof Layout>(name: Name): Structure<Name>;
+    floats(values: Numbers): number;
+    doubles(values: Numbers): number;
+    words(values: Numbers): number;
+}
+
+export class Memory {
+    readonly buffer: ArrayBuffer;
+    constructor(memory: WebAssembly.Memory, readonly calls: Exports) {
+        this.buffer = memory.buffer;
+    }
+
+    bytes(at: number, count: number): Uint8Array { return new Uint8Array(this.buffer, at, count); }
+    words(at: number, count: number): Uint32Array { return new Uint32Array(this.buffer, at, count); }
+    floats(at: number, count: number): Float32Array { return new Float32Array(this.buffer, at, count); }
+    doubles(at: number, count: number): Float64Array { return new Float64Array(this.buffer, at, count); }
+    /** A text that ends with a zero. */
+    text(at: number): string {
+        const bytes = new Uint8Array(this.buffer, at);
+        return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+    }
+
+    check(status: number): void {
+        if (status === Status.OK) return;
+        const more = status === Status.OUT_OF_MEMORY ? "; give load() more megabytes, or dispose() of crowds" : "";
+        throw new SwivelError(status, this.text(this.calls.swivel_last_error()) + more);
+    }
+    allocate(bytes: number): number {
+        const at = this.calls.malloc(bytes);
+        if (at === 0)
+            throw new SwivelError(Status.OUT_OF_MEMORY, `no memory for ${bytes} bytes; give load() more megabytes, or dispose() of crowds`);
+        return at;
+    }
+    free(at: number): void { this.calls.free(at); }
+
+    borrow<Result>(act: (borrowed: Borrowed) => Result): Result {
+        const places: number[] = [];
+        const bytes = (count: number): number => {
+            places.push(this.allocate(Math.max(count, 8)));
+            return places[places.length - 1];
+        };
+        const put = (array: Float32Array | Float64Array | Uint32Array, values: Numbers): number => {
+            array.set(values);
+            return array.byteOffset;
+        };
+        try {
+            return act({
+                bytes,
+                structure: (name) => new Structure(this, name, bytes(layout[name].bytes)),
+                floats: (values) => put(this.floats(bytes(4 * values.length), values.length), values),
+                doubles: (values) => put(this.doubles(bytes(8 * values.length), values.length), values),
+                words: (values) => put(this.words(bytes(4 * values.length), values.length), values),
+            });
+        } finally {
+            for (const at of places) this.free(at);
+        }
+    }
+}
