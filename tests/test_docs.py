@@ -149,7 +149,7 @@ class Docs(unittest.TestCase):
         head = self.header.partition("#pragma once")[0]
         shown = plain(re.findall(r"^//     (.*)$", head, re.M))
         self.assertGreater(len(shown), 10)
-        tested = plain((ROOT / "tests/test_capi.c").read_text(encoding="utf-8").splitlines())
+        tested = plain((ROOT / "tests/capi/test_capi.c").read_text(encoding="utf-8").splitlines())
         self.assertEqual(tested[tested.index(shown[0]):][:len(shown)], shown)
 
     def test_nothing_is_fetched_from_elsewhere(self):
