@@ -64,7 +64,7 @@ const char* swivel_last_error(void) { return last_error(); }
 
 size_t swivel_crowd_bytes(const swivel_crowd_def* def)
 {
-    return check(def) == SWIVEL_OK ? crowd_bytes(full_def(def)) : 0;
+    return check(def) == SWIVEL_OK ? static_cast<size_t>(crowd_bytes(full_def(def))) : 0;
 }
 
 swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd)
@@ -73,7 +73,7 @@ swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** cr
     *crowd = nullptr;
     if (const swivel_status status = check(def); status != SWIVEL_OK) return status;
     const swivel_crowd_def full = full_def(def);
-    const size_t bytes = crowd_bytes(full);
+    const size_t bytes = static_cast<size_t>(crowd_bytes(full));
     void (*release)(void*, size_t, void*) = full.release;
     void* arena = nullptr;
     if (full.memory) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <iterator>
 #include <utility>
@@ -127,6 +128,10 @@ swivel_status check(const swivel_crowd_def* given)
     }
     if (limb_count > kMostLimbs)
         return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
+    if (const std::uint64_t bytes = crowd_bytes(def); bytes > std::uint64_t{PTRDIFF_MAX})  // where pointers are short
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "a crowd of %llu bytes is beyond what a pointer reaches; use several crowds",
+                    static_cast<unsigned long long>(bytes));
     return SWIVEL_OK;
 }
 

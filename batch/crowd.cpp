@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kAlignment = 64;
 
-constexpr std::size_t aligned(std::size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
 RestFrames rest_frames(const swivel_binding& binding)
 {
@@ -45,17 +45,18 @@ std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_coun
 
 struct Layout {
     std::uint32_t block_count;
-    std::size_t groups, chosen, urgency, input, results, end;  // byte offsets in the arena
+    std::uint64_t groups, chosen, urgency, input, results, end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def) : block_count(0)
     {
         for (std::uint32_t g = 0; g < def.group_count; ++g) block_count += blocks_of(group_at(def, g));
+        const std::uint64_t blocks = block_count, words = mask_word_count(block_count);
         groups = aligned(sizeof(swivel_crowd));
-        chosen = groups + aligned(def.group_count * sizeof(Group));
-        urgency = chosen + aligned(mask_word_count(block_count) * sizeof(std::uint32_t));
-        input = urgency + (def.features & feature::budget ? aligned(block_count * sizeof(float)) : 0);
-        results = input + block_count * kInputRowBytes * input_row_count(def.features);
-        end = results + aligned(block_count * result_row_bytes(def.features) * result_row_count(def.features));
+        chosen = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
+        urgency = chosen + aligned(words * sizeof(std::uint32_t));
+        input = urgency + (def.features & feature::budget ? aligned(blocks * sizeof(float)) : 0);
+        results = input + blocks * kInputRowBytes * input_row_count(def.features);
+        end = results + aligned(blocks * result_row_bytes(def.features) * result_row_count(def.features));
     }
 };
 
@@ -142,13 +143,13 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
     return element(def.groups, g, swivel_default_group_def(0));
 }
 
-std::size_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
+std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
 
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
 {
     const Layout layout(def);
     char* const base = static_cast<char*>(arena);
-    std::memset(base, 0, layout.end);
+    std::memset(base, 0, static_cast<std::size_t>(layout.end));
     Group* const groups = reinterpret_cast<Group*>(base + layout.groups);
     std::uint32_t first_block = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
@@ -174,7 +175,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                 compact ? nullptr : reinterpret_cast<float*>(results),
                                 compact ? reinterpret_cast<std::uint16_t*>(results) : nullptr,
                                 arena,
-                                layout.end,
+                                static_cast<std::size_t>(layout.end),
                                 nullptr,
                                 nullptr,
                                 {},

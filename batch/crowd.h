@@ -53,7 +53,7 @@ inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_
 // A group of a def that full_def() has filled.
 swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g);
 // Bytes of the arena. The def must be valid, and full_def() must have filled it.
-std::size_t crowd_bytes(const swivel_crowd_def& def);
+std::uint64_t crowd_bytes(const swivel_crowd_def& def);
 // Lays a crowd out in arena, which is aligned to 64 and crowd_bytes(def) long: inputs as swivel_crowd_create() says,
 // and all limbs at rest.
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena);

@@ -741,10 +741,11 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
-// A digest of all results, to compare crowds across machines: equal results give equal digests on every CPU, and other
-// results almost surely another one. Padding lanes do not count. One 64-bit FNV-1a hash for each of the SWIVEL_LANES
-// lanes takes the rows in their order, a row's number a step: the bits of a float, or a word of SWIVEL_COMPACT. One
-// more takes these hashes, lane 0 first. 0 for a null crowd. Takes some nanoseconds a limb; no allocation.
+// A digest of all results, to compare machines by. Crowds with the same features and groups have equal digests if their
+// results are equal, and almost surely other ones if not. Padding lanes do not count. Each of the SWIVEL_LANES lanes
+// has a 64-bit FNV-1a hash. It takes the lane's number of every row, in the order of rows: a float's bits, or a word of
+// SWIVEL_COMPACT, in one step instead of byte by byte. One more hash takes these, lane 0 first. 0 for a null crowd. On
+// the calling thread; no allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this

@@ -6,9 +6,9 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
-import { pathToFileURL } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 
-const root = resolve(import.meta.url.slice('file://'.length), '../..');
+const root = resolve(fileURLToPath(import.meta.url), '../..');
 const [folder = `${root}/build/wasm/tools/wasm/package`, bench = `${root}/build/dev/bench/swivel_bench`] = process.argv.slice(2);
 const { Field, load } = await import(pathToFileURL(`${resolve(folder)}/node.js`));
 

@@ -3,15 +3,8 @@
 # The promise: the shared library exports every function of swivel.h and nothing else. Its name has its major version.
 #   LIBRARY: libswivel.so, MAJOR, NM, READELF. Or LIBRARY: swivel's DLL, OBJDUMP. HEADER: swivel.h.
 cmake_minimum_required(VERSION 3.22)
-file(READ ${HEADER} header)
-string(REGEX REPLACE "//[^\n]*" "" header "${header}")
-string(REPLACE ";" "\n" header "${header}")
-string(REGEX MATCHALL "SWIVEL_API[^(]*[ *]swivel_[a-z_]+[(]" declared "${header}")
-list(TRANSFORM declared REPLACE ".*[ *](swivel_[a-z_]+)[(]" "\\1")
-list(SORT declared)
-if(NOT "swivel_solve" IN_LIST declared)
-  message(FATAL_ERROR "no functions found in ${HEADER}")
-endif()
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/functions.cmake)
+swivel_functions(${HEADER} declared)
 
 if(OBJDUMP)
   execute_process(COMMAND ${OBJDUMP} -p ${LIBRARY} RESULT_VARIABLE result OUTPUT_VARIABLE output)

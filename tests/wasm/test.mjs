@@ -4,6 +4,8 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
+import { dirname } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { test } from 'node:test';
 import { Feature, Field, Flag, LANES, load, MOST_TWIST_BONES, Order, Status, SwivelError, VERSION } from 'swivel-wasm';
 
@@ -35,6 +37,7 @@ test('the same bits as the native library, with and without SIMD', () => {
   assert.equal(swivel.isaName, 'sse2');
   for (const isa of ['scalar', 'sse2']) {
     swivel.useIsa(isa);
+    assert.equal(swivel.isaName, isa);
     const crowd = swivel.crowd([1000]);
     crowd.write(Field.TARGET, manyArms());
     crowd.write(Field.POLE, [0.25, -1, 0.125]);
@@ -44,6 +47,18 @@ test('the same bits as the native library, with and without SIMD', () => {
     assert.ok(line.endsWith(`digest ${crowd.digest().toString(16).padStart(16, '0')}\n`), line);
     crowd.dispose();
   }
+});
+
+test('digests are unsigned, and differ with any result', () => {
+  const crowd = swivel.crowd([1]), seen = new Set();
+  crowd.write(Field.LENGTHS, [1, 1]);
+  for (let n = 0; n < 64; ++n) {
+    crowd.write(Field.TARGET, [0.01 * n, 0.5, 1]), crowd.solve();
+    assert.ok(crowd.digest() >= 0n);
+    seen.add(crowd.digest());
+  }
+  assert.equal(seen.size, 64);
+  crowd.dispose();
 });
 
 test('every name of swivel.h, with its number', () => {
@@ -97,6 +112,29 @@ test('values are views of memory, which solves read and write', () => {
   crowd.dispose();
 });
 
+test('every field has its own place in frames', () => {
+  const everyFeature = Object.entries(Feature).filter(([name]) => !/AIM|CLAVICLE|COMPACT|POLE_INCOMING|POLE_NORMAL|POLE_DIRECTION|TWIST_BONES/.test(name)).reduce((sum, [, bit]) => sum | bit, 0n);
+  const binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
+  for (const features of [everyFeature, Feature.WORLD | Feature.JOINTS | Feature.WITH_HAND | Feature.WITH_CLAVICLE | 3n * Feature.WITH_TWIST_BONES, Feature.WITH_AIM]) {
+    const [viewed, copied] = [0, 1].map(() => swivel.crowd([{ limbCount: 20, binding }], features));
+    for (const [name, field] of Object.entries(Field)) {
+      const count = viewed.componentCount(field);
+      if (count === 0) continue;
+      const view = viewed.values(field);
+      assert.equal(view.length, 20 * count, name);
+      if (field >= Field.SHOULDER) continue;
+      const value = [...viewed.read(field, { count: 1 })].map((x, n) => (Number.isNaN(x) ? 0.3 * n + 0.4 : x));
+      copied.write(field, value);
+      for (let n = 0; n < 20; ++n) view.set(value, n * count);
+    }
+    for (const crowd of [viewed, copied]) assert.equal(crowd.solve(), 20);
+    for (const [name, field] of Object.entries(Field)) assert.deepEqual(viewed.componentCount(field) && viewed.read(field), copied.componentCount(field) && copied.read(field), name);
+    assert.equal(viewed.find(Flag.BAD_INPUT), undefined);
+    assert.equal(viewed.digest(), copied.digest());
+    for (const crowd of [viewed, copied]) crowd.dispose();
+  }
+});
+
 const slant = unit([0.2, 0.4, -0.4, 0.8]);
 const chain = { shoulderRotation: slant, elbowRotation: unit([0.1, 0, 0, 1]), wristRotation: slant, elbowOffset: [0.3, 0, 0], wristOffset: [0.25, 0.02, 0], bend: [0, 0, 1] };
 
@@ -108,6 +146,11 @@ test('joints of a bound skeleton put wrists at their targets', () => {
       rotations: [0, 0, 0, 1, ...chain.shoulderRotation, ...chain.elbowRotation, ...chain.wristRotation] },
     { shoulder: 1, elbow: 2, wrist: 3, bend: chain.bend });
   assert.deepEqual(whole.bytes, binding.bytes);
+  const skeleton = { parents: [-1, 0, 1, 1], translations: [0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0.5] };
+  const joints = { shoulder: 0, elbow: 1, wrist: 2, bend: [0, 1, 0] };
+  assert.notDeepEqual(swivel.bindJoints(skeleton, { ...joints, twistBones: [3] }).bytes, swivel.bindJoints(skeleton, joints).bytes);
+  refuses(() => swivel.bindJoints({ ...skeleton, translations: [0, 0, 1] }, joints), 'translations has 3 numbers; give 12');
+  refuses(() => swivel.bindJoints(skeleton, { ...joints, wrist: 9 }), '9');
 
   const crowd = swivel.crowd([{ limbCount: 50, binding }], Feature.WORLD | Feature.JOINTS | Feature.WITH_HAND);
   const parent = unit([0.3, -0.2, 0.5, 0.7]), place = [2, -1, 4], hand = unit([0.5, 0.1, -0.3, 0.6]);
@@ -158,7 +201,64 @@ test('limits, their arcs, and what explains them', () => {
   close([...swivel.turn(0.3)], [Math.cos(0.3), Math.sin(0.3)], 1e-7);
   close([...swivel.aim([0, 0, 2], 0.5)].slice(0, 3), [0, 0, 1], 1e-7);
   close(swivel.armAxis(swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] }), [0, 0, 0, 1], [0, 3, 0]), [0, 1, 0], 1e-7);
-  assert.equal(crowd.jointAngles(Order.YXZ).length, 21);
+  close(swivel.armAxis(swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] }), [0, 0, Math.SQRT1_2, Math.SQRT1_2], [0, 3, 0]), [1, 0, 0], 1e-7);
+  close([swivel.aim([0, 0, 2], 0.5)[3]], [Math.cos(0.25)], 1e-7);
+  crowd.dispose();
+});
+
+test('orders of Euler angles reach boxes, mirrors and joint angles', () => {
+  const box = [...swivel.range(-0.2, 0.3), ...swivel.range(0.1, 0.4), ...swivel.range(-1, 2)];
+  const angles = [Order.XYZ, Order.ZYX].map((shoulderOrder) => {
+    const crowd = swivel.crowd([1], Feature.WITH_SHOULDER_BOX, { shoulderOrder });
+    crowd.write(Field.LENGTHS, [1, 1]), crowd.write(Field.TARGET, [0.4, 0.3, 1.6]), crowd.write(Field.SHOULDER_BOX, box), crowd.solve();
+    const all = [0, 1].map((family) => crowd.jointAngles({ shoulderOrder, family }));
+    assert.notDeepEqual(all[0], all[1]);
+    assert.notDeepEqual(crowd.mirror(Field.SHOULDER_BOX, box, Order.XYZ), crowd.mirror(Field.SHOULDER_BOX, box, Order.ZYX));
+    assert.notDeepEqual(crowd.jointAngles({ shoulderOrder: 5 - shoulderOrder }), all[0]);
+    const q = [...crowd.read(Field.SHOULDER)], turn = (axis, angle) => { const r = [0, 0, 0, Math.cos(angle / 2)]; r[axis] = Math.sin(angle / 2); return r; };
+    const axes = shoulderOrder === Order.XYZ ? [0, 1, 2] : [2, 1, 0];
+    const rebuilt = axes.map((axis, n) => turn(axis, all[0][n])).reduce(times);
+    assert.ok(Math.abs(rebuilt.reduce((sum, x, n) => sum + x * q[n], 0)) > 1 - 1e-6);
+    crowd.dispose();
+    return [...all[0]];
+  });
+  assert.notDeepEqual(angles[0], angles[1]);
+});
+
+test('answers are about the limb and the group asked for', () => {
+  const crowd = swivel.crowd([2, 3], Feature.WITH_SHOULDER_CONE | Feature.WITH_HUMERAL_TWIST);
+  for (const group of [0, 1]) crowd.write(Field.LENGTHS, [1, 1], { group }), crowd.write(Field.TARGET, [0.2, 0.3, 1.2 + 0.1 * group], { group });
+  crowd.write(Field.TARGET, [0, 0, 9], { group: 1, first: 2 });
+  crowd.write(Field.SHOULDER_CONE, swivel.cone([0.6, 0, 1], 0.6), { group: 1, first: 1, count: 1 });
+  crowd.write(Field.HUMERAL_TWIST, swivel.range(-0.4, 0.4), { group: 1, first: 1, count: 1 });
+  crowd.solve();
+  assert.deepEqual(crowd.find(Flag.CLAMPED_FAR), { group: 1, limb: 2 });
+  assert.match(crowd.explain(2, 1), /out of reach/);
+  assert.doesNotMatch(crowd.explain(1, 0), /out of reach/);
+  assert.ok(crowd.residuals({ group: 1, first: 2 })[0] > 3 && crowd.residuals({ group: 1 })[0] < 1e-6);
+  assert.deepEqual(crowd.allowedArcs(0, 0).length, 1);
+  const arcs = crowd.allowedArcs(1, 1);
+  assert.ok(arcs.length > 0 && !arcs.every(({ from, to }) => from[0] === to[0]));
+  for (const { from, to } of arcs) close([Math.hypot(...from), Math.hypot(...to)], [1, 1], 1e-6);
+  if (arcs.length > 1) assert.notDeepEqual(arcs[0], arcs[1]);
+  close([...crowd.wrists({ group: 1, count: 1 })], [0.2, 0.3, 1.3], 2e-6);
+  crowd.dispose();
+});
+
+test('calls beside solves see what views hold now', () => {
+  const crowd = swivel.crowd([2], Feature.WITH_MOST_SWIVEL);
+  crowd.write(Field.LENGTHS, [1, 1]);
+  const target = crowd.values(Field.TARGET), normal = crowd.values(Field.NORMAL);
+  target.set([0, 0.5, 1, 0, 0.5, 1]);
+  crowd.solve();
+  assert.match(crowd.explain(1), /reached/i);
+  assert.ok(Math.hypot(...normal.slice(3)) > 0.99);
+  target.set([0, 0, 9], 3);
+  assert.doesNotMatch(crowd.explain(1), /^The target is reached/);
+  assert.ok(crowd.residuals()[1] > 1);
+  crowd.reset({ first: 1 });
+  assert.deepEqual([...normal.slice(3)], [0, 0, 0]);
+  assert.ok(Math.hypot(...normal.slice(0, 3)) > 0.99);
   crowd.dispose();
 });
 
@@ -174,6 +274,16 @@ test('some limbs: blocks, masks, lists and budgets', () => {
   assert.equal(crowd.solve({ blocks: { first: 2, count: 1 } }), 8);
   assert.equal(crowd.solve({ priorities: [[1], new Float32Array(20).fill(2)], mostBlocks: 1 }), 16);
   assert.equal(solved().filter((name) => name.startsWith('1:')).length, 16);
+  // One priority for all of a group, and one for each limb: the block of the most urgent limb is picked.
+  const urgent = new Float32Array(40);
+  urgent[20] = 100;
+  const before = solved();
+  assert.equal(crowd.solve({ priorities: [urgent, [0]], mostBlocks: 1 }), 16);
+  assert.deepEqual(solved().filter((name) => !before.includes(name)).slice(0, 2), ['0:16', '0:17']);
+  refuses(() => crowd.solve({ priorities: [[1], [1]] }), 'priorities and mostBlocks together');
+  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, mask, limbs, priorities, mostBlocks, not limb');
+  refuses(() => crowd.solve([0]), 'not 0');
+  refuses(() => crowd.solve({ limbs: [0.5] }), 'limbs is 0.5');
   refuses(() => crowd.solve({ priorities: [[1]], mostBlocks: 1 }), '1 priorities for 2 groups');
   refuses(() => crowd.solve({ priorities: [[1], [1, 2]], mostBlocks: 1 }), '2 priorities for the 20 limbs of group 1');
   refuses(() => crowd.solve({ limbs: [40] }), '40');
@@ -197,53 +307,122 @@ test('packed results and rows', () => {
 });
 
 test('what is wrong is refused in one line, and changes nothing', async () => {
-  const crowd = swivel.crowd([4]);
-  crowd.write(Field.TARGET, [0, 0, 1]), crowd.write(Field.LENGTHS, [1, 1]), crowd.solve();
-  const before = crowd.digest();
-  refuses(() => crowd.write(Field.TARGET, [0, 0]), '2 numbers for TARGET; give 3, or 3 for each limb');
-  refuses(() => crowd.write(Field.TARGET, [0, 0, 0], { first: 4, count: 1 }), '4');
+  const crowd = swivel.crowd([4, 2]);
+  for (const group of [0, 1]) crowd.write(Field.TARGET, [0, 0, 1], { group }), crowd.write(Field.LENGTHS, [1, 1], { group });
+  crowd.solve();
+  const before = crowd.digest(), targets = crowd.read(Field.TARGET);
+  refuses(() => crowd.write(Field.TARGET, [0, 0]), '2 numbers for TARGET of 4 limbs; give 3, or 3 for each limb');
+  refuses(() => crowd.write(Field.TARGET, [0, 0, 1, 0, 0, 1]), '6 numbers for TARGET of 4 limbs');
+  refuses(() => crowd.write(Field.TARGET, []), '0 numbers');
+  refuses(() => crowd.write(Field.TARGET, { x: 0, y: 0, z: 0 }), 'TARGET is [object Object]; give an array of numbers');
+  refuses(() => crowd.write(Field.TYPO, [9, 9, 9]), 'the field is undefined; give one of Field');
+  refuses(() => crowd.write('POLE', [9, 9, 9]), 'the field is "POLE"; give one of Field');
+  refuses(() => crowd.read(undefined), 'give one of Field');
+  refuses(() => crowd.values(7000), 'give one of Field');
+  refuses(() => crowd.write(Field.TARGET, [0, 0, 0], { first: 4, count: 1 }), 'count is 1; give a whole number from 0 to 0');
+  refuses(() => crowd.write(Field.TARGET, [0, 0, 0], { first: 5 }), 'first is 5; give a whole number from 0 to 4');
+  refuses(() => crowd.write(Field.TARGET, [0, 0, 0], { group: NaN, count: 4 }), 'group NaN does not exist');
+  refuses(() => crowd.write(Field.TARGET, [0, 0, 0], { limb: 2 }), 'a choice of limbs takes group, first, count, not limb');
+  refuses(() => crowd.write(Field.TARGET, [0, 0, 0], 3), 'not 3');
   refuses(() => crowd.write(Field.SHOULDER, [0, 0, 0, 1]), 'shoulder');
   refuses(() => crowd.write(Field.HAND, [0, 0, 0, 1]), 'hand');
   refuses(() => crowd.values(Field.HAND), 'hand');
-  refuses(() => crowd.read(Field.TARGET, { group: 1 }), 'group 1 does not exist; the crowd has 1');
-  refuses(() => crowd.read(Field.TARGET, { first: -1 }), 'first is -1; give a whole number from 0');
+  refuses(() => crowd.read(Field.TARGET, { group: 2 }), 'group 2 does not exist; the crowd has 2');
+  refuses(() => crowd.read(Field.TARGET, { first: -1 }), 'first is -1');
   refuses(() => crowd.explain(undefined), 'limb is undefined');
-  refuses(() => crowd.explain(4), '4');
+  refuses(() => crowd.explain(4), 'limb is 4; give a whole number from 0 to 3');
+  refuses(() => crowd.find('BAD_INPUT'), 'flags is "BAD_INPUT"');
+  refuses(() => crowd.find(Flag.TYPO), 'flags is undefined');
+  refuses(() => crowd.jointAngles({ order: 2 }), 'not order');
+  refuses(() => crowd.firstLimb(9), 'group 9');
+  refuses(() => crowd.mirror(Field.ANGLE, [1, 0]), 'this crowd has no ANGLE');
   refuses(() => swivel.crowd([0]), 'limb');
   refuses(() => swivel.crowd([]), 'group');
+  refuses(() => swivel.crowd(5), 'groups is 5');
+  refuses(() => swivel.crowd([{ limbs: 5 }]), 'a group takes limbCount, binding, not limbs');
+  refuses(() => swivel.crowd([1], 3), 'features is 3; give a BigInt');
+  refuses(() => swivel.crowd([1], 1n << 64n), 'features is');
   refuses(() => swivel.crowd([1], Feature.POLE_DIRECTION), 'SWIVEL_WORLD');
+  refuses(() => swivel.crowd([1], 0n, { order: 1 }), 'not order');
+  refuses(() => swivel.crowd([71_582_800]), 'beyond what a pointer reaches');
+  refuses(() => swivel.crowd([5_000_000]), 'give load() more megabytes');
+  refuses(() => swivel.bind(), 'bind() takes shoulderRotation');
+  refuses(() => swivel.bind({ elbowOffset: [0, 0, 1] }), 'wristOffset is undefined; give an array of numbers');
   refuses(() => swivel.bind({ ...chain, bend: [1, 0] }), 'bend has 2 numbers; give 3');
   refuses(() => swivel.bind({ ...chain, bend: chain.elbowOffset }), 'bend');
   refuses(() => swivel.cone([0, 0], 1), 'axis has 2 numbers; give 3');
   refuses(() => swivel.range(1, 0), 'least');
+  refuses(() => swivel.turn(NaN), 'the angle is NaN');
   refuses(() => swivel.useIsa('avx2'), "no instruction set 'avx2'");
   assert.equal(crowd.digest(), before);
+  assert.deepEqual(crowd.read(Field.TARGET), targets);
+  const view = crowd.values(Field.SHOULDER);
   crowd.dispose();
-  refuses(() => crowd.solve(), 'crowd is null');
-
-  await assert.rejects(load({ megabytes: 1 }), /megabytes is 1; give 2 to 4096/);
-  await assert.rejects(load({ wasm: new Uint8Array(8) }), /it needs WebAssembly with SIMD/);
-  await assert.rejects(load({ wasm: new Response('', { status: 404 }) }), /404/);
-  const small = await load({ megabytes: 2 });
-  refuses(() => small.crowd([100000]), 'give load() more megabytes');
+  for (const call of ['solve', 'digest', 'inputRows', 'reset', 'residuals']) refuses(() => crowd[call](), 'this crowd is disposed of');
+  refuses(() => crowd.values(Field.SHOULDER), 'this crowd is disposed of');
+  refuses(() => crowd.read(Field.SHOULDER), 'this crowd is disposed of');
+  assert.equal(view.length, 16);
 });
 
-test('a crowd that is disposed of leaves nothing behind', async () => {
-  const small = await load({ megabytes: 3, wasm: readFileSync(new URL('./node_modules/swivel-wasm/swivel.wasm', import.meta.url)) });
-  for (let n = 0; n < 500; ++n) {
-    const crowd = small.crowd([2000]);
-    for (const field of [Field.TARGET, Field.SHOULDER, Field.FLAGS]) crowd.values(field);
-    crowd.write(Field.LENGTHS, [1, 1]), crowd.solve(), crowd.explain(0), crowd.allowedArcs(0), crowd.wrists();
-    assert.throws(() => crowd.values(Field.HAND));
-    crowd.dispose();
-    crowd.dispose();
-  }
+const wasm = readFileSync(new URL('./node_modules/swivel-wasm/swivel.wasm', import.meta.url));
+test('load() takes bytes, a response or an address, and says what is wrong', async () => {
+  for (const source of [wasm, new Response(wasm), `data:application/wasm;base64,${wasm.toString('base64')}`, undefined])
+    assert.equal((await load({ wasm: source })).isaName, 'sse2');
+  for (const [given, says] of [
+    [{ megabytes: 1 }, 'megabytes is 1; give 2 to 4096'],
+    [{ memory: 8 }, 'load() takes megabytes, wasm, not memory'],
+    [8, 'load() takes megabytes, wasm, not 8'],
+    [{ wasm: new Uint8Array(8) }, 'what came is not swivel.wasm'],
+    [{ wasm: new Response('<!doctype html>') }, 'it starts with "<!do"'],
+    [{ wasm: wasm.subarray(0, 5000) }, 'or the file is damaged'],
+    [{ wasm: new Response('', { status: 404 }) }, '404'],
+  ]) await assert.rejects(load(given), (error) => error instanceof SwivelError && error.message.includes(says) || assert.fail(error));
+});
+
+test('memory beyond two gigabytes', async () => {
+  const large = await load({ megabytes: 3000 });
+  const [, , crowd] = [18e6, 18e6, 20].map((limbCount) => large.crowd([limbCount]));  // 60 bytes a limb
+  crowd.write(Field.LENGTHS, [1, 1]), crowd.write(Field.TARGET, [0, 0.5, 1]);
+  const flags = crowd.values(Field.FLAGS);
+  assert.ok(crowd.resultRows().byteOffset > 2 ** 31);
+  assert.equal(crowd.solve({ limbs: [0, 19] }), 2);
+  assert.deepEqual([flags[0], flags[1], flags[19]], [Flag.REACHED, 0, Flag.REACHED]);
+  assert.match(crowd.explain(19), /reached/i);
+  assert.equal(large.isaName, 'sse2');
+});
+
+test('calls and crowds that are disposed of leave nothing behind', async () => {
+  const small = await load({ megabytes: 4, wasm });
+  const largest = () => {  // the limbs of the largest crowd that memory has room for
+    let [least, most] = [1, 100000];
+    while (most - least > 16) {
+      const limbs = (least + most) >> 1;
+      try {
+        small.crowd([limbs]).dispose();
+        least = limbs;
+      } catch {
+        most = limbs;
+      }
+    }
+    return least;
+  };
+  const before = largest();
+  for (let n = 0; n < 300; ++n)
+    for (const features of [0n, Feature.COMPACT]) {
+      const crowd = small.crowd([200, 300], features);
+      for (const field of features ? [Field.TARGET] : [Field.TARGET, Field.SHOULDER, Field.FLAGS]) crowd.values(field, 1);
+      crowd.write(Field.LENGTHS, [1, 1]), crowd.solve(), crowd.explain(0), crowd.allowedArcs(0), crowd.wrists(), crowd.jointAngles();
+      for (const wrong of [() => crowd.values(Field.HAND), () => crowd.read(Field.HAND), () => small.crowd([100000], features)]) assert.throws(wrong);
+      crowd.dispose();
+      crowd.dispose();
+    }
+  assert.equal(largest(), before);
 });
 
 test("the README's first program", () => {
   const readme = readFileSync(new URL('./node_modules/swivel-wasm/README.md', import.meta.url), 'utf8');
   const program = readme.match(/```js\n(.*?)```/s)[1];
-  const said = execFileSync(process.execPath, ['--input-type=module', '--eval', program], { encoding: 'utf8', cwd: import.meta.dirname ?? new URL('.', import.meta.url).pathname });
+  const said = execFileSync(process.execPath, ['--input-type=module', '--eval', program], { encoding: 'utf8', cwd: dirname(fileURLToPath(import.meta.url)) });
   assert.match(said, /15\.07/);
 });
 

@@ -20,6 +20,8 @@ crowd.values(7000);
 swivel.bind({ elbowOffset: [0, 0, 1] });
 // @ts-expect-error: flags are integers
 const floats: Float32Array = crowd.values(Field.FLAGS);
-// @ts-expect-error: it is made by load()
-new Swivel();
+// @ts-expect-error: an arm has no such limit
+swivel.cone(1, 2);
+// @ts-expect-error: options have names
+crowd.write(Field.POLE, [0, 0, 0], 1);
 export { floats };

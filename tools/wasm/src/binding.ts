@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+import { Numbers, numbers, options, whole } from "./arguments.js";
 import { layout } from "./layout.js";
-import { Borrowed, Memory, Numbers, refuse, whole } from "./memory.js";
+import type { Borrowed, Memory } from "./memory.js";
 
 /** A shoulder, elbow and wrist joint at rest, as swivel_chain: rotations x, y, z, w are the identity if left out. */
 export interface Chain {
+    /** Rest rotations, each relative to the joint above: the shoulder's to its parent, the elbow's to the shoulder. */
     shoulderRotation?: Numbers;
     elbowRotation?: Numbers;
     wristRotation?: Numbers;
@@ -21,16 +23,17 @@ export interface Skeleton {
     rotations?: Numbers;
 }
 
-/** Which joints of a skeleton are a limb. */
+/** Which joints of a skeleton are a limb, by index. twistBones: from elbow to wrist, those that share the hand's twist. */
 export interface LimbJoints {
     shoulder: number;
     elbow: number;
     wrist: number;
     twistBones?: Numbers;
+    /** As Chain's. */
     bend?: Numbers;
 }
 
-/** Maps the arm frame to a skeleton's joints: a swivel_binding. Made by Swivel.bind() or Swivel.bindJoints(). */
+/** Maps the arm frame to a skeleton's joints: a swivel_binding. Swivel.bind() and Swivel.bindJoints() make it. */
 export class Binding {
     /** @internal */
     constructor(readonly bytes: Uint8Array) {}
@@ -50,33 +53,37 @@ function make(memory: Memory, write: (borrowed: Borrowed, binding: number) => nu
     });
 }
 
+const identity = [0, 0, 0, 1], shownByPose = [0, 0, 0];
+
 /** @internal */
-export function bind(memory: Memory, chain: Chain): Binding {
+export function bind(memory: Memory, given: Chain): Binding {
+    const of = options("bind()", given, "shoulderRotation", "elbowRotation", "wristRotation", "elbowOffset", "wristOffset", "bend");
     return make(memory, (borrowed, binding) => {
-        const none = [0, 0, 0, 1];
-        const at = borrowed.structure("swivel_chain");
-        at.floats("shoulder_rotation", chain.shoulderRotation ?? none, 4).floats("elbow_rotation", chain.elbowRotation ?? none, 4);
-        at.floats("wrist_rotation", chain.wristRotation ?? none, 4).floats("bend", chain.bend ?? [0, 0, 0], 3);
-        at.floats("elbow_offset", chain.elbowOffset, 3).floats("wrist_offset", chain.wristOffset, 3);
-        return memory.calls.swivel_bind(at.at, binding);
+        const chain = borrowed.structure("swivel_chain");
+        chain.floats("shoulder_rotation", numbers("shoulderRotation", of.shoulderRotation ?? identity, 4));
+        chain.floats("elbow_rotation", numbers("elbowRotation", of.elbowRotation ?? identity, 4));
+        chain.floats("wrist_rotation", numbers("wristRotation", of.wristRotation ?? identity, 4));
+        chain.floats("elbow_offset", numbers("elbowOffset", of.elbowOffset, 3));
+        chain.floats("wrist_offset", numbers("wristOffset", of.wristOffset, 3));
+        chain.floats("bend", numbers("bend", of.bend ?? shownByPose, 3));
+        return memory.calls.swivel_bind(chain.at, binding);
     });
 }
 
 /** @internal */
 export function bindJoints(memory: Memory, skeleton: Skeleton, joints: LimbJoints): Binding {
-    const count = skeleton.parents.length;
-    if (skeleton.translations.length !== 3 * count) refuse(`${skeleton.translations.length} numbers of translations for ${count} joints; give 3 for each`);
-    if (skeleton.rotations && skeleton.rotations.length !== 4 * count)
-        refuse(`${skeleton.rotations.length} numbers of rotations for ${count} joints; give 4 for each`);
+    const of = options("a skeleton", skeleton, "parents", "translations", "rotations");
+    const limb = options("a limb's joints", joints, "shoulder", "elbow", "wrist", "twistBones", "bend");
+    const count = numbers("parents", of.parents).length;
     return make(memory, (borrowed, binding) => {
-        const of = borrowed.structure("swivel_skeleton").words("joint_count", count);
-        of.words("parents", borrowed.words(Int32Array.from(skeleton.parents)), 4);
-        of.words("translations", borrowed.floats(skeleton.translations), 12);
-        if (skeleton.rotations) of.words("rotations", borrowed.floats(skeleton.rotations), 16);
-        const at = borrowed.structure("swivel_limb_joints").floats("bend", joints.bend ?? [0, 0, 0], 3);
-        for (const name of ["shoulder", "elbow", "wrist"] as const) at.words(name, whole(name, joints[name]));
-        const bones = joints.twistBones ?? [];
-        at.words("twist_bone_count", bones.length).words("twist_bones", bones.length > 0 ? borrowed.words(bones) : 0);
-        return memory.calls.swivel_bind_joints(of.at, at.at, binding);
+        const rest = borrowed.structure("swivel_skeleton").words("joint_count", count);
+        rest.words("parents", borrowed.words(Int32Array.from(of.parents)), 4);
+        rest.words("translations", borrowed.floats(numbers("translations", of.translations, 3 * count)), 12);
+        if (of.rotations) rest.words("rotations", borrowed.floats(numbers("rotations", of.rotations, 4 * count)), 16);
+        const chosen = borrowed.structure("swivel_limb_joints").floats("bend", numbers("bend", limb.bend ?? shownByPose, 3));
+        for (const name of ["shoulder", "elbow", "wrist"] as const) chosen.words(name, whole(name, limb[name]));
+        const bones = numbers("twistBones", limb.twistBones ?? []);
+        chosen.words("twist_bone_count", bones.length).words("twist_bones", bones.length > 0 ? borrowed.words(bones) : 0);
+        return memory.calls.swivel_bind_joints(rest.at, chosen.at, binding);
     });
 }

@@ -1,30 +1,15 @@
 // SPDX-License-Identifier: MIT
-import type { Binding } from "./binding.js";
-import { Feature, Field, frameMembers, layout } from "./layout.js";
-import { Memory, Numbers, refuse, Structure, whole } from "./memory.js";
+import { FieldNumber, nameOf, Numbers, numbers, options, refuse, whole } from "./arguments.js";
+import { Field } from "./layout.js";
+import type { Borrowed, Structure } from "./memory.js";
+import { CrowdRows, Limbs } from "./rows.js";
 
-export type FieldNumber = (typeof Field)[keyof typeof Field];
-
-/** Limbs that share one binding. A number alone: that many limbs without a binding, in the arm frame. */
-export type Group = number | { limbCount: number; binding?: Binding };
-
-/** Orders of the Euler angles of SHOULDER_BOX and WRIST_BOX, from Order. Left out: XYZ. */
-export interface CrowdOptions {
-    shoulderOrder?: number;
-    wristOrder?: number;
-}
-
-/** Which limbs of a group; left out, all of group 0. */
-export interface Limbs {
-    group?: number;
-    first?: number;
-    count?: number;
-}
+export type { CrowdOptions, Group, Limbs } from "./rows.js";
 
 /** What a solve does, as swivel_job: at most one of mask, limbs and priorities. Left out: every limb. */
 export interface Job {
     blocks?: { first: number; count: number };
-    /** Bit i % 32 of word i / 32 is limb firstLimb(group) + n. */
+    /** Bit i % 32 of word i / 32 is limb i = firstLimb(group) + n. Two blocks of 16 limbs share a word. */
     mask?: Numbers;
     /** Limbs as firstLimb(group) + n. */
     limbs?: Numbers;
@@ -33,209 +18,104 @@ export interface Job {
     mostBlocks?: number;
 }
 
-/** Swivels allowed, from one to the other by the right hand: cosine and sine of each end, 0 being the wish. */
+/** A limb, counted within its group. */
+export interface Place {
+    group: number;
+    limb: number;
+}
+
+/** Swivels allowed, from one to the other by the right hand: cosine and sine of each end, angle 0 being the wish. */
 export interface Arc {
     from: [number, number];
     to: [number, number];
 }
 
-type Values = Float32Array | Uint32Array;
+/** How joint angles are wanted: orders from Order, and the family of Euler angles, 0 or 1. Left out: XYZ, 0. */
+export interface JointAngles extends Limbs {
+    shoulderOrder?: number;
+    wristOrder?: number;
+    family?: number;
+}
 
-const nameOf = (field: FieldNumber): string => Object.entries(Field).find(([, number]) => number === field)?.[0] ?? `field ${field}`;
+type Answer = (group: number, first: number, count: number, out: number) => number;
 
-/** A crowd: the limbs that one call solves. Made by Swivel.crowd(). */
-export class Crowd {
-    private at: number;
-    private readonly frames: number;
-    private readonly limbCounts: number[];
-    private readonly componentCounts = new Map<number, number>();
-    private readonly arrays: Map<number, Values>[];
-
-    /** @internal */
-    constructor(private readonly memory: Memory, groups: readonly Group[], features: bigint, options: CrowdOptions) {
-        const calls = memory.calls;
-        const defs = groups.map((group) => (typeof group === "number" ? { limbCount: group } : group));
-        this.limbCounts = defs.map((def) => whole("limbCount", def.limbCount));
-        const create = (counts: number[], wanted: bigint): number =>
-            memory.borrow((borrowed) => {
-                const size = layout.swivel_group_def.bytes;
-                const list = borrowed.bytes(size * counts.length);
-                counts.forEach((count, n) => {
-                    const def = new Structure(memory, "swivel_group_def", list + n * size).words("limb_count", count);
-                    const binding = defs[n].binding;
-                    if (binding) def.copy("binding", binding.bytes);
-                });
-                const def = borrowed.structure("swivel_crowd_def");
-                def.wide("features", wanted).words("group_count", counts.length).words("groups", list);
-                def.words("shoulder_order", whole("shoulderOrder", options.shoulderOrder ?? 0));
-                def.words("wrist_order", whole("wristOrder", options.wristOrder ?? 0));
-                const crowd = borrowed.bytes(4);
-                memory.check(calls.swivel_crowd_create(def.at, crowd));
-                return memory.words(crowd, 1)[0];
-            });
-        this.at = create(this.limbCounts, features);
-        // Compact rows are words. A field's value has the same numbers as without Feature.COMPACT.
-        const one = features & Feature.COMPACT ? create([1], features & ~Feature.COMPACT) : this.at;
-        for (const field of Object.values(Field)) this.componentCounts.set(field, calls.swivel_field_row_count(one, field));
-        if (one !== this.at) calls.swivel_crowd_destroy(one);
-
-        this.arrays = groups.map(() => new Map());
-        const frame = layout.swivel_frame.bytes;
-        this.frames = memory.allocate(frame * groups.length);
-        groups.forEach((_, n) => new Structure(memory, "swivel_frame", this.frames + n * frame));
-    }
-
-    /** Frees the crowd's memory. Views of it then mean nothing, and other calls fail. */
-    dispose(): void {
-        if (this.at === 0) return;
-        this.memory.calls.swivel_crowd_destroy(this.at);
-        for (const arrays of this.arrays) for (const array of arrays.values()) this.memory.free(array.byteOffset);
-        this.memory.free(this.frames);
-        this.at = 0;
-    }
-
-    get groupCount(): number { return this.limbCounts.length; }
-    limbCount(group = 0): number {
-        return this.limbCounts[whole("group", group)] ?? refuse(`group ${group} does not exist; the crowd has ${this.groupCount}`);
-    }
-    /** The index of a group's first limb in rows, masks and lists of limbs. */
-    firstLimb(group = 0): number { return this.memory.calls.swivel_group_first_limb(this.at, whole("group", group)); }
-    /** The numbers of a field's value; 0 if the crowd's features do not bring the field. */
-    componentCount(field: FieldNumber): number { return this.componentCounts.get(field) ?? 0; }
-
-    /**
-     * The values of a field of a group, limb after limb, in swivel's own memory: no call copies them. From the first call
-     * on, solves read an input from here and write a result here. The view stays valid until dispose().
-     */
-    values(field: typeof Field.FLAGS, group?: number): Uint32Array;
-    values(field: FieldNumber, group?: number): Float32Array;
-    values(field: FieldNumber, group = 0): Values {
-        const limbCount = this.limbCount(group);
-        const held = this.arrays[group].get(field);
-        if (held) return held;
-        if (field >= Field.SHOULDER && this.compactRows().length > 0)
-            refuse("results of a crowd with Feature.COMPACT are packed: use read() or compactRows()");
-        const bytes = 4 * this.componentCount(field);
-        const at = this.memory.allocate(Math.max(bytes, 4) * limbCount);
-        try {
-            this.readTo(at, field, { group });
-        } catch (error) {
-            this.memory.free(at);
-            throw error;
-        }
-        const array = this.view(field, at, limbCount);
-        this.arrays[group].set(field, array);
-        this.memory.words(this.frames + group * layout.swivel_frame.bytes + frameMembers[field], 2).set([at, bytes]);
-        return array;
-    }
-
-    /** Sets an input: one value for all these limbs, or one for each. */
-    write(field: FieldNumber, values: Numbers, limbs: Limbs = {}): void {
-        const { group, first } = this.place(limbs);
-        const components = this.componentCount(field);
-        const same = values.length === components || components === 0;  // the library refuses a field without components
-        const count = limbs.count ?? (same ? this.limbCount(group) - first : Math.floor(values.length / components));
-        if (!same && values.length !== count * components)
-            refuse(`${values.length} numbers for ${nameOf(field)}; give ${components}, or ${components} for each limb`);
-        this.memory.borrow((borrowed) => {
-            const from = borrowed.words([borrowed.floats(values), same ? 0 : 4 * components]);
-            this.memory.check(this.memory.calls.swivel_write(this.at, field, group, first, whole("count", count), from));
-        });
-        const held = this.arrays[group].get(field);
-        if (held) this.readTo(held.byteOffset + 4 * components * first, field, { group, first, count });
-    }
-
-    /** A copy of a field's values. */
-    read(field: typeof Field.FLAGS, limbs?: Limbs): Uint32Array;
-    read(field: FieldNumber, limbs?: Limbs): Float32Array;
-    read(field: FieldNumber, limbs: Limbs = {}): Values {
-        const { group, first, count } = this.place(limbs);
-        const components = this.componentCount(field);
-        const held = this.arrays[group].get(field);
-        if (held) return held.slice(first * components, (first + count) * components);
-        return this.memory.borrow((borrowed) => {
-            const at = borrowed.bytes(4 * Math.max(components, 1) * count);
-            this.readTo(at, field, { group, first, count });
-            return this.view(field, at, count).slice();
-        });
-    }
-
+/** A crowd: the limbs that one call solves. Swivel.crowd() makes it. */
+export class Crowd extends CrowdRows {
     /** Solves limbs, and returns how many. */
     solve(job: Job = {}): number {
         const { memory } = this;
         return memory.borrow((borrowed) => {
             const solved = borrowed.bytes(4);
             const to = borrowed.structure("swivel_job").words("solved_count", solved);
-            if (this.arrays.some((arrays) => arrays.size > 0)) to.words("frames", this.frames);
-            if (job.blocks)
-                to.words("blocks", borrowed.words([whole("first", job.blocks.first), whole("count", job.blocks.count)]));
-            if (job.mask) to.words("mask", borrowed.words(job.mask)).words("mask_word_count", job.mask.length);
-            if (job.limbs) to.words("limbs", borrowed.words([borrowed.words(job.limbs), job.limbs.length]));
-            if (job.priorities) {
-                if (job.priorities.length !== this.groupCount)
-                    refuse(`${job.priorities.length} priorities for ${this.groupCount} groups; give one list for each`);
-                const each = job.priorities.map((values, group) => {
-                    if (values.length !== 1 && values.length !== this.limbCount(group))
-                        refuse(`${values.length} priorities for the ${this.limbCount(group)} limbs of group ${group}; give one for each, or one for all`);
-                    return [borrowed.floats(values), values.length === 1 ? 0 : 4];
-                });
-                to.words("priorities", borrowed.words(each.flat())).words("most_blocks", whole("mostBlocks", job.mostBlocks ?? 0));
-            }
-            memory.check(memory.calls.swivel_solve(this.at, to.at));
+            if (this.held.some((fields) => fields.size > 0)) to.words("frames", this.frames);
+            this.choose(options("solve()", job, "blocks", "mask", "limbs", "priorities", "mostBlocks"), to, borrowed);
+            memory.check(memory.calls.swivel_solve(this.crowd, to.at));
             return memory.words(solved, 1)[0];
         });
+    }
+    private choose({ blocks, mask, limbs, priorities, mostBlocks }: Job, to: Structure<"swivel_job">, borrowed: Borrowed): void {
+        const indices = (name: string, values: Numbers): number => {
+            if (!(values instanceof Uint32Array)) for (const value of Array.from(numbers(name, values))) whole(name, value);
+            return borrowed.words(values);
+        };
+        if (blocks) to.words("blocks", indices("blocks", [blocks.first, blocks.count]));
+        if (mask) to.words("mask", indices("mask", mask)).words("mask_word_count", mask.length);
+        if (limbs) to.words("limbs", borrowed.words([indices("limbs", limbs), limbs.length]));
+        if ((priorities === undefined) !== (mostBlocks === undefined)) refuse("solve() takes priorities and mostBlocks together");
+        if (!priorities) return;
+        if (priorities.length !== this.groupCount)
+            refuse(`${priorities.length} priorities for ${this.groupCount} groups; give one list for each`);
+        const streams = priorities.map((values, group) => {
+            const { length } = numbers("priorities", values);
+            if (length !== 1 && length !== this.limbCount(group))
+                refuse(`${length} priorities for the ${this.limbCount(group)} limbs of group ${group}; give one for each, or one for all`);
+            return [borrowed.floats(values), length === 1 ? 0 : 4];
+        });
+        to.words("priorities", borrowed.words(streams.flat())).words("most_blocks", whole("mostBlocks", mostBlocks as number));
     }
 
     /** Forgets the swivels that a crowd with Feature.WITH_MOST_SWIVEL keeps between solves. */
     reset(limbs: Limbs = {}): void {
         const { group, first, count } = this.place(limbs);
-        this.memory.check(this.memory.calls.swivel_reset(this.at, group, first, count));
+        this.memory.check(this.memory.calls.swivel_reset(this.crowd, group, first, count));
+        this.refresh(Field.NORMAL, group);
     }
 
     /** The first limb with any of these flags, from a place on. To go on, add 1 to its limb. */
-    find(flags: number, from = { group: 0, limb: 0 }): { group: number; limb: number } | undefined {
+    find(flags: number, from: Place = { group: 0, limb: 0 }): Place | undefined {
         return this.memory.borrow((borrowed) => {
             const at = borrowed.words([whole("group", from.group), whole("limb", from.limb)]);
-            if (!this.memory.calls.swivel_find(this.at, flags, at, at + 4)) return undefined;
+            if (!this.memory.calls.swivel_find(this.crowd, whole("flags", flags), at, at + 4)) return undefined;
             const [group, limb] = this.memory.words(at, 2);
             return { group, limb };
         });
     }
 
-    /** Why a limb is as it is, in a sentence or two. */
+    /** Why a limb is as it is, from its present inputs, in a sentence or two. */
     explain(limb: number, group = 0): string {
+        const { first } = this.one(limb, group);
         return this.memory.borrow((borrowed) => {
             const at = borrowed.bytes(1024);
-            this.memory.check(this.memory.calls.swivel_explain(this.at, whole("group", group), whole("limb", limb), at, 1024));
+            this.memory.check(this.memory.calls.swivel_explain(this.crowd, group, first, at, 1024));
             return this.memory.text(at);
         });
     }
 
-    /** The swivels that a limb's limits allow for its inputs as they are. */
+    /** The swivels that a limb's limits allow for its present inputs. The whole circle is one arc with equal ends. */
     allowedArcs(limb: number, group = 0): Arc[] {
-        const arcs = (at: number, capacity: number, count: number): void =>
-            this.memory.check(this.memory.calls.swivel_allowed_arcs(this.at, whole("group", group), whole("limb", limb), at, capacity, count));
+        const { first } = this.one(limb, group);
         return this.memory.borrow((borrowed) => {
             const count = borrowed.bytes(4);
-            arcs(0, 0, count);
+            const arcs = (at: number, capacity: number): void =>
+                this.memory.check(this.memory.calls.swivel_allowed_arcs(this.crowd, group, first, at, capacity, count));
+            arcs(0, 0);
             const [capacity] = this.memory.words(count, 1);
             const at = borrowed.bytes(16 * capacity);
-            arcs(at, capacity, count);
-            return Array.from({ length: capacity }, (_, n) => {
+            arcs(at, capacity);
+            return Array.from({ length: capacity }, (_, n): Arc => {
                 const [a, b, c, d] = this.memory.floats(at + 16 * n, 4);
-                return { from: [a, b], to: [c, d] } as Arc;
+                return { from: [a, b], to: [c, d] };
             });
-        });
-    }
-
-    /** A value of Field.ANGLE or of a limit, for the same limb on the body's other side. order is a box's. */
-    mirror(field: FieldNumber, value: Numbers, order = 0): Float32Array {
-        const count = this.componentCount(field);
-        if (value.length !== count) refuse(`${value.length} numbers for ${nameOf(field)}; give ${count}`);
-        return this.memory.borrow((borrowed) => {
-            const out = borrowed.bytes(4 * count);
-            this.memory.check(this.memory.calls.swivel_mirror(field, whole("order", order), borrowed.floats(value), out));
-            return this.memory.floats(out, count).slice();
         });
     }
 
@@ -248,52 +128,35 @@ export class Crowd {
     /** How far each wrist is from its target, in arm lengths; NaN for bad input. */
     residuals(limbs: Limbs = {}): Float64Array {
         return this.answer(limbs, 1, (group, first, count, out) =>
-            this.memory.calls.swivel_residuals(this.at, group, first, count, out));
+            this.memory.calls.swivel_residuals(this.crowd, group, first, count, out));
     }
-    /** Seven joint angles each, in radians, about the arm frame's axes; swivel_joint_angles() has their meaning. */
-    jointAngles(shoulderOrder = 0, wristOrder = 0, family = 0, limbs: Limbs = {}): Float64Array {
+    /** Seven joint angles each, in radians, about the arm frame's axes: three of the shoulder, the flexion, three of the wrist. */
+    jointAngles(given: JointAngles = {}): Float64Array {
+        const { shoulderOrder = 0, wristOrder = 0, family = 0, ...limbs } = given;
+        const [shoulder, wrist] = [whole("shoulderOrder", shoulderOrder), whole("wristOrder", wristOrder)];
         return this.answer(limbs, 7, (group, first, count, out) =>
-            this.memory.calls.swivel_joint_angles(this.at, group, first, count, shoulderOrder, wristOrder, family, out));
+            this.memory.calls.swivel_joint_angles(this.crowd, group, first, count, shoulder, wrist, whole("family", family), out));
     }
-    /** A number for all results: equal results have equal digests on every machine. */
-    digest(): bigint { return BigInt.asUintN(64, this.memory.calls.swivel_digest(this.at)); }
+    /** A number for all results: equal results of crowds of one shape have equal digests on every machine. */
+    digest(): bigint { return BigInt.asUintN(64, this.memory.calls.swivel_digest(this.crowd)); }
 
-    /** Rows of inputs in swivel's own memory, as swivel_rows says. */
-    inputRows(): Float32Array {
-        const { at, length } = this.rows("swivel_input_rows");
-        return this.memory.floats(at, length);
+    /** A value of Field.ANGLE or of a limit that this crowd has, for the same limb on the body's other side. order: a box's. */
+    mirror(field: FieldNumber, value: Numbers, order = 0): Float32Array {
+        const components = this.componentCount(field);
+        if (components === 0) refuse(`this crowd has no ${nameOf(field)}; give its feature to crowd()`);
+        const given = numbers(nameOf(field), value, components);
+        return this.memory.result(components, (out, borrowed) =>
+            this.memory.calls.swivel_mirror(field, whole("order", order), borrowed.floats(given), out));
     }
-    /** Rows of results; of no length with Feature.COMPACT. */
-    resultRows(): Float32Array {
-        const { at, length } = this.rows("swivel_result_rows");
-        return this.memory.floats(at, length);
-    }
-    /** Rows of words; of no length without Feature.COMPACT. */
-    compactRows(): Uint16Array {
-        const { at, length } = this.rows("swivel_compact_rows");
-        return new Uint16Array(this.memory.buffer, at, length);
-    }
-    /** A field's first row in a block. */
-    fieldFirstRow(field: FieldNumber): number { return this.memory.calls.swivel_field_first_row(this.at, field); }
-    /** A field's rows in a block. */
-    fieldRowCount(field: FieldNumber): number { return this.memory.calls.swivel_field_row_count(this.at, field); }
 
-    private place({ group = 0, first = 0, count }: Limbs): { group: number; first: number; count: number } {
-        return { group, first: whole("first", first), count: whole("count", count ?? this.limbCount(group) - first) };
+    private one(limb: number, group: number): Required<Limbs> {
+        const place = this.place({ group, first: whole("limb", limb, this.limbCount(group) - 1), count: 1 });
+        this.settle(group);
+        return place;
     }
-    private view(field: FieldNumber, at: number, limbCount: number): Values {
-        const length = this.componentCount(field) * limbCount;
-        return field === Field.FLAGS ? this.memory.words(at, length) : this.memory.floats(at, length);
-    }
-    private readTo(at: number, field: FieldNumber, limbs: Limbs): void {
+    private answer(limbs: Limbs, components: number, call: Answer): Float64Array {
         const { group, first, count } = this.place(limbs);
-        this.memory.borrow((borrowed) => {
-            const out = borrowed.words([at, 4 * Math.max(this.componentCount(field), 1)]);
-            this.memory.check(this.memory.calls.swivel_read(this.at, field, group, first, count, out));
-        });
-    }
-    private answer(limbs: Limbs, components: number, call: (group: number, first: number, count: number, out: number) => number): Float64Array {
-        const { group, first, count } = this.place(limbs);
+        this.settle(group);
         return this.memory.borrow((borrowed) => {
             const at = borrowed.bytes(8 * components * count);
             this.memory.check(call(group, first, count, borrowed.words([at, 8 * components])));
@@ -302,19 +165,11 @@ export class Crowd {
     }
     private forward(limbs: Limbs, which: number): Float64Array {
         return this.memory.borrow((borrowed) => {
-            const none = borrowed.words([0, 0]);
+            const leftOut = borrowed.words([0, 0]);
             return this.answer(limbs, which === 2 ? 4 : 3, (group, first, count, out) => {
-                const [elbow, wrist, hand] = [0, 1, 2].map((n) => (n === which ? out : none));
-                return this.memory.calls.swivel_forward(this.at, group, first, count, elbow, wrist, hand);
+                const [elbow, wrist, hand] = [0, 1, 2].map((n) => (n === which ? out : leftOut));
+                return this.memory.calls.swivel_forward(this.crowd, group, first, count, elbow, wrist, hand);
             });
-        });
-    }
-    private rows(call: "swivel_input_rows" | "swivel_result_rows" | "swivel_compact_rows"): { at: number; length: number } {
-        return this.memory.borrow((borrowed) => {
-            const rows = borrowed.structure("swivel_rows");
-            this.memory.calls[call](rows.at, this.at);
-            const [at, blocks, count] = this.memory.words(rows.at, 3);
-            return { at, length: blocks * count * 16 };
         });
     }
 }

@@ -1,42 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
 // The module's memory and the functions that it exports. Memory has a fixed size, so views of it stay valid.
+import { Numbers, numbers, SwivelError } from "./arguments.js";
+import type { FunctionName } from "./functions.js";
 import { layout, Status } from "./layout.js";
 
 /** The functions of swivel.h as WebAssembly has them: pointers and counts are numbers. */
-type Name =
-    | "last_error" | "bind" | "bind_joints" | "crowd_create" | "crowd_destroy" | "group_first_limb" | "field_first_row"
-    | "field_row_count" | "input_rows" | "result_rows" | "compact_rows" | "write" | "read" | "solve" | "reset" | "find"
-    | "explain" | "allowed_arcs" | "forward" | "residuals" | "joint_angles" | "range" | "cone" | "flexion" | "aim" | "turn"
-    | "arm_axis" | "mirror" | "isa_name" | "use_isa";
-export interface Exports extends Record<`swivel_${Name}`, (...values: number[]) => number> {
+export interface Exports extends Record<Exclude<FunctionName, "swivel_digest">, (...values: number[]) => number> {
     swivel_digest(crowd: number): bigint;
     malloc(bytes: number): number;
     free(at: number): void;
     _initialize(): void;
 }
 
-/** A failed call: its status, one of Status, and the library's own line. */
-export class SwivelError extends Error {
-    constructor(readonly status: number, text: string) {
-        super(text);
-        this.name = "SwivelError";
-    }
-}
-
-/** An argument that the library would not see as it was given. */
-export function refuse(text: string): never {
-    throw new SwivelError(Status.INVALID_ARGUMENT, text);
-}
-
-/** A count or an index: WebAssembly would take -1 for 4294967295, and NaN for 0. */
-export function whole(name: string, number: number): number {
-    if (!Number.isInteger(number) || number < 0 || number > 0xffffffff) refuse(`${name} is ${number}; give a whole number from 0`);
-    return number;
-}
-
-export type Numbers = ArrayLike<number>;
-export type Layout = typeof layout;
+type Layout = typeof layout;
 
 /** A C structure in memory. Members that nobody sets are zero. */
 export class Structure<Name extends keyof Layout> {
@@ -52,9 +29,8 @@ export class Structure<Name extends keyof Layout> {
         this.memory.words(this.place(member), values.length).set(values);
         return this;
     }
-    floats(member: keyof Layout[Name], values: Numbers, count = values.length): this {
-        if (values.length !== count) refuse(`${String(member)} has ${values.length} numbers; give ${count}`);
-        this.memory.floats(this.place(member), count).set(values);
+    floats(member: keyof Layout[Name], values: Numbers): this {
+        this.memory.floats(this.place(member), values.length).set(values);
         return this;
     }
     wide(member: keyof Layout[Name], value: bigint): this {
@@ -94,16 +70,18 @@ export class Memory {
 
     check(status: number): void {
         if (status === Status.OK) return;
-        const more = status === Status.OUT_OF_MEMORY ? "; give load() more megabytes, or dispose() of crowds" : "";
-        throw new SwivelError(status, this.text(this.calls.swivel_last_error()) + more);
+        const text = this.text(this.calls.swivel_last_error() >>> 0);
+        throw status === Status.OUT_OF_MEMORY ? this.full(text) : new SwivelError(status, text);
     }
     allocate(bytes: number): number {
-        const at = this.calls.malloc(bytes);
-        if (at === 0)
-            throw new SwivelError(Status.OUT_OF_MEMORY, `no memory for ${bytes} bytes; give load() more megabytes, or dispose() of crowds`);
+        const at = this.calls.malloc(bytes) >>> 0;  // pointers are unsigned, numbers of WebAssembly are not
+        if (at === 0) throw this.full(`no memory for ${bytes} bytes`);
         return at;
     }
     free(at: number): void { this.calls.free(at); }
+    private full(text: string): SwivelError {
+        return new SwivelError(Status.OUT_OF_MEMORY, `${text}; give load() more megabytes, or dispose() of crowds`);
+    }
 
     borrow<Result>(act: (borrowed: Borrowed) => Result): Result {
         const places: number[] = [];
@@ -127,4 +105,17 @@ export class Memory {
             for (const at of places) this.free(at);
         }
     }
+    /** The floats that a call writes. */
+    result(count: number, call: (out: number, borrowed: Borrowed) => number): Float32Array {
+        return this.borrow((borrowed) => {
+            const out = borrowed.bytes(4 * count);
+            this.check(call(out, borrowed));
+            return this.floats(out, count).slice();
+        });
+    }
+}
+
+/** An axis or a place in double, which a call borrows. */
+export function vector(name: string, values: Numbers, borrowed: Borrowed): number {
+    return borrowed.doubles(numbers(name, values, 3));
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
+import { Numbers, numbers, refuse, shown } from "./arguments.js";
 import { bind, bindJoints, Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 import { Crowd, CrowdOptions, Group } from "./crowd.js";
-import { Borrowed, Memory, Numbers, refuse } from "./memory.js";
+import { Memory, vector } from "./memory.js";
 
-/** The solver in a memory of its own. Made by load(). Names, units and meanings are those of swivel.h. */
+/** The solver in a memory of its own. load() makes it. Names, units and meanings are those of swivel.h. */
 export class Swivel {
     /** @internal */
     constructor(private readonly memory: Memory) {}
 
-    /** Makes a crowd: crowd([1000], Feature.WORLD | Feature.JOINTS). Its memory is in use until Crowd.dispose(). */
+    /** Makes a crowd: crowd([1000], Feature.WITH_HAND). Its memory is in use until Crowd.dispose(). */
     crowd(groups: readonly Group[], features = 0n, options: CrowdOptions = {}): Crowd {
         return new Crowd(this.memory, groups, features, options);
     }
@@ -17,61 +18,51 @@ export class Swivel {
 
     /** A range of angles in radians, for twists and, three at a time, boxes. */
     range(least: number, most: number): Float32Array {
-        return this.floats(4, (out) => this.memory.calls.swivel_range(least, most, out));
+        return this.memory.result(4, (out) => this.memory.calls.swivel_range(least, most, out));
     }
     /** An axis and the largest angle to it. */
     cone(axis: Numbers, most: number): Float32Array {
-        return this.floats(4, (out, borrowed) => this.memory.calls.swivel_cone(this.direction("axis", axis, borrowed), most, out));
+        return this.memory.result(4, (out, borrowed) => this.memory.calls.swivel_cone(vector("axis", axis, borrowed), most, out));
     }
     /** The elbow's least and largest flexion. */
     flexion(least: number, most: number): Float32Array {
-        return this.floats(2, (out) => this.memory.calls.swivel_flexion(least, most, out));
+        return this.memory.result(2, (out) => this.memory.calls.swivel_flexion(least, most, out));
     }
     /** For Field.AIM: an axis of the hand, and the elbow's flexion. */
     aim(axis: Numbers, flexion: number): Float32Array {
-        return this.floats(5, (out, borrowed) => this.memory.calls.swivel_aim(this.direction("axis", axis, borrowed), flexion, out));
+        return this.memory.result(5, (out, borrowed) => this.memory.calls.swivel_aim(vector("axis", axis, borrowed), flexion, out));
     }
     /** Cosine and sine of an angle, for Field.ANGLE and Field.MOST_SWIVEL. */
     turn(angle: number): Float32Array {
-        return this.floats(2, (out) => {
+        if (!Number.isFinite(angle)) refuse(`the angle is ${shown(angle)}; give radians`);
+        return this.memory.result(2, (out) => {
             this.memory.calls.swivel_turn(angle, out);
             return 0;
         });
     }
-    /** Converts a direction of the character into the arm frame, where the axes of limits are. */
+    /**
+     * Converts a direction of the character, in the world of its rest pose, into the arm frame, where the axes of limits are.
+     * parentRotation: of the shoulder's parent joint in that world.
+     */
     armAxis(binding: Binding, parentRotation: Numbers, direction: Numbers): number[] {
         return this.memory.borrow((borrowed) => {
-            if (parentRotation.length !== 4) refuse(`parentRotation has ${parentRotation.length} numbers; give 4`);
-            const bound = borrowed.bytes(binding.bytes.length);
+            const axis = borrowed.bytes(24), bound = borrowed.bytes(binding.bytes.length);
             this.memory.bytes(bound, binding.bytes.length).set(binding.bytes);
-            const axis = borrowed.bytes(24);
-            const from = this.direction("direction", direction, borrowed);
-            this.memory.check(this.memory.calls.swivel_arm_axis(bound, borrowed.floats(parentRotation), from, axis));
+            const parent = borrowed.floats(numbers("parentRotation", parentRotation, 4));
+            this.memory.check(this.memory.calls.swivel_arm_axis(bound, parent, vector("direction", direction, borrowed), axis));
             return Array.from(this.memory.doubles(axis, 3));
         });
     }
 
     /** The instruction set in use: "sse2" is WebAssembly's SIMD. */
-    get isaName(): string { return this.memory.text(this.memory.calls.swivel_isa_name()); }
+    get isaName(): string { return this.memory.text(this.memory.calls.swivel_isa_name() >>> 0); }
     /** Takes "sse2" or "scalar" from the next solve on. The bits stay the same. */
     useIsa(name: string): void {
         this.memory.borrow((borrowed) => {
-            const bytes = new TextEncoder().encode(name + "\0");
+            const bytes = new TextEncoder().encode(`${name}\0`);
             const at = borrowed.bytes(bytes.length);
             this.memory.bytes(at, bytes.length).set(bytes);
             this.memory.check(this.memory.calls.swivel_use_isa(at));
         });
-    }
-
-    private floats(count: number, call: (out: number, borrowed: Borrowed) => number): Float32Array {
-        return this.memory.borrow((borrowed) => {
-            const out = borrowed.bytes(4 * count);
-            this.memory.check(call(out, borrowed));
-            return this.memory.floats(out, count).slice();
-        });
-    }
-    private direction(name: string, values: Numbers, borrowed: Borrowed): number {
-        if (values.length !== 3) refuse(`${name} has ${values.length} numbers; give 3`);
-        return borrowed.doubles(values);
     }
 }

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# swivel_functions(header variable): the names of the functions that swivel.h declares.
+function(swivel_functions header variable)
+  file(READ ${header} text)
+  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+  string(REPLACE ";" "\n" text "${text}")
+  string(REGEX MATCHALL "SWIVEL_API[^(]*[ *]swivel_[a-z_]+[(]" functions "${text}")
+  list(TRANSFORM functions REPLACE ".*[ *](swivel_[a-z_]+)[(]" "\\1")
+  list(SORT functions)
+  list(FIND functions swivel_solve solve)
+  if(solve EQUAL -1)
+    message(FATAL_ERROR "no functions found in ${header}")
+  endif()
+  set(${variable} ${functions} PARENT_SCOPE)
+endfunction()
