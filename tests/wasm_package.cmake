@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: the package for the web installs from its tarball, its types hold, and its tests (wasm/test.mjs) pass in Node.
+# The promise: the package for the web installs from its tarball, its types hold, and its tests (wasm/) pass in Node.
 #   BUILD: a build folder of emscripten. WORK: an own folder. SOURCE: the repository. ARM: swivel's build of package/arm.c. NPM, TSC. VERSION.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
@@ -20,6 +20,7 @@ file(MAKE_DIRECTORY ${WORK})
 run(${CMAKE_COMMAND} --build ${BUILD} --target swivel_wasm_package)
 file(WRITE ${WORK}/package.json "{\"private\": true, \"type\": \"module\"}\n")
 run(${NPM} install --offline --no-audit --no-fund ${BUILD}/tools/wasm/swivel-wasm-${VERSION}.tgz ${three})
-file(COPY ${SOURCE}/tests/wasm/test.mjs ${SOURCE}/tests/wasm/types.ts DESTINATION ${WORK})
+file(GLOB tests ${SOURCE}/tests/wasm/*)
+file(COPY ${tests} DESTINATION ${WORK})
 run(${TSC} --noEmit --strict --target es2022 --module node16 --moduleResolution node16 types.ts)
-run(${CMAKE_COMMAND} -E env ARM=${ARM} HEADER=${SOURCE}/batch/swivel.h node --test test.mjs)
+run(${CMAKE_COMMAND} -E env ARM=${ARM} HEADER=${SOURCE}/batch/swivel.h node --test)

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What the tests of the package for the web share. They run beside an installed swivel-wasm, by `node --test`.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { load, SwivelError } from 'swivel-wasm';
+
+export const swivel = await load();
+export const wasm = readFileSync(new URL('./node_modules/swivel-wasm/swivel.wasm', import.meta.url));
+
+// A call throws a SwivelError of one line, with this text in it.
+export const refuses = (act, text) =>
+  assert.throws(act, (error) => error instanceof SwivelError && error.message.includes(text) && !error.message.includes('\n') || assert.fail(error));
+
+// ---- quaternions x, y, z, w; a*b applies b first
+export const times = ([a, b, c, d], [e, f, g, h]) =>
+  [d * e + a * h + b * g - c * f, d * f - a * g + b * h + c * e, d * g + a * f - b * e + c * h, d * h - a * e - b * f - c * g];
+export const turned = (q, v) => times(times(q, [...v, 0]), [-q[0], -q[1], -q[2], q[3]]).slice(0, 3);
+export const plus = (a, b) => a.map((x, n) => x + b[n]);
+export const close = (a, b, within) => a.forEach((x, n) => assert.ok(Math.abs(x - b[n]) <= within, `${a} is not ${b}`));
+export const unit = (q) => q.map((x) => x / Math.hypot(...q));
+
+const slant = unit([0.2, 0.4, -0.4, 0.8]);
+// A chain with joints that are turned at rest.
+export const chain = { shoulderRotation: slant, elbowRotation: unit([0.1, 0, 0, 1]), wristRotation: slant, elbowOffset: [0.3, 0, 0], wristOffset: [0.25, 0.02, 0], bend: [0, 0, 1] };

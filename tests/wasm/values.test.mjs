@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The promise: values are views of memory, each field in its place, and calls see what they hold.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Feature, Field, Flag } from 'swivel-wasm';
+import { close, refuses, swivel } from './common.mjs';
+
+test('values are views of memory, which solves read and write', () => {
+  const crowd = swivel.crowd([5, 20]);
+  const target = crowd.values(Field.TARGET, 1), shoulder = crowd.values(Field.SHOULDER, 1), flags = crowd.values(Field.FLAGS, 1);
+  assert.equal(target.length, 60);
+  assert.ok(target.every(Number.isNaN));  // never given
+  assert.equal(crowd.values(Field.TARGET, 1), target);
+  assert.ok(flags instanceof Uint32Array);
+  for (const group of [0, 1]) crowd.write(Field.LENGTHS, [1, 1], { group });
+  target.set(Array.from({ length: 20 }, (_, n) => [0, 0.1 * n, 1]).flat());
+  assert.equal(crowd.solve(), 25);
+  assert.equal(crowd.read(Field.FLAGS)[4], Flag.BAD_INPUT);  // group 0 has no targets
+  assert.ok(flags.slice(0, 18).every((flag) => flag === Flag.REACHED));
+  assert.equal(flags[19], Flag.CLAMPED_FAR);
+  assert.deepEqual(crowd.read(Field.SHOULDER, { group: 1, first: 3, count: 2 }), shoulder.slice(12, 20));
+  close([...crowd.wrists({ group: 1, first: 4, count: 1 })], [0, 0.4, 1], 1e-6);
+
+  // A copy stays, a view follows; write() changes both rows and view.
+  const copy = crowd.read(Field.SHOULDER, { group: 1 });
+  crowd.write(Field.TARGET, [0.5, 0.5, 0.5], { group: 1, first: 7, count: 2 });
+  assert.deepEqual([...target.slice(21, 27)], [0.5, 0.5, 0.5, 0.5, 0.5, 0.5]);
+  crowd.solve();
+  assert.notDeepEqual(copy.slice(28, 32), shoulder.slice(28, 32));
+  assert.deepEqual(copy.slice(0, 28), shoulder.slice(0, 28));
+
+  // Other crowds come and go; the view stays.
+  const before = [...shoulder];
+  const others = Array.from({ length: 30 }, () => swivel.crowd([3000]));
+  for (const other of others) other.dispose();
+  assert.deepEqual([...shoulder], before);
+  crowd.dispose();
+});
+
+test('every field has its own place in frames', () => {
+  const everyFeature = Object.entries(Feature).filter(([name]) => !/AIM|CLAVICLE|COMPACT|POLE_INCOMING|POLE_NORMAL|POLE_DIRECTION|TWIST_BONES/.test(name)).reduce((sum, [, bit]) => sum | bit, 0n);
+  const binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
+  for (const features of [everyFeature, Feature.WORLD | Feature.JOINTS | Feature.WITH_HAND | Feature.WITH_CLAVICLE | 3n * Feature.WITH_TWIST_BONES, Feature.WITH_AIM]) {
+    const [viewed, copied] = [0, 1].map(() => swivel.crowd([{ limbCount: 20, binding }], features));
+    for (const [name, field] of Object.entries(Field)) {
+      const count = viewed.componentCount(field);
+      if (count === 0) continue;
+      const view = viewed.values(field);
+      assert.equal(view.length, 20 * count, name);
+      if (field >= Field.SHOULDER) continue;
+      const value = [...viewed.read(field, { count: 1 })].map((x, n) => (Number.isNaN(x) ? 0.3 * n + 0.4 : x));
+      copied.write(field, value);
+      for (let n = 0; n < 20; ++n) view.set(value, n * count);
+    }
+    for (const crowd of [viewed, copied]) assert.equal(crowd.solve(), 20);
+    for (const [name, field] of Object.entries(Field)) assert.deepEqual(viewed.componentCount(field) && viewed.read(field), copied.componentCount(field) && copied.read(field), name);
+    assert.equal(viewed.find(Flag.BAD_INPUT), undefined);
+    assert.equal(viewed.digest(), copied.digest());
+    for (const crowd of [viewed, copied]) crowd.dispose();
+  }
+});
+
+test('calls beside solves see what views hold now', () => {
+  const crowd = swivel.crowd([2], Feature.WITH_MOST_SWIVEL);
+  crowd.write(Field.LENGTHS, [1, 1]);
+  const target = crowd.values(Field.TARGET), normal = crowd.values(Field.NORMAL);
+  target.set([0, 0.5, 1, 0, 0.5, 1]);
+  crowd.solve();
+  assert.match(crowd.explain(1), /reached/i);
+  assert.ok(Math.hypot(...normal.slice(3)) > 0.99);
+  target.set([0, 0, 9], 3);
+  assert.doesNotMatch(crowd.explain(1), /^The target is reached/);
+  assert.ok(crowd.residuals()[1] > 1);
+  crowd.reset({ first: 1 });
+  assert.deepEqual([...normal.slice(3)], [0, 0, 0]);
+  assert.ok(Math.hypot(...normal.slice(0, 3)) > 0.99);
+  crowd.dispose();
+});
+
+test('packed results and rows', () => {
+  const crowd = swivel.crowd([20], Feature.COMPACT), plain = swivel.crowd([20]);
+  for (const each of [crowd, plain]) each.write(Field.LENGTHS, [1, 1]), each.write(Field.TARGET, [0.2, 0.5, 1]), each.solve();
+  refuses(() => crowd.values(Field.SHOULDER), 'compactRows()');
+  close([...crowd.read(Field.SHOULDER)], [...plain.read(Field.SHOULDER)], 1e-4);
+  assert.equal(crowd.compactRows().length, 2 * 16 * (3 + 2 + 2));
+  assert.equal(crowd.resultRows().length, 0);
+  const rows = plain.resultRows(), first = plain.fieldFirstRow(Field.SHOULDER);
+  assert.equal(rows.length, 2 * 16 * (4 + 2 + 1));
+  assert.equal(rows[(7 + first) * 16 + 3], plain.read(Field.SHOULDER)[4 * 19]);  // block 1, lane 3
+  const target = plain.inputRows(), row = plain.fieldFirstRow(Field.TARGET);
+  assert.deepEqual([0, 1, 2].map((c) => target[(row + c) * 16]), [0.2, 0.5, 1].map(Math.fround));
+  assert.equal(plain.fieldRowCount(Field.TARGET), 3);
+  for (const each of [crowd, plain]) each.dispose();
+});
