@@ -2,7 +2,7 @@
 // The promise: values are views of memory, each field in its place, and calls see what they hold.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Feature, Field, Flag } from 'swivel-wasm';
+import { Feature, Field, Flag, LANES } from 'swivel-wasm';
 import { close, refuses, swivel } from './common.mjs';
 
 test('values are views of memory, which solves read and write', () => {
@@ -38,25 +38,23 @@ test('values are views of memory, which solves read and write', () => {
 });
 
 test('every field has its own place in frames', () => {
-  const everyFeature = Object.entries(Feature).filter(([name]) => !/AIM|CLAVICLE|COMPACT|POLE_INCOMING|POLE_NORMAL|POLE_DIRECTION|TWIST_BONES/.test(name)).reduce((sum, [, bit]) => sum | bit, 0n);
+  const everyFeature = Object.entries(Feature).filter(([name]) => !/AIM|CLAVICLE|COMPACT|POLE_|TWIST_BONES/.test(name)).reduce((sum, [, bit]) => sum | bit, 0n);
   const binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: [0, 0, 1], bend: [0, 1, 0] });
   for (const features of [everyFeature, Feature.WORLD | Feature.JOINTS | Feature.WITH_HAND | Feature.WITH_CLAVICLE | 3n * Feature.WITH_TWIST_BONES, Feature.WITH_AIM]) {
-    const [viewed, copied] = [0, 1].map(() => swivel.crowd([{ limbCount: 20, binding }], features));
-    for (const [name, field] of Object.entries(Field)) {
-      const count = viewed.componentCount(field);
-      if (count === 0) continue;
-      const view = viewed.values(field);
-      assert.equal(view.length, 20 * count, name);
-      if (field >= Field.SHOULDER) continue;
-      const value = [...viewed.read(field, { count: 1 })].map((x, n) => (Number.isNaN(x) ? 0.3 * n + 0.4 : x));
-      copied.write(field, value);
-      for (let n = 0; n < 20; ++n) view.set(value, n * count);
+    const crowd = swivel.crowd([{ limbCount: 20, binding }], features);
+    const views = Object.values(Field).filter((field) => crowd.componentCount(field) > 0).map((field) => ({ field, view: crowd.values(field) }));
+    // Numbers of which no two are alike: a solve brings them into rows, whether they are good or not.
+    const fill = (from) => views.filter(({ field }) => field < Field.SHOULDER).forEach(({ field, view }) => view.forEach((_, n) => (view[n] = from + field + n / 1024)));
+    fill(1), assert.equal(crowd.solve(), 20);
+    const [inputs, results] = [crowd.inputRows(), crowd.resultRows()];
+    for (const { field, view } of views) {
+      const rows = field < Field.SHOULDER ? inputs : field === Field.FLAGS ? new Uint32Array(results.buffer, results.byteOffset, results.length) : results;
+      const count = crowd.componentCount(field);
+      assert.equal(view.length, 20 * count);
+      for (let c = 0; c < count; ++c)
+        assert.equal(view[17 * count + c], rows[(rows.length / 32 + crowd.fieldFirstRow(field) + c) * LANES + 1], `field ${field}`);  // block 1, lane 1
     }
-    for (const crowd of [viewed, copied]) assert.equal(crowd.solve(), 20);
-    for (const [name, field] of Object.entries(Field)) assert.deepEqual(viewed.componentCount(field) && viewed.read(field), copied.componentCount(field) && copied.read(field), name);
-    assert.equal(viewed.find(Flag.BAD_INPUT), undefined);
-    assert.equal(viewed.digest(), copied.digest());
-    for (const crowd of [viewed, copied]) crowd.dispose();
+    crowd.dispose();
   }
 });
 
@@ -69,8 +67,9 @@ test('calls beside solves see what views hold now', () => {
   assert.match(crowd.explain(1), /reached/i);
   assert.ok(Math.hypot(...normal.slice(3)) > 0.99);
   target.set([0, 0, 9], 3);
-  assert.doesNotMatch(crowd.explain(1), /^The target is reached/);
   assert.ok(crowd.residuals()[1] > 1);
+  target.set([NaN, 0, 0], 3);
+  assert.match(crowd.explain(1), /is not a number/);
   crowd.reset({ first: 1 });
   assert.deepEqual([...normal.slice(3)], [0, 0, 0]);
   assert.ok(Math.hypot(...normal.slice(0, 3)) > 0.99);
