@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints the digests of the corpus's parts, with the instruction set in use. On another platform or under an emulator,
-// it shows the promise of equal bits. With `each`, prints a line for each instruction set that runs here. With
-// `stacks`, does the same, and the bits must stay wherever the stack is. With `golden`, prints the tables of
+// it shows the promise of equal bits. With `each`, prints a line for each instruction set that runs here, and `end`.
+// With `stacks`, does the same, and the bits must stay wherever the stack is. With `golden`, prints the tables of
 // tools/corpus/golden.h instead.
 #include <cstdio>
 #include <cstring>
@@ -64,6 +64,7 @@ void print_each(std::initializer_list<std::size_t> places)
         std::printf("%s%s\n", isa, text.c_str());
         std::fflush(stdout);
     }
+    std::printf("end\n");  // Wine returns 0 for a program that crashed
 }
 
 }  // namespace
