@@ -58,7 +58,6 @@ static void print_names(void)
 static void print_structures(void)
 {
     printf("\n// In bytes: the size of each structure, and where its members start.\nexport const layout = {\n");
-    BEGIN(swivel_in), OFFSET(swivel_in, data), OFFSET(swivel_in, stride), END();
     BEGIN(swivel_rows), OFFSET(swivel_rows, base), OFFSET(swivel_rows, block_count), OFFSET(swivel_rows, row_count);
     END();
     BEGIN(swivel_chain), OFFSET(swivel_chain, size), OFFSET(swivel_chain, shoulder_rotation);
@@ -76,8 +75,6 @@ static void print_structures(void)
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, features);
     OFFSET(swivel_crowd_def, group_count), OFFSET(swivel_crowd_def, groups), OFFSET(swivel_crowd_def, shoulder_order);
     OFFSET(swivel_crowd_def, wrist_order), END();
-    BEGIN(swivel_blocks), OFFSET(swivel_blocks, first), OFFSET(swivel_blocks, count), END();
-    BEGIN(swivel_limbs), OFFSET(swivel_limbs, indices), OFFSET(swivel_limbs, count), END();
     BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, mask);
     OFFSET(swivel_job, mask_word_count), OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities);
     OFFSET(swivel_job, most_blocks), OFFSET(swivel_job, frames), OFFSET(swivel_job, solved_count), END();
