@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "tools/crowd/goals.h"
+
+namespace {
+
+struct Vec3 {
+    double x, y, z;
+};
+
+Vec3 vec3(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec3 operator*(double s, const Vec3& v) { return {s * v.x, s * v.y, s * v.z}; }
+Vec3 cross(const Vec3& a, const Vec3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+// v turned by the unit quaternion x, y, z, w.
+Vec3 turned(const double (&q)[4], const Vec3& v)
+{
+    const Vec3 axis{q[0], q[1], q[2]};
+    const Vec3 twice = 2.0 * cross(axis, v);
+    return v + q[3] * twice + cross(axis, twice);
+}
+
+void store(const Vec3& v, float (&to)[3])
+{
+    to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y), to[2] = static_cast<float>(v.z);
+}
+template <class Number>
+void store(const Number (&q)[4], float (&to)[4])
+{
+    for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(q[n]);
+}
+
+Vec3 target_of(const goal_plan& plan, const goal_source& from, double size)
+{
+    const Vec3 offset = vec3(plan.target_offset);
+    if (!plan.has_target_point) return size * (vec3(from.wrist) + turned(from.hand, vec3(plan.effector))) + offset;
+    Vec3 origin = vec3(from.origin);
+    if (plan.is_mirrored) origin.x = -origin.x;
+    return vec3(plan.target_point) - origin + offset;
+}
+
+// As the plan's kind of pole has it.
+Vec3 pole_of(const goal_plan& plan, const goal_source& from, double size)
+{
+    if (plan.has_pole_fixed) return vec3(plan.pole_fixed);
+    const Vec3 elbow = vec3(from.elbow);
+    if (plan.pole == 0) return size * elbow;
+    return plan.pole == 2 ? cross(vec3(from.wrist), elbow) : elbow;
+}
+
+void fill(const goal_plan& plan, const goal_source& from, double size, goal_input& input)
+{
+    store(target_of(plan, from, size), input.target);
+    store(pole_of(plan, from, size), input.pole);
+    for (int bone = 0; bone < 2; ++bone) input.lengths[bone] = static_cast<float>(size * from.lengths[bone]);
+    store(Vec3{0, 0, 0}, input.position);
+    store(from.parent, input.rotation);
+    if (plan.hand_is_local)
+        store(from.wrist_local, input.hand);
+    else
+        store(from.hand, input.hand);
+    store(from.shoulder, input.shoulder);
+    store(from.elbow_local, input.elbow);
+    store(from.wrist_local, input.wrist);
+}
+
+}  // namespace
+
+void swivel_goals(const goal_plan* plan, const goal_source* sources, uint32_t frame_count, uint32_t frame,
+                  const goal_character* characters, uint32_t count, goal_input* inputs)
+{
+    for (uint32_t n = 0; n < count; ++n) {
+        const uint64_t at = uint64_t{frame} + characters[n].start;
+        fill(*plan, sources[at % frame_count], characters[n].size, inputs[n]);
+    }
+}
+
+swivel_status swivel_goals_write(swivel_crowd* crowd, uint32_t group, uint32_t count, const goal_input* inputs)
+{
+    const struct {
+        swivel_field field;
+        const float* first;
+    } values[] = {{SWIVEL_TARGET, inputs->target},
+                  {SWIVEL_POLE, inputs->pole},
+                  {SWIVEL_LENGTHS, inputs->lengths},
+                  {SWIVEL_SHOULDER_POSITION, inputs->position},
+                  {SWIVEL_PARENT_ROTATION, inputs->rotation},
+                  {SWIVEL_HAND, inputs->hand},
+                  {SWIVEL_INCOMING_SHOULDER, inputs->shoulder},
+                  {SWIVEL_INCOMING_ELBOW, inputs->elbow},
+                  {SWIVEL_INCOMING_WRIST, inputs->wrist}};
+    for (const auto& value : values) {
+        if (swivel_field_row_count(crowd, value.field) == 0) continue;
+        const swivel_status status =
+            swivel_write(crowd, value.field, group, 0, count, {value.first, sizeof(goal_input)});
+        if (status != SWIVEL_OK) return status;
+    }
+    return SWIVEL_OK;
+}
