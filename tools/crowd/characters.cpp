@@ -24,17 +24,16 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 
 }  // namespace
 
-std::vector<Character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
+std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
 {
-    std::vector<Character> characters(plan.characters);
+    std::vector<goal_character> characters(plan.characters, goal_character{1, {0, 0, 0}, 0, 0});
     std::mt19937_64 random(plan.seed);
     const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)));
     const double spacing = plan.spacing * limb_span(limbs);
     for (std::uint32_t n = 1; n < plan.characters; ++n) {
         const double size = plan.least_size + (plan.most_size - plan.least_size) * unit(random);
-        const auto start = static_cast<std::size_t>(random() % frame_count);
-        characters[n] = {size, plan.stagger ? start : 0,
-                         Eigen::Vector3d(spacing * (n % columns), 0, spacing * (n / columns))};
+        const auto start = static_cast<std::uint32_t>(random() % frame_count);
+        characters[n] = {size, {spacing * (n % columns), 0, spacing * (n / columns)}, plan.stagger ? start : 0, 0};
     }
     return characters;
 }

@@ -7,19 +7,14 @@
 #include <vector>
 
 #include "tools/crowd/crowd_plan.h"
+#include "tools/crowd/goals.h"
 
 namespace swivel::tools {
-
-struct Character {
-    double size = 1;                                  // factor of limb lengths and of targets
-    std::size_t start = 0;                            // frame of the clip it starts at
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();  // in the world, from where the clip's own character stands
-};
 
 // Character 0 is the clip's own. The others differ by the seed: a size within the plan's, and a start anywhere in the
 // clip, if the plan staggers them. They stand on a square grid in X and Z: character n in column n % w and row n / w,
 // w = ceil(sqrt(characters)). Neighbours are the plan's spacing apart, in arm spans, or in leg spans where no arm is
 // solved.
-std::vector<Character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count);
+std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count);
 
 }  // namespace swivel::tools

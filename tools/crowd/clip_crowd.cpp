@@ -2,6 +2,7 @@
 #include "tools/crowd/clip_crowd.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "tools/crowd/parallel.h"
@@ -16,15 +17,33 @@ using formats::PoleKind;
 
 static_assert(formats::kMostTwistBones == SWIVEL_MOST_TWIST_BONES);  // a format knows no solver
 
-void store(const Vector3d& v, float (&to)[3])
+template <class Number>
+void store(const Vector3d& v, Number (&to)[3])
 {
-    for (int n = 0; n < 3; ++n) to[n] = static_cast<float>(v[n]);
+    for (int n = 0; n < 3; ++n) to[n] = static_cast<Number>(v[n]);
 }
 
 template <class Floats>
 void store(const Quaterniond& q, Floats& to)
 {
     for (int n = 0; n < 4; ++n) to[static_cast<std::size_t>(n)] = static_cast<float>(q.coeffs()[n]);
+}
+
+// The plan as the formula of goals takes it.
+goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
+{
+    const auto as_solved = [&](const Vector3d& v) { return limb.mirrored ? formats::mirrored(v) : v; };
+    goal_plan goals{};
+    if (plan.target_point) store(as_solved(*plan.target_point), goals.target_point);
+    store(as_solved(plan.target_offset), goals.target_offset);
+    store(plan.effector, goals.effector);
+    if (plan.pole_fixed) store(as_solved(*plan.pole_fixed), goals.pole_fixed);
+    goals.has_target_point = plan.target_point.has_value();
+    goals.has_pole_fixed = plan.pole_fixed.has_value();
+    goals.pole = plan.pole == PoleKind::point ? 0 : plan.pole == PoleKind::normal ? 2 : 1;
+    goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
+    goals.is_mirrored = limb.mirrored;
+    return goals;
 }
 
 }  // namespace
@@ -38,82 +57,68 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, con
       characters_(characters_of(plan, limbs, motion_.frame_count())),
       crowds_(limbs, plan, file)
 {
-    goals_.resize(limbs.size(), std::vector<Goal>(plan.characters));
-    inputs_.resize(limbs.size(), std::vector<Input>(plan.characters));
+    inputs_.resize(limbs.size(), std::vector<goal_input>(plan.characters));
+    given_at_.resize(limbs.size(), std::vector<std::int32_t>(plan.characters));
     rows_.resize(limbs.size() * plan.characters);
     const formats::PoseColumns wanted = columns();
     if (wanted.stretch || wanted.clavicle || wanted.twist_count > 0) extras_.resize(rows_.size());
-    write_sizes();
-}
-
-// What goes with a character's size and stays the same.
-void ClipCrowd::write_sizes()
-{
-    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-        struct Value {
-            float lengths[2], effector[3];
-        };
-        std::vector<Value> values(characters_.size());
-        for (std::size_t n = 0; n < characters_.size(); ++n) {
-            for (int bone = 0; bone < 2; ++bone)
-                values[n].lengths[bone] = static_cast<float>(characters_[n].size) * limbs_[limb].bound.lengths[bone];
-            store(characters_[n].size * plans_[limb].effector, values[n].effector);
-            std::copy_n(values[n].lengths, 2, inputs_[limb][n].lengths);
-        }
-        crowds_.write(limb, SWIVEL_LENGTHS, values[0].lengths, sizeof(Value));
-        if (crowds_.has(limb, SWIVEL_EFFECTOR)) crowds_.write(limb, SWIVEL_EFFECTOR, values[0].effector, sizeof(Value));
+    for (std::size_t limb = 0; limb < limbs.size(); ++limb) {
+        goal_plans_.push_back(goal_plan_of(plans_[limb], limbs[limb]));
+        if (crowds_.has(limb, SWIVEL_EFFECTOR)) write_effectors(limb);
     }
 }
 
-// As the plan's kind of pole has it.
-Vector3d ClipCrowd::pole_from_clip(std::size_t limb, std::uint32_t character) const
+// They go with a character's size and stay the same.
+void ClipCrowd::write_effectors(std::size_t limb)
 {
-    const LimbInClip& from = in_clip(limb, character);
-    const LimbPlan& plan = plans_[limb];
-    const Vector3d elbow = from.elbow - from.shoulder;
-    if (plan.pole == PoleKind::point)
-        return from.shoulder +
-               (plan.pole_fixed ? as_solved(limb, *plan.pole_fixed) : characters_[character].size * elbow);
-    if (plan.pole_fixed) return as_solved(limb, *plan.pole_fixed);
-    return plan.pole == PoleKind::normal ? Vector3d(from.wrist - from.shoulder).cross(elbow) : elbow;
+    std::vector<std::array<float, 3>> values(characters_.size());
+    for (std::size_t n = 0; n < characters_.size(); ++n)
+        for (int axis = 0; axis < 3; ++axis)
+            values[n][static_cast<std::size_t>(axis)] =
+                static_cast<float>(characters_[n].size * plans_[limb].effector[axis]);
+    crowds_.write(limb, SWIVEL_EFFECTOR, values[0].data(), sizeof values[0]);
 }
 
-ClipCrowd::Goal ClipCrowd::goal_from_plan(std::size_t limb, std::uint32_t character) const
+// Whether elbow and upper arm should be the clip's.
+bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
-    const LimbInClip& from = in_clip(limb, character);
     const LimbPlan& plan = plans_[limb];
-    const double size = characters_[character].size;
-    const Vector3d at_clip = from.shoulder + size * (from.wrist - from.shoulder + from.hand * plan.effector);
-    const Vector3d at =
-        plan.target_point ? as_solved(limb, *plan.target_point - motion_.origin(clip_frame(character), limb)) : at_clip;
-    const bool from_clip = !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole;
-    return {at + as_solved(limb, plan.target_offset), pole_from_clip(limb, character), from.hand, from_clip};
+    return !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole && given_at_[limb][character] < 0;
 }
 
-ClipCrowd::Goal ClipCrowd::goal_given(std::size_t limb, const formats::Target& target) const
+// What the target leaves out stays as the plan has it.
+void ClipCrowd::set_given(std::size_t limb, const formats::Target& target)
 {
     const LimbPlan& plan = plans_[limb];
     const Vector3d at = origin(limb, target.character);
-    const Vector3d pole = plan.pole == PoleKind::point ? Vector3d(target.pole - at) : target.pole;
-    const bool has_pole = target.has_pole && !plan.pole_fixed;
-    return {as_solved(limb, target.position - at + plan.target_offset),
-            has_pole ? as_solved(limb, pole) : pole_from_clip(limb, target.character),
-            target.has_orientation ? as_solved(limb, target.orientation) : in_clip(limb, target.character).hand, false};
+    goal_input& input = inputs_[limb][target.character];
+    store(as_solved(limb, target.position - at + plan.target_offset), input.target);
+    if (target.has_pole && !plan.pole_fixed)
+        store(as_solved(limb, plan.pole == PoleKind::point ? Vector3d(target.pole - at) : target.pole), input.pole);
+    if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) store(as_solved(limb, target.orientation), input.hand);
 }
 
+// In double, as it was given or made.
 formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) const
 {
-    const Goal& goal = goals_[limb][character];
     const LimbPlan& plan = plans_[limb];
-    const Vector3d at = origin(limb, character), pole = as_solved(limb, goal.pole);
+    const std::size_t at_frame = clip_frame(character);
+    const goal asked = swivel_goal(&goal_plans_[limb], &motion_.sources(limb)[at_frame], characters_[character].size);
+    const Vector3d at = origin(limb, character), pole = as_solved(limb, Vector3d(asked.pole));
     formats::Target target;
+    target.position = at + (as_solved(limb, Vector3d(asked.target)) - plan.target_offset);
+    target.pole = plan.pole == PoleKind::point ? Vector3d(at + pole) : pole;
+    target.orientation = as_solved(limb, motion_.at(at_frame, limb).hand);
+    if (given_at_[limb][character] >= 0) {
+        const formats::Target& given = given_[static_cast<std::size_t>(given_at_[limb][character])];
+        target.position = given.position;
+        if (given.has_pole && !plan.pole_fixed) target.pole = given.pole;
+        if (given.has_orientation) target.orientation = given.orientation;
+    }
     target.frame = static_cast<std::uint32_t>(frame_);
     target.character = character;
     target.limb = limbs_[limb].name;
     target.has_pole = target.has_orientation = true;
-    target.position = at + (as_solved(limb, goal.target) - plan.target_offset);
-    target.pole = plan.pole == PoleKind::point ? Vector3d(at + pole) : pole;
-    target.orientation = as_solved(limb, goal.hand);
     return target;
 }
 
@@ -126,55 +131,26 @@ Quaterniond ClipCrowd::as_solved(std::size_t limb, const Quaterniond& q) const
     return limbs_[limb].mirrored ? formats::mirrored(q) : q;
 }
 
-void ClipCrowd::put(std::size_t limb, std::uint32_t character, const Goal& goal)
-{
-    const LimbInClip& from = in_clip(limb, character);
-    Input& input = inputs_[limb][character];
-    goals_[limb][character] = goal;
-    store(goal.target, input.target);
-    store(goal.pole, input.pole);
-    store(from.shoulder, input.position);
-    store(from.parent, input.rotation);
-    store(plans_[limb].has(SWIVEL_WITH_AIM) ? from.local_wrist() : goal.hand, input.hand);
-    if (motion_.stretches(limb)) {
-        input.lengths[0] = static_cast<float>(characters_[character].size * from.upper_length());
-        input.lengths[1] = static_cast<float>(characters_[character].size * from.fore_length());
-    }
-    if (!crowds_.has(limb, SWIVEL_INCOMING_SHOULDER)) return;
-    store(from.local_shoulder(), input.shoulder);
-    store(from.local_elbow(), input.elbow);
-    store(from.local_wrist(), input.wrist);
-}
-
-void ClipCrowd::write_inputs(std::size_t limb)
-{
-    const Input& first = inputs_[limb][0];
-    for (const auto& [field, from] : {std::pair{SWIVEL_TARGET, &first.target[0]},
-                                      {SWIVEL_POLE, first.pole},
-                                      {SWIVEL_SHOULDER_POSITION, first.position},
-                                      {SWIVEL_PARENT_ROTATION, first.rotation},
-                                      {SWIVEL_HAND, first.hand},
-                                      {SWIVEL_INCOMING_SHOULDER, first.shoulder},
-                                      {SWIVEL_INCOMING_ELBOW, first.elbow},
-                                      {SWIVEL_INCOMING_WRIST, first.wrist}})
-        if (crowds_.has(limb, field)) crowds_.write(limb, field, from, sizeof(Input));
-    if (motion_.stretches(limb)) crowds_.write(limb, SWIVEL_LENGTHS, first.lengths, sizeof(Input));
-}
-
 void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> given)
 {
     frame_ = frame;
-    for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
+    const auto frame_count = static_cast<std::uint32_t>(motion_.frame_count());
+    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
         for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            for (std::uint32_t n = begin; n < end; ++n) put(limb, n, goal_from_plan(limb, n));
+            swivel_goals(&goal_plans_[limb], motion_.sources(limb).data(), frame_count,
+                         static_cast<std::uint32_t>(frame), &characters_[begin], end - begin, &inputs_[limb][begin]);
         });
-    for (const formats::Target& target : given) {
-        const auto of = [&](const Limb& each) { return each.name == target.limb; };
-        const auto limb = static_cast<std::size_t>(std::find_if(limbs_.begin(), limbs_.end(), of) - limbs_.begin());
-        put(limb, target.character, goal_given(limb, target));
+        std::ranges::fill(given_at_[limb], -1);
+    }
+    given_.assign(given.begin(), given.end());
+    for (std::size_t n = 0; n < given_.size(); ++n) {
+        const auto of = [&](const Limb& each) { return each.name == given_[n].limb; };
+        const auto limb = static_cast<std::size_t>(std::ranges::find_if(limbs_, of) - limbs_.begin());
+        given_at_[limb][given_[n].character] = static_cast<std::int32_t>(n);
+        set_given(limb, given_[n]);
     }
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-        write_inputs(limb);
+        crowds_.write_goals(limb, inputs_[limb]);
         if (frame == 0 || !crowds_.has(limb, SWIVEL_NORMAL)) continue;
         for (std::uint32_t n = 0; n < character_count(); ++n)  // from the clip's end to its start is no motion
             if (clip_frame(n) == 0) crowds_.reset(limb, n);
@@ -209,9 +185,9 @@ formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) cons
 formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row;
-    const Character& who = characters_[character];
+    const goal_character& who = characters_[character];
     row.character = character;
-    row.place = {who.place.x(), who.place.y(), who.place.z()};
+    row.place = std::to_array(who.place);
     row.size = who.size;
     row.start = who.start;
     row.limb = limbs_[limb].name;

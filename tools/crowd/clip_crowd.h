@@ -53,17 +53,14 @@ public:
     std::span<const formats::PoseExtra> extras();
     formats::PoseColumns columns() const;
 
-private:
-    struct Goal {  // what one limb was asked for, relative to its character's root
-        Eigen::Vector3d target, pole;
-        Eigen::Quaterniond hand;
-        bool from_clip;  // elbow and upper arm should be the clip's
-    };
-    struct Input {  // the same as the solver takes it
-        float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
-        float shoulder[4], elbow[4], wrist[4];  // the incoming pose
-    };
+    // What it is made of, for a page that solves it again: its characters, each limb's goals and the crowds.
+    std::span<const goal_character> characters() const { return characters_; }
+    const goal_plan& plan_of_goals(std::size_t limb) const { return goal_plans_[limb]; }
+    std::span<const goal_source> sources_of_goals(std::size_t limb) const { return motion_.sources(limb); }
+    const goal_input& input(std::size_t limb, std::uint32_t character) const { return inputs_[limb][character]; }
+    const LimbCrowds& crowds() const { return crowds_; }
 
+private:
     std::size_t clip_frame(std::uint32_t character) const
     {
         return (frame_ + characters_[character].start) % motion_.frame_count();
@@ -78,17 +75,14 @@ private:
     // The upper joint of that character in the world: what targets are counted from.
     Eigen::Vector3d origin(std::size_t limb, std::uint32_t character) const
     {
-        return motion_.origin(clip_frame(character), limb) + characters_[character].place;
+        return motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(characters_[character].place);
     }
+    bool follows_clip(std::size_t limb, std::uint32_t character) const;
     // The same rotations between the two bones that the solver knows.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
-    void write_sizes();
-    Eigen::Vector3d pole_from_clip(std::size_t limb, std::uint32_t character) const;
-    Goal goal_from_plan(std::size_t limb, std::uint32_t character) const;
-    Goal goal_given(std::size_t limb, const formats::Target& target) const;
+    void write_effectors(std::size_t limb);
     formats::Target target(std::size_t limb, std::uint32_t character) const;
-    void put(std::size_t limb, std::uint32_t character, const Goal& goal);
-    void write_inputs(std::size_t limb);
+    void set_given(std::size_t limb, const formats::Target& target);
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
     void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
     void measure_against_clip(std::size_t limb, const PoseName& pose, const Eigen::Vector3d& elbow,
@@ -98,9 +92,11 @@ private:
     ClipMotion motion_;
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;
-    std::vector<Character> characters_;
-    std::vector<std::vector<Goal>> goals_;    // [limb][character]
-    std::vector<std::vector<Input>> inputs_;  // [limb][character]
+    std::vector<goal_character> characters_;
+    std::vector<goal_plan> goal_plans_;                // [limb]
+    std::vector<std::vector<goal_input>> inputs_;      // [limb][character]
+    std::vector<formats::Target> given_;               // to set_frame()
+    std::vector<std::vector<std::int32_t>> given_at_;  // [limb][character]: which of them; -1: none
     std::vector<formats::Target> targets_;
     std::vector<formats::PoseRow> rows_;
     std::vector<formats::PoseExtra> extras_;  // empty unless there are columns for them

@@ -62,13 +62,13 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
     for (std::uint32_t n = begin; n < end; ++n) {
         if (!crowds_.solved(limb, n)) continue;
         const Reached& at = reached[n - begin];
-        const Goal& goal = goals_[limb][n];
-        const float(&lengths)[2] = inputs_[limb][n].lengths;
-        const double length = double{lengths[0]} + lengths[1];
+        const goal_input& goal = inputs_[limb][n];
+        const double length = double{goal.lengths[0]} + goal.lengths[1];
         const PoseName pose{frame_, n, limbs_[limb].name};
         const Vector3d effector = characters_[n].size * (Quaterniond(at.hand) * plan.effector);
         const double distance =
-            aims ? residuals[n - begin] : (Vector3d(at.wrist) + effector - goal.target).norm() / length;
+            aims ? residuals[n - begin]
+                 : (Vector3d(at.wrist) + effector - Eigen::Vector3f(goal.target).cast<double>()).norm() / length;
         const std::uint32_t word = flags[n - begin];
         statistics.add_flags(word, distance, pose);
         if (word & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
@@ -77,7 +77,7 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
         else if (!plan.blends_position)
             (word & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(distance, pose);
         if (hand && !plan.blends_hand && !aims)
-            statistics.orientation.add(angle(goal.hand.conjugate() * Quaterniond(at.hand)), pose);
+            statistics.orientation.add(angle(quaternion(goal.hand).conjugate() * Quaterniond(at.hand)), pose);
         measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
     }
 }
@@ -87,11 +87,11 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
 {
     const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
-    const Vector3d wanted = from.shoulder + characters_[character].size * (from.elbow - from.shoulder);
+    const Vector3d wanted = characters_[character].size * from.elbow;
     const float(&lengths)[2] = inputs_[limb][character].lengths;
     const double difference = (elbow - wanted).norm() / (double{lengths[0]} + lengths[1]);
-    if (!goals_[limb][character].from_clip) return statistics.given.add(difference, pose);
-    const Vector3d upper = (from.elbow - from.shoulder).normalized(), fore = (from.wrist - from.elbow).normalized();
+    if (!follows_clip(limb, character)) return statistics.given.add(difference, pose);
+    const Vector3d upper = from.elbow.normalized(), fore = (from.wrist - from.elbow).normalized();
     const bool bent = upper.cross(fore).norm() > kBentSine || upper.dot(fore) < 0;
     (bent ? statistics.bent : statistics.straight).add(difference, pose);
     if (character != 0) return;

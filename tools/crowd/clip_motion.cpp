@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/crowd/clip_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace swivel::tools {
@@ -18,7 +19,6 @@ LimbInClip limb_in(const Limb& limb, const ChainPose& pose, const JointPose& par
         return Vector3d(parent_w.scale * (parent * (pose.position[part] - pose.position[0])));
     };
     LimbInClip in;
-    in.shoulder = Vector3d::Zero();
     in.elbow = from_shoulder(1);
     in.wrist = from_shoulder(2);
     in.upper_aim = aim(limb.upper_bone, pose.upper_bone());
@@ -30,12 +30,45 @@ LimbInClip limb_in(const Limb& limb, const ChainPose& pose, const JointPose& par
     return in;
 }
 
-bool differ(double length, float at_rest) { return std::abs(length - at_rest) > 1e-7 * length; }
+// Copies a vector, or a quaternion as x, y, z, w.
+template <class Number, std::size_t Count>
+void put(const auto& from, Number (&to)[Count])
+{
+    for (std::size_t n = 0; n < Count; ++n) to[n] = static_cast<Number>(from[static_cast<Eigen::Index>(n)]);
+}
+
+goal_source source_of(const LimbInClip& in, const Vector3d& origin)
+{
+    goal_source source;
+    put(in.elbow, source.elbow);
+    put(in.wrist, source.wrist);
+    put(in.hand.coeffs(), source.hand);
+    put(Eigen::Vector2d(in.upper_length(), in.fore_length()), source.lengths);
+    put(origin, source.origin);
+    put(in.parent.coeffs(), source.parent);
+    put(in.local_shoulder().coeffs(), source.shoulder);
+    put(in.local_elbow().coeffs(), source.elbow_local);
+    put(in.local_wrist().coeffs(), source.wrist_local);
+    return source;
+}
+
+// Without stretched bones, lengths differ from those at rest by rounding alone.
+void settle_lengths(std::span<goal_source> sources, const float (&at_rest)[2])
+{
+    const auto differs = [&](const goal_source& source, int bone) {
+        return std::abs(source.lengths[bone] - at_rest[bone]) > 1e-7 * source.lengths[bone];
+    };
+    if (std::ranges::any_of(sources,
+                            [&](const goal_source& source) { return differs(source, 0) || differs(source, 1); }))
+        return;
+    for (goal_source& source : sources)
+        for (int bone = 0; bone < 2; ++bone) source.lengths[bone] = at_rest[bone];
+}
 
 }  // namespace
 
 ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
-    : limb_count_(limbs.size()), stretches_(limbs.size()), frame_count_(clip.frame_count)
+    : limb_count_(limbs.size()), sources_(limbs.size()), frame_count_(clip.frame_count)
 {
     std::vector<JointPose> pose_w(clip.joints.size());
     for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
@@ -48,12 +81,10 @@ ClipMotion::ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs)
             if (parent >= 0)
                 limbs_.back().local_parent =
                     clip.rotation[frame * clip.joints.size() + static_cast<std::size_t>(parent)];
-            origins_.push_back(pose_w[static_cast<std::size_t>(limb.upper())].position);
-            if (differ(limbs_.back().upper_length(), limb.bound.lengths[0]) ||
-                differ(limbs_.back().fore_length(), limb.bound.lengths[1]))
-                stretches_[n] = true;
+            sources_[n].push_back(source_of(limbs_.back(), pose_w[static_cast<std::size_t>(limb.upper())].position));
         }
     }
+    for (std::size_t n = 0; n < limbs.size(); ++n) settle_lengths(sources_[n], limbs[n].bound.lengths);
 }
 
 }  // namespace swivel::tools

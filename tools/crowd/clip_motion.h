@@ -6,20 +6,21 @@
 #include <span>
 #include <vector>
 
+#include "tools/crowd/goals.h"
 #include "tools/rig/limbs.h"
 
 namespace swivel::tools {
 
 // One limb in one frame, as the solver sees it: two bones that at rest point where the limb's do. Places relative to
-// the limb's origin, rotations in the world, both in the world's mirror image (x turned over) for a mirrored limb.
+// its shoulder, rotations in the world, both in the world's mirror image (x turned over) for a mirrored limb.
 // Words are an arm's.
 struct LimbInClip {
-    Eigen::Vector3d shoulder, elbow, wrist;
+    Eigen::Vector3d elbow, wrist;
     Eigen::Quaterniond parent, hand, upper, fore;
     Eigen::Quaterniond local_parent = Eigen::Quaterniond::Identity();  // of the joint above
     Eigen::Quaterniond upper_aim, fore_aim;  // the bone's direction at rest to this frame's, in its joint's axes
 
-    double upper_length() const { return (elbow - shoulder).norm(); }
+    double upper_length() const { return elbow.norm(); }
     double fore_length() const { return (wrist - elbow).norm(); }
 
     Eigen::Quaterniond local_shoulder() const { return parent.conjugate() * upper; }
@@ -29,24 +30,24 @@ struct LimbInClip {
 
 class ClipMotion {
 public:
-    // Takes what it needs from the clip; limbs are joints of it. Memory: 640 bytes a frame for two limbs.
+    // Takes what it needs from the clip; limbs are joints of it. Memory: 1,000 bytes a frame for two limbs.
     ClipMotion(const formats::Clip& clip, std::span<const Limb> limbs);
 
     std::size_t frame_count() const { return frame_count_; }
     const LimbInClip& at(std::size_t frame, std::size_t limb) const { return limbs_[frame * limb_count_ + limb]; }
-    // The limb's origin in the world, its shoulder: near it single precision is finest.
-    const Eigen::Vector3d& origin(std::size_t frame, std::size_t limb) const
+    // The limb's shoulder in the world: near it single precision is finest.
+    Eigen::Vector3d origin(std::size_t frame, std::size_t limb) const
     {
-        return origins_[frame * limb_count_ + limb];
+        return Eigen::Vector3d(sources_[limb][frame].origin);
     }
-    // Whether the clip stretches the limb's bones: by more than 1e-7 of their length.
-    bool stretches(std::size_t limb) const { return stretches_[limb]; }
+    // What the goals of one limb are made of, frame after frame. Lengths are the limb's own at rest, unless the clip
+    // stretches its bones by more than 1e-7 of their length.
+    std::span<const goal_source> sources(std::size_t limb) const { return sources_[limb]; }
 
 private:
     std::size_t limb_count_;
-    std::vector<LimbInClip> limbs_;         // [frame * limbs + limb]
-    std::vector<Eigen::Vector3d> origins_;  // the same
-    std::vector<bool> stretches_;
+    std::vector<LimbInClip> limbs_;                  // [frame * limbs + limb]
+    std::vector<std::vector<goal_source>> sources_;  // [limb][frame]
     std::size_t frame_count_;
 };
 

@@ -23,14 +23,11 @@ Vec3 turned(const double (&q)[4], const Vec3& v)
     return v + q[3] * twice + cross(axis, twice);
 }
 
-void store(const Vec3& v, float (&to)[3])
+void store(const Vec3& v, double (&to)[3]) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
+template <class From, class To, int count>
+void copy(const From (&from)[count], To (&to)[count])
 {
-    to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y), to[2] = static_cast<float>(v.z);
-}
-template <class Number>
-void store(const Number (&q)[4], float (&to)[4])
-{
-    for (int n = 0; n < 4; ++n) to[n] = static_cast<float>(q[n]);
+    for (int n = 0; n < count; ++n) to[n] = static_cast<To>(from[n]);
 }
 
 Vec3 target_of(const goal_plan& plan, const goal_source& from, double size)
@@ -53,21 +50,31 @@ Vec3 pole_of(const goal_plan& plan, const goal_source& from, double size)
 
 void fill(const goal_plan& plan, const goal_source& from, double size, goal_input& input)
 {
-    store(target_of(plan, from, size), input.target);
-    store(pole_of(plan, from, size), input.pole);
+    const goal asked = swivel_goal(&plan, &from, size);
+    input = {};
+    copy(asked.target, input.target);
+    copy(asked.pole, input.pole);
     for (int bone = 0; bone < 2; ++bone) input.lengths[bone] = static_cast<float>(size * from.lengths[bone]);
-    store(Vec3{0, 0, 0}, input.position);
-    store(from.parent, input.rotation);
-    if (plan.hand_is_local)
-        store(from.wrist_local, input.hand);
-    else
-        store(from.hand, input.hand);
-    store(from.shoulder, input.shoulder);
-    store(from.elbow_local, input.elbow);
-    store(from.wrist_local, input.wrist);
+    copy(from.parent, input.rotation);
+    copy(asked.hand, input.hand);
+    copy(from.shoulder, input.shoulder);
+    copy(from.elbow_local, input.elbow);
+    copy(from.wrist_local, input.wrist);
 }
 
 }  // namespace
+
+goal swivel_goal(const goal_plan* plan, const goal_source* source, double size)
+{
+    goal asked;
+    store(target_of(*plan, *source, size), asked.target);
+    store(pole_of(*plan, *source, size), asked.pole);
+    if (plan->hand_is_local)
+        copy(source->wrist_local, asked.hand);
+    else
+        copy(source->hand, asked.hand);
+    return asked;
+}
 
 void swivel_goals(const goal_plan* plan, const goal_source* sources, uint32_t frame_count, uint32_t frame,
                   const goal_character* characters, uint32_t count, goal_input* inputs)

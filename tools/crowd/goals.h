@@ -43,6 +43,11 @@ typedef struct goal_plan {
     uint32_t reserved;
 } goal_plan;
 
+// What a limb is asked for; hand is as the plan says.
+typedef struct goal {
+    double target[3], pole[3], hand[4];
+} goal;
+
 // What the solver takes of a limb, as float fields of these names have it.
 typedef struct goal_input {
     float target[3], pole[3], lengths[2], position[3], rotation[4], hand[4];
@@ -51,6 +56,9 @@ typedef struct goal_input {
 
 static_assert(sizeof(goal_source) == 184 && sizeof(goal_character) == 40 && sizeof(goal_plan) == 120 &&
               sizeof(goal_input) == 124);
+
+// The goal of a character of that size. Any thread; no allocation.
+goal swivel_goal(const goal_plan* plan, const goal_source* source, double size);
 
 // Fills the inputs of one limb for count characters. sources: one for each frame of the clip. Character c shows frame
 // (frame + start) % frame_count. Any thread; no allocation.

@@ -16,32 +16,31 @@ constexpr swivel_features kShared = SWIVEL_WITH_HAND | SWIVEL_WITH_AIM | SWIVEL_
 
 // A crowd in the making.
 struct Draft {
-    swivel_features features;
-    swivel_euler_order shoulder_order, wrist_order;
+    LimbCrowds::Shape shape;
     std::vector<swivel_group_def> groups;
 
     bool takes(const LimbPlan& plan) const
     {
-        const auto both = [&](swivel_features box) { return (features & plan.features & box) != 0; };
-        return (features & kShared) == (plan.features & kShared) &&
-               (!both(SWIVEL_WITH_SHOULDER_BOX) || shoulder_order == plan.shoulder_order) &&
-               (!both(SWIVEL_WITH_WRIST_BOX) || wrist_order == plan.wrist_order);
+        const auto both = [&](swivel_features box) { return (shape.features & plan.features & box) != 0; };
+        return (shape.features & kShared) == (plan.features & kShared) &&
+               (!both(SWIVEL_WITH_SHOULDER_BOX) || shape.shoulder_order == plan.shoulder_order) &&
+               (!both(SWIVEL_WITH_WRIST_BOX) || shape.wrist_order == plan.wrist_order);
     }
     void add(const LimbPlan& plan, const swivel_group_def& group)
     {
-        if (plan.has(SWIVEL_WITH_SHOULDER_BOX)) shoulder_order = plan.shoulder_order;
-        if (plan.has(SWIVEL_WITH_WRIST_BOX)) wrist_order = plan.wrist_order;
-        features |= plan.features;
+        if (plan.has(SWIVEL_WITH_SHOULDER_BOX)) shape.shoulder_order = plan.shoulder_order;
+        if (plan.has(SWIVEL_WITH_WRIST_BOX)) shape.wrist_order = plan.wrist_order;
+        shape.features |= plan.features;
         groups.push_back(group);
     }
-    Crowd make(bool budget) const
+    Crowd make() const
     {
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = features | (budget ? SWIVEL_BUDGET : 0u);
+        def.features = shape.features;
         def.group_count = static_cast<std::uint32_t>(groups.size());
         def.groups = groups.data();
-        def.shoulder_order = shoulder_order;
-        def.wrist_order = wrist_order;
+        def.shoulder_order = shape.shoulder_order;
+        def.wrist_order = shape.wrist_order;
         return Crowd(def);
     }
 };
@@ -56,7 +55,7 @@ LimbCrowds::LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const
         const LimbPlan& limb = plan.limbs[n];
         std::size_t d = 0;
         while (d < drafts.size() && !drafts[d].takes(limb)) ++d;
-        if (d == drafts.size()) drafts.push_back({limb.features, limb.shoulder_order, limb.wrist_order, {}});
+        if (d == drafts.size()) drafts.push_back({{limb.features, limb.shoulder_order, limb.wrist_order}, {}});
         places_.push_back({d, static_cast<std::uint32_t>(drafts[d].groups.size())});
         drafts[d].add(limb, group(plan.characters, limbs[n].bound));
         priorities_.push_back(limb.priority);
@@ -65,7 +64,11 @@ LimbCrowds::LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const
         throw formats::InputError(file,
                                   "budget.blocks: limbs that share a budget must have the same pole.kind, hand, aim, "
                                   "twist_bones and order of each box; make them equal, or take the budget out");
-    for (const Draft& draft : drafts) crowds_.push_back(draft.make(budget_blocks_ > 0));
+    for (Draft& draft : drafts) {
+        if (budget_blocks_ > 0) draft.shape.features |= SWIVEL_BUDGET;
+        crowds_.push_back(draft.make());
+        shapes_.push_back(draft.shape);
+    }
     for (std::size_t n = 0; n < limbs.size(); ++n)
         for (const FixedField& fixed : plan.limbs[n].fields) write(n, fixed.field, fixed.value.data(), 0);
 }
@@ -80,6 +83,12 @@ void LimbCrowds::write(std::size_t limb, swivel_field field, const float* first,
     swivel_crowd* const crowd = crowd_of(limb).get();
     const std::uint32_t group = places_[limb].group;
     check(swivel_write(crowd, field, group, 0, swivel_group_limb_count(crowd, group), {first, stride}));
+}
+
+void LimbCrowds::write_goals(std::size_t limb, std::span<const goal_input> inputs)
+{
+    check(swivel_goals_write(crowd_of(limb).get(), places_[limb].group, static_cast<std::uint32_t>(inputs.size()),
+                             inputs.data()));
 }
 
 void LimbCrowds::read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count,
@@ -117,6 +126,13 @@ void LimbCrowds::solve()
     for (const float& priority : priorities_) priorities.push_back({&priority, 0});
     crowd.choose(priorities, budget_blocks_, active_);
     crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
+}
+
+std::vector<std::uint64_t> LimbCrowds::digests() const
+{
+    std::vector<std::uint64_t> digests;
+    for (const Crowd& crowd : crowds_) digests.push_back(swivel_digest(crowd.get()));
+    return digests;
 }
 
 bool LimbCrowds::solved(std::size_t limb, std::uint32_t character) const

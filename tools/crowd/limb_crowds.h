@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/crowd/crowd_plan.h"
+#include "tools/crowd/goals.h"
 
 namespace swivel::tools {
 
@@ -21,6 +22,7 @@ public:
     bool has(std::size_t limb, swivel_field field) const;
     // Of all characters, as swivel_write() and swivel_read() do; of a field that the limb's crowd has.
     void write(std::size_t limb, swivel_field field, const float* first, std::size_t stride);
+    void write_goals(std::size_t limb, std::span<const goal_input> inputs);
     void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
     void forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
                  swivel_out hand) const;
@@ -33,14 +35,26 @@ public:
     // Whether the last solve() solved it.
     bool solved(std::size_t limb, std::uint32_t character) const;
 
-private:
+    // Which crowd a limb is in, and as which of its groups.
     struct Place {
         std::size_t crowd = 0;
         std::uint32_t group = 0;
     };
+    const Place& place(std::size_t limb) const { return places_[limb]; }
+    // What a crowd was made with, beside its groups.
+    struct Shape {
+        swivel_features features;
+        swivel_euler_order shoulder_order, wrist_order;
+    };
+    std::span<const Shape> shapes() const { return shapes_; }
+    // Of each crowd's results; see swivel_digest().
+    std::vector<std::uint64_t> digests() const;
+
+private:
     const Crowd& crowd_of(std::size_t limb) const { return crowds_[places_[limb].crowd]; }
 
     std::vector<Crowd> crowds_;
+    std::vector<Shape> shapes_;  // by crowd
     std::vector<Place> places_;  // by limb
     std::uint32_t budget_blocks_;
     std::vector<float> priorities_;      // of the only crowd's groups

@@ -70,11 +70,11 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
     return out;
 }
 
-nlohmann::ordered_json json_of(std::span<const Character> characters)
+nlohmann::ordered_json json_of(std::span<const goal_character> characters)
 {
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
-    for (const Character& c : characters)
-        out.push_back({{"place", {c.place.x(), c.place.y(), c.place.z()}}, {"size", c.size}, {"start", c.start}});
+    for (const goal_character& c : characters)
+        out.push_back({{"place", c.place}, {"size", c.size}, {"start", c.start}});
     return out;
 }
 

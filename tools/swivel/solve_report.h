@@ -25,6 +25,6 @@ struct SolveFacts {
 void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 // What makes them differ, in their order.
-nlohmann::ordered_json json_of(std::span<const Character> characters);
+nlohmann::ordered_json json_of(std::span<const goal_character> characters);
 
 }  // namespace swivel::tools
