@@ -79,6 +79,11 @@ void ClipCrowd::write_effectors(std::size_t limb)
     crowds_.write(limb, SWIVEL_EFFECTOR, values[0].data(), sizeof values[0]);
 }
 
+std::size_t ClipCrowd::limb_index(formats::LimbName name) const
+{
+    return static_cast<std::size_t>(std::ranges::find(limbs_, name, &Limb::name) - limbs_.begin());
+}
+
 // Whether elbow and upper arm should be the clip's.
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
@@ -144,8 +149,7 @@ void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> gi
     }
     given_.assign(given.begin(), given.end());
     for (std::size_t n = 0; n < given_.size(); ++n) {
-        const auto of = [&](const Limb& each) { return each.name == given_[n].limb; };
-        const auto limb = static_cast<std::size_t>(std::ranges::find_if(limbs_, of) - limbs_.begin());
+        const std::size_t limb = limb_index(given_[n].limb);
         given_at_[limb][given_[n].character] = static_cast<std::int32_t>(n);
         set_given(limb, given_[n]);
     }
@@ -155,6 +159,13 @@ void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> gi
         for (std::uint32_t n = 0; n < character_count(); ++n)  // from the clip's end to its start is no motion
             if (clip_frame(n) == 0) crowds_.reset(limb, n);
     }
+}
+
+std::vector<ClipCrowd::GivenPlace> ClipCrowd::given_places() const
+{
+    std::vector<GivenPlace> places;
+    for (const formats::Target& target : given_) places.push_back({limb_index(target.limb), target.character});
+    return places;
 }
 
 void ClipCrowd::solve(Statistics& statistics)

@@ -59,6 +59,12 @@ public:
     std::span<const goal_source> sources_of_goals(std::size_t limb) const { return motion_.sources(limb); }
     const goal_input& input(std::size_t limb, std::uint32_t character) const { return inputs_[limb][character]; }
     const LimbCrowds& crowds() const { return crowds_; }
+    // The limbs that this frame's given targets are for.
+    struct GivenPlace {
+        std::size_t limb;
+        std::uint32_t character;
+    };
+    std::vector<GivenPlace> given_places() const;
 
 private:
     std::size_t clip_frame(std::uint32_t character) const
@@ -77,6 +83,7 @@ private:
     {
         return motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(characters_[character].place);
     }
+    std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
     // The same rotations between the two bones that the solver knows.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;

@@ -64,6 +64,13 @@ void GivenTargets::find_tracks()
     }
 }
 
+std::uint64_t GivenTargets::count(std::size_t frame_count) const
+{
+    if (between_ != Between::clip) return std::uint64_t{frame_count} * tracks_.size();
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(rows_, [&](const Target& row) { return row.frame < frame_count; }));
+}
+
 std::span<const Target> GivenTargets::of_frame(std::size_t frame)
 {
     targets_.clear();

@@ -28,6 +28,9 @@ public:
     GivenTargets(const std::string& source, Between between, const formats::Clip& clip, std::span<const Limb> limbs,
                  std::uint32_t characters);
 
+    // How many there are in the first frames together.
+    std::uint64_t count(std::size_t frame_count) const;
+
     // Those of a frame; frames must be asked for in order. They last until the next call.
     std::span<const formats::Target> of_frame(std::size_t frame);
 

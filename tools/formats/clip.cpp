@@ -113,6 +113,14 @@ JointPose local_rest_pose(const Joint& joint)
     return pose;
 }
 
+void keep_frames(Clip& clip, std::size_t frame_count)
+{
+    clip.frame_count = frame_count;
+    clip.rotation.resize(frame_count * clip.joints.size());
+    clip.translation.resize(frame_count * clip.track_count);
+    clip.scale.resize(frame_count * clip.scale_track_count);
+}
+
 void world_pose(const Clip& clip, std::size_t frame, std::span<JointPose> pose_w)
 {
     assert(pose_w.size() == clip.joints.size() && frame < clip.frame_count);

@@ -88,6 +88,9 @@ Eigen::Vector3d local_translation(const Clip& clip, std::size_t frame, std::size
 JointPose local_pose(const Clip& clip, std::size_t frame, std::size_t joint);
 JointPose local_rest_pose(const Joint& joint);
 
+// Keeps the first frames alone; frame_count: at most the clip's.
+void keep_frames(Clip& clip, std::size_t frame_count);
+
 // Forward kinematics: every joint of one frame in world space, in double.
 // pose_w: joints.size() elements, all written; must not overlap the clip.
 // Allocates nothing; any number of threads may read one clip; one quaternion product and one rotation a joint.

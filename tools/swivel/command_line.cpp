@@ -99,6 +99,14 @@ void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vec
         ->allow_extra_args(false);
 }
 
+void add_view(CLI::App& command, std::string& view)
+{
+    takes(command.add_option("--view", view,
+                             "Also write a page that shows the crowd in a browser and solves it live: swivel help "
+                             "view. - is standard output"),
+          file_name());
+}
+
 // ---- the subcommands
 
 void add_demo(CLI::App& app)
@@ -109,10 +117,44 @@ void add_demo(CLI::App& app)
     takes(command->add_option("--frames", options->frames, "Frames, 1 to 1 million")->capture_default_str(),
           whole_number(1, 1'000'000));
     add_seed(*command, options->seed, "the characters' differences");
+    add_view(*command, options->view);
     add_threads(*command, options->threads);
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_demo(*options); });
+}
+
+// The clip, its crowd and what is asked of it.
+void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
+{
+    add_file(command, options.file, "Motion file");
+    add_motion(command, options.motion, "A file without animations is solved in its rest pose");
+    takes(command
+              .add_option("--targets", options.targets,
+                          "Where wrists, elbows and hands (ankles, knees and feet) must be. 'clip' is the clip's own "
+                          "motion. A CSV file has the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z]"
+                          "[,qx,qy,qz,qw], in the world. limb is left_arm, right_arm, left_leg or right_leg. - is "
+                          "standard input. docs/tables.md says more")
+              ->default_str("clip"),
+          file_name());
+    takes(command.add_option("--between", options.between,
+                             "In frames between a limb's rows, hold the last row, or go on to the next in a linear "
+                             "way. Without it the limb follows the clip there"),
+          one_of({"hold", "linear"}));
+    takes(command.add_option("--crowd", options.crowd,
+                             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
+                             "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
+                             "it. - is standard input"),
+          file_name());
+    add_kinds(command, options.kinds,
+              "Which limbs to solve: arms, legs or all. Each is named by --arm or --leg, or found by the names in use. "
+              "Without it those named alone, or else the arms");
+    add_named_limbs(command, options.arms, options.legs, "With --limbs the side that is not named is looked for");
+    add_characters(command, options.characters,
+                   ", differing in arm lengths, place and start; the first is the clip's own")
+        ->default_str("1");
+    add_seed(command, options.seed, "the characters' differences");
+    add_threads(command, options.threads);
 }
 
 void add_solve(CLI::App& app)
@@ -120,28 +162,10 @@ void add_solve(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("solve", "Solve the arms and legs of a BVH or glTF clip, or of a crowd that performs it");
     auto options = std::make_shared<SolveOptions>();
-    add_file(*command, options->file, "Motion file");
-    add_motion(*command, options->motion, "A file without animations is solved in its rest pose");
-    takes(command
-              ->add_option("--targets", options->targets,
-                           "Where wrists, elbows and hands (ankles, knees and feet) must be. 'clip' is the clip's own "
-                           "motion. A CSV file has the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z]"
-                           "[,qx,qy,qz,qw], in the world. limb is left_arm, right_arm, left_leg or right_leg. - is "
-                           "standard input. docs/tables.md says more")
-              ->default_str("clip"),
-          file_name());
-    takes(command->add_option("--between", options->between,
-                              "In frames between a limb's rows, hold the last row, or go on to the next in a linear "
-                              "way. Without it the limb follows the clip there"),
-          one_of({"hold", "linear"}));
+    add_crowd_of_clip(*command, *options);
     takes(command->add_option("--export-targets", options->export_targets,
                               "Write the clip's wrists, poles and hands, or those given, as a table to edit and to "
                               "give back by --targets"),
-          file_name());
-    takes(command->add_option("--crowd", options->crowd,
-                              "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
-                              "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
-                              "it. - is standard input"),
           file_name());
     CLI::Option* out =
         takes(command->add_option(
@@ -155,21 +179,31 @@ void add_solve(CLI::App& app)
                               "Format of --out. Without it the suffix says it; standard output is CSV"),
           one_of({"csv", "bvh", "glb", "gltf"}))
         ->needs(out);
-    add_kinds(*command, options->kinds,
-              "Which limbs to solve: arms, legs or all. Each is named by --arm or --leg, or found by the names in use. "
-              "Without it those named alone, or else the arms");
-    add_named_limbs(*command, options->arms, options->legs, "With --limbs the side that is not named is looked for");
-    add_characters(*command, options->characters,
-                   ", differing in arm lengths, place and start; the first is the clip's own")
-        ->default_str("1");
-    add_seed(*command, options->seed, "the characters' differences");
-    add_threads(*command, options->threads);
+    add_view(*command, options->view);
     command->add_flag("--strict", options->strict,
                       "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input. "
                       "Without it a note says so");
     add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_solve(*options); });
+}
+
+void add_view_command(CLI::App& app)
+{
+    CLI::App* command = app.add_subcommand(
+        "view", "Write a page that shows a clip's crowd, solves it live and lets you drag its limbs");
+    auto options = std::make_shared<SolveOptions>();
+    add_crowd_of_clip(*command, *options);
+    takes(command->add_option("-o,--out", options->view,
+                              "The page, to open in a browser; it needs no network and no other file. Without it it is "
+                              "named as FILE, with .html, in this folder. - is standard output"),
+          file_name());
+    takes(command->add_option("--frames", options->frames,
+                              "Frames of the clip at most, from the first, 1 to 1 million. Without it all. Fewer make "
+                              "a smaller page"),
+          whole_number(1, 1'000'000));
+    add_quiet(*command, options->quiet, "Print errors and nothing else");
+    command->callback([options] { run_view(*options); });
 }
 
 void add_rig(CLI::App& app)
@@ -280,6 +314,7 @@ void run(int argc, const char* const* argv)
         "instruction set (swivel info).");
     add_demo(app);
     add_solve(app);
+    add_view_command(app);
     add_rig(app);
     add_verify(app);
     add_bench(app);

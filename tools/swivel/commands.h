@@ -16,6 +16,7 @@ namespace swivel::tools {
 struct DemoOptions {
     std::uint32_t characters = 10'000, frames = 240;
     std::uint64_t seed = 1;
+    std::string view;  // the page to write; empty: none
     unsigned threads = 0;
     bool quiet = false, json = false;
 };
@@ -23,7 +24,9 @@ void run_demo(const DemoOptions& options);
 
 struct SolveOptions {
     std::string file, crowd, out, export_targets;
-    std::string format;  // of out; empty: its suffix's
+    std::string view;          // the page to write; empty: none
+    std::uint32_t frames = 0;  // of the clip, from its first; 0: all
+    std::string format;        // of out; empty: its suffix's
     MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;
@@ -35,6 +38,8 @@ struct SolveOptions {
     bool strict = false, quiet = false, json = false;
 };
 void run_solve(const SolveOptions& options);
+// The same for the page alone, whose name comes from the file's unless `view` says it.
+void run_view(SolveOptions options);
 
 struct RigOptions {
     std::string file, kinds = "all";

@@ -76,6 +76,11 @@ void MotionFile::sample(std::span<const int> limb_joints)
     if (GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::sample(*gltf, limb_joints);
 }
 
+void MotionFile::cut(std::size_t frame_count)
+{
+    std::visit([&](auto& file) { formats::keep_frames(file.clip, frame_count); }, file_);
+}
+
 const formats::Clip& MotionFile::clip() const
 {
     return std::visit([](const auto& file) -> const formats::Clip& { return file.clip; }, file_);

@@ -33,6 +33,9 @@ public:
     // its frames already.
     void sample(std::span<const int> limb_joints);
 
+    // Keeps the first frames alone, for a motion that will not be written. frame_count: at most the clip's.
+    void cut(std::size_t frame_count);
+
     const formats::Clip& clip() const;
     // The files that it refers to, such as a glTF file's buffers and images.
     std::span<const std::filesystem::path> files_beside() const;

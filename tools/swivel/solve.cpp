@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // `swivel solve`: binds a clip's skeleton, makes a crowd of it, solves every frame, reports, and writes the poses.
+// `swivel view` does the same for the page alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,6 +28,7 @@
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
+#include "tools/swivel/view_page.h"
 
 namespace swivel::tools {
 
@@ -39,14 +41,30 @@ struct Job {
     std::vector<LimbFinding> missing;
     CrowdPlan plan;
     std::string targets;  // "clip" or a file
-    Between between = Between::clip;
+    std::optional<GivenTargets> given;
 };
 
-Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const Job& job)
+std::string page_title(const std::string& file)
+{
+    return formats::is_standard_stream(file) ? "motion" : std::filesystem::path(file).filename().string();
+}
+
+// A page holds goals of one's own, and they may be many.
+void print_page_size(const SolveOptions& options, std::uint64_t goal_count)
+{
+    if (options.view.empty() || options.quiet || options.json || goal_count == 0) return;
+    say(report_stream(options), "page     your {} targets take {:.1f} MB of it{}\n", goal_count,
+        static_cast<double>(goal_count) * kPageBytesPerGoal / 1e6,
+        goal_count > 100'000 ? "; swivel view --frames takes fewer" : "");
+}
+
+Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& job)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
-    GivenTargets given(job.targets, job.between, file.clip(), job.limbs, job.plan.characters);
+    std::optional<ViewPage> page;
+    if (!options.view.empty()) page.emplace(options.view);
+    print_page_size(options, job.given->count(file.clip().frame_count));
     ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
     const StopSignals signals;  // from here on there may be files to remove
     std::optional<formats::PosesCsv> csv;
@@ -64,12 +82,13 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
         for (std::size_t frame = 0; frame < file.clip().frame_count; ++frame) {
             signals.check();
             progress.show(frame);
-            crowd.set_frame(frame, given.of_frame(frame));
+            crowd.set_frame(frame, job.given->of_frame(frame));
             if (exported) exported->append(crowd.targets());
             crowd.solve(statistics);
             crowd.measure(statistics);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
             if (kind == OutKind::motion) keys.add(crowd);
+            if (page) page->add_frame(crowd);
         }
     }
     signals.check();
@@ -78,6 +97,8 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, const
     if (exported) exported->commit();
     signals.check();
     if (kind == OutKind::motion) keys.write(out_place(options), file);
+    signals.check();
+    if (page) page->commit({page_title(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd);
     return statistics;
 }
 
@@ -136,7 +157,8 @@ Job make_job(const SolveOptions& options, LimbChoice choice, MotionFile& file)
     if (options.seed) job.plan.seed = *options.seed;
     job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
     require_one_reader(options, job.targets);
-    job.between = between_of(options, job.targets);
+    job.given.emplace(job.targets, between_of(options, job.targets), clip, job.limbs, job.plan.characters);
+    if (options.frames > 0 && options.frames < clip.frame_count) file.cut(options.frames);
     return job;
 }
 
@@ -144,7 +166,7 @@ void print_report(std::FILE* to, const SolveOptions& options, const Statistics& 
 {
     print_statistics(to, statistics);
     say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
-    for (const std::string& name : {options.out, options.export_targets})
+    for (const std::string& name : {options.out, options.export_targets, options.view})
         if (!name.empty()) say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
 }
 
@@ -160,7 +182,7 @@ void run_solve(const SolveOptions& options)
     std::FILE* const reports = report_stream(options);
     MotionFile file(options.file, options.motion);
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
-    const Job job = make_job(options, choice, file);
+    Job job = make_job(options, choice, file);
     require_own_files(options, file, job.targets);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing};
@@ -176,11 +198,18 @@ void run_solve(const SolveOptions& options)
         out["seconds"] = seconds;
         if (!options.out.empty()) out["out"] = options.out;
         if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
+        if (!options.view.empty()) out["view"] = options.view;
         print_json(out, reports);
     } else if (!options.quiet) {
         print_report(reports, options, statistics, seconds);
     }
     if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
+}
+
+void run_view(SolveOptions options)
+{
+    if (options.view.empty()) options.view = page_title(options.file) + ".html";
+    run_solve(options);
 }
 
 }  // namespace swivel::tools

@@ -89,16 +89,22 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
         refuse_if(targets != "clip" && is_read(file, targets), option, file, "the table of targets");
         refuse_if(!options.crowd.empty() && is_read(file, options.crowd), option, file, "the crowd file");
     };
-    require_not_read("--out", options.out);
-    require_not_read("--export-targets", options.export_targets);
-    if (!options.out.empty() && !options.export_targets.empty())
-        refuse_if(is_same_file(options.export_targets, options.out), "--export-targets", options.export_targets,
-                  "the file of --out");
+    const std::pair<const char*, const std::string&> outputs[] = {
+        {"--out", options.out}, {"--export-targets", options.export_targets}, {"--view", options.view}};
+    for (const auto& [option, file] : outputs) {
+        require_not_read(option, file);
+        for (const auto& [other, other_file] : outputs) {
+            if (option == other) break;
+            if (!file.empty() && !other_file.empty())
+                refuse_if(is_same_file(file, other_file), option, file, fmt::format("the file of {}", other).c_str());
+        }
+    }
 }
 
 std::FILE* report_stream(const SolveOptions& options)
 {
-    return is_standard_stream(options.out) || is_standard_stream(options.export_targets) ? stderr : stdout;
+    const auto outputs = {options.out, options.export_targets, options.view};
+    return std::ranges::any_of(outputs, is_standard_stream) ? stderr : stdout;
 }
 
 }  // namespace swivel::tools

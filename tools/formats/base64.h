@@ -1,0 +1,17 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// Bytes as base64 text, RFC 4648. Knows nothing of what they mean.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace swivel::formats {
+
+// With padding.
+std::string base64_of(std::string_view bytes);
+
+// With or without padding; nothing for what is no base64.
+std::optional<std::string> bytes_of_base64(std::string_view text);
+
+}  // namespace swivel::formats

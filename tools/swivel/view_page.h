@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The page that shows a solved crowd and solves it again (tools/view). Its program is a file beside the command; the
+// crowd is written into it. Knows what the page holds; what it draws is the page's affair.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/crowd/clip_crowd.h"
+#include "tools/formats/output_file.h"
+
+namespace swivel::tools {
+
+// What the page says of the crowd.
+struct PageNames {
+    std::string title;  // the motion's file
+    std::string clip;   // the animation in it; may be empty
+};
+
+class ViewPage {
+public:
+    // Opens the page to write. Throws CommandError where the page's program is missing, and InputError as OutputFile
+    // does.
+    explicit ViewPage(const std::filesystem::path& path);
+
+    // Takes a frame just solved: its digests and the goals that were given. Frames in order, from the first.
+    void add_frame(const ClipCrowd& crowd);
+
+    // Writes the page and makes it appear; to be called once, last. clip, limbs and plan: those of the crowd.
+    void commit(const PageNames& names, const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
+                const ClipCrowd& crowd);
+
+private:
+    // A goal of one's own, which takes the formula's place.
+    struct Given {
+        std::uint32_t frame, character, limb, reserved;
+        float target[3], pole[3], hand[4];
+    };
+    static_assert(sizeof(Given) == 56);
+
+    std::string before_, after_;  // the program, around the crowd's place
+    formats::OutputFile out_;
+    std::vector<std::vector<std::uint64_t>> digests_;  // [frame][crowd]
+    std::vector<Given> given_;
+};
+
+// The bytes that goals of one's own take in a page, for each row of them.
+constexpr double kPageBytesPerGoal = 56 * 4 / 3.0;
+
+}  // namespace swivel::tools
