@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+//
+// What `swivel view`, `solve --view` and `demo --view` write into a page: the clip's joints by forward kinematics of
+// the tests' own, characters, goals and digests, names that try to end the script. tests/page looks at the page itself.
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "swivel/swivel.hpp"
+#include "tests/plain_motion.h"
+#include "tests/pose_rows.h"
+#include "tests/run_program.h"
+#include "tests/test_data.h"
+#include "tools/crowd/goals.h"
+#include "tools/formats/base64.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Eigen::Vector3d;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kBefore = "<!doctype html><script>start(", kAfter = ")</script>\n";
+const std::string kEvil = "</script><img/src=x/onerror=alert(1)>\"'&";
+
+// An installed command with a page's program beside it.
+struct Stage {
+    TempFolder folder;
+
+    explicit Stage(bool has_program = true)
+    {
+        for (const char* name : {"bin", "share", "share/swivel", "work"}) fs::create_directory(folder / name);
+        fs::copy_file(SWIVEL_COMMAND, folder / "bin/swivel");
+        if (has_program) spill(folder / "share/swivel/view.html", kBefore + "/*crowd*/null" + kAfter);
+        spill(folder / "work/clip.bvh", kTwoArms);
+    }
+    Outcome run(std::vector<std::string> words) const
+    {
+        words.insert(words.begin(), (folder / "bin/swivel").string());
+        return run_program(folder / "work", words);
+    }
+    fs::path at(const std::string& name) const { return folder / ("work/" + name); }
+    // What the page holds; its program must be around it, unchanged.
+    Json page(const std::string& name) const
+    {
+        const std::string text = slurp(at(name));
+        REQUIRE(text.starts_with(kBefore));
+        REQUIRE(text.ends_with(kAfter));
+        const std::string json = text.substr(kBefore.size(), text.size() - kBefore.size() - kAfter.size());
+        CHECK(json.find('<') == std::string::npos);
+        return Json::parse(json);
+    }
+    Json view(std::vector<std::string> words, const std::string& name = "clip.bvh.html") const
+    {
+        words.insert(words.begin(), {"view", "clip.bvh"});
+        const Outcome outcome = run(words);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        CHECK(outcome.err.empty());
+        return page(name);
+    }
+};
+
+template <class Value>
+std::vector<Value> values_of(const Json& text)
+{
+    const std::string bytes = swivel::formats::bytes_of_base64(text.get<std::string>()).value();
+    REQUIRE(bytes.size() % sizeof(Value) == 0);
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
+void require_failure(const Outcome& outcome, int code, const std::string& words)
+{
+    CHECK(outcome.exit_code == code);
+    CHECK_THAT(outcome.err, Contains(words) && EndsWith("\n"));
+    CHECK(std::ranges::count(outcome.err, '\n') == 1);
+}
+
+// As the page solves it: the crowds made again from the page's bytes, frame after frame.
+std::vector<std::vector<std::string>> digests_of(const Json& page)
+{
+    const auto characters = values_of<goal_character>(page.at("characters"));
+    const auto count = static_cast<std::uint32_t>(characters.size());
+    std::vector<swivel::Crowd> crowds;
+    for (std::size_t n = 0; n < page.at("crowds").size(); ++n) {
+        std::vector<swivel_group_def> groups;
+        for (const Json& limb : page.at("limbs"))
+            if (limb.at("crowd") == n)
+                groups.push_back(swivel::group(count, values_of<swivel_binding>(limb.at("binding"))[0]));
+        const Json& shape = page.at("crowds")[n];
+        crowds.emplace_back(std::stoull(shape.at("features").get<std::string>()), groups);
+    }
+    std::vector<std::vector<std::string>> digests;
+    for (std::uint32_t frame = 0; frame < page.at("frame_count"); ++frame) {
+        for (const Json& limb : page.at("limbs")) {
+            const auto sources = values_of<goal_source>(limb.at("sources"));
+            const auto plan = values_of<goal_plan>(limb.at("plan"))[0];
+            std::vector<goal_input> inputs(count);
+            swivel_goals(&plan, sources.data(), static_cast<std::uint32_t>(sources.size()), frame, characters.data(),
+                         count, inputs.data());
+            REQUIRE(swivel_goals_write(crowds[limb.at("crowd")].get(), limb.at("group"), count, inputs.data()) ==
+                    SWIVEL_OK);
+        }
+        digests.emplace_back();
+        for (swivel::Crowd& crowd : crowds) {
+            crowd.solve();
+            digests.back().push_back(fmt::format("{:016x}", swivel_digest(crowd.get())));
+        }
+    }
+    return digests;
+}
+
+}  // namespace
+
+TEST_CASE("a page holds the clip's joints, its characters and the digests of its frames")
+{
+    const Stage stage;
+    const Json page = stage.view({"--characters", "40"});
+    CHECK(page.at("title") == "clip.bvh");
+    CHECK(page.at("frame_count") == 2);
+    CHECK(page.at("frame_seconds") == 0.01);
+    const PlainMotion motion = plain_motion_of(stage.at("clip.bvh"));
+    const auto positions = values_of<float>(page.at("positions"));
+    const std::size_t joint_count = page.at("joints").size();
+    REQUIRE(joint_count == motion.joints.size());
+    REQUIRE(positions.size() == 2 * joint_count * 3);
+    for (std::size_t frame = 0; frame < 2; ++frame) {
+        const std::vector<PlainPose> pose = pose_of(motion, frame);
+        for (std::size_t n = 0; n < joint_count; ++n) {
+            CHECK(page.at("joints")[n].at("name") == motion.joints[n].name);
+            CHECK(page.at("joints")[n].at("parent") == motion.joints[n].parent);
+            const float* at = &positions[(frame * joint_count + n) * 3];
+            CHECK((Vector3d(at[0], at[1], at[2]) - pose[n].position).norm() < 1e-5);
+        }
+    }
+    const auto characters = values_of<goal_character>(page.at("characters"));
+    REQUIRE(characters.size() == 40);
+    CHECK(characters[0].size == 1);
+    CHECK(characters[0].start == 0);
+    for (const Json& limb : page.at("limbs")) CHECK(values_of<goal_source>(limb.at("sources")).size() == 2);
+    CHECK(page.at("limbs")[0].at("joints") == Json({1, 2, 3}));
+    CHECK(page.at("digests").get<std::vector<std::vector<std::string>>>() == digests_of(page));
+}
+
+TEST_CASE("a page's digests are those of its bytes on real motion, legs included")
+{
+    const Stage stage;
+    spill(stage.at("clip.bvh"), cut(plain_motion_of(must_find_jump()), 100, 100));
+    const Json page = stage.view({"--characters", "100", "--limbs", "all", "--frames", "20"});
+    CHECK(page.at("frame_count") == 20);
+    CHECK(page.at("limbs").size() == 4);
+    const auto digests = page.at("digests").get<std::vector<std::vector<std::string>>>();
+    CHECK(digests.size() == 20);
+    CHECK(digests == digests_of(page));
+}
+
+TEST_CASE("targets of one's own are in the page as the solver takes them, up to the last frame that it has")
+{
+    const Stage stage;
+    spill(stage.at("t.csv"), "frame,character,limb,x,y,z\n0,1,left_arm,7,8,3\n1,0,right_arm,-6,6,4\n");
+    const Outcome outcome =
+        stage.run({"solve", "clip.bvh", "--characters", "2", "--targets", "t.csv", "--view", "a.html"});
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("your 2 targets take 0.0 MB of it"));
+    struct Given {
+        std::uint32_t frame, character, limb, reserved;
+        float target[3], pole[3], hand[4];
+    };
+    const Json page = stage.page("a.html");
+    const auto given = values_of<Given>(page.at("given"));
+    REQUIRE(given.size() == 2);
+    CHECK(given[0].character == 1);
+    CHECK(given[1].frame == 1);
+    CHECK(given[1].limb == 1);
+    const auto characters = values_of<goal_character>(page.at("characters"));
+    const goal_source shoulder = values_of<goal_source>(page.at("limbs")[0].at("sources"))[characters[1].start];
+    for (std::size_t n = 0; n < 3; ++n) {
+        const double wanted[3] = {7, 8, 3};
+        CHECK(given[0].target[n] == static_cast<float>(wanted[n] - characters[1].place[n] - shoulder.origin[n]));
+    }
+    CHECK(
+        values_of<Given>(stage.view({"--characters", "2", "--targets", "t.csv", "--frames", "1"}).at("given")).size() ==
+        1);
+}
+
+TEST_CASE("names cannot end a page's script")
+{
+    const Stage stage;
+    spill(stage.at("clip.bvh"), edited(kTwoArms, "ROOT Hips", "ROOT " + kEvil));
+    CHECK(stage.view({}).at("joints")[0].at("name") == kEvil);
+    const std::string name = "<img src=x onerror=alert(1)>\"'&.bvh";
+    fs::copy_file(stage.at("clip.bvh"), stage.at(name));
+    REQUIRE(stage.run({"view", name}).exit_code == 0);
+    CHECK(stage.page(name + ".html").at("title") == name);
+}
+
+TEST_CASE("a demo's page holds its crowd")
+{
+    const Stage stage;
+    REQUIRE(stage.run({"demo", "--characters", "50", "--frames", "30", "--view", "demo.html"}).exit_code == 0);
+    const Json page = stage.page("demo.html");
+    CHECK(page.at("character_count") == 50);
+    CHECK(page.at("frame_count") == 30);
+    CHECK(page.at("digests").get<std::vector<std::vector<std::string>>>() == digests_of(page));
+}
+
+TEST_CASE("without the page's program view says how to build it, and writes nothing")
+{
+    const Stage stage(false);
+    const Outcome outcome = stage.run({"view", "clip.bvh"});
+    require_failure(outcome, 1, "build it with tools/view/build");
+    CHECK(!fs::exists(stage.at("clip.bvh.html")));
+    require_failure(stage.run({"demo", "--view", "demo.html"}), 1, "build it with tools/view/build");
+}
+
+TEST_CASE("damaged and foreign files give no page")
+{
+    const Stage stage;
+    spill(stage.at("cut.bvh"), kTwoArms.substr(0, kTwoArms.size() / 2));
+    spill(stage.at("foreign.bvh"), "PK\x03\x04 no motion at all\n");
+    for (const char* file : {"cut.bvh", "foreign.bvh", "none.bvh"}) {
+        require_failure(stage.run({"view", file}), 1, file);
+        CHECK(!fs::exists(stage.at(std::string(file) + ".html")));
+    }
+}
+
+TEST_CASE("a page replaces no input and no other output")
+{
+    const Stage stage;
+    require_failure(stage.run({"view", "clip.bvh", "--out", "clip.bvh"}), 2, "is the clip itself");
+    require_failure(stage.run({"solve", "clip.bvh", "--out", "a.csv", "--view", "a.csv"}), 2, "is the file of --out");
+    CHECK(slurp(stage.at("clip.bvh")) == kTwoArms);
+    const Outcome outcome = stage.run({"view", "clip.bvh", "--out", "-"});
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Catch::Matchers::StartsWith(kBefore));
+    CHECK_THAT(outcome.err, Contains("solved"));
+}
