@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// The crowd's bodies: capsules drawn once for each character and bone. Bodies follow the clip. Limbs follow the solver:
+// their vertices find elbow and wrist from its rows.
+import {
+    BufferAttribute, CapsuleGeometry, GLSL3, InstancedBufferGeometry, LessDepth, Mesh, ShaderMaterial, Vector3, Vector4,
+} from "three";
+
+import bodyFragment from "./body.frag.glsl";
+import bodyVertex from "./body.vert.glsl";
+import capsule from "./capsule.glsl";
+import { CHOSEN, flagColours, LIMB_COLOURS, rampColours, rgb } from "./colours.js";
+import crowdGlsl from "./crowd.glsl";
+import light from "./light.frag.glsl";
+import limbFragment from "./limb.frag.glsl";
+import limbGlsl from "./limb.glsl";
+import limbVertex from "./limb.vert.glsl";
+import { floatTexture, LimbRows } from "./rows.js";
+import { layout } from "./stage.js";
+
+export const SUN = new Vector3(0.45, 1, 0.35);
+
+/** A capsule whose axis is z: directions from the axis, and which end they belong to. */
+function capsuleGeometry() {
+    const whole = new CapsuleGeometry(1, 1, 4, 10).rotateX(Math.PI / 2), geometry = new InstancedBufferGeometry();
+    const { position } = whole.attributes, end = new Float32Array(position.count), directions = new Float32Array(3 * position.count);
+    for (let n = 0; n < position.count; ++n) {
+        end[n] = position.getZ(n) > 0 ? 1 : 0;
+        directions.set([position.getX(n), position.getY(n), position.getZ(n) - (end[n] ? 0.5 : -0.5)], 3 * n);
+    }
+    geometry.setIndex(whole.index);
+    geometry.setAttribute("position", new BufferAttribute(directions, 3));
+    geometry.setAttribute("end", new BufferAttribute(end, 1));
+    return geometry;
+}
+
+function quaternionAt(binding, member) {
+    return new Vector4().fromArray(new Float32Array(binding.bytes.slice(layout.swivel_binding[member]).buffer, 0, 4)).normalize();
+}
+
+export class Bodies {
+    /** scale: metres of the scene for a unit of the clip. */
+    constructor(stage, figure, scale) {
+        this.stage = stage;
+        this.figure = figure;
+        this.meshes = [];
+        const { characters } = stage, jointCount = figure.jointCount;
+        const positions = new Float32Array(figure.positions.length / 3 * 4);
+        for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
+        this.shared = {
+            uCharacters: floatTexture(characters.flatMap(({ size, place, start }) => [...place, size, start, 0, 0, 0])),
+            uPositions: floatTexture(positions), uFrame: 0, uFrameCount: figure.frameCount, uJointCount: jointCount,
+            uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
+            uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
+        };
+        for (const name of Object.keys(this.shared)) this.shared[name] = { value: this.shared[name] };
+        this.addBody();
+        this.limbs = stage.limbs.map((limb) => this.addLimb(limb));
+    }
+
+    addBody() {
+        const bones = this.figure.bodyBones();
+        const texels = floatTexture(bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]));
+        this.bodyColour = { value: rgb("#888888") };
+        const uniforms = { uBones: { value: texels }, uBoneCount: { value: bones.length }, uColour: this.bodyColour };
+        this.add(bones.length, uniforms, [crowdGlsl, capsule, bodyVertex], bodyFragment);
+    }
+    addLimb(limb) {
+        const { radii, tip } = this.figure.limbShape(limb), { binding } = limb;
+        const uniforms = {
+            uUpperFromArm: quaternionAt(binding, "upper_from_arm"), uElbowParentFromArm: quaternionAt(binding, "elbow_parent_from_arm"),
+            uForeFromArm: quaternionAt(binding, "fore_from_arm"), uWristParentFromArm: quaternionAt(binding, "wrist_parent_from_arm"),
+            uWristRest: quaternionAt(binding, "wrist_rest"), uMirror: limb.mirrored ? -1 : 1, uTip: tip,
+            uRadii: new Vector4(1.05 * radii[0], 0.85 * radii[0], 0.8 * radii[1], 0.75 * radii[2]), uUpperJoint: limb.joints[0], uChosen: -1,
+            uColour: rgb(LIMB_COLOURS[limb.index % LIMB_COLOURS.length]), uChosenColour: rgb(CHOSEN), uColourBy: 0,
+            uRamp: rampColours(), uFlagColours: flagColours(),
+        };
+        for (const name of Object.keys(uniforms)) uniforms[name] = { value: uniforms[name] };
+        const drawn = { limb, uniforms, rows: null, crowd: null };
+        this.takeRows(drawn);
+        this.add(3, uniforms, [crowdGlsl, limbGlsl, capsule, limbVertex], limbFragment);
+        return drawn;
+    }
+    /** The rows of the limb's crowd, which is made again when its features change. */
+    takeRows(drawn) {
+        const crowd = this.stage.crowdOf(drawn.limb);
+        if (drawn.crowd === crowd) return drawn.rows.update();
+        drawn.rows?.dispose();
+        drawn.crowd = crowd;
+        drawn.rows = new LimbRows(crowd, drawn.limb, this.stage.characterCount);
+        for (const [name, value] of Object.entries(drawn.rows.uniforms)) {
+            drawn.uniforms[name] ??= { value };
+            drawn.uniforms[name].value = value;
+        }
+    }
+    /** A mesh, and its shadow on the ground: no place of the ground is darkened twice. */
+    add(perCharacter, own, vertex, fragment) {
+        const uniforms = { ...this.shared, ...own }, geometry = capsuleGeometry();
+        for (const shadow of [false, true]) {
+            const material = new ShaderMaterial({
+                uniforms, glslVersion: GLSL3, defines: shadow ? { SHADOW: "" } : {},
+                vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
+                ...(shadow ? { depthFunc: LessDepth } : {}),
+            });
+            const mesh = new Mesh(geometry, material);
+            mesh.frustumCulled = false;
+            mesh.renderOrder = shadow ? 1 : 2;
+            mesh.userData.perCharacter = perCharacter;
+            this.meshes.push(mesh);
+        }
+    }
+
+    /** Draws the first characters, as the stage has them now. */
+    show(drawnCount) {
+        this.drawnCount = drawnCount;
+        this.shared.uFrame.value = this.stage.frame;
+        for (const drawn of this.limbs) this.takeRows(drawn);
+        for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount * mesh.userData.perCharacter;
+    }
+    choose(limb, character) {
+        for (const drawn of this.limbs) drawn.uniforms.uChosen.value = drawn.limb === limb ? character : -1;
+    }
+    colourBy(index) {
+        for (const drawn of this.limbs) drawn.uniforms.uColourBy.value = index;
+    }
+    setTheme(theme) {
+        this.shared.uSky.value = rgb(theme.sky);
+        this.shared.uEarth.value = rgb(theme.earth);
+        this.shared.uBackground.value = rgb(theme.background);
+        this.shared.uShade.value = rgb(theme.shade);
+        this.bodyColour.value = rgb(theme.body);
+    }
+}

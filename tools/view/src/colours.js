@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// The page's colours, light and dark, and what a limb's colour may say. limb.frag.glsl has the same rules.
+import { Color } from "three";
+
+export const THEMES = {
+    light: { background: "#e9edf2", ground: "#dfe4ea", line: "#c3cad3", sky: "#9aa3ad", earth: "#6f6a66", body: "#b3bbc6", shade: "#bcc4cd" },
+    dark: { background: "#12161c", ground: "#171c23", line: "#2a323d", sky: "#7e8894", earth: "#3d4148", body: "#69758a", shade: "#0b0e12" },
+};
+export const LIMB_COLOURS = ["#f08a3c", "#3f97e8", "#e2588f", "#2eb39a"];  // of the limbs, in their order
+export const CHOSEN = "#ffd34d";
+
+const RAMP = ["#2c7fb8", "#41b6a6", "#d9e26a", "#f6a03c", "#d7301f"];
+const FLAGS = [["reached", "#58a968"], ["softened or stretched", "#9fd356"], ["out of reach", "#e8a33d"], ["limited", "#a877d8"],
+    ["swivel undefined", "#6f7f92"], ["bad input", "#e0433b"]];
+
+/** What a limb's colour says: the legend's entries, from the least on. */
+export const COLOUR_BY = [
+    { name: "Limb", legend: [] },
+    { name: "Error", unit: "arm lengths from target", legend: RAMP.map((colour, n) => [colour, `1e${2 * n - 8}`]) },
+    { name: "Flag", legend: FLAGS.map(([name, colour]) => [colour, name]) },
+    { name: "Flexion", unit: "degrees", legend: RAMP.map((colour, n) => [colour, `${Math.round(37.5 * n)}`]) },
+];
+
+/** A colour as the shaders take it: the screen's own numbers. */
+export function rgb(css) {
+    return new Color().setStyle(css, "srgb-linear");
+}
+export const rampColours = () => RAMP.map(rgb);
+export const flagColours = () => FLAGS.map(([, colour]) => rgb(colour));

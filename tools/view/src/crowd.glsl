@@ -1,0 +1,14 @@
+// Where a character stands and what it does: two texels each, place and size, then the frame it starts at. Positions of
+// the clip's joints lie one after the other, frame by frame.
+uniform highp sampler2D uCharacters, uPositions;
+uniform int uFrame, uFrameCount, uJointCount;
+
+vec4 texel(highp sampler2D from, int at) {
+    int width = textureSize(from, 0).x;
+    return texelFetch(from, ivec2(at % width, at / width), 0);
+}
+vec4 placeOf(int character) { return texel(uCharacters, 2 * character); }
+vec3 jointOf(int character, int joint) {
+    int frame = (uFrame + int(texel(uCharacters, 2 * character + 1).x)) % uFrameCount;
+    return texel(uPositions, frame * uJointCount + joint).xyz;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// The keyboard, and the help that lists it.
+import { button, element } from "./dom.js";
+
+/** Keys by KeyboardEvent.key; text: for the help. */
+export function keysOf(page) {
+    return [
+        { keys: [" "], label: "Space", text: "play or pause", act: () => page.player.toggle() },
+        { keys: ["ArrowLeft"], label: "←", text: "frame before", act: () => page.player.step(-1) },
+        { keys: ["ArrowRight"], label: "→", text: "next frame", act: () => page.player.step(1) },
+        { keys: ["Home"], label: "Home", text: "first frame", act: () => page.setFrame(0) },
+        { keys: ["End"], label: "End", text: "last frame", act: () => page.setFrame(page.stage.frameCount - 1) },
+        { keys: ["n", "N"], label: "N", text: "next limb", act: () => page.selectNext() },
+        { keys: ["f", "F"], label: "F", text: "follow the chosen character, or stop", act: () => page.follow(page.view.followed == null) },
+        { keys: ["r", "R"], label: "R", text: "camera back to the start", act: () => page.home() },
+        { keys: ["t", "T"], label: "T", text: "light or dark", act: () => page.setTheme(page.theme === "dark" ? "light" : "dark") },
+        { keys: ["p", "P"], label: "P", text: "show or hide the panel", act: () => page.togglePanel() },
+        { keys: ["?", "h", "H"], label: "H", text: "this help", act: () => page.help.showModal() },
+        { keys: ["Escape"], label: "Esc", text: "choose nothing", act: () => page.select(null) },
+    ];
+}
+
+export function listen(keys) {
+    document.addEventListener("keydown", (event) => {
+        const { target } = event;
+        if (event.ctrlKey || event.metaKey || event.altKey || target.closest?.("dialog, select, summary, .lesson")) return;
+        if (target.matches?.("input, button") && [" ", "ArrowLeft", "ArrowRight", "Home", "End"].includes(event.key)) return;
+        const key = keys.find((each) => each.keys.includes(event.key));
+        if (!key) return;
+        event.preventDefault();
+        key.act();
+    });
+}
+
+export function makeHelp(keys) {
+    const mouse = [["Drag", "turn the camera"], ["Right drag, two fingers", "move it"], ["Wheel, pinch", "nearer or farther"],
+        ["Click, tap", "choose a limb"], ["Drag a ball", "move target, pole or the rim of a limit"]];
+    const rows = [...mouse, ...keys.map(({ label, text }) => [label, text])];
+    const dialog = element("dialog", { class: "help", "aria-label": "Help" }, element("h2", {}, "Help"),
+        element("dl", {}, ...rows.flatMap(([label, text]) => [element("dt", {}, label), element("dd", {}, text)])),
+        button("Close", () => dialog.close()));
+    return dialog;
+}

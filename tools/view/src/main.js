@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+//
+// The page: a crowd that is solved as you look at it. start() makes it from the data that `swivel view` writes.
+//
+// The parts share one object, `page`: stage (the crowd), view (the scene), selection ({ limb, character } or null), and
+// the calls below. Its events are "frame" after every solve and "select" after a choice. window.swivelPage is this
+// object, for tests and scripts: await swivelPage.ready first.
+import { floatsOf } from "./bytes.js";
+import { makeControls } from "./controls.js";
+import { button, element, section, slider } from "./dom.js";
+import { Figure } from "./figure.js";
+import { makeInspector } from "./inspect.js";
+import { keysOf, listen, makeHelp } from "./keys.js";
+import { makeLegend } from "./legend.js";
+import { makeLesson } from "./lesson.js";
+import { makeOverlays } from "./overlays.js";
+import { Picker } from "./pick.js";
+import { Player } from "./player.js";
+import { readback } from "./readback.js";
+import { View } from "./scene.js";
+import { openStage } from "./stage.js";
+import { makeStatus } from "./status.js";
+import css from "./style.css";
+
+const DRAWN = 1000;  // characters at most, unless asked for more
+
+/** What this browser lacks; nothing if it has all. */
+function lack(canvas) {
+    if (typeof WebAssembly !== "object") return "WebAssembly";
+    if (!canvas.getContext("webgl2")) return "WebGL 2";
+    // A function that makes a vector of zeros: the smallest module with SIMD.
+    const simd = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
+    return WebAssembly.validate(new Uint8Array(simd)) ? "" : "WebAssembly with SIMD";
+}
+
+function refuse(text) {
+    document.body.replaceChildren(element("p", { class: "refusal", role: "alert" }, text));
+}
+
+class Page {
+    constructor(stage, data, canvas) {
+        this.listeners = { frame: [], select: [] };
+        this.stage = stage;
+        this.selection = null;
+        this.dragsEveryone = false;
+        this.drawnCount = Math.min(stage.characterCount, DRAWN);
+        this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs));
+        this.view.controls.addEventListener("change", () => this.redraw());
+        this.picker = new Picker(this);
+    }
+
+    on(event, hear) { this.listeners[event].push(hear); }
+    tell(event) { this.listeners[event].forEach((hear) => hear()); }
+
+    setFrame(frame) {
+        this.stage.setFrame(frame);
+        this.changed();
+    }
+    /** After a solve. */
+    changed() {
+        this.view.bodies.show(this.drawnCount);
+        this.tell("frame");
+        this.redraw();
+    }
+    /** Draws before the browser's next picture, once. */
+    redraw() {
+        if (this.isDue) return;
+        this.isDue = true;
+        requestAnimationFrame(() => this.draw());
+    }
+    draw() {
+        this.isDue = false;
+        this.view.draw();
+    }
+    drawFirst(count) {
+        this.drawnCount = count;
+        this.changed();
+    }
+
+    select(selection) {
+        this.selection = selection;
+        this.view.bodies.choose(selection?.limb, selection?.character);
+        this.tell("select");
+        this.redraw();
+    }
+    selectNext() {
+        const { limbs } = this.stage, { limb, character } = this.selection ?? { limb: limbs.at(-1), character: -1 };
+        const next = limbs[(limb.index + 1) % limbs.length];
+        const who = (next.index === 0 ? character + 1 : character) % this.stage.characterCount;
+        this.select({ limb: next, character: Math.max(0, who) });
+    }
+    drag(part, world) {
+        const { limb, character } = this.selection;
+        this.stage.drag(limb, character, part, world, this.dragsEveryone);
+        this.changed();
+    }
+    letGo() {
+        this.stage.letGo(this.selection.limb, this.selection.character);
+        this.changed();
+    }
+    follow(isOn) {
+        this.view.follow(isOn && this.selection ? this.selection.character : null);
+        this.tell("select");
+        this.redraw();
+    }
+    home() {
+        this.view.home(this.drawnCount);
+        this.redraw();
+    }
+    setTheme(theme) {
+        this.theme = document.documentElement.dataset.theme = theme;
+        this.view.setTheme(theme);
+        this.redraw();
+    }
+    togglePanel() { document.body.classList.toggle("wide"); }
+
+    /** "#frame=12&character=3&limb=left_arm" shows that limb. */
+    followHash() {
+        const hash = new URLSearchParams(location.hash.slice(1)), frame = Number(hash.get("frame")), character = Number(hash.get("character"));
+        if (hash.has("frame") && Number.isInteger(frame) && frame >= 0 && frame < this.stage.frameCount) this.setFrame(frame);
+        const limb = this.stage.limbs.find(({ name }) => name === hash.get("limb"));
+        if (!limb || !Number.isInteger(character) || character < 0 || character >= this.stage.characterCount) return;
+        if (character >= this.drawnCount) this.drawFirst(character + 1);
+        this.select({ limb, character });
+        this.view.lookAt(character, true);
+        this.redraw();
+    }
+    readback(limb, count) { return readback(this.view, limb, count); }
+}
+
+function build(page, data) {
+    const { stage } = page, keys = keysOf(page), title = element("h1", {}, data.title), clip = element("p", { class: "clip" }, data.clip);
+    page.help = makeHelp(keys);
+    const head = element("header", {}, element("div", {}, title, clip, makeStatus(page)), element("nav", {},
+        button("Light or dark", () => page.setTheme(page.theme === "dark" ? "light" : "dark")), button("Help", () => page.help.showModal()),
+        button("Panel", () => page.togglePanel(), { class: "panel-button" })));
+    const drawn = slider("Drawn", { min: 1, max: stage.characterCount, step: 1, value: page.drawnCount }, (count) => page.drawFirst(count));
+    const bar = element("footer", {});
+    page.player = new Player(page, bar);
+    page.legend = makeLegend(page);
+    const inspector = makeInspector(page), controls = makeControls(page);
+    page.overlays = makeOverlays(page);
+    page.lesson = makeLesson(page);
+    const figures = element("p", { class: "hint" }, `Of ${stage.characterCount.toLocaleString("en")} characters. All are solved, drawn or not.`);
+    const panel = element("aside", { "aria-label": "Panel" }, inspector, page.legend.box, controls, page.overlays.box, page.lesson.box,
+        section("Characters", false, drawn, figures));
+    document.body.append(head, panel, bar, page.help);
+    listen(keys);
+}
+
+async function open(data, canvas) {
+    const stage = await openStage(data), page = new Page(stage, data, canvas);
+    const resize = () => {
+        page.view.resize(canvas.clientWidth, canvas.clientHeight);
+        page.redraw();
+    };
+    stage.setFrame(0);
+    page.view.bodies.show(page.drawnCount);
+    build(page, data);
+    page.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+    page.home();
+    page.changed();
+    resize();
+    addEventListener("resize", resize);
+    addEventListener("hashchange", () => page.followHash());
+    page.followHash();
+    page.draw();
+    return page;
+}
+
+export function start(data) {
+    document.head.append(element("style", {}, css));
+    const canvas = document.querySelector("canvas");
+    if (data === null) return refuse("This page shows no crowd: it is the program that swivel view fills.");
+    document.title = `${data.title} – swivel`;
+    const missing = lack(canvas);
+    if (missing) return refuse(`This browser has no ${missing}, which the page needs. Current versions of Firefox, Chrome, Edge and Safari have it.`);
+    const ready = open(data, canvas).then((page) => {
+        page.ready = ready;
+        return (window.swivelPage = page);
+    });
+    window.swivelPage = { ready };
+    return ready.catch((error) => {
+        refuse(`The page stopped: ${error.message}`);
+        throw error;
+    });
+}

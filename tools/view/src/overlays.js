@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+//
+// What the solver's geometry is for the chosen limb: spheres, their circle, swivel plane, middle line, pole, the arcs
+// that limits allow, and cones of limits. All is drawn as the limb is solved, relative to its shoulder.
+import {
+    BufferGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Line, LineBasicMaterial, LineDashedMaterial, Matrix4, Mesh,
+    MeshBasicMaterial, Quaternion, RingGeometry, SphereGeometry, Vector3,
+} from "three";
+
+import { checkbox, element, section } from "./dom.js";
+import { Feature, layout } from "./stage.js";
+
+/** name: of the switch and of the group that is drawn. */
+const OVERLAYS = [
+    { name: "spheres", text: "Spheres of both bones", colour: "#4aa3ff", isOn: true },
+    { name: "circle", text: "Circle of elbows; allowed arcs", colour: "#43c463", isOn: true },
+    { name: "plane", text: "Swivel plane", colour: "#b48bff", isOn: true },
+    { name: "middle", text: "Middle line", colour: "#ff8a5c", isOn: false },
+    { name: "pole", text: "Pole", colour: "#c9ced6", isOn: true },
+    { name: "cones", text: "Limit cones", colour: "#ffd34d", isOn: true },
+];
+const FORBIDDEN = "#e0433b";
+
+const surface = (colour, opacity) =>
+    new MeshBasicMaterial({ color: new Color(colour), transparent: true, opacity, depthWrite: false, side: DoubleSide });
+function line(points, colour, isDashed = false) {
+    const Material = isDashed ? LineDashedMaterial : LineBasicMaterial, length = points[0].distanceTo(points.at(-1)) || 1;
+    const made = new Line(new BufferGeometry().setFromPoints(points), new Material({ color: new Color(colour), depthTest: false, transparent: true,
+        ...(isDashed ? { dashSize: length / 30, gapSize: length / 45 } : {}) }));
+    if (isDashed) made.computeLineDistances();
+    made.renderOrder = 15;
+    return made;
+}
+/** A tube along points, because lines are one pixel wide. */
+function tube(from, to, radius, colour) {
+    const made = new Mesh(new CylinderGeometry(radius, radius, from.distanceTo(to), 8), surface(colour, 0.95));
+    made.material.depthTest = false;
+    made.position.addVectors(from, to).multiplyScalar(0.5);
+    made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
+    made.renderOrder = 15;
+    return made;
+}
+const quaternion = (binding, member) =>
+    new Quaternion().fromArray(new Float32Array(binding.bytes.slice(layout.swivel_binding[member]).buffer, 0, 4)).normalize();
+
+/** The chosen limb as its solve has it: vectors relative to the shoulder, and the arm frame's axes. */
+export function geometryOf(stage, { limb, character }) {
+    const vector = (part) => new Vector3().fromArray(stage.input(limb, character, part));
+    const { elbows, wrists } = stage.joints(limb, character, 1);
+    const stretch = stage.has(limb, "STRETCH") ? stage.read(limb, character, "STRETCH")[0] : 1;
+    const [upper, fore] = Array.from(stage.input(limb, character, "lengths"), (length) => stretch * length);
+    const parent = new Quaternion().fromArray(stage.input(limb, character, "rotation")).normalize();
+    const elbow = new Vector3().fromArray(elbows), wrist = new Vector3().fromArray(wrists);
+    return {
+        elbow, wrist, upper, fore, target: vector("target"), pole: vector("pole"), parent,
+        armAxes: parent.clone().multiply(quaternion(limb.binding, "parent_from_arm")),
+        along: wrist.lengthSq() > 0 ? wrist.clone().normalize() : new Vector3(0, 0, 1),
+    };
+}
+/** The circle of elbows: its centre on the line from shoulder to wrist, and its radius. */
+function circleOf({ wrist, along, upper, fore }) {
+    const distance = Math.max(wrist.length(), 1e-9), at = (upper ** 2 - fore ** 2 + distance ** 2) / (2 * distance);
+    return { centre: along.clone().multiplyScalar(at), radius: Math.sqrt(Math.max(0, upper ** 2 - at ** 2)) };
+}
+/** Where the elbow would go by the pole alone: at right angles to the line. */
+function wishOf(stage, { limb }, { pole, elbow, along }) {
+    const features = stage.featuresOf(limb), isNormal = (features & Feature.POLE_NORMAL) !== 0n;
+    const wish = (features & Feature.POLE_INCOMING) !== 0n ? elbow.clone() : isNormal ? pole.clone().cross(along) : pole.clone();
+    return wish.addScaledVector(along, -wish.dot(along)).normalize();
+}
+
+const draw = {
+    spheres(group, { wrist, upper, fore }) {
+        for (const [radius, centre, colour] of [[upper, new Vector3(), "#4aa3ff"], [fore, wrist, "#38c6c0"]]) {
+            const ball = new Mesh(new SphereGeometry(radius, 40, 28), surface(colour, 0.1));
+            const wires = new Mesh(new SphereGeometry(radius, 20, 14), surface(colour, 0.16));
+            wires.material.wireframe = true;
+            for (const mesh of [ball, wires]) {
+                mesh.position.copy(centre);
+                group.add(mesh);
+            }
+        }
+    },
+    circle(group, geometry, { stage, selection, thickness }) {
+        const { centre, radius } = circleOf(geometry), wish = wishOf(stage, selection, geometry);
+        const side = geometry.along.clone().cross(wish), steps = 96;
+        const allowed = allowedAngles(stage.arcs(selection.limb, selection.character));
+        const at = (angle) => centre.clone().addScaledVector(wish, radius * Math.cos(angle)).addScaledVector(side, radius * Math.sin(angle));
+        for (let n = 0; n < steps; ++n) {
+            const from = 2 * Math.PI * n / steps, to = 2 * Math.PI * (n + 1) / steps;
+            group.add(tube(at(from), at(to), thickness, allowed((from + to) / 2) ? "#43c463" : FORBIDDEN));
+        }
+    },
+    plane(group, { elbow, wrist, along }) {
+        const normal = along.clone().cross(elbow), size = 0.75 * Math.max(elbow.length(), wrist.length());
+        if (normal.lengthSq() === 0) return;
+        const disc = new Mesh(new RingGeometry(0, size, 48), surface("#b48bff", 0.22));
+        disc.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), normal.normalize());
+        disc.position.copy(wrist).multiplyScalar(0.5);
+        group.add(disc);
+    },
+    middle(group, { armAxes, upper, elbow }) {
+        const rest = new Vector3(0, 0, upper).applyQuaternion(armAxes), middle = rest.clone().add(elbow).multiplyScalar(0.5);
+        const tip = middle.lengthSq() > 0 ? middle.clone().setLength(1.3 * upper) : middle;
+        group.add(line([new Vector3(), tip], "#ff8a5c"), line([rest, elbow], "#ff8a5c", true));
+    },
+    pole(group, { pole, elbow }, { stage, selection, length }) {
+        if (!stage.hasPole(selection.limb)) return;
+        const end = stage.poleIsPoint(selection.limb) ? pole : pole.clone().setLength(length);
+        group.add(line([new Vector3(), end], "#c9ced6", true), line([elbow, end], "#c9ced6", true));
+    },
+    cones(group, geometry, { stage, selection, length }) {
+        const cone = stage.field(selection.limb, "SHOULDER_CONE"), hand = stage.field(selection.limb, "HAND_CONE");
+        if (cone) group.add(coneMesh(new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes), cone[3], 0.6 * length, "#ffd34d"));
+        if (!hand) return;
+        const mesh = coneMesh(geometry.wrist.clone().sub(geometry.elbow).normalize(), hand[3], 0.25 * length, "#ff9fd0");
+        mesh.position.copy(geometry.wrist);
+        group.add(mesh);
+    },
+};
+
+function allowedAngles(arcs) {
+    const ends = arcs.map(({ from, to }) => {
+        const start = Math.atan2(from[1], from[0]), end = Math.atan2(to[1], to[0]);
+        return [start, end > start ? end - start : end - start + 2 * Math.PI];
+    });
+    return (angle) => ends.some(([start, width]) => (((angle - start) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI) <= width);
+}
+/** A cone from its tip along an axis. One that opens wider than a right angle is drawn from the other side. */
+function coneMesh(axis, cos, length, colour) {
+    const angle = Math.acos(Math.min(1, Math.max(-1, cos))), made = new Group();
+    const height = length * Math.cos(angle), radius = Math.max(1e-6, length * Math.sin(angle));
+    const cone = new Mesh(new ConeGeometry(radius, Math.abs(height), 48, 1, true), surface(colour, 0.2));
+    cone.applyMatrix4(new Matrix4().makeTranslation(0, -Math.abs(height) / 2, 0).premultiply(new Matrix4().makeRotationX(height >= 0 ? Math.PI : 0)));
+    made.add(cone);
+    made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), axis.clone().normalize());
+    return made;
+}
+/** Where the handle on the shoulder cone's rim is: towards the elbow. */
+function rimOf(geometry, cone, length) {
+    const axis = new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes).normalize(), angle = Math.acos(cone[3]);
+    const across = geometry.elbow.clone().addScaledVector(axis, -geometry.elbow.dot(axis));
+    if (across.lengthSq() === 0) across.set(1, 0, 0).cross(axis);
+    return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(across.normalize(), 0.6 * length * Math.sin(angle));
+}
+
+function dispose(group) {
+    group.traverse((node) => {
+        node.geometry?.dispose();
+        node.material?.dispose();
+    });
+    group.clear();
+}
+
+export function makeOverlays(page) {
+    const { stage, view } = page, anchor = new Group(), groups = {}, wanted = {};
+    const rim = new Mesh(new SphereGeometry(0.016 * view.figure.height, 16, 12), new MeshBasicMaterial({ color: "#ffd34d", depthTest: false, transparent: true }));
+    rim.renderOrder = 20;
+    for (const { name, isOn } of OVERLAYS) {
+        anchor.add(groups[name] = new Group());
+        wanted[name] = isOn;
+    }
+    anchor.add(rim);
+    view.marks.add(anchor);
+    const update = () => {
+        anchor.visible = page.selection !== null;
+        Object.values(groups).forEach(dispose);
+        rim.visible = false;
+        if (!page.selection) return;
+        const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
+        anchor.position.fromArray(stage.origin(limb, character));
+        anchor.scale.set(limb.mirrored ? -1 : 1, 1, 1);
+        const length = geometry.upper + geometry.fore, context = { stage, selection: page.selection, length, thickness: 0.006 * length };
+        for (const { name } of OVERLAYS) if (wanted[name]) draw[name](groups[name], geometry, context);
+        const cone = stage.field(limb, "SHOULDER_CONE");
+        rim.visible = wanted.cones && cone !== undefined;
+        if (rim.visible) rim.position.copy(rimOf(geometry, cone, length));
+    };
+    page.on("frame", update);
+    page.on("select", update);
+    /** Opens or shuts the shoulder cone, so that its rim is at a point of the scene. */
+    page.picker.addHandle("cone", rim, (world) => {
+        const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
+        const at = new Vector3().fromArray(stage.toSolved(limb, character, world)).normalize();
+        const axis = new Vector3().fromArray(stage.field(limb, "SHOULDER_CONE")).applyQuaternion(geometry.armAxes).normalize();
+        page.fields.SHOULDER_CONE.set([Math.round(axis.angleTo(at) * 1800 / Math.PI) / 10]);
+    });
+    const rows = OVERLAYS.map(({ name, text, colour, isOn }) => {
+        const row = checkbox(text, isOn, (now) => {
+            wanted[name] = now;
+            update();
+            page.redraw();
+        }, { "data-overlay": name });
+        row.prepend(element("i", { class: "swatch", style: `--swatch: ${colour}` }));
+        return row;
+    });
+    update();
+    return { box: section("Overlays", false, ...rows), groups };
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// Choosing a limb by a click, and dragging its wrist and pole in a plane that faces the viewer.
+import { Mesh, MeshBasicMaterial, Plane, Raycaster, SphereGeometry, Vector2, Vector3 } from "three";
+
+import { CHOSEN } from "./colours.js";
+
+const SLACK = 6;  // pixels that a click may move
+const HANDLE_PIXELS = 22;
+
+export class Picker {
+    /** page: main.js has it. */
+    constructor(page) {
+        this.page = page;
+        this.caster = new Raycaster();
+        this.handles = { target: this.handle(CHOSEN, 1), pole: this.handle("#ffffff", 0.7) };
+        page.view.marks.add(...Object.values(this.handles));
+        this.drags = {  // what a drag of each handle to a place in the world does
+            target: (world) => page.drag("target", world),
+            pole: (world) => page.drag("pole", world),
+        };
+        const { domElement } = page.view.renderer;
+        domElement.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
+        domElement.addEventListener("pointermove", (event) => this.move(event));
+        domElement.addEventListener("pointerup", (event) => this.up(event));
+        domElement.addEventListener("pointercancel", () => this.stop());
+        page.on("frame", () => this.placeHandles());
+        page.on("select", () => this.placeHandles());
+    }
+
+    handle(colour, size) {
+        const material = new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.9 });
+        const mesh = new Mesh(new SphereGeometry(0.021 * size * this.page.view.figure.height, 20, 14), material);
+        mesh.renderOrder = 20;
+        mesh.visible = false;
+        return mesh;
+    }
+    /** One more handle: a mesh of the scene, and what a drag of it does. */
+    addHandle(name, mesh, drag) {
+        this.handles[name] = mesh;
+        this.drags[name] = drag;
+    }
+    placeHandles() {
+        const { selection, stage } = this.page;
+        for (const part of ["target", "pole"]) {
+            const mesh = this.handles[part];
+            mesh.visible = selection !== null && (part === "target" || stage.hasPole(selection.limb));
+            if (mesh.visible) mesh.position.fromArray(stage.goal(selection.limb, selection.character, part));
+        }
+    }
+
+    aim(event) {
+        const box = event.target.getBoundingClientRect();
+        const at = new Vector2((event.clientX - box.left) / box.width * 2 - 1, 1 - (event.clientY - box.top) / box.height * 2);
+        this.caster.setFromCamera(at, this.page.view.camera);
+        return this.caster.ray;
+    }
+    /** The name of the handle under the pointer, or nothing. */
+    handleAt(event) {
+        let best = HANDLE_PIXELS, found;
+        for (const [part, mesh] of Object.entries(this.handles)) {
+            if (!mesh.visible) continue;
+            const { view } = this.page, at = view.project(view.toClip(mesh.getWorldPosition(new Vector3())));
+            const distance = at ? Math.hypot(at.x - event.clientX, at.y - event.clientY) : Infinity;
+            if (distance < best) [best, found] = [distance, part];
+        }
+        return found;
+    }
+    /** The limb under the pointer: the nearest one whose bones the ray meets. */
+    limbAt(event) {
+        const { stage, view, drawnCount } = this.page, ray = this.aim(event), near = new Vector3(), on = new Vector3();
+        const reach = 0.04 * view.figure.height * view.metres;
+        let best = Infinity, found = null;
+        const meet = (limb, character, a, b) => {
+            const distance = Math.sqrt(ray.distanceSqToSegment(view.toScene(a), view.toScene(b), near, on));
+            const depth = ray.origin.distanceTo(near);
+            if (distance < reach + 0.004 * depth && depth < best) [best, found] = [depth, { limb, character }];
+        };
+        for (const limb of stage.limbs) {
+            const { elbows, wrists } = stage.joints(limb, 0, drawnCount);
+            for (let n = 0; n < drawnCount; ++n) {
+                const elbow = stage.toWorld(limb, n, elbows.subarray(3 * n, 3 * n + 3));
+                meet(limb, n, stage.origin(limb, n), elbow);
+                meet(limb, n, elbow, stage.toWorld(limb, n, wrists.subarray(3 * n, 3 * n + 3)));
+            }
+        }
+        return found;
+    }
+
+    down(event) {
+        if (!event.isPrimary || event.button !== 0) return;
+        this.pressed = { x: event.clientX, y: event.clientY };
+        const part = this.handleAt(event);
+        if (part) this.start(event, part);
+    }
+    start(event, part) {
+        const { view } = this.page, at = this.handles[part].getWorldPosition(new Vector3());
+        this.dragging = { part, plane: new Plane().setFromNormalAndCoplanarPoint(view.camera.getWorldDirection(new Vector3()), at) };
+        view.controls.enabled = false;
+        event.target.setPointerCapture(event.pointerId);
+    }
+    move(event) {
+        if (!this.dragging) {
+            event.target.style.cursor = this.handleAt(event) ? "grab" : "";
+            return;
+        }
+        const at = this.aim(event).intersectPlane(this.dragging.plane, new Vector3());
+        if (at) this.drags[this.dragging.part](this.page.view.toClip(at));
+    }
+    up(event) {
+        const isClick = this.pressed && Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) < SLACK;
+        if (isClick && !this.dragging) this.page.select(this.limbAt(event));
+        this.stop();
+    }
+    stop() {
+        this.dragging = this.pressed = null;
+        this.page.view.controls.enabled = true;
+    }
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+//
+// Memory as textures: the solver's own rows go to the graphics processor as they lie.
+import { DataTexture, FloatType, RedIntegerFormat, RGBAFormat, UnsignedIntType } from "three";
+
+import { Field } from "./stage.js";
+
+const WIDTH = 2048;  // of textures that are only long
+
+/** A texture of four floats a texel, one after the other. */
+export function floatTexture(texels) {
+    const height = Math.max(1, Math.ceil(texels.length / (4 * WIDTH)));
+    const padded = new Float32Array(4 * WIDTH * height);
+    padded.set(texels);
+    const texture = new DataTexture(padded, WIDTH, height, RGBAFormat, FloatType);
+    texture.internalFormat = "RGBA32F";
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** Blocks of rows: a line of texels for each block of 16 limbs. Words, because flags are no numbers. */
+function blockTexture(words, rowCount) {
+    const texture = new DataTexture(words, 16 * rowCount, words.length / (16 * rowCount), RedIntegerFormat, UnsignedIntType);
+    texture.internalFormat = "R32UI";
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** The rows of one limb's group, for the first characters. */
+export class LimbRows {
+    constructor(crowd, limb, characterCount) {
+        this.blocks = Math.ceil(characterCount / 16);
+        this.firstBlock = crowd.firstLimb(limb.group) / 16;
+        this.inputs = this.texture(crowd, crowd.inputRows());
+        this.results = this.texture(crowd, crowd.resultRows());
+        const row = (name) => (crowd.fieldRowCount(Field[name]) > 0 ? crowd.fieldFirstRow(Field[name]) : -1);
+        this.uniforms = {
+            uInputs: this.inputs, uResults: this.results,
+            uRotationRow: row("PARENT_ROTATION"), uLengthsRow: row("LENGTHS"), uTargetRow: row("TARGET"), uClavicleRow: row("CLAVICLE"),
+            uShoulderRow: row("SHOULDER"), uElbowRow: row("ELBOW"), uWristRow: row("WRIST"), uFlagsRow: row("FLAGS"),
+            uStretchRow: row("STRETCH"), uTurnRow: row("CLAVICLE_TURN"),
+        };
+    }
+    texture(crowd, rows) {
+        const blockCount = this.blockCountOf(crowd), perBlock = rows.length / blockCount;
+        const words = new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * this.firstBlock, perBlock * this.blocks);
+        return blockTexture(words, perBlock / 16);
+    }
+    blockCountOf(crowd) {
+        let count = 0;
+        for (let group = 0; group < crowd.groupCount; ++group) count += Math.ceil(crowd.limbCount(group) / 16);
+        return count;
+    }
+    /** After a solve. */
+    update() { this.inputs.needsUpdate = this.results.needsUpdate = true; }
+    dispose() {
+        this.inputs.dispose();
+        this.results.dispose();
+    }
+}

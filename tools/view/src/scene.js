@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// The scene in metres: camera, ground, bodies. draw() shows it once; nothing here keeps drawing.
+import { Color, GLSL3, Group, LinearSRGBColorSpace, Mesh, PerspectiveCamera, PlaneGeometry, Scene, ShaderMaterial, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+import { Bodies } from "./bodies.js";
+import { rgb, THEMES } from "./colours.js";
+import groundGlsl from "./ground.glsl";
+
+const HEIGHT = 1.75;  // of a figure in the scene, metres
+
+export class View {
+    constructor(canvas, stage, figure) {
+        this.stage = stage;
+        this.figure = figure;
+        this.metres = HEIGHT / figure.height;  // of the scene for a unit of the clip
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+        this.renderer.outputColorSpace = LinearSRGBColorSpace;  // the shaders' colours are the screen's own
+        this.scene = new Scene();
+        this.camera = new PerspectiveCamera(38, 1, 0.05, 2000);
+        this.controls = new OrbitControls(this.camera, canvas);
+        this.controls.maxPolarAngle = 0.497 * Math.PI;  // above the ground
+        this.controls.minDistance = 0.4;
+        this.controls.maxDistance = 400;
+        this.bodies = new Bodies(stage, figure, this.metres);
+        this.addGround();
+        this.scene.add(...this.bodies.meshes);
+        this.marks = new Group();  // what is drawn on top: handles and overlays, in units of the clip
+        this.marks.scale.setScalar(this.metres);
+        this.marks.position.y = -this.metres * figure.ground;
+        this.scene.add(this.marks);
+    }
+
+    addGround() {
+        const [vertexShader, fragmentShader] = groundGlsl.split("// ---- fragment");
+        const { uFar, uBackground } = this.bodies.shared;
+        const uniforms = { uGroundColour: { value: rgb("#ffffff") }, uLine: { value: rgb("#ffffff") }, uFar, uBackground };
+        const material = new ShaderMaterial({ uniforms, glslVersion: GLSL3, vertexShader, fragmentShader });
+        this.ground = new Mesh(new PlaneGeometry(4000, 4000).rotateX(-Math.PI / 2), material);
+        this.ground.renderOrder = 0;
+        this.scene.add(this.ground);
+    }
+
+    /** The crowd from in front of its foremost row, of those that are drawn. Figures mostly face +z. */
+    home(drawnCount) {
+        const { characters } = this.stage, drawn = characters.slice(0, drawnCount);
+        const front = Math.max(...drawn.map(({ place }) => place[2])), row = drawn.filter(({ place }) => place[2] === front);
+        const middle = characters.indexOf(row[row.length >> 1]), at = this.placeOf(middle);
+        this.controls.target.set(at.x, 0.55 * HEIGHT, at.z);
+        this.camera.position.set(at.x - 1.7, 1.3 * HEIGHT, at.z + (drawnCount > 1 ? 4.4 : 3.6));
+        this.controls.update();
+    }
+    /** Where a character's first joint is on the ground. */
+    placeOf(character) {
+        const { place, start } = this.stage.characters[character], frame = (Math.max(this.stage.frame, 0) + start) % this.stage.frameCount;
+        const root = this.figure.at(0, frame);
+        return new Vector3(root.x + place[0], 0, root.z + place[2]).multiplyScalar(this.metres);
+    }
+    /** A point of the clip's world in the scene. */
+    toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }
+    toClip({ x, y, z }) { return [x / this.metres, y / this.metres + this.figure.ground, z / this.metres]; }
+
+    /** Looks at a character from where the camera is, at the same distance, or close by. */
+    lookAt(character, isClose) {
+        const to = this.placeOf(character).setY(0.6 * HEIGHT), offset = this.camera.position.clone().sub(this.controls.target);
+        if (isClose) offset.setLength(Math.min(offset.length(), 3.2));
+        this.controls.target.copy(to);
+        this.camera.position.copy(to).add(offset);
+        this.controls.update();
+    }
+    follow(character) {
+        this.followed = character;
+        this.followedAt = character === null ? null : this.placeOf(character);
+    }
+    /** Goes along with whom it follows. */
+    moveAlong() {
+        if (this.followed === null || this.followed === undefined) return;
+        const at = this.placeOf(this.followed), step = at.clone().sub(this.followedAt);
+        this.camera.position.add(step);
+        this.controls.target.add(step);
+        this.followedAt = at;
+    }
+
+    setTheme(name) {
+        const theme = THEMES[name];
+        this.scene.background = new Color().copy(rgb(theme.background));
+        this.bodies.setTheme(theme);
+        this.ground.material.uniforms.uGroundColour.value = rgb(theme.ground);
+        this.ground.material.uniforms.uLine.value = rgb(theme.line);
+    }
+    resize(width, height) {
+        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+        this.renderer.setSize(width, height, false);
+        this.camera.aspect = width / height;
+        this.camera.updateProjectionMatrix();
+    }
+    draw() {
+        this.moveAlong();
+        const distance = this.camera.position.distanceTo(this.controls.target);
+        this.bodies.shared.uFar.value = Math.max(45, 6 * distance);
+        this.renderer.render(this.scene, this.camera);
+    }
+    /** Pixels on the page of a point of the clip's world; null behind the camera. */
+    project(world) {
+        const at = this.toScene(world).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
+        if (at.z > 1) return null;
+        return { x: box.left + (at.x + 1) / 2 * box.width, y: box.top + (1 - at.y) / 2 * box.height };
+    }
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+//
+// How much was solved, how fast, and whether the bits are the command's.
+import { element } from "./dom.js";
+
+const DIGEST_WORDS = {
+    equal: "equal to the command's",
+    different: "not the command's: these bits differ",
+    changed: "changed by you",
+    "out of order": "comparable only if played from the first frame, because this crowd carries state",
+    none: "the command solved no such frame",
+};
+
+export function makeStatus(page) {
+    const { stage } = page, speed = element("p", { class: "speed", "aria-live": "off" }), digest = element("p", { class: "digest" });
+    page.on("frame", () => {
+        const count = stage.limbCount.toLocaleString("en"), rate = stage.armsPerSecond / 1e6;
+        speed.textContent = `${count} limbs solved in ${(stage.seconds * 1000).toFixed(1)} ms: ${rate.toFixed(1)} million a second`;
+        const state = stage.digestState();
+        digest.dataset.state = state;
+        digest.textContent = `digest ${stage.digests().join(" ")}, ${DIGEST_WORDS[state]}`;
+    });
+    return element("div", { class: "status" }, speed, digest);
+}
