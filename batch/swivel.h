@@ -748,6 +748,31 @@ SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t gr
 // the calling thread; no allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
+// One entity of the lecture's five steps. Coefficients are of the 32 blades of G(4,1): bits 0 to 4 of a blade's number
+// say whether e1, e2, e3, einf and e0 are in it. Products of two of e1, e2 and e3 are the lecture's units i = e3^e2,
+// j = e1^e3 and k = e2^e1, alone and as a factor. swivel_blade_name() names them. A cosine has a scalar part alone.
+typedef struct swivel_entity {
+    const char* name;     // as the lecture calls it, such as "S1"; a constant, as is the next
+    const char* meaning;  // in a few words
+    uint32_t step;        // 1 to 5
+    uint32_t reserved;    // 0
+    double coefficients[32];
+} swivel_entity;
+
+// The lecture's five steps for one arm, entity by entity, in double, in the arm frame. Source: D. Hildenbrand, Inverse
+// Kinematics of a Virtual Character (TU Darmstadt, 2019). This is for people who learn or check the formulas;
+// swivel_solve() takes others, which hold for every arm. target is where the wrist goes. pole is a point on the elbow's
+// side. upper and fore are the bones' lengths, above 0. At most capacity entities are stored, in the order of the
+// steps; *entity_count, unless null, says how many there are. *closing_error, unless null, becomes the distance from
+// the target to the wrist that the rotors give, in arm lengths. It fails for what is not finite, and for an arm whose
+// formulas divide by zero: out of reach, straight or folded, its pole on the line to the target, its upper arm along e3
+// or -e3. The message names the entity. Any thread; no allocation.
+SWIVEL_API swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
+                                      swivel_entity* entities, uint32_t capacity, uint32_t* entity_count,
+                                      double* closing_error);
+// The name of a blade, such as "e1^einf"; null from 32 on. Any thread.
+SWIVEL_API const char* swivel_blade_name(uint32_t blade);
+
 // The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this
 // CPU runs. Null, with swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails
 // the same way. Any thread.

@@ -104,6 +104,21 @@ inline std::array<float, 2> turn(double angle)
     return value;
 }
 
+// The lecture's five steps for one arm, entity by entity: swivel_steps().
+struct Steps {
+    std::vector<swivel_entity> entities;
+    double closing_error;  // from target to wrist, in arm lengths
+};
+inline Steps steps(const std::array<double, 3>& target, const std::array<double, 3>& pole, double upper, double fore)
+{
+    Steps made{{}, 0};
+    std::uint32_t count = 0;
+    check(swivel_steps(target.data(), pole.data(), upper, fore, nullptr, 0, &count, &made.closing_error));
+    made.entities.resize(count);
+    check(swivel_steps(target.data(), pole.data(), upper, fore, made.entities.data(), count, nullptr, nullptr));
+    return made;
+}
+
 // An angle in radians, as all of swivel takes them.
 constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
 

@@ -140,11 +140,11 @@ double distance(const Rotor<double>& a, const Rotor<double>& b)  // of two rotat
 }
 
 // Away from every singular pose of the lecture's formulas.
-bool is_regular(const PipelinePose<double>& pose)
+bool is_regular(const PipelineSteps<double>& steps)
 {
-    const double sine3 = pose.twist_rotor.at<kScalar>() * pose.twist_rotor.at<kK>();
-    return std::fabs(pose.cos_flexion) < 0.99 && pose.elbow.at<kE3>() > -0.9 * std::sqrt(len2(pose.elbow)) &&
-           pose.elbow.at<kE3>() < 0.99 * std::sqrt(len2(pose.elbow)) && std::fabs(sine3) > 0.05;
+    const double sine3 = steps.q3.at<kScalar>() * steps.q3.at<kK>();
+    const double height = steps.elbow().at<kE3>() / std::sqrt(len2(steps.elbow()));
+    return std::fabs(steps.c4) < 0.99 && height > -0.9 && height < 0.99 && std::fabs(sine3) > 0.05;
 }
 
 void verify_double(Random& random, std::uint64_t arm_count, Report& report)
@@ -155,7 +155,7 @@ void verify_double(Random& random, std::uint64_t arm_count, Report& report)
         const ArmGoal<float> arm = random_arm(random, middle, 4);
         const ArmGoal<double> goal{convert<double>(arm.wrist), convert<double>(arm.pole), arm.upper, arm.fore};
         const Vector<double> normal = normalise(cross(goal.wrist, goal.pole));
-        const PipelinePose<double> steps = solve_pipeline(goal.wrist, normal, goal.upper, goal.fore);
+        const PipelineSteps<double> steps = solve_pipeline(goal.wrist, normal, goal.upper, goal.fore);
         if (!is_regular(steps) || len2(cross(normalise(goal.wrist), normalise(goal.pole))) < 0.01) continue;
 
         const ReferencePose oracle = solve_reference({{goal.wrist.c[0], goal.wrist.c[1], goal.wrist.c[2]},
@@ -164,12 +164,12 @@ void verify_double(Random& random, std::uint64_t arm_count, Report& report)
                                                       goal.fore});
         const auto& q = oracle.shoulder_rotor;
         const auto& e = oracle.elbow_rotor;
-        against_oracle.add(std::max(distance(steps.shoulder_rotor, rotor(q[0], q[1], q[2], q[3])),
-                                    distance(steps.elbow_rotor, rotor(e[0], e[1], e[2], e[3]))));
+        against_oracle.add(std::max(distance(steps.q_s, rotor(q[0], q[1], q[2], q[3])),
+                                    distance(steps.q_e, rotor(e[0], e[1], e[2], e[3]))));
 
         const ArmPose<double> pose = solve_arm(goal);
-        production.add(std::max(distance(steps.shoulder_rotor, pose.shoulder),
-                                distance(steps.elbow_rotor, rotor(-pose.sin_half, 0.0, 0.0, pose.cos_half))));
+        production.add(std::max(distance(steps.q_s, pose.shoulder),
+                                distance(steps.q_e, rotor(-pose.sin_half, 0.0, 0.0, pose.cos_half))));
     }
     report("pipeline<double> - oracle, rotors", "regular arms", against_oracle, 1e-12, 0);
     report("production<double> - pipeline<double>, rotors", "regular arms", production, 1e-12, 0);

@@ -12,13 +12,35 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
+// All that the steps make, under the lecture's names. What a product makes has the type of that product.
 template <class T>
-struct PipelinePose {
-    Vector<T> elbow;
-    T cos_flexion;
-    Rotor<T> elbow_rotor;
-    CentralLine<T> middle_rotor;
-    Rotor<T> twist_rotor, shoulder_rotor;
+struct PipelineSteps {
+    using Origin = decltype(unit<T, kE0>());
+    using Infinity = decltype(unit<T, kEinf>());
+    // Step 1
+    Point<T> p_w;
+    Vector<T> pi_swivel;
+    Sphere<T> s1;
+    decltype(Origin{} + Infinity{}) s2;
+    decltype(Sphere<T>{} ^ s2 ^ Vector<T>{}) pp;
+    Point<T> p_e;
+    // Step 2
+    decltype(Origin{} ^ Point<T>{} ^ Infinity{}) line_se;
+    decltype(Point<T>{} ^ Point<T>{} ^ Infinity{}) line_ew;
+    T c4;
+    Rotor<T> q_e;
+    // Step 3
+    Point<T> p_ze;
+    Plane<T> pi_m;
+    Vector<T> pi_e;
+    CentralLine<T> l_m;
+    // Step 4
+    CentralLine<T> q12;
+    // Step 5
+    T c3;
+    Rotor<T> q3, q_s;
+
+    constexpr Vector<T> elbow() const { return part<Vector<T>::set>(p_e); }
 };
 
 // One of the two points of a point pair PP: (PP* +- sqrt(PP*.PP*)) / (einf.PP*), brought to weight -einf.P = 1.
@@ -35,51 +57,52 @@ SWIVEL_INLINE constexpr Vector<T> pair_point(const Mv<T, S>& pp, const T& side)
 // wrist: relative to the shoulder. normal: that of the swivel plane, of unit length. The elbow is on the side of normal
 // x wrist. upper, fore: bone lengths, > 0.
 template <class T>
-SWIVEL_INLINE constexpr PipelinePose<T> solve_pipeline(const Vector<T>& wrist, const Vector<T>& normal, const T& upper,
-                                                       const T& fore)
+SWIVEL_INLINE constexpr PipelineSteps<T> solve_pipeline(const Vector<T>& wrist, const Vector<T>& normal, const T& upper,
+                                                        const T& fore)
 {
+    PipelineSteps<T> m;
     const auto e0 = unit<T, kE0>();
     const auto einf = unit<T, kEinf>();
     const Vector<T> e3 = vector(T(0), T(0), T(1));
-    const Point<T> p_w = point(wrist);
-    const Vector<T> pi_swivel = normal;
+    m.p_w = point(wrist);
+    m.pi_swivel = normal;
 
     // Step 1, the elbow point: S1 = p_w - L2^2/2 einf, S2 = e0 - L1^2/2 einf, PP = S1 ^ S2 ^ pi_swivel, choose one
     // point.
-    const auto s1 = sphere(p_w, fore);
-    const auto s2 = e0 - (T(0.5) * upper * upper) * einf;
-    const auto pp = s1 ^ s2 ^ pi_swivel;
-    const Vector<T> one = pair_point(pp, T(1)), other = pair_point(pp, T(-1));
+    m.s1 = sphere(m.p_w, fore);
+    m.s2 = e0 - (T(0.5) * upper * upper) * einf;
+    m.pp = m.s1 ^ m.s2 ^ m.pi_swivel;
+    const Vector<T> one = pair_point(m.pp, T(1)), other = pair_point(m.pp, T(-1));
     const Vector<T> pole_side = cross(normal, wrist);
-    const Vector<T> elbow = select(scalar_product(one, pole_side) > T(0), one, other);
-    const Point<T> p_e = point(elbow);
+    m.p_e = point(Vector<T>(select(scalar_product(one, pole_side) > T(0), one, other)));
 
     // Step 2, the elbow quaternion: c4 = cos of the angle between line_se and line_ew, q_e = sqrt((1+c4)/2) -
     // sqrt((1-c4)/2) i.
-    const auto line_se = e0 ^ p_e ^ einf;
-    const auto line_ew = p_e ^ p_w ^ einf;
-    const T c4 = scalar_product(line_se, line_ew) /
-                 (sqrt(scalar_product(line_se, line_se)) * sqrt(scalar_product(line_ew, line_ew)));
-    const Rotor<T> q_e = rotor(-sqrt((T(1) - c4) * T(0.5)), T(0), T(0), sqrt((T(1) + c4) * T(0.5)));
+    m.line_se = e0 ^ m.p_e ^ einf;
+    m.line_ew = m.p_e ^ m.p_w ^ einf;
+    m.c4 = scalar_product(m.line_se, m.line_ew) /
+           (sqrt(scalar_product(m.line_se, m.line_se)) * sqrt(scalar_product(m.line_ew, m.line_ew)));
+    m.q_e = rotor(-sqrt((T(1) - m.c4) * T(0.5)), T(0), T(0), sqrt((T(1) + m.c4) * T(0.5)));
 
     // Step 3, the middle line between p_ze and p_e: pi_M = p_ze - p_e, pi_e* = e0 ^ p_ze ^ p_e ^ einf, l_M = pi_e ^
     // pi_M.
-    const Point<T> p_ze = point(upper * e3);
-    const Plane<T> pi_m = part<Plane<T>::set>(p_ze - p_e);
-    const auto pi_e = part<Vector<T>::set>(dual(e0 ^ p_ze ^ p_e ^ einf));
-    const CentralLine<T> l_m = part<CentralLine<T>::set>(pi_e ^ pi_m);
+    m.p_ze = point(upper * e3);
+    m.pi_m = part<Plane<T>::set>(m.p_ze - m.p_e);
+    m.pi_e = part<Vector<T>::set>(dual(e0 ^ m.p_ze ^ m.p_e ^ einf));
+    m.l_m = part<CentralLine<T>::set>(m.pi_e ^ m.pi_m);
 
     // Step 4, rotate to the elbow by pi about the middle line: q12 = l_M / |l_M|.
-    const CentralLine<T> q12 = normalise(l_m);
+    m.q12 = normalise(m.l_m);
 
     // Step 5, rotate to the wrist about k: pi_yz2 = q12 pi_yz ~q12. c3 is the cosine of the angle from it to pi_swivel,
     // measured here before the turn by q12. q3 = sqrt((1+c3)/2) + s sqrt((1-c3)/2) k, where s is the sign of the angle.
-    const Vector<T> n = grade_part<1>(~q12 * pi_swivel * q12);
-    const T c3 = n.template at<kE1>(), s3 = n.template at<kE2>();
+    const Vector<T> n = grade_part<1>(~m.q12 * m.pi_swivel * m.q12);
+    const T s3 = n.template at<kE2>();
+    m.c3 = n.template at<kE1>();
     const T s = select(s3 < T(0), T(-1), T(1));
-    const Rotor<T> q3 = rotor(T(0), T(0), s * sqrt((T(1) - c3) * T(0.5)), sqrt((T(1) + c3) * T(0.5)));
-
-    return {elbow, c4, q_e, q12, q3, q12 * q3};
+    m.q3 = rotor(T(0), T(0), s * sqrt((T(1) - m.c3) * T(0.5)), sqrt((T(1) + m.c3) * T(0.5)));
+    m.q_s = m.q12 * m.q3;
+    return m;
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

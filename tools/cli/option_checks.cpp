@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "tools/formats/suggestion.h"
 #include "tools/formats/text.h"
@@ -38,6 +39,34 @@ OptionValue number(double least, double most)
         return fmt::format("'{}' is not a number from {} to {}", text, least, most);
     };
     return {"NUMBER", check};
+}
+
+std::vector<double> numbers_of(const std::string& text)
+{
+    std::vector<double> values;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        double value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value)) return {};
+        values.push_back(value);
+        if (next == end) return values;
+        if (*next != ',') return {};
+        at = next + 1;
+    }
+}
+
+OptionValue numbers(std::size_t count, double least)
+{
+    const auto check = [count, least](const std::string& text) -> std::string {
+        const std::vector<double> values = numbers_of(text);
+        const bool fits = std::ranges::all_of(values, [&](double value) { return value > least; });
+        if (values.size() == count && fits) return {};
+        return fmt::format("'{}' is not {} numbers with commas between{}", formats::printable(text), count,
+                           fits ? "" : fmt::format(", above {}", least));
+    };
+    return {"NUMBERS", check};
 }
 
 OptionValue file_name()

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -224,6 +225,45 @@ void add_rig(CLI::App& app)
     command->callback([options] { run_rig(*options); });
 }
 
+void add_steps(CLI::App& app)
+{
+    CLI::App* command =
+        app.add_subcommand("steps", "Print the lecture's five steps for one arm, entity by entity, as multivectors");
+    auto options = std::make_shared<StepsOptions>();
+    const auto vector = [](double least) { return numbers(3, least); };
+    CLI::Option* file =
+        takes(command->add_option("FILE", options->file,
+                                  "A clip, instead of an arm by its numbers: .bvh, .glb, .gltf or .vrm. "
+                                  "- is standard input"),
+              file_name())
+            ->option_text(" ");
+    takes(command->add_option("--target", options->target, "Where the wrist goes, in the arm frame")
+              ->capture_default_str(),
+          vector(-HUGE_VAL))
+        ->excludes(file);
+    takes(command->add_option("--pole", options->pole, "A point on the elbow's side, in the arm frame")
+              ->capture_default_str(),
+          vector(-HUGE_VAL))
+        ->excludes(file);
+    takes(command->add_option("--lengths", options->lengths, "Upper arm and forearm")->capture_default_str(),
+          numbers(2, 0))
+        ->excludes(file);
+    takes(command->add_option("--limb", options->limb, "Which limb of the clip")->capture_default_str(),
+          one_of({"left_arm", "right_arm", "left_leg", "right_leg"}))
+        ->needs(file);
+    takes(command->add_option("--frame", options->frame, "Which frame of the clip, counted from 0")
+              ->capture_default_str(),
+          whole_number(0, 1'000'000'000))
+        ->needs(file);
+    add_named_limbs(*command, options->arms, options->legs, "Without it names in use tell the joints");
+    add_motion(*command, options->motion, "A file without animations has its rest pose alone");
+    add_json(*command, options->json);
+    command->footer(
+        "The arm frame has the shoulder at its origin; a straight arm at rest lies along e3. Without any option\n"
+        "the arm is the example of docs/mathematics.md.");
+    command->callback([options] { run_steps(*options); });
+}
+
 void add_verify(CLI::App& app)
 {
     CLI::App* command =
@@ -316,6 +356,7 @@ void run(int argc, const char* const* argv)
     add_solve(app);
     add_view_command(app);
     add_rig(app);
+    add_steps(app);
     add_verify(app);
     add_bench(app);
     add_info(app);

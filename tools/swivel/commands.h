@@ -49,6 +49,16 @@ struct RigOptions {
 };
 void run_rig(const RigOptions& options);
 
+struct StepsOptions {
+    std::string target = "1.1,1.1,1.1", pole = "1.1,1.1,0", lengths = "1.4,1.3";  // of an arm, in its arm frame
+    std::string file, limb = "left_arm";                                          // or of a clip's limb in a frame
+    std::uint32_t frame = 0;
+    MotionChoice motion;
+    std::vector<std::string> arms, legs;
+    bool json = false;
+};
+void run_steps(const StepsOptions& options);
+
 struct VerifyOptions {
     std::uint64_t arms = 1'000'000, seed = 1;
     bool quiet = false, json = false;

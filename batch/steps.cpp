@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// The lecture's five steps for people: every entity that core/pipeline.h makes, and why an arm has none.
+#include <cmath>
+
+#include "batch/status.h"
+#include "batch/swivel.h"
+#include "core/pipeline.h"
+
+using namespace swivel;
+
+namespace {
+
+constexpr double kLeast = 1e-9;  // below this share a length or a sine is rounding: dividing by it says nothing
+
+// Blades in the order of their numbers; a coefficient's blade is in the multivector's type.
+template <BladeSet S>
+void store(const Mv<double, S>& m, double (&to)[32])
+{
+    std::size_t n = 0;
+    for (Blade blade = 0; blade < 32; ++blade)
+        if (S >> blade & 1u) to[blade] = m.c[n++];
+}
+void store(double scalar, double (&to)[32]) { to[kScalar] = scalar; }
+
+struct Entities {
+    swivel_entity* to;
+    uint32_t capacity, count = 0;
+
+    template <class Value>
+    void add(uint32_t step, const char* name, const Value& value, const char* meaning)
+    {
+        if (count < capacity) {
+            to[count] = {name, meaning, step, 0, {}};
+            store(value, to[count].coefficients);
+        }
+        ++count;
+    }
+};
+
+void add_all(const PipelineSteps<double>& m, Entities& to)
+{
+    to.add(1, "p_w", m.p_w, "the wrist's target, a point");
+    to.add(1, "pi_swivel", m.pi_swivel, "the swivel plane: through shoulder, target and pole");
+    to.add(1, "S1", m.s1, "the sphere about the target with the forearm's length");
+    to.add(1, "S2", m.s2, "the sphere about the shoulder with the upper arm's length");
+    to.add(1, "PP", m.pp, "the point pair where both spheres and the plane meet: S1 ^ S2 ^ pi_swivel");
+    to.add(1, "p_e", m.p_e, "the elbow: the pair's point on the pole's side");
+    to.add(2, "line_se", m.line_se, "the line of the upper arm, through shoulder and elbow");
+    to.add(2, "line_ew", m.line_ew, "the line of the forearm, through elbow and wrist");
+    to.add(2, "c4", m.c4, "the cosine of the angle between them, the flexion");
+    to.add(2, "q_e", m.q_e, "the elbow's rotation: half-angle formulas, no arc cosine");
+    to.add(3, "p_ze", m.p_ze, "the elbow at rest, on e3");
+    to.add(3, "pi_M", m.pi_m, "the plane in the middle between both elbows: p_ze - p_e");
+    to.add(3, "pi_e", m.pi_e, "the plane through shoulder and both elbows");
+    to.add(3, "l_M", m.l_m, "the middle line, where these planes meet: pi_e ^ pi_M");
+    to.add(4, "q12", m.q12, "the turn by pi about the middle line: l_M / |l_M|");
+    to.add(5, "c3", m.c3, "the cosine of the angle that is left, about the upper arm");
+    to.add(5, "q3", m.q3, "the turn about the upper arm into the swivel plane");
+    to.add(5, "q_s", m.q_s, "the shoulder's rotation: q12 q3");
+}
+
+bool is_finite(const Vector<double>& v) { return std::isfinite(len2(v)); }
+double length(const Vector<double>& v) { return std::sqrt(len2(v)); }
+
+swivel_status refuse(const char* why) { return fail(SWIVEL_INVALID_ARGUMENT, "swivel_steps: %s", why); }
+swivel_status refuse_by(const char* why, double distance)
+{
+    return fail(SWIVEL_INVALID_ARGUMENT, "swivel_steps: S1 and S2 meet in no circle: %s by %g", why, distance);
+}
+
+// Whether spheres and plane are there and meet in two points.
+swivel_status check_goal(const Vector<double>& target, const Vector<double>& pole, double upper, double fore)
+{
+    const double distance = length(target), sum = upper + fore, difference = std::fabs(upper - fore);
+    if (!is_finite(target) || !is_finite(pole)) return refuse("target or pole is not finite or too large");
+    if (!(upper > 0 && fore > 0) || !std::isfinite(sum))
+        return refuse("upper or fore is no length; give numbers above 0");
+    if (distance < kLeast * sum) return refuse("pi_swivel is undefined: the target is on the shoulder");
+    if (length(cross(target, pole)) < kLeast * distance * length(pole) || len2(pole) == 0)
+        return refuse("pi_swivel is undefined: the pole is on the line from shoulder to target");
+    if (distance > sum * (1 + kLeast)) return refuse_by("the target is too far", distance - sum);
+    if (distance < difference - kLeast * sum) return refuse_by("the target is too near", difference - distance);
+    if (distance > sum * (1 - kLeast)) return refuse("PP is one point: the arm is straight");
+    if (distance < difference + kLeast * sum) return refuse("PP is one point: the arm is folded");
+    return SWIVEL_OK;
+}
+
+// How far the rotors put the wrist from the target, in arm lengths.
+double closing_error_of(const PipelineSteps<double>& m, const Vector<double>& target, double upper, double fore)
+{
+    const Vector<double> e3 = vector(0.0, 0.0, 1.0);
+    const Vector<double> wrist = sandwich(m.q_s, upper * e3) + sandwich(Rotor<double>(m.q_s * m.q_e), fore * e3);
+    return length(wrist - target) / (upper + fore);
+}
+
+}  // namespace
+
+swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
+                           swivel_entity* entities, uint32_t capacity, uint32_t* entity_count, double* closing_error)
+{
+    if (!target || !pole) return refuse("target or pole is null");
+    if (!entities && capacity > 0) return refuse("entities is null, capacity is not 0");
+    const Vector<double> to = vector(target[0], target[1], target[2]), side = vector(pole[0], pole[1], pole[2]);
+    if (const swivel_status status = check_goal(to, side, upper, fore); status != SWIVEL_OK) return status;
+    const PipelineSteps<double> steps = solve_pipeline(to, normalise(cross(to, side)), upper, fore);
+    if (length(steps.pi_e) < kLeast * upper * upper)
+        return refuse("l_M is undefined: the upper arm is along e3 or -e3, so pi_e or pi_M is no plane");
+    Entities all{entities, capacity};
+    add_all(steps, all);
+    if (entity_count) *entity_count = all.count;
+    if (closing_error) *closing_error = closing_error_of(steps, to, upper, fore);
+    return SWIVEL_OK;
+}
+
+const char* swivel_blade_name(uint32_t blade)
+{
+    static constexpr const char* kNames[32] = {
+        "1",       "e1",         "e2",         "k",         "e3",         "j",         "i",         "e1^e2^e3",
+        "einf",    "e1^einf",    "e2^einf",    "k^einf",    "e3^einf",    "j^einf",    "i^einf",    "e1^e2^e3^einf",
+        "e0",      "e1^e0",      "e2^e0",      "k^e0",      "e3^e0",      "j^e0",      "i^e0",      "e1^e2^e3^e0",
+        "einf^e0", "e1^einf^e0", "e2^einf^e0", "k^einf^e0", "e3^einf^e0", "j^einf^e0", "i^einf^e0", "e1^e2^e3^einf^e0"};
+    return blade < 32 ? kNames[blade] : nullptr;
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// `swivel steps`: the lecture's five steps for one arm, given by its numbers or taken from a clip, as multivectors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "swivel/swivel.hpp"
+#include "tools/cli/command_error.h"
+#include "tools/cli/option_checks.h"
+#include "tools/cli/streams.h"
+#include "tools/crowd/clip_motion.h"
+#include "tools/formats/error.h"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/motion_file.h"
+#include "tools/swivel/report.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kTitles[] = {"the elbow point", "the elbow quaternion", "the middle line", "rotate to the elbow",
+                                   "rotate to the wrist"};
+
+// Blades as people list them: vectors before the units i, j and k; einf and e0 last.
+constexpr auto kBladeOrder = [] {
+    std::array<std::uint32_t, 32> order{};
+    std::size_t n = 0;
+    for (const std::uint32_t null_part : {0u, 8u, 16u, 24u})
+        for (const std::uint32_t euclidean : {0u, 1u, 2u, 4u, 6u, 5u, 3u, 7u}) order[n++] = null_part | euclidean;
+    return order;
+}();
+
+// An arm in its arm frame.
+struct StepsArm {
+    std::array<double, 3> target, pole;
+    double upper, fore;
+};
+
+std::array<double, 3> array3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+StepsArm given_arm(const StepsOptions& options)
+{
+    const auto vector = [](const std::string& text) {
+        const std::vector<double> v = numbers_of(text);
+        return std::array{v[0], v[1], v[2]};
+    };
+    const std::vector<double> lengths = numbers_of(options.lengths);
+    return {vector(options.target), vector(options.pole), lengths[0], lengths[1]};
+}
+
+// Where the clip has the limb in that frame; its pole is the clip's own elbow.
+StepsArm arm_of_clip(const StepsOptions& options)
+{
+    MotionFile motion(options.file, options.motion);
+    const formats::LimbName name = *formats::limb_of_word(options.limb);
+    LimbChoice choice;
+    choice.kinds = name.kind == formats::LimbKind::arm ? "arms" : "legs";
+    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
+    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
+    const FigureJoints joints = choose_joints(motion.clip(), options.file, choice);
+    motion.sample(joints_of(joints));
+    const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
+    const auto finding = std::ranges::find(search.findings, name, &LimbFinding::name);
+    if (finding == search.findings.end() || !finding->limb)
+        throw formats::InputError(options.file, fmt::format("the {} does not bind; see swivel rig", plain_name(name)));
+    if (options.frame >= motion.clip().frame_count)
+        throw formats::InputError(options.file, fmt::format("frame {} does not exist; the clip has frames 0 to {}",
+                                                            options.frame, motion.clip().frame_count - 1));
+    const Limb& limb = *finding->limb;
+    const LimbInClip in = ClipMotion(motion.clip(), {&limb, 1}).at(options.frame, 0);
+    const Quaterniond from_world = (in.parent * quaternion(limb.bound.parent_from_arm)).conjugate();
+    return {array3(from_world * in.wrist), array3(from_world * in.elbow), in.upper_length(), in.fore_length()};
+}
+
+// Coefficients that are rounding beside the largest are left out.
+std::string text_of(const swivel_entity& entity)
+{
+    double most = 0;
+    for (const double c : entity.coefficients) most = std::max(most, std::fabs(c));
+    std::string text;
+    for (const std::uint32_t blade : kBladeOrder) {
+        const double c = entity.coefficients[blade];
+        if (std::fabs(c) <= 1e-14 * most) continue;
+        const std::string unit = blade == 0 ? "" : fmt::format(" {}", swivel_blade_name(blade));
+        text += text.empty() ? fmt::format("{:.9g}{}", c, unit)
+                             : fmt::format(" {} {:.9g}{}", c < 0 ? '-' : '+', std::fabs(c), unit);
+    }
+    return text.empty() ? "0" : text;
+}
+
+Json json_of(const StepsArm& arm, const Steps& steps)
+{
+    Json out{{"target", arm.target}, {"pole", arm.pole}, {"lengths", {arm.upper, arm.fore}}};
+    for (const swivel_entity& entity : steps.entities) {
+        Json coefficients = Json::object();
+        for (const std::uint32_t blade : kBladeOrder)
+            if (entity.coefficients[blade] != 0) coefficients[swivel_blade_name(blade)] = entity.coefficients[blade];
+        out["entities"].push_back({{"name", entity.name},
+                                   {"step", entity.step},
+                                   {"meaning", entity.meaning},
+                                   {"coefficients", coefficients}});
+    }
+    out["closing_error"] = steps.closing_error;
+    return out;
+}
+
+void print_steps(const StepsArm& arm, const Steps& made)
+{
+    const auto shown = [](const std::array<double, 3>& v) {
+        return fmt::format("({:.9g}, {:.9g}, {:.9g})", v[0], v[1], v[2]);
+    };
+    say(stdout, "arm      target {}, pole {}, upper arm {:.9g}, forearm {:.9g}\n", shown(arm.target), shown(arm.pole),
+        arm.upper, arm.fore);
+    std::uint32_t step = 0;
+    for (const swivel_entity& entity : made.entities) {
+        if (entity.step != step) {
+            step = entity.step;
+            say(stdout, "\nstep {}   {}\n", step, kTitles[step - 1]);
+        }
+        say(stdout, "{:<10} = {}\n{:<12} {}\n", entity.name, text_of(entity), "", entity.meaning);
+    }
+    say(stdout, "\nclosing  q_s and q_e put the wrist {:.1e} arm lengths from the target\n", made.closing_error);
+}
+
+}  // namespace
+
+void run_steps(const StepsOptions& options)
+{
+    const StepsArm arm = options.file.empty() ? given_arm(options) : arm_of_clip(options);
+    const Steps made = steps(arm.target, arm.pole, arm.upper, arm.fore);
+    options.json ? print_json(json_of(arm, made)) : print_steps(arm, made);
+}
+
+}  // namespace swivel::tools
