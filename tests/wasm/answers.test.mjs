@@ -73,6 +73,20 @@ test('limits, their arcs, and what explains them', () => {
   crowd.dispose();
 });
 
+test("the lecture's steps come entity by entity", () => {
+  const { entities, closingError } = swivel.steps([1.1, 1.1, 1.1], [1.1, 1.1, 0], 1.4, 1.3);
+  assert.ok(closingError < 1e-14);
+  const of = Object.fromEntries(entities.map((entity) => [entity.name, entity]));
+  const named = (name, blade) => of[name].coefficients[Array.from({ length: 32 }, (_, n) => swivel.bladeName(n)).indexOf(blade)];
+  close(['e1', 'e2', 'e3'].map((blade) => named('p_e', blade)), [0.980883, 0.980883, -0.189039], 1e-6);
+  close(['1', 'i', 'j', 'k'].map((blade) => named('q_s', blade)), [0.251667, 0.288289, 0.695991, 0.607577], 1e-6);
+  assert.deepEqual([of.p_w.step, of.q_s.step], [1, 5]);
+  assert.ok(of.S1.meaning.includes('sphere'));
+  assert.throws(() => swivel.steps([9, 0, 0], [0, 1, 0], 1, 1), /too far by 7/);
+  assert.throws(() => swivel.steps([9, 0], [0, 1, 0], 1, 1), /target has 2 numbers/);
+  assert.throws(() => swivel.bladeName(32), /0 to 31/);
+});
+
 test('orders of Euler angles reach boxes, mirrors and joint angles', () => {
   const box = [...swivel.range(-0.2, 0.3), ...swivel.range(0.1, 0.4), ...swivel.range(-1, 2)];
   const poses = [Order.XYZ, Order.ZYX].map((shoulderOrder) => {

@@ -9,8 +9,9 @@ const flags: Uint32Array = crowd.values(Field.FLAGS);
 const shoulders: Float32Array = crowd.read(Field.SHOULDER, { group: 1 });
 const solved: number = crowd.solve({ limbs: [1, 2] });
 const digest: bigint = crowd.digest();
+const closing: number = swivel.steps([1, 0, 1], [0, 1, 0], 1, 1).closingError;
 const place: { group: number; limb: number } | undefined = crowd.find(Flag.BAD_INPUT | Flag.INFEASIBLE);
-export { digest, flags, place, shoulders, solved, SwivelError };
+export { closing, digest, flags, place, shoulders, solved, SwivelError };
 
 // @ts-expect-error: features are BigInts
 swivel.crowd([3], 1);

@@ -69,7 +69,12 @@ static void print_structures(void)
     BEGIN(swivel_limb_joints), OFFSET(swivel_limb_joints, size), OFFSET(swivel_limb_joints, shoulder);
     OFFSET(swivel_limb_joints, elbow), OFFSET(swivel_limb_joints, wrist), OFFSET(swivel_limb_joints, bend);
     OFFSET(swivel_limb_joints, twist_bone_count), OFFSET(swivel_limb_joints, twist_bones), END();
-    BEGIN(swivel_binding), OFFSET(swivel_binding, lengths), END();
+    BEGIN(swivel_binding), OFFSET(swivel_binding, parent_from_arm), OFFSET(swivel_binding, upper_from_arm);
+    OFFSET(swivel_binding, elbow_parent_from_arm), OFFSET(swivel_binding, fore_from_arm);
+    OFFSET(swivel_binding, wrist_parent_from_arm), OFFSET(swivel_binding, wrist_rest), OFFSET(swivel_binding, lengths);
+    END();
+    BEGIN(swivel_entity), OFFSET(swivel_entity, name), OFFSET(swivel_entity, meaning), OFFSET(swivel_entity, step);
+    OFFSET(swivel_entity, coefficients), END();
     BEGIN(swivel_group_def), OFFSET(swivel_group_def, size), OFFSET(swivel_group_def, limb_count);
     OFFSET(swivel_group_def, binding), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, features);

@@ -3,7 +3,7 @@
 // The page: a crowd that is solved as you look at it. start() makes it from the data that `swivel view` writes.
 //
 // The parts share one object, `page`: stage (the crowd), view (the scene), selection ({ limb, character } or null), and
-// the calls below. Its events are "frame" after every solve and "select" after a choice. window.swivelPage is this
+// the calls below. Its events are "frame" after every solve, "select" after a choice and "draw" after every picture. window.swivelPage is this
 // object, for tests and scripts: await swivelPage.ready first.
 import { floatsOf } from "./bytes.js";
 import { makeControls } from "./controls.js";
@@ -39,7 +39,7 @@ function refuse(text) {
 
 class Page {
     constructor(stage, data, canvas) {
-        this.listeners = { frame: [], select: [] };
+        this.listeners = { frame: [], select: [], draw: [] };
         this.stage = stage;
         this.selection = null;
         this.dragsEveryone = false;
@@ -71,6 +71,7 @@ class Page {
     draw() {
         this.isDue = false;
         this.view.draw();
+        this.tell("draw");
     }
     drawFirst(count) {
         this.drawnCount = count;

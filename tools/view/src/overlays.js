@@ -2,12 +2,10 @@
 //
 // What the solver's geometry is for the chosen limb: spheres, their circle, swivel plane, middle line, pole, the arcs
 // that limits allow, and cones of limits. All is drawn as the limb is solved, relative to its shoulder.
-import {
-    BufferGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Line, LineBasicMaterial, LineDashedMaterial, Matrix4, Mesh,
-    MeshBasicMaterial, Quaternion, RingGeometry, SphereGeometry, Vector3,
-} from "three";
+import { ConeGeometry, Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 
 import { checkbox, element, section } from "./dom.js";
+import { ball, clear, dashes, disc, sphere, surface, tube } from "./marks.js";
 import { Feature, layout } from "./stage.js";
 
 /** name: of the switch and of the group that is drawn. */
@@ -16,30 +14,11 @@ const OVERLAYS = [
     { name: "circle", text: "Circle of elbows; allowed arcs", colour: "#43c463", isOn: true },
     { name: "plane", text: "Swivel plane", colour: "#b48bff", isOn: true },
     { name: "middle", text: "Middle line", colour: "#ff8a5c", isOn: false },
-    { name: "pole", text: "Pole", colour: "#c9ced6", isOn: true },
+    { name: "pole", text: "Pole", colour: "#98a2b0", isOn: true },
     { name: "cones", text: "Limit cones", colour: "#ffd34d", isOn: true },
 ];
 const FORBIDDEN = "#e0433b";
 
-const surface = (colour, opacity) =>
-    new MeshBasicMaterial({ color: new Color(colour), transparent: true, opacity, depthWrite: false, side: DoubleSide });
-function line(points, colour, isDashed = false) {
-    const Material = isDashed ? LineDashedMaterial : LineBasicMaterial, length = points[0].distanceTo(points.at(-1)) || 1;
-    const made = new Line(new BufferGeometry().setFromPoints(points), new Material({ color: new Color(colour), depthTest: false, transparent: true,
-        ...(isDashed ? { dashSize: length / 30, gapSize: length / 45 } : {}) }));
-    if (isDashed) made.computeLineDistances();
-    made.renderOrder = 15;
-    return made;
-}
-/** A tube along points, because lines are one pixel wide. */
-function tube(from, to, radius, colour) {
-    const made = new Mesh(new CylinderGeometry(radius, radius, from.distanceTo(to), 8), surface(colour, 0.95));
-    made.material.depthTest = false;
-    made.position.addVectors(from, to).multiplyScalar(0.5);
-    made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
-    made.renderOrder = 15;
-    return made;
-}
 const quaternion = (binding, member) =>
     new Quaternion().fromArray(new Float32Array(binding.bytes.slice(layout.swivel_binding[member]).buffer, 0, 4)).normalize();
 
@@ -71,15 +50,7 @@ function wishOf(stage, { limb }, { pole, elbow, along }) {
 
 const draw = {
     spheres(group, { wrist, upper, fore }) {
-        for (const [radius, centre, colour] of [[upper, new Vector3(), "#4aa3ff"], [fore, wrist, "#38c6c0"]]) {
-            const ball = new Mesh(new SphereGeometry(radius, 40, 28), surface(colour, 0.1));
-            const wires = new Mesh(new SphereGeometry(radius, 20, 14), surface(colour, 0.16));
-            wires.material.wireframe = true;
-            for (const mesh of [ball, wires]) {
-                mesh.position.copy(centre);
-                group.add(mesh);
-            }
-        }
+        group.add(sphere(new Vector3(), upper, "#4aa3ff"), sphere(wrist, fore, "#38c6c0"));
     },
     circle(group, geometry, { stage, selection, thickness }) {
         const { centre, radius } = circleOf(geometry), wish = wishOf(stage, selection, geometry);
@@ -93,21 +64,17 @@ const draw = {
     },
     plane(group, { elbow, wrist, along }) {
         const normal = along.clone().cross(elbow), size = 0.75 * Math.max(elbow.length(), wrist.length());
-        if (normal.lengthSq() === 0) return;
-        const disc = new Mesh(new RingGeometry(0, size, 48), surface("#b48bff", 0.22));
-        disc.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), normal.normalize());
-        disc.position.copy(wrist).multiplyScalar(0.5);
-        group.add(disc);
+        if (normal.lengthSq() > 0) group.add(disc(wrist.clone().multiplyScalar(0.5), normal, size, "#b48bff"));
     },
-    middle(group, { armAxes, upper, elbow }) {
+    middle(group, { armAxes, upper, elbow }, { thickness }) {
         const rest = new Vector3(0, 0, upper).applyQuaternion(armAxes), middle = rest.clone().add(elbow).multiplyScalar(0.5);
-        const tip = middle.lengthSq() > 0 ? middle.clone().setLength(1.3 * upper) : middle;
-        group.add(line([new Vector3(), tip], "#ff8a5c"), line([rest, elbow], "#ff8a5c", true));
+        if (middle.lengthSq() > 0) middle.setLength(1.3 * upper);
+        group.add(tube(new Vector3(), middle, thickness, "#ff8a5c"), dashes(rest, elbow, "#ff8a5c"));
     },
     pole(group, { pole, elbow }, { stage, selection, length }) {
         if (!stage.hasPole(selection.limb)) return;
         const end = stage.poleIsPoint(selection.limb) ? pole : pole.clone().setLength(length);
-        group.add(line([new Vector3(), end], "#c9ced6", true), line([elbow, end], "#c9ced6", true));
+        group.add(dashes(new Vector3(), end, "#98a2b0"), dashes(elbow, end, "#98a2b0"));
     },
     cones(group, geometry, { stage, selection, length }) {
         const cone = stage.field(selection.limb, "SHOULDER_CONE"), hand = stage.field(selection.limb, "HAND_CONE");
@@ -144,29 +111,21 @@ function rimOf(geometry, cone, length) {
     return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(across.normalize(), 0.6 * length * Math.sin(angle));
 }
 
-function dispose(group) {
-    group.traverse((node) => {
-        node.geometry?.dispose();
-        node.material?.dispose();
-    });
-    group.clear();
-}
-
 export function makeOverlays(page) {
     const { stage, view } = page, anchor = new Group(), groups = {}, wanted = {};
-    const rim = new Mesh(new SphereGeometry(0.016 * view.figure.height, 16, 12), new MeshBasicMaterial({ color: "#ffd34d", depthTest: false, transparent: true }));
-    rim.renderOrder = 20;
+    const rim = ball(new Vector3(), 0.016 * view.figure.height, "#ffd34d");
     for (const { name, isOn } of OVERLAYS) {
         anchor.add(groups[name] = new Group());
         wanted[name] = isOn;
     }
     anchor.add(rim);
     view.marks.add(anchor);
+    let isAway = false;
     const update = () => {
-        anchor.visible = page.selection !== null;
-        Object.values(groups).forEach(dispose);
+        anchor.visible = page.selection !== null && !isAway;
+        Object.values(groups).forEach(clear);
         rim.visible = false;
-        if (!page.selection) return;
+        if (!anchor.visible) return;
         const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
         anchor.position.fromArray(stage.origin(limb, character));
         anchor.scale.set(limb.mirrored ? -1 : 1, 1, 1);
@@ -195,5 +154,10 @@ export function makeOverlays(page) {
         return row;
     });
     update();
-    return { box: section("Overlays", false, ...rows), groups };
+    /** The lesson draws entities of its own. */
+    const hide = (isHidden) => {
+        isAway = isHidden;
+        update();
+    };
+    return { hide, box: section("Overlays", false, ...rows), groups };
 }

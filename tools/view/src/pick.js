@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Choosing a limb by a click, and dragging its wrist and pole in a plane that faces the viewer.
-import { Mesh, MeshBasicMaterial, Plane, Raycaster, SphereGeometry, Vector2, Vector3 } from "three";
+import { Plane, Raycaster, Vector2, Vector3 } from "three";
 
 import { CHOSEN } from "./colours.js";
+import { ball } from "./marks.js";
 
 const SLACK = 6;  // pixels that a click may move
 const HANDLE_PIXELS = 22;
@@ -29,9 +30,7 @@ export class Picker {
     }
 
     handle(colour, size) {
-        const material = new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.9 });
-        const mesh = new Mesh(new SphereGeometry(0.021 * size * this.page.view.figure.height, 20, 14), material);
-        mesh.renderOrder = 20;
+        const mesh = ball(new Vector3(), 0.021 * size * this.page.view.figure.height, colour);
         mesh.visible = false;
         return mesh;
     }

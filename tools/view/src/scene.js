@@ -103,7 +103,10 @@ export class View {
     }
     /** Pixels on the page of a point of the clip's world; null behind the camera. */
     project(world) {
-        const at = this.toScene(world).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
+        return this.projectScene(this.toScene(world));
+    }
+    projectScene(point) {
+        const at = point.project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
         if (at.z > 1) return null;
         return { x: box.left + (at.x + 1) / 2 * box.width, y: box.top + (1 - at.y) / 2 * box.height };
     }

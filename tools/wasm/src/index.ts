@@ -10,7 +10,7 @@ export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 export type { Arc, Crowd, CrowdOptions, Group, JointAngles, Job, Limbs, Place } from "./crowd.js";
 export { Feature, Field, Flag, LANES, MOST_TWIST_BONES, Order, Status, VERSION } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
-export type { Swivel } from "./swivel.js";
+export type { Entity, Swivel } from "./swivel.js";
 
 /** Makes a solver in a memory of its own. */
 export async function load(options: LoadOptions = {}): Promise<Swivel> {

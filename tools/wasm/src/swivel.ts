@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
-import { Numbers, numbers, refuse, shown } from "./arguments.js";
+import { Numbers, numbers, refuse, shown, whole } from "./arguments.js";
 import { bind, bindJoints, Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 import { Crowd, CrowdOptions, Group } from "./crowd.js";
+import { layout } from "./layout.js";
 import { Memory, vector } from "./memory.js";
+
+/** One entity of the lecture's five steps, as swivel_entity: 32 coefficients, whose blades bladeName() names. */
+export interface Entity {
+    name: string;
+    meaning: string;
+    step: number;
+    coefficients: Float64Array;
+}
 
 /** The solver in a memory of its own. load() makes it. Names, units and meanings are those of swivel.h. */
 export class Swivel {
@@ -53,6 +62,27 @@ export class Swivel {
             return Array.from(this.memory.doubles(axis, 3));
         });
     }
+
+    /** The lecture's five steps for one arm in the arm frame, and how far their rotors put the wrist from the target. */
+    steps(target: Numbers, pole: Numbers, upper: number, fore: number): { entities: Entity[]; closingError: number } {
+        const { memory } = this, { bytes, name, meaning, step, coefficients } = layout.swivel_entity;
+        return memory.borrow((borrowed) => {
+            const [to, side] = [vector("target", target, borrowed), vector("pole", pole, borrowed)];
+            const count = borrowed.bytes(4), closing = borrowed.bytes(8);
+            memory.check(memory.calls.swivel_steps(to, side, upper, fore, 0, 0, count, closing));
+            const [capacity] = memory.words(count, 1);
+            const list = borrowed.bytes(bytes * capacity);
+            memory.check(memory.calls.swivel_steps(to, side, upper, fore, list, capacity, 0, 0));
+            const entities = Array.from({ length: capacity }, (_, n): Entity => {
+                const at = list + n * bytes, word = (member: number): number => memory.words(at + member, 1)[0];
+                return { name: memory.text(word(name)), meaning: memory.text(word(meaning)), step: word(step),
+                    coefficients: memory.doubles(at + coefficients, 32).slice() };
+            });
+            return { entities, closingError: memory.doubles(closing, 1)[0] };
+        });
+    }
+    /** The name of a blade of an entity, 0 to 31: "e1", "i", "e1^einf". */
+    bladeName(blade: number): string { return this.memory.text(this.memory.calls.swivel_blade_name(whole("blade", blade, 31)) >>> 0); }
 
     /** The instruction set in use: "sse2" is WebAssembly's SIMD. */
     get isaName(): string { return this.memory.text(this.memory.calls.swivel_isa_name() >>> 0); }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// Shapes that are drawn over the scene: surfaces one can see through, tubes in place of lines, which are a pixel wide.
+import { BufferGeometry, CylinderGeometry, DoubleSide, Line, LineDashedMaterial, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, Vector3 } from "three";
+
+import { rgb } from "./colours.js";
+
+export const Z = new Vector3(0, 0, 1);
+const TOP = { depthTest: false, transparent: true };
+
+function surface(colour, opacity) {
+    return new MeshBasicMaterial({ color: rgb(colour), transparent: true, opacity, depthWrite: false, side: DoubleSide });
+}
+function onTop(mesh) {
+    mesh.renderOrder = 15;
+    return mesh;
+}
+
+export { surface };
+
+/** A ball that is never hidden. */
+export function ball(at, radius, colour) {
+    const made = new Mesh(new SphereGeometry(radius, 20, 14), new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 }));
+    made.position.copy(at);
+    return onTop(made);
+}
+/** A sphere to look into. */
+export function sphere(centre, radius, colour) {
+    const skin = new Mesh(new SphereGeometry(radius, 40, 28), surface(colour, 0.09));
+    const wires = new Mesh(new SphereGeometry(radius, 20, 14), surface(colour, 0.16));
+    wires.material.wireframe = true;
+    skin.position.copy(centre);
+    return skin.add(wires);
+}
+export function tube(from, to, radius, colour) {
+    const length = from.distanceTo(to), made = new Mesh(new CylinderGeometry(radius, radius, length, 8), new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 }));
+    made.position.addVectors(from, to).multiplyScalar(0.5);
+    if (length > 0) made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
+    return onTop(made);
+}
+export function dashes(from, to, colour) {
+    const length = from.distanceTo(to) || 1;
+    const material = new LineDashedMaterial({ color: rgb(colour), ...TOP, dashSize: length / 30, gapSize: length / 45 });
+    const made = new Line(new BufferGeometry().setFromPoints([from, to]), material);
+    made.computeLineDistances();
+    return onTop(made);
+}
+/** A round piece of a plane. */
+export function disc(centre, normal, radius, colour, opacity = 0.22) {
+    const made = new Mesh(new RingGeometry(0, radius, 48), surface(colour, opacity));
+    made.quaternion.setFromUnitVectors(Z, normal.clone().normalize());
+    made.position.copy(centre);
+    return made;
+}
+/** Empties a group and frees what it held. */
+export function clear(group) {
+    group.traverse((node) => {
+        node.geometry?.dispose();
+        node.material?.dispose();
+    });
+    group.clear();
+}
