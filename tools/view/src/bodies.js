@@ -22,7 +22,7 @@ export const SUN = new Vector3(0.45, 1, 0.35);
 
 /** A capsule whose axis is z: directions from the axis, and which end they belong to. */
 function capsuleGeometry() {
-    const whole = new CapsuleGeometry(1, 1, 4, 10).rotateX(Math.PI / 2), geometry = new InstancedBufferGeometry();
+    const whole = new CapsuleGeometry(1, 1, 4, 12).rotateX(Math.PI / 2), geometry = new InstancedBufferGeometry();
     const { position } = whole.attributes, end = new Float32Array(position.count), directions = new Float32Array(3 * position.count);
     for (let n = 0; n < position.count; ++n) {
         end[n] = position.getZ(n) > 0 ? 1 : 0;

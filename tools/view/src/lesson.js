@@ -80,7 +80,7 @@ const draw = [
         const before = Z.clone().applyAxisAngle(new Vector3(1, 0, 0), -flexionOf(elbow, wrist)).applyAxisAngle(axis.normalize(), Math.PI).multiplyScalar(fore);
         const turn = signedAngle(before, wrist.clone().sub(elbow), along), at = (share) => elbow.clone().add(before.clone().applyAxisAngle(along, turn * share));
         add(disc(wrist.clone().multiplyScalar(0.5), vectorOf(pi_swivel), 0.8 * wrist.length(), COLOURS.pi_swivel, 0.14), "pi_swivel", wrist.clone().multiplyScalar(0.35));
-        add(dashes(elbow, at(0), COLOURS.p_ze));
+        add(dashes(elbow, at(0), 0.6 * thickness, COLOURS.p_ze));
         for (let n = 0; n < 24; ++n) add(tube(at(n / 24), at((n + 1) / 24), 0.7 * thickness, COLOURS.q3), n === 12 ? "q3" : undefined, at(0.5));
         add(tube(new Vector3(), elbow, thickness, COLOURS.q_s), "q_s", elbow.clone().multiplyScalar(0.5));
         add(tube(elbow, wrist, thickness, COLOURS.q_s), "p_w", wrist);

@@ -41,6 +41,7 @@ class Page {
     constructor(stage, data, canvas) {
         this.listeners = { frame: [], select: [], draw: [] };
         this.stage = stage;
+        this.canvas = canvas;
         this.selection = null;
         this.dragsEveryone = false;
         this.drawnCount = Math.min(stage.characterCount, DRAWN);
@@ -113,7 +114,16 @@ class Page {
         this.view.setTheme(theme);
         this.redraw();
     }
-    togglePanel() { document.body.classList.toggle("wide"); }
+    togglePanel() {
+        document.body.classList.toggle("wide");
+        this.resize();
+    }
+    resize() {
+        const { clientWidth: width, clientHeight: height } = this.canvas, panel = document.querySelector("aside").getBoundingClientRect();
+        const isBelow = panel.width > width / 2;
+        this.view.resize(width, height, isBelow ? 0 : panel.width, isBelow ? panel.height : 0);
+        this.redraw();
+    }
 
     /** "#frame=12&character=3&limb=left_arm" shows that limb. */
     followHash() {
@@ -151,18 +161,14 @@ function build(page, data) {
 
 async function open(data, canvas) {
     const stage = await openStage(data), page = new Page(stage, data, canvas);
-    const resize = () => {
-        page.view.resize(canvas.clientWidth, canvas.clientHeight);
-        page.redraw();
-    };
     stage.setFrame(0);
     page.view.bodies.show(page.drawnCount);
     build(page, data);
     page.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     page.home();
     page.changed();
-    resize();
-    addEventListener("resize", resize);
+    page.resize();
+    addEventListener("resize", () => page.resize());
     addEventListener("hashchange", () => page.followHash());
     page.followHash();
     page.draw();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Shapes that are drawn over the scene: surfaces one can see through, tubes in place of lines, which are a pixel wide.
-import { BufferGeometry, CylinderGeometry, DoubleSide, Line, LineDashedMaterial, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, Vector3 } from "three";
+import { CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, Vector3 } from "three";
 
 import { rgb } from "./colours.js";
 
@@ -38,12 +38,11 @@ export function tube(from, to, radius, colour) {
     if (length > 0) made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
     return onTop(made);
 }
-export function dashes(from, to, colour) {
-    const length = from.distanceTo(to) || 1;
-    const material = new LineDashedMaterial({ color: rgb(colour), ...TOP, dashSize: length / 30, gapSize: length / 45 });
-    const made = new Line(new BufferGeometry().setFromPoints([from, to]), material);
-    made.computeLineDistances();
-    return onTop(made);
+/** A line of short tubes. */
+export function dashes(from, to, radius, colour) {
+    const group = new Group(), at = (share) => from.clone().lerp(to, share);
+    for (let n = 0; n < 15; n += 2) group.add(tube(at(n / 15), at((n + 1) / 15), radius, colour));
+    return group;
 }
 /** A round piece of a plane. */
 export function disc(centre, normal, radius, colour, opacity = 0.22) {

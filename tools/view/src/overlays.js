@@ -69,12 +69,12 @@ const draw = {
     middle(group, { armAxes, upper, elbow }, { thickness }) {
         const rest = new Vector3(0, 0, upper).applyQuaternion(armAxes), middle = rest.clone().add(elbow).multiplyScalar(0.5);
         if (middle.lengthSq() > 0) middle.setLength(1.3 * upper);
-        group.add(tube(new Vector3(), middle, thickness, "#ff8a5c"), dashes(rest, elbow, "#ff8a5c"));
+        group.add(tube(new Vector3(), middle, thickness, "#ff8a5c"), dashes(rest, elbow, 0.6 * thickness, "#ff8a5c"));
     },
-    pole(group, { pole, elbow }, { stage, selection, length }) {
+    pole(group, { pole, elbow }, { stage, selection, length, thickness }) {
         if (!stage.hasPole(selection.limb)) return;
         const end = stage.poleIsPoint(selection.limb) ? pole : pole.clone().setLength(length);
-        group.add(dashes(new Vector3(), end, "#98a2b0"), dashes(elbow, end, "#98a2b0"));
+        group.add(dashes(new Vector3(), end, 0.6 * thickness, "#98a2b0"), dashes(elbow, end, 0.6 * thickness, "#98a2b0"));
     },
     cones(group, geometry, { stage, selection, length }) {
         const cone = stage.field(selection.limb, "SHOULDER_CONE"), hand = stage.field(selection.limb, "HAND_CONE");

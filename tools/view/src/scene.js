@@ -89,11 +89,12 @@ export class View {
         this.ground.material.uniforms.uGroundColour.value = rgb(theme.ground);
         this.ground.material.uniforms.uLine.value = rgb(theme.line);
     }
-    resize(width, height) {
+    /** right, below: of the picture, covered by the panel; what is looked at stays clear of it. */
+    resize(width, height, right, below) {
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / height;
-        this.camera.updateProjectionMatrix();
+        this.camera.setViewOffset(width, height, right / 2, below / 2, width, height);
     }
     draw() {
         this.moveAlong();

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: the page that swivel view writes opens from disk, solves as the library does, and can be used (page/).
+#   BUILD: a build folder of emscripten. SWIVEL: the command, in a folder beside which the page's program goes. ARM: swivel's build of page/arm.cpp.
+#   SOURCE: the repository. WORK: an own folder. NODE, CHROMIUM.
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "failed (${result}): ${command}\n${said}")
+  endif()
+endfunction()
+
+foreach(folder tests/page tools/view)
+  if(NOT EXISTS ${SOURCE}/${folder}/node_modules)
+    message(FATAL_ERROR "npm packages are missing; run: tools/npm_packages ${folder}")
+  endif()
+endforeach()
+get_filename_component(share ${SWIVEL}/../../share/swivel ABSOLUTE)
+file(MAKE_DIRECTORY ${WORK} ${share})
+run(${CMAKE_COMMAND} --build ${BUILD} --target swivel_wasm_package swivel_view)
+run(${NODE} ${SOURCE}/tools/view/bundle.mjs ${BUILD}/tools/wasm ${share}/view.html)
+file(GLOB tests ${SOURCE}/tests/page/*.test.mjs)
+run(${CMAKE_COMMAND} -E env SWIVEL=${SWIVEL} ARM=${ARM} CHROMIUM=${CHROMIUM} WORK=${WORK} ${NODE} --test ${tests})

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// Opens pages in headless Chromium. A page that asks anything of a network, or says anything on its console, fails its test.
+//   SWIVEL: the command. CHROMIUM. WORK: a folder for pages.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { after } from 'node:test';
+import { chromium } from 'playwright-core';
+
+const { SWIVEL, CHROMIUM, WORK } = process.env;
+export const clip = ['/usr/share/assimp/models/BVH/01_01.bvh', `${process.env.SWIVEL_TEST_DATA}/bvh/cmu_01_01_forward_jump.bvh`].find((file) => existsSync(file));
+
+const browser = await chromium.launch({
+  executablePath: CHROMIUM,
+  args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--use-gl=angle', '--use-angle=swiftshader'],
+});
+after(() => browser.close());
+
+/** Writes a page by the command, and returns its place. */
+export function write(name, ...words) {
+  const file = join(WORK, name);
+  execFileSync(SWIVEL, [...words, words[0] === 'view' ? '--out' : '--view', file], { cwd: WORK, stdio: 'pipe' });
+  return file;
+}
+export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding: 'utf8' });
+
+/** Opens a page; use gets playwright's page. options: of a context, and `before`, run in the page before its script. */
+export async function visit(file, use, { before, hash = '', ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, ...options });
+  try {
+    const page = await context.newPage(), faults = [];
+    page.on('console', (message) => faults.push(`console: ${message.text()}`));
+    page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+    page.on('dialog', (dialog) => faults.push(`dialog: ${dialog.message()}`));
+    page.on('request', (request) => { if (request.url() !== `file://${encodeURI(file)}`) faults.push(`request: ${request.url()}`); });
+    if (before) await page.addInitScript(before);
+    await page.goto(`file://${encodeURI(file)}${hash}`);
+    await page.evaluate(() => window.swivelPage?.ready.then(() => {}));
+    await use(page);
+    assert.deepEqual(faults, []);
+  } finally {
+    await context.close();
+  }
+}
+
+/** How much of the picture differs between two moments, as a share of its pixels. */
+export async function difference(page, act) {
+  const take = () => page.evaluate(() => {
+    swivelPage.draw();
+    const from = document.querySelector('canvas'), small = document.createElement('canvas'), context = small.getContext('2d');
+    [small.width, small.height] = [320, 200];
+    context.drawImage(from, 0, 0, 320, 200);
+    return Array.from(context.getImageData(0, 0, 320, 200).data);
+  });
+  const before = await take();
+  await act();
+  await page.evaluate(() => new Promise(requestAnimationFrame));  // details tell of their opening later
+  const after = await take();
+  let count = 0;
+  for (let n = 0; n < before.length; n += 4) count += [0, 1, 2].some((c) => Math.abs(before[n + c] - after[n + c]) > 12);
+  return { share: count / (before.length / 4), colours: new Set(before.map((_, n) => (n % 4 === 0 ? `${before.slice(n, n + 3)}` : ''))).size };
+}
+
+/** Waits until a value that the page gives is one that is wanted. */
+export async function until(page, value, isWanted) {
+  for (let tries = 0; tries < 200; ++tries) {
+    if (isWanted(await page.evaluate(value))) return;
+    await page.waitForTimeout(50);
+  }
+  assert.fail(`${value} did not come`);
+}
+
+/** A drag of the mouse from one place to another, in steps. */
+export async function drag(page, from, to) {
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move((from.x + to.x) / 2, (from.y + to.y) / 2);
+  await page.mouse.move(to.x, to.y);
+  await page.mouse.up();
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The promise: the page opens from disk alone, gives the command's bits in every frame, and draws what the solver found.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { clip, difference, visit, write } from './harness.mjs';
+
+const { WORK } = process.env;
+const file = (name, text) => {
+  writeFileSync(join(WORK, name), text);
+  return join(WORK, name);
+};
+const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
+  swivelPage.setFrame(frame);
+  return swivelPage.stage.digestState();
+}), frames);
+
+test('one classic inline script, no network, the command\'s digests, a picture that moves', async () => {
+  const demo = write('demo.html', 'demo', '--characters', '500');
+  const text = readFileSync(demo, 'utf8');
+  assert.equal(text.match(/<script/g).length, 1);
+  assert.ok(text.includes('<script>'));
+  assert.equal(text.match(/<\/script/g).length, 1);
+  await visit(demo, async (page) => {
+    assert.equal(await page.title(), 'swivel demo – swivel');
+    assert.deepEqual(await state(page, [0, 1, 17, 239, 5]), Array(5).fill('equal'));
+    const digests = await page.evaluate(() => [swivelPage.stage.digests()[0], document.querySelector('.digest').textContent]);
+    assert.ok(digests[1].includes(digests[0]) && digests[1].includes("equal to the command's"));
+    const { share, colours } = await difference(page, () => page.evaluate(() => swivelPage.setFrame(60)));
+    assert.ok(colours > 100, `${colours} colours`);
+    assert.ok(share > 0.01 && share < 0.9, `${share} of the picture changed`);
+  });
+});
+
+const crowds = {
+  'arms and legs': [['--limbs', 'all', '--characters', '60', '--frames', '300']],
+  'clavicles, stretch, effectors and limits': [['--characters', '60', '--frames', '300'], `[limb.all]
+clavicle.share = 0.5
+effector = [0.5, 0.2, 0]
+[limb.left_arm]
+limits.flexion_deg = [10, 130]
+limits.shoulder_cone = { axis = [0, 0, 1], opening_deg = 80 }
+`],
+  'stretched bones without hands, directions as poles': [['--characters', '60', '--frames', '300'], `[limb.all]
+hand = false
+pole.kind = "direction"
+target.offset = [0, 4, 3]
+reach = { soft_far = 0.1, most_stretch = 1.4 }
+`],
+};
+for (const [name, [words, toml]] of Object.entries(crowds))
+  test(`the shader's elbows and wrists are swivel_forward's: ${name}`, async () => {
+    const more = toml ? ['--crowd', file('crowd.toml', toml)] : [];
+    const place = write(`${name.replaceAll(/\W+/g, '_')}.html`, 'view', clip, ...words, ...more);
+    await visit(place, async (page) => {
+      assert.deepEqual(await state(page, [0, 150, 299]), Array(3).fill('equal'));
+      const worst = await page.evaluate(() => {
+        const { stage } = swivelPage, count = stage.characterCount;
+        let most = 0;
+        for (const frame of [0, 40, 120, 299]) {
+          swivelPage.setFrame(frame);
+          swivelPage.draw();
+          for (const limb of stage.limbs) {
+            const drawn = swivelPage.readback(limb, count);
+            for (let n = 0; n < count; ++n) {
+              const { elbow, wrist } = stage.pose(limb, n), { place } = stage.characters[n];
+              [elbow, wrist].forEach((joint, which) => {
+                const off = Math.hypot(...joint.map((coordinate, axis) => coordinate - place[axis] - drawn[2 * n + which][axis]));
+                most = Math.max(most, off / stage.armLength(limb, n));
+              });
+            }
+          }
+        }
+        return most;
+      });
+      assert.ok(worst > 0 && worst < 1e-5, `${worst} arm lengths`);
+    });
+  });
+
+test('a crowd that carries state has the command\'s digests if it is played in order', async () => {
+  const toml = file('state.toml', '[budget]\nblocks = 3\n[limb.all]\nswivel.most_deg_per_frame = 2\n');
+  const place = write('state.html', 'view', clip, '--characters', '100', '--frames', '40', '--crowd', toml);
+  await visit(place, async (page) => {
+    assert.deepEqual(await state(page, [...Array(40).keys()]), Array(40).fill('equal'));
+    assert.deepEqual(await state(page, [20, 21, 0, 1, 2]), ['out of order', 'out of order', 'equal', 'equal', 'equal']);
+    await page.evaluate(() => swivelPage.setFrame(20));
+    assert.ok((await page.textContent('.digest')).includes('played from the first frame'));
+  });
+});
+
+test('goals of one\'s own are the command\'s, too', async () => {
+  const csv = file('targets.csv', 'frame,character,limb,x,y,z\n0,0,left_arm,10,16,-10\n20,0,left_arm,8,20,-10\n7,3,right_arm,40,10,0\n');
+  const place = write('given.html', 'view', clip, '--characters', '5', '--frames', '30', '--targets', csv, '--between', 'linear');
+  await visit(place, async (page) => assert.deepEqual(await state(page, [0, 7, 10, 29]), Array(4).fill('equal')));
+});
+
+test('names from files are text', async () => {
+  const evil = '</script><img/src=x/onerror=alert(1)>"\'&';
+  const text = readFileSync(clip, 'utf8').replace(/ROOT \S+/, `ROOT ${evil}`);
+  const name = '<img src=x onerror=alert(1)>"\'&.bvh';
+  const place = write('names.html', 'view', file(name, text), '--frames', '5');
+  await visit(place, async (page) => {
+    assert.equal(await page.textContent('h1'), name);
+    assert.equal(await page.evaluate(() => swivelPage.view.figure.joints[0].name), evil);
+    assert.equal(await page.locator('img').count(), 0);
+  });
+});
+
+test('a browser without WebGL 2 or SIMD gets a sentence', async () => {
+  const place = write('small.html', 'demo', '--characters', '2', '--frames', '3');
+  const expect = (words, before) => visit(place, async (page) => assert.ok((await page.textContent('body')).includes(words)), { before });
+  await expect('This browser has no WebGL 2', () => { HTMLCanvasElement.prototype.getContext = () => null; });
+  await expect('This browser has no WebAssembly with SIMD', () => { WebAssembly.validate = () => false; });
+  await expect('This browser has no WebAssembly,', () => { delete window.WebAssembly; });
+});

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The promise: people can use the page: choose a limb, drag its goals and limits, play, learn, by mouse and keyboard, in light and dark.
+//   ARM: tests/page/limb.cpp
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { test } from 'node:test';
+import { difference, drag, until, visit, write } from './harness.mjs';
+
+const demo = write('use.html', 'demo', '--characters', '100');
+/** Looks at character 3 from near; its left arm is chosen by a link. */
+const link = { hash: '#frame=20&character=3&limb=left_arm' };
+const pixel = (page, part) => page.evaluate((which) => {
+  swivelPage.draw();
+  const { stage, view, selection: { limb, character } } = swivelPage;
+  const at = which in { target: 0, pole: 0 } ? stage.goal(limb, character, which) : stage.pose(limb, character)[which];
+  return view.project(at);
+}, part);
+
+test('a dragged wrist gives the native library\'s elbow, bit for bit', async () => {
+  await visit(demo, async (page) => {
+    const from = await pixel(page, 'target'), before = await page.evaluate(() => swivelPage.stage.digests());
+    await drag(page, from, { x: from.x - 60, y: from.y - 45 });
+    const made = await page.evaluate(() => {
+      const { stage, selection: { limb, character } } = swivelPage, crowd = stage.crowdOf(limb);
+      const bits = (array) => Array.from(new Uint8Array(array.buffer, array.byteOffset, array.byteLength)), { elbows, wrists } = stage.joints(limb, character, 1);
+      const features = new BigUint64Array([BigInt(stage.data.crowds[0].features)]);
+      return {
+        given: [...bits(features), ...limb.binding.bytes, ...bits(limb.inputs.subarray(31 * character, 31 * character + 31))],
+        words: [stage.read(limb, character, 'SHOULDER'), stage.read(limb, character, 'ELBOW')].flatMap((q) => Array.from(new Uint32Array(q.buffer, q.byteOffset, 4), (word) => word.toString(16).padStart(8, '0'))),
+        doubles: [elbows, wrists].flatMap((v) => Array.from(new BigUint64Array(v.buffer, v.byteOffset, 3), (word) => word.toString(16).padStart(16, '0'))),
+        state: stage.digestState(), digests: stage.digests(), count: crowd.limbCount(limb.group),
+      };
+    });
+    assert.notDeepEqual(made.digests, before);
+    assert.equal(made.state, 'changed');
+    const native = execFileSync(process.env.ARM, { input: Buffer.from(made.given), encoding: 'utf8' });
+    assert.equal([...made.words, ...made.doubles].join(' '), native.trim());
+    const now = await pixel(page, 'target');
+    assert.ok(Math.hypot(now.x - from.x + 60, now.y - from.y + 45) < 2, 'the target is under the pointer');
+    await page.getByRole('button', { name: 'Let go' }).click();
+    assert.deepEqual(await page.evaluate(() => swivelPage.stage.digests()), before);
+  }, link);
+});
+
+test('a dragged pole turns the elbow and leaves the wrist; everyone\'s follow if asked', async () => {
+  await visit(demo, async (page) => {
+    const poses = () => page.evaluate(() => [3, 50].map((n) => swivelPage.stage.pose(swivelPage.stage.limbs[0], n)));
+    const distance = (a, b) => Math.hypot(...a.map((c, n) => c - b[n]));
+    const move = async () => {
+      const before = await poses(), from = await pixel(page, 'pole');
+      await drag(page, from, { x: from.x + 50, y: from.y + 70 });
+      const after = await poses();
+      return [0, 1].map((n) => [distance(before[n].elbow, after[n].elbow), distance(before[n].wrist, after[n].wrist)]);
+    };
+    const [[elbow, wrist], [other]] = await move();
+    assert.ok(elbow > 0.001 && wrist < 1e-6 && other === 0, `${elbow} ${wrist} ${other}`);
+    await page.getByLabel("Drag everyone's").check();
+    const [, [followed]] = await move();
+    assert.ok(followed > 0.001, `${followed}`);
+  }, link);
+});
+
+test('a click chooses the limb under it, another place chooses nothing', async () => {
+  await visit(demo, async (page) => {
+    await page.evaluate(() => swivelPage.select(null));
+    const at = await page.evaluate(() => {
+      const { stage, view } = swivelPage, { elbow, wrist } = stage.pose(stage.limbs[1], 3);
+      swivelPage.draw();
+      return view.project(elbow.map((c, n) => (c + wrist[n]) / 2));
+    });
+    await page.mouse.click(at.x, at.y);
+    const chosen = await page.evaluate(() => [swivelPage.selection.limb.name, swivelPage.selection.character, document.querySelector('aside h3').textContent, document.querySelector('.why').textContent,
+      swivelPage.stage.explain(swivelPage.selection.limb, swivelPage.selection.character)]);
+    assert.deepEqual(chosen.slice(0, 3), ['right_arm', 3, 'right arm of character 3']);
+    assert.equal(chosen[3], chosen[4]);
+    await page.mouse.click(30, 560);
+    assert.equal(await page.evaluate(() => swivelPage.selection), null);
+  }, link);
+});
+
+test('limits: switches add them, sliders and the rim of the cone move them, flags say so', async () => {
+  await visit(demo, async (page) => {
+    const flags = () => page.evaluate(() => swivelPage.stage.flags(swivelPage.stage.limbs[0], 3));
+    await page.getByText('Limits and weights').click();
+    await page.locator('[data-field=SHOULDER_CONE]').check();
+    await page.locator('.field').filter({ hasText: 'Shoulder cone' }).getByLabel('Opening').fill('35');
+    assert.ok((await flags()) & (1 << 7 | 1 << 15), 'limited by the cone, or infeasible');
+    const rim = () => page.evaluate(() => {
+      swivelPage.draw();
+      const { x, y, z } = swivelPage.picker.handles.cone.getWorldPosition(swivelPage.view.camera.position.clone());
+      return swivelPage.view.project(swivelPage.view.toClip({ x, y, z }));
+    });
+    const opening = () => page.evaluate(() => Math.acos(swivelPage.stage.field(swivelPage.stage.limbs[0], 'SHOULDER_CONE')[3]) * 180 / Math.PI);
+    assert.ok(Math.abs((await opening()) - 35) < 0.1);
+    const from = await rim(), digests = await page.evaluate(() => swivelPage.stage.digests());
+    await drag(page, from, { x: from.x + 40, y: from.y + 40 });
+    assert.ok(Math.abs((await opening()) - 35) > 3, `${await opening()}`);
+    assert.notDeepEqual(await page.evaluate(() => swivelPage.stage.digests()), digests);
+    for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MOST_SWIVEL']) {
+      await page.locator(`[data-field=${field}]`).check();
+      assert.ok(await page.evaluate((name) => swivelPage.stage.has(swivelPage.stage.limbs[0], name), field), field);
+      assert.equal(await page.evaluate(() => swivelPage.stage.flags(swivelPage.stage.limbs[0], 3) >>> 30), 0, `${field}: bad input`);
+    }
+    for (const box of await page.locator('[data-field]').all()) await box.uncheck();
+    assert.equal(await page.evaluate(() => swivelPage.stage.digestState()), 'equal');
+  }, link);
+});
+
+test('overlays, colours, light and dark, drawn characters change the picture', async () => {
+  await visit(demo, async (page) => {
+    await page.evaluate(() => swivelPage.fields.SHOULDER_CONE.set([50]));
+    await page.getByText('Limits and weights').click();
+    await page.locator('[data-field=SHOULDER_CONE]').check();
+    await page.getByText('Overlays', { exact: true }).click();
+    for (const overlay of ['spheres', 'circle', 'plane', 'middle', 'pole', 'cones']) {
+      const { share } = await difference(page, () => page.locator(`[data-overlay=${overlay}]`).click());
+      assert.ok(share > 0.0005, `${overlay}: ${share}`);
+    }
+    for (const colour of ['Error', 'Flag', 'Flexion']) {
+      const { share } = await difference(page, () => page.getByLabel('Colour limbs by').selectOption(colour));
+      assert.ok(share > 0.002, `${colour}: ${share}`);
+      assert.ok(await page.locator('.legend li').count() >= 5);
+    }
+    const theme = await difference(page, () => page.getByRole('button', { name: 'Light or dark' }).click());
+    assert.ok(theme.share > 0.5);
+    const drawn = await difference(page, () => page.evaluate(() => swivelPage.drawFirst(4)));
+    assert.ok(drawn.share > 0.005, `${drawn.share}`);
+  }, link);
+  const background = (colorScheme) => new Promise((resolve) => {
+    visit(demo, async (page) => resolve(await page.evaluate(() => document.documentElement.dataset.theme)), { colorScheme });
+  });
+  assert.deepEqual([await background('light'), await background('dark')], ['light', 'dark']);
+});
+
+test('the lesson shows the library\'s entities, step by step, while the arm is dragged', async () => {
+  await visit(demo, async (page) => {
+    const open = await difference(page, async () => {
+      await page.getByText('The lecture, step by step').click();
+      await page.locator('.labels span').first().waitFor();
+    });
+    assert.ok(open.share > 0.003, `${open.share}`);
+    const wanted = [['p_w', 'π_swivel', 'S₁', 'S₂', 'PP', 'p_e'], ['l_se', 'l_ew', 'c₄', 'q_e'], ['p_ze', 'π_M', 'π_e', 'l_M'], ['q₁₂'], ['c₃', 'q₃', 'q_s']];
+    for (const [step, names] of wanted.entries()) {
+      assert.deepEqual(await page.locator('.entities dt').allTextContents(), names);
+      assert.ok((await page.textContent('.lesson h3')).startsWith(`${step + 1}. `));
+      assert.ok(await page.locator('.labels span:visible').count() > 0);
+      const text = await page.locator('.entities dd').first().textContent(), from = await pixel(page, 'target');
+      await drag(page, from, { x: from.x + 6, y: from.y - 6 });
+      assert.notEqual(await page.locator('.entities dd').first().textContent(), text);
+      await page.getByRole('button', { name: 'Next', exact: true }).click();
+    }
+    assert.ok((await page.textContent('.lesson h3')).startsWith('1. '));
+    const off = await page.textContent('.lesson .hint');
+    assert.ok(Number(off.match(/[\d.]+e-\d+/)[0]) < 1e-12, off);
+    const from = await pixel(page, 'target');
+    await drag(page, from, { x: from.x - 260, y: from.y - 100 });
+    assert.match(await page.textContent('.lesson p'), /too far by/);
+  }, link);
+});
+
+test('keyboard: play, steps, ends, choice, help, follow', async () => {
+  await visit(demo, async (page) => {
+    const frame = () => page.evaluate(() => swivelPage.stage.frame);
+    await page.locator('canvas').focus();
+    await page.keyboard.press('End');
+    assert.equal(await frame(), 239);
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await frame(), 0);
+    await page.keyboard.press('ArrowLeft');
+    await page.keyboard.press('Home');
+    assert.equal(await frame(), 0);
+    await page.keyboard.press('n');
+    assert.equal(await page.evaluate(() => swivelPage.selection.limb.name), 'right_arm');
+    await page.keyboard.press('f');
+    assert.equal(await page.evaluate(() => swivelPage.view.followed), 3);
+    await page.keyboard.press(' ');
+    await until(page, () => swivelPage.stage.frame, (now) => now > 0);
+    await page.keyboard.press(' ');
+    assert.equal(await page.evaluate(() => swivelPage.player.isPlaying), false);
+    await page.keyboard.press('h');
+    assert.ok(await page.getByText('play or pause').isVisible());
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    assert.equal(await page.evaluate(() => swivelPage.selection), null);
+    await page.locator('.scrub').fill('100');
+    assert.equal(await frame(), 100);
+  }, link);
+});
+
+test('a phone sees the panel below, and a touch chooses', async () => {
+  await visit(demo, async (page) => {
+    const at = await pixel(page, 'wrist');
+    await page.evaluate(() => swivelPage.select(null));
+    await page.touchscreen.tap(at.x, at.y);
+    assert.equal(await page.evaluate(() => swivelPage.selection?.character), 3);
+    const box = await page.locator('aside').boundingBox();
+    assert.ok(box.width < 400 && box.y > 300);
+  }, { ...link, viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true });
+});
