@@ -28,7 +28,7 @@ export const run = (...words) => spawnSync(SWIVEL, words, { cwd: WORK, encoding:
 
 /** Opens a page; use gets playwright's page. options: of a context, and `before`, run in the page before its script. */
 export async function visit(file, use, { before, hash = '', ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 800, height: 500 }, ...options });
   try {
     const page = await context.newPage(), faults = [];
     page.on('console', (message) => faults.push(`console: ${message.text()}`));

@@ -17,7 +17,7 @@ const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
 }), frames);
 
 test('one classic inline script, no network, the command\'s digests, a picture that moves', async () => {
-  const demo = write('demo.html', 'demo', '--characters', '500');
+  const demo = write('demo.html', 'demo', '--characters', '60');
   const text = readFileSync(demo, 'utf8');
   assert.equal(text.match(/<script/g).length, 1);
   assert.ok(text.includes('<script>'));
@@ -34,15 +34,15 @@ test('one classic inline script, no network, the command\'s digests, a picture t
 });
 
 const crowds = {
-  'arms and legs': [['--limbs', 'all', '--characters', '60', '--frames', '300']],
-  'clavicles, stretch, effectors and limits': [['--characters', '60', '--frames', '300'], `[limb.all]
+  'arms and legs': [['--limbs', 'all', '--characters', '30', '--frames', '300']],
+  'clavicles, stretch, effectors and limits': [['--characters', '30', '--frames', '300'], `[limb.all]
 clavicle.share = 0.5
 effector = [0.5, 0.2, 0]
 [limb.left_arm]
 limits.flexion_deg = [10, 130]
 limits.shoulder_cone = { axis = [0, 0, 1], opening_deg = 80 }
 `],
-  'stretched bones without hands, directions as poles': [['--characters', '60', '--frames', '300'], `[limb.all]
+  'stretched bones without hands, directions as poles': [['--characters', '30', '--frames', '300'], `[limb.all]
 hand = false
 pole.kind = "direction"
 target.offset = [0, 4, 3]

@@ -107,6 +107,7 @@ export class View {
         return this.projectScene(this.toScene(world));
     }
     projectScene(point) {
+        this.camera.updateMatrixWorld();
         const at = point.project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
         if (at.z > 1) return null;
         return { x: box.left + (at.x + 1) / 2 * box.width, y: box.top + (1 - at.y) / 2 * box.height };
