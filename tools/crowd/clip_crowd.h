@@ -53,6 +53,10 @@ public:
     std::span<const formats::PoseExtra> extras();
     formats::PoseColumns columns() const;
 
+    // What the solver says of a limb that is solved: its flags, and why it is as it is.
+    std::uint32_t flags(formats::LimbName limb, std::uint32_t character) const;
+    std::string explain(formats::LimbName limb, std::uint32_t character) const;
+
     // What it is made of, for a page that solves it again: its characters, each limb's goals and the crowds.
     std::span<const goal_character> characters() const { return characters_; }
     const goal_plan& plan_of_goals(std::size_t limb) const { return goal_plans_[limb]; }

@@ -108,6 +108,13 @@ void LimbCrowds::residuals(std::size_t limb, std::uint32_t first, std::uint32_t 
     check(swivel_residuals(crowd_of(limb).get(), places_[limb].group, first, count, distance));
 }
 
+std::string LimbCrowds::explain(std::size_t limb, std::uint32_t character) const
+{
+    char text[1024];
+    check(swivel_explain(crowd_of(limb).get(), places_[limb].group, character, text, sizeof text));
+    return text;
+}
+
 void LimbCrowds::reset(std::size_t limb, std::uint32_t character)
 {
     check(swivel_reset(crowd_of(limb).get(), places_[limb].group, character, 1));

@@ -119,6 +119,12 @@ struct Statistics {
     LimbStatistics arms, legs;
     double solve_seconds = 0;
 
+    void add(const Statistics& other)
+    {
+        arms.add(other.arms);
+        legs.add(other.legs);
+        solve_seconds += other.solve_seconds;
+    }
     LimbStatistics& of(formats::LimbKind kind) { return kind == formats::LimbKind::arm ? arms : legs; }
 
     std::uint64_t limb_count() const { return arms.limb_count + legs.limb_count; }

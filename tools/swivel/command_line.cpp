@@ -108,6 +108,11 @@ void add_view(CLI::App& command, std::string& view)
           file_name());
 }
 
+void add_report(CLI::App& command, std::string& report, const std::string& what)
+{
+    takes(command.add_option("--report", report, "Also write a report as one HTML file: " + what), file_name());
+}
+
 // ---- the subcommands
 
 void add_demo(CLI::App& app)
@@ -181,6 +186,8 @@ void add_solve(CLI::App& app)
           one_of({"csv", "bvh", "glb", "gltf"}))
         ->needs(out);
     add_view(*command, options->view);
+    add_report(*command, options->report,
+               "errors, flags over time and the worst limbs, which link into the page of --view. - is standard output");
     command->add_flag("--strict", options->strict,
                       "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input. "
                       "Without it a note says so");

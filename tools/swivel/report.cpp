@@ -125,6 +125,14 @@ std::string what_went_wrong(const Statistics& statistics)
     return text;
 }
 
+std::string flag_names(std::uint32_t word)
+{
+    std::string names;
+    for (const auto& [flag, name] : kFlagNames)
+        if ((word & static_cast<std::uint32_t>(flag)) != 0) names += (names.empty() ? "" : ", ") + std::string(name);
+    return names;
+}
+
 void print_statistics(std::FILE* to, const Statistics& statistics)
 {
     const std::string limbs = limbs_solved(statistics);

@@ -15,6 +15,9 @@ namespace swivel::tools {
 // What is wrong with the limbs of a run that went_wrong(), and what to look at: one line for people, without its end.
 std::string what_went_wrong(const Statistics& statistics);
 
+// The names of a word's flags, with commas between.
+std::string flag_names(std::uint32_t word);
+
 // Throughput, instruction set, threads, errors, differences from the clip, flags, and a note where went_wrong(), on
 // stdout or stderr.
 void print_statistics(std::FILE* to, const Statistics& statistics);

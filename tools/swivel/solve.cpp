@@ -27,6 +27,7 @@
 #include "tools/swivel/motion_keys.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
+#include "tools/swivel/solve_html.h"
 #include "tools/swivel/solve_report.h"
 #include "tools/swivel/view_page.h"
 
@@ -58,7 +59,7 @@ void print_page_size(const SolveOptions& options, std::uint64_t goal_count)
         goal_count > 100'000 ? "; swivel view --frames takes fewer" : "");
 }
 
-Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& job)
+Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& job, SolveReport* report)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
@@ -84,8 +85,11 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& 
             progress.show(frame);
             crowd.set_frame(frame, job.given->of_frame(frame));
             if (exported) exported->append(crowd.targets());
-            crowd.solve(statistics);
-            crowd.measure(statistics);
+            Statistics of_frame;
+            crowd.solve(of_frame);
+            crowd.measure(of_frame);
+            statistics.add(of_frame);
+            if (report) report->add_frame(of_frame, crowd);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
             if (kind == OutKind::motion) keys.add(crowd);
             if (page) page->add_frame(crowd);
@@ -166,8 +170,22 @@ void print_report(std::FILE* to, const SolveOptions& options, const Statistics& 
 {
     print_statistics(to, statistics);
     say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
-    for (const std::string& name : {options.out, options.export_targets, options.view})
+    for (const std::string& name : {options.out, options.export_targets, options.view, options.report})
         if (!name.empty()) say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
+}
+
+nlohmann::ordered_json json_of_run(const SolveOptions& options, const SolveFacts& facts, const MotionFile& file,
+                                   const Job& job, const Statistics& statistics, double seconds)
+{
+    nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
+    out["each_character"] = json_of(characters_of(job.plan, job.limbs, file.clip().frame_count));
+    out.update(json_of(statistics));
+    out["seconds"] = seconds;
+    if (!options.out.empty()) out["out"] = options.out;
+    if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
+    if (!options.view.empty()) out["view"] = options.view;
+    if (!options.report.empty()) out["report"] = options.report;
+    return out;
 }
 
 }  // namespace
@@ -189,20 +207,16 @@ void run_solve(const SolveOptions& options)
     if (!options.json && !options.quiet) print_clip(reports, facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);
-    const Statistics statistics = solve_clip(options, file, job);
+    std::optional<SolveReport> report;
+    if (!options.report.empty())
+        report.emplace(options.report, options.view, "swivel solve " + page_title(options.file));
+    const Statistics statistics = solve_clip(options, file, job, report ? &*report : nullptr);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-    if (options.json) {
-        nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
-        out["each_character"] = json_of(characters_of(job.plan, job.limbs, file.clip().frame_count));
-        out.update(json_of(statistics));
-        out["seconds"] = seconds;
-        if (!options.out.empty()) out["out"] = options.out;
-        if (!options.export_targets.empty()) out["export_targets"] = options.export_targets;
-        if (!options.view.empty()) out["view"] = options.view;
-        print_json(out, reports);
-    } else if (!options.quiet) {
+    if (report) report->commit(json_of_run(options, facts, file, job, statistics, seconds));
+    if (options.json)
+        print_json(json_of_run(options, facts, file, job, statistics, seconds), reports);
+    else if (!options.quiet)
         print_report(reports, options, statistics, seconds);
-    }
     if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }
 

@@ -89,8 +89,10 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
         refuse_if(targets != "clip" && is_read(file, targets), option, file, "the table of targets");
         refuse_if(!options.crowd.empty() && is_read(file, options.crowd), option, file, "the crowd file");
     };
-    const std::pair<const char*, const std::string&> outputs[] = {
-        {"--out", options.out}, {"--export-targets", options.export_targets}, {"--view", options.view}};
+    const std::pair<const char*, const std::string&> outputs[] = {{"--out", options.out},
+                                                                  {"--export-targets", options.export_targets},
+                                                                  {"--view", options.view},
+                                                                  {"--report", options.report}};
     for (const auto& [option, file] : outputs) {
         require_not_read(option, file);
         for (const auto& [other, other_file] : outputs) {
@@ -103,7 +105,7 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
 
 std::FILE* report_stream(const SolveOptions& options)
 {
-    const auto outputs = {options.out, options.export_targets, options.view};
+    const auto outputs = {options.out, options.export_targets, options.view, options.report};
     return std::ranges::any_of(outputs, is_standard_stream) ? stderr : stdout;
 }
 
