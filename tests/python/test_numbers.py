@@ -317,6 +317,20 @@ class Bits(unittest.TestCase):
         halves = np.moveaxis(packed.rows(Field.ELBOW), 1, 2).reshape(-1, 2)[packed.limbs()].copy().view(np.float16)
         np.testing.assert_array_equal(halves.astype(np.float32), packed.read(Field.ELBOW))
 
+    def test_the_lectures_steps(self):
+        entities, closing_error = swivel.steps((1.1, 1.1, 1.1), (1.1, 1.1, 0), 1.4, 1.3)
+        of = {each.name: each for each in entities}
+        self.assertEqual(len(of), len(entities))
+        self.assertLess(closing_error, 1e-14)
+        blades = [swivel.blade_name(n) for n in range(32)]
+        elbow = [of["p_e"].coefficients[blades.index(blade)] for blade in ("e1", "e2", "e3")]
+        np.testing.assert_allclose(elbow, (0.980883, 0.980883, -0.189039), atol=1e-6)
+        self.assertIn("step 1", repr(of["S1"]))
+        self.assertIn("sphere", of["S1"].meaning)
+        for wrong in (lambda: swivel.steps((9, 0, 0), (0, 1, 0), 1, 1), lambda: swivel.steps((1, 0), (0, 1, 0), 1, 1),
+                      lambda: swivel.blade_name(32), lambda: swivel.blade_name(-1)):
+            self.assertRaises(ValueError, wrong)
+
     def test_the_library_checks_itself(self):
         passed, checks = swivel.verify(arm_count=200, seed=3)
         self.assertTrue(passed)

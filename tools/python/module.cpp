@@ -28,5 +28,6 @@ PYBIND11_MODULE(_core, module)
     add_solving(crowd);
     add_answers(crowd);
     add_limits(module);
+    add_steps(module);
     add_library(module);
 }

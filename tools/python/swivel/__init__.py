@@ -13,10 +13,10 @@ At rest an arm lies along +z of its frame and bends towards +y, its hinge is +x,
 are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results with a Flag.
 """
 from ._arms import Arms, solve
-from ._core import (LANES, Binding, Check, Crowd, EulerOrder, Feature, Field, Flag, aim, arm_axis, bind, bind_joints, cone, flexion,
-                    isa_name, isas, mirror, needed_features, range, turn, unpack_rotations, use_isa, verify, version)
+from ._core import (LANES, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, aim, arm_axis, bind, bind_joints, blade_name,
+                    cone, flexion, isa_name, isas, mirror, needed_features, range, steps, turn, unpack_rotations, use_isa, verify, version)
 
 __version__ = ".".join(map(str, version()))
-__all__ = ["LANES", "Arms", "Binding", "Check", "Crowd", "EulerOrder", "Feature", "Field", "Flag", "aim", "arm_axis", "bind",
-           "bind_joints", "cone", "flexion", "isa_name", "isas", "mirror", "needed_features", "range", "solve", "turn", "unpack_rotations", "use_isa",
+__all__ = ["LANES", "Arms", "Binding", "Check", "Crowd", "Entity", "EulerOrder", "Feature", "Field", "Flag", "aim", "arm_axis", "bind",
+           "bind_joints", "blade_name", "cone", "flexion", "isa_name", "isas", "mirror", "needed_features", "range", "solve", "steps", "turn", "unpack_rotations", "use_isa",
            "verify", "version"]
