@@ -20,9 +20,9 @@ import { layout } from "./stage.js";
 
 export const SUN = new Vector3(0.45, 1, 0.35);
 
-/** A capsule whose axis is z: directions from the axis, and which end they belong to. */
-function capsuleGeometry() {
-    const whole = new CapsuleGeometry(1, 1, 4, 12).rotateX(Math.PI / 2), geometry = new InstancedBufferGeometry();
+/** A capsule whose axis is z: directions from the axis, and which end they belong to. A shadow needs few of them. */
+function capsuleGeometry(isShadow) {
+    const whole = new CapsuleGeometry(1, 1, isShadow ? 1 : 3, isShadow ? 7 : 10).rotateX(Math.PI / 2), geometry = new InstancedBufferGeometry();
     const { position } = whole.attributes, end = new Float32Array(position.count), directions = new Float32Array(3 * position.count);
     for (let n = 0; n < position.count; ++n) {
         end[n] = position.getZ(n) > 0 ? 1 : 0;
@@ -95,14 +95,14 @@ export class Bodies {
     }
     /** A mesh, and its shadow on the ground: no place of the ground is darkened twice. */
     add(perCharacter, own, vertex, fragment) {
-        const uniforms = { ...this.shared, ...own }, geometry = capsuleGeometry();
+        const uniforms = { ...this.shared, ...own };
         for (const shadow of [false, true]) {
             const material = new ShaderMaterial({
                 uniforms, glslVersion: GLSL3, defines: shadow ? { SHADOW: "" } : {},
                 vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
                 ...(shadow ? { depthFunc: LessDepth } : {}),
             });
-            const mesh = new Mesh(geometry, material);
+            const mesh = new Mesh(capsuleGeometry(shadow), material);
             mesh.frustumCulled = false;
             mesh.renderOrder = shadow ? 1 : 2;
             mesh.userData.perCharacter = perCharacter;
