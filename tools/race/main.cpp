@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// swivel-race SECONDS [--json] [--quiet], which `swivel bench` runs: how fast this machine solves, beside textbook
-// rivals in the same run, and how far that is from what the machine can do. The short version of bench/. A program of
-// its own, so that the command needs no rivals to build.
-#include <algorithm>
+// swivel-race SECONDS [--json] [--quiet] [--report FILE], which `swivel bench` runs: how fast this machine solves,
+// beside textbook rivals in the same run, and how far that is from what the machine can do. The short version of
+// bench/. A program of its own, so that the command needs no rivals to build.
 #include <cstdlib>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "tools/cli/command_error.h"
 #include "tools/cli/process.h"
+#include "tools/cli/streams.h"
+#include "tools/race/html_report.h"
 #include "tools/race/report.h"
 #include "tools/swivel/report.h"
 
@@ -19,18 +22,33 @@ void race(int argc, char** argv)
 {
     using namespace swivel::tools;
     const double seconds = argc > 1 ? std::strtod(argv[1], nullptr) : 0;
-    const auto has = [&](const char* word) {
-        return std::any_of(argv + std::min(argc, 2), argv + argc,
-                           [&](const char* each) { return std::strcmp(each, word) == 0; });
-    };
-    const bool json = has("--json"), quiet = has("--quiet");
-    if (!(seconds > 0) || argc != 2 + json + quiet)
-        throw CommandError(2, "usage: swivel-race SECONDS [--json] [--quiet]");
+    bool json = false, quiet = false, is_right = seconds > 0;
+    std::string place;
+    for (int n = 2; n < argc; ++n) {
+        const std::string_view word = argv[n];
+        if (word == "--json")
+            json = true;
+        else if (word == "--quiet")
+            quiet = true;
+        else if (word == "--report" && n + 1 < argc)
+            place = argv[++n];
+        else
+            is_right = false;
+    }
+    if (!is_right) throw CommandError(2, "usage: swivel-race SECONDS [--json] [--quiet] [--report FILE]");
+    if (place == "-") throw CommandError(2, "--report -: standard output has the figures; name a file");
+    std::optional<Report> report;
+    if (!place.empty()) report.emplace(place, "swivel bench");
     const Measured measured = measure(seconds, quiet);
+    if (report) {
+        put_measured(*report, measured);
+        report->commit();
+    }
     if (json)
         print_json(json_of(measured));
     else
         print_measured(measured);
+    if (report && !json) say(stdout, "\nwritten  {}\n", place);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace swivel::tools {
 namespace {
 
 constexpr std::size_t kFrameCharacters = 8192;
+constexpr std::size_t kSizes[] = {64, 256, 1024, 4096, 16384, 65536, 262144, 1048576};
 constexpr std::size_t kThreadArms = 262144;  // 16 MB of rows: many chunks for each thread
 
 void require_right(const std::string& name, double worst)
@@ -45,6 +46,7 @@ public:
         add_cached();
         add_rivals();
         add_frames();
+        add_sizes();
         add_crowd("resident", resident_, isa_);
         add_crowd("memory", large_, isa_);
         const swivel_rows in = swivel_input_rows(large_.get()), out = swivel_result_rows(large_.get());
@@ -87,6 +89,15 @@ public:
         return pairs;
     }
 
+    std::vector<Size> sizes() const
+    {
+        std::vector<Size> sizes;
+        for (const std::size_t arms : kSizes)
+            sizes.push_back(
+                {arms, race_.ns(fmt::format("P of {}", arms)), race_.ns(fmt::format("resident of {}", arms))});
+        return sizes;
+    }
+
     double ns(const std::string& name) const { return race_.ns(name); }
 
 private:
@@ -95,6 +106,17 @@ private:
     void add_crowd(const std::string& name, Crowd& crowd, const std::string& isa)
     {
         race_.add(name, limb_count(crowd), [&crowd, isa] { bench::solve_all(crowd, isa); });
+    }
+    void add_sizes()
+    {
+        for (const std::size_t arms : kSizes) {
+            sized_.push_back(bench::make_crowd(0, arms, limbs_));
+            sized_.push_back(bench::make_crowd(bench::kResident, arms, limbs_));
+        }
+        for (std::size_t n = 0; n < std::size(kSizes); ++n) {
+            add_crowd(fmt::format("P of {}", kSizes[n]), sized_[2 * n], isa_);
+            add_crowd(fmt::format("resident of {}", kSizes[n]), sized_[2 * n + 1], isa_);
+        }
     }
     void add_threads(const std::string& name, unsigned most)
     {
@@ -144,6 +166,7 @@ private:
     std::string isa_;
     std::vector<bench::Limb> limbs_;
     Crowd cached_, large_, resident_, shared_;
+    std::vector<Crowd> sized_;  // for each of kSizes: plain, resident
     bench::WholeFrame frame_;
     std::vector<bench::Contender> rivals_;
     Race race_;
@@ -163,10 +186,11 @@ Measured measure(double seconds, bool quiet)
     if (!isa) throw CommandError(1, swivel_last_error());
     const KeepIsa keep{isa};
     Bench runners(keep.isa);
-    Measured out{bench::measure_machine(), bench::count_ops(), bench::row_bytes(0), 0, keep.isa, {}, {}};
+    Measured out{bench::measure_machine(), bench::count_ops(), bench::row_bytes(0), 0, keep.isa, {}, {}, {}};
     runners.run(seconds, quiet);
     out.memory_ns = runners.ns("memory");
     out.pairs = runners.pairs();
+    out.sizes = runners.sizes();
     for (const bench::IsaLimits& limits : out.machine.isas)
         out.bounds.push_back({limits.isa, bench::port_bound(out.ops, limits), runners.ns("P " + limits.isa)});
     return out;

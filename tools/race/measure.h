@@ -26,6 +26,12 @@ struct Bound {
     double measured_ns;  // of problem P in cache
 };
 
+// Problem P on one thread, by the size of its crowd.
+struct Size {
+    std::size_t arms;
+    double plain_ns, resident_ns;  // an arm
+};
+
 struct Measured {
     bench::Machine machine;
     bench::OpCounts ops;
@@ -33,6 +39,7 @@ struct Measured {
     double memory_ns;       // of an arm in problem P, out of cache
     std::string isa;        // that the process uses
     std::vector<Pair> pairs;
+    std::vector<Size> sizes{};
     std::vector<Bound> bounds;  // one for each instruction set that runs here, best first
 };
 

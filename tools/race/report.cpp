@@ -50,6 +50,14 @@ void print_bounds(const Measured& measured)
             bound.bound.arithmetic_ns, bound.measured_ns, bound.measured_ns / bound.bound.ns());
 }
 
+void print_sizes(const Measured& measured)
+{
+    say(stdout, "\nNanoseconds an arm by the crowd's size, {}, one thread:\n{:>10}{:>10}{:>12}\n", measured.isa, "arms",
+        "P", "resident");
+    for (const Size& size : measured.sizes)
+        say(stdout, "{:>10}{:>10.2f}{:>12.2f}\n", size.arms, size.plain_ns, size.resident_ns);
+}
+
 void print_roofline(const Measured& measured)
 {
     const auto bytes = static_cast<double>(measured.row_bytes);
@@ -91,6 +99,8 @@ Json json_of(const Measured& measured)
                                  {"arithmetic_ns", bound.bound.arithmetic_ns},
                                  {"bound_ns", bound.bound.ns()},
                                  {"measured_ns", bound.measured_ns}});
+    for (const Size& size : measured.sizes)
+        out["sizes"].push_back({{"arms", size.arms}, {"plain_ns", size.plain_ns}, {"resident_ns", size.resident_ns}});
     out["row_bytes"] = measured.row_bytes;
     out["memory_ns"] = measured.memory_ns;
     return out;
@@ -103,6 +113,7 @@ void print_measured(const Measured& measured)
         say(stdout, "rivals   {}: {}\n", level->name, level->flags);
     print_pairs(measured);
     print_bounds(measured);
+    print_sizes(measured);
     print_roofline(measured);
 }
 

@@ -22,6 +22,7 @@ void run_bench(const BenchOptions& options)
     std::vector<const char*> words = {"swivel-race", seconds.c_str()};
     if (options.json) words.push_back("--json");
     if (options.quiet) words.push_back("--quiet");
+    if (!options.report.empty()) words.insert(words.end(), {"--report", options.report.c_str()});
     words.push_back(nullptr);
     execv(race.c_str(), const_cast<char* const*>(words.data()));  // which changes none of them
     if (errno == ENOENT)

@@ -280,6 +280,7 @@ void add_verify(CLI::App& app)
               ->capture_default_str(),
           whole_number(1, 1'000'000'000));
     add_seed(*command, options->seed, "the random arms");
+    add_report(*command, options->report, "checks, errors by band of reach, digests");
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_verify(*options); });
@@ -293,6 +294,7 @@ void add_bench(CLI::App& app)
     takes(command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed, 0.1 to 3600")
               ->capture_default_str(),
           number(0.1, 3600));
+    add_report(*command, options->report, "rivals, speed by size of the crowd, roofline");
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->footer(

@@ -62,12 +62,14 @@ void run_steps(const StepsOptions& options);
 
 struct VerifyOptions {
     std::uint64_t arms = 1'000'000, seed = 1;
+    std::string report;  // the report to write as HTML; empty: none
     bool quiet = false, json = false;
 };
 void run_verify(const VerifyOptions& options);
 
 struct BenchOptions {
     double seconds = 8;
+    std::string report;  // the same
     bool quiet = false, json = false;
 };
 void run_bench(const BenchOptions& options);

@@ -8,6 +8,7 @@
 #include <array>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/golden.h"
 #include "tools/crowd/parallel.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/verify_html.h"
 
 namespace swivel::tools {
 
@@ -140,7 +143,8 @@ void hear(const swivel_check* c, void* context)
     Listener& listener = *static_cast<Listener*>(context);
     if (listener.failure) return;
     try {
-        listener.json ? append_check(*c, listener.checks) : print_check(*c);
+        append_check(*c, listener.checks);
+        if (!listener.json) print_check(*c);
     } catch (...) {
         listener.failure = std::current_exception();
     }
@@ -187,6 +191,10 @@ std::string what_is_wrong(const Digest& digest)
 void run_verify(const VerifyOptions& options)
 {
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
+    if (formats::is_standard_stream(options.report))
+        throw CommandError(2, "--report -: standard output has the figures; name a file");
+    std::optional<Report> report;
+    if (!options.report.empty()) report.emplace(options.report, "swivel verify");
     Listener listener{options.json};
     int passed = 0;
     check(swivel_verify(options.arms, options.seed, hear, &listener, &passed));
@@ -195,14 +203,20 @@ void run_verify(const VerifyOptions& options)
     const std::vector<Digest> digests = all_digests(options.quiet);
     const auto wrong = std::ranges::find_if(digests, [](const Digest& d) { return !d.is_right(); });
     const bool equal = wrong == digests.end();
+    const nlohmann::ordered_json run{{"checks", listener.checks},
+                                     {"equal_digests", equal},
+                                     {"passed", passed && equal},
+                                     {"digests", json_of(digests)}};
+    if (report) {
+        put_verification(*report, run);
+        report->commit();
+    }
     if (options.json) {
-        print_json({{"checks", listener.checks},
-                    {"equal_digests", equal},
-                    {"passed", passed && equal},
-                    {"digests", json_of(digests)}});
+        print_json(run);
     } else {
         print_digests(digests);
         say(stdout, "{}\n", passed && equal ? "all checks passed, all digests are the golden ones" : "FAILED");
+        if (report) say(stdout, "written  {}\n", options.report);
     }
     if (!passed) throw CommandError(1, "verify: a check is over its limit; the lines marked FAILED say which");
     if (!equal) throw CommandError(1, "verify: " + what_is_wrong(*wrong));
