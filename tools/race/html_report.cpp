@@ -55,7 +55,7 @@ void put_sizes(Report& report, const Measured& measured)
 Series ceiling(const std::string& name, double bytes_per_ns, double peak)
 {
     Series series{fmt::format("{}, {:.0f} GB/s", name, bytes_per_ns), {}, true, true};
-    for (double intensity = 1.0 / 16; intensity <= 64; intensity *= 2)
+    for (const double intensity : {1.0 / 16, peak / bytes_per_ns, 64.0})
         series.points.emplace_back(intensity, std::min(peak, bytes_per_ns * intensity));
     return series;
 }

@@ -17,7 +17,7 @@ body { margin: 2em auto; max-width: 920px; padding: 0 20px; background: var(--pa
 h1 { font-size: 24px; overflow-wrap: anywhere; } h2 { font-size: 18px; margin-top: 2em; }
 a { color: var(--link); } p { max-width: 46em; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; margin: 1em 0; }
-th, td { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid var(--edge); vertical-align: top; overflow-wrap: anywhere; }
+th, td { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid var(--edge); vertical-align: top; overflow-wrap: break-word; }
 th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; } .bad { color: var(--bad); font-weight: 600; }
 figure { margin: 1.2em 0; } figcaption { color: var(--soft); font-size: 13.5px; } svg { width: 100%; height: auto; font-size: 11.5px; }
 svg text { fill: var(--soft); } svg .x { text-anchor: middle; } svg .y { text-anchor: end; } svg .label { font-size: 12.5px; }

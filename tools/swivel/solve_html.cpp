@@ -93,6 +93,23 @@ void SolveReport::put_facts(const Json& run)
     report_.table({"what", "value"}, rows);
 }
 
+// A table for each kind, whose columns are what --json says of the first.
+void SolveReport::put_limbs(const Json& run)
+{
+    report_.heading("Limbs");
+    for (const char* kind : {"arms_bound", "legs_bound"}) {
+        if (!run.contains(kind)) continue;
+        std::vector<std::string> heads;
+        for (const auto& [key, value] : run.at(kind).at(0).items()) heads.push_back(words_of_key(key));
+        std::vector<std::vector<Cell>> rows;
+        for (const Json& limb : run.at(kind)) {
+            rows.emplace_back();
+            for (const auto& [key, value] : limb.items()) rows.back().push_back(text_of(value));
+        }
+        report_.table(heads, rows);
+    }
+}
+
 void SolveReport::put_errors(const Json& run)
 {
     report_.heading("Errors and differences");
@@ -161,6 +178,7 @@ Plot SolveReport::errors_over_time() const
 void SolveReport::commit(const Json& run)
 {
     put_facts(run);
+    put_limbs(run);
     put_errors(run);
     put_flags(run);
     put_worst();

@@ -42,6 +42,7 @@ private:
     void keep_worst(const ErrorStat& stat, const ClipCrowd& crowd);
     Cell place_of(const PoseName& pose) const;
     void put_facts(const nlohmann::ordered_json& run);
+    void put_limbs(const nlohmann::ordered_json& run);
     void put_errors(const nlohmann::ordered_json& run);
     void put_flags(const nlohmann::ordered_json& run);
     void put_worst();
