@@ -248,6 +248,6 @@ TEST_CASE("a report links the worst limbs into its page")
 {
     const Stage stage;
     REQUIRE(stage.run({"solve", "clip.bvh", "--view", "a page.html", "--report", "r.html"}).exit_code == 0);
-    CHECK_THAT(slurp(stage.at("r.html")), Contains("<a href=\"a%20page.html#frame=") &&
-                                              Contains("&amp;character=0&amp;limb=left_arm\">frame "));
+    CHECK_THAT(slurp(stage.at("r.html")),
+               Contains("<a href=\"a%20page.html#frame=") && Contains("&amp;character=0&amp;limb=left_arm\">frame "));
 }
