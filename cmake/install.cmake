@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# `cmake --install` puts these under the prefix: two headers, the library, the command with swivel-race, its man page and completions,
+# `cmake --install` puts these under the prefix: two headers, the library, the command with swivel-race, its man page, completions and page,
 # package files and the licence. You may move the whole prefix, because no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -14,6 +14,8 @@ if(SWIVEL_TOOLS)
     set_target_properties(swivel_command swivel_race PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
   endif()
   install(TARGETS swivel_command swivel_race)
+  # The program of the pages that it writes, where tools/view/build has made it.
+  install(FILES ${PROJECT_SOURCE_DIR}/build/view/view.html DESTINATION ${CMAKE_INSTALL_DATADIR}/swivel OPTIONAL)
   # The command prints its man page and completions itself, which takes a machine, or an emulator, that runs it.
   function(swivel_text folder file)  # remaining arguments: what prints it
     set(path ${CMAKE_CURRENT_BINARY_DIR}/texts/${file})

@@ -3,12 +3,13 @@
 // How much was solved, how fast, and whether the bits are the command's.
 import { element } from "./dom.js";
 
+/** What a frame's digest is beside the command's. */
 const DIGEST_WORDS = {
-    equal: "equal to the command's",
-    different: "not the command's: these bits differ",
-    changed: "changed by you",
-    "out of order": "comparable only if played from the first frame, because this crowd carries state",
-    none: "the command solved no such frame",
+    equal: () => "equal to the command's",
+    different: (native) => `not the command's ${native}: these bits differ`,
+    changed: (native) => `changed by you from the command's ${native}`,
+    "out of order": (native) => `the command's ${native} is comparable if you play from the first frame, because this crowd carries state`,
+    none: () => "the command solved no such frame",
 };
 
 export function makeStatus(page) {
@@ -18,7 +19,7 @@ export function makeStatus(page) {
         speed.textContent = `${count} limbs solved in ${(stage.seconds * 1000).toFixed(1)} ms: ${rate.toFixed(1)} million a second`;
         const state = stage.digestState();
         digest.dataset.state = state;
-        digest.textContent = `digest ${stage.digests().join(" ")}, ${DIGEST_WORDS[state]}`;
+        digest.textContent = `digest ${stage.digests().join(" ")}, ${DIGEST_WORDS[state](stage.data.digests[stage.frame]?.join(" "))}`;
     });
     return element("div", { class: "status" }, speed, digest);
 }
