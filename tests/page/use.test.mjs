@@ -93,7 +93,7 @@ test('limits: switches add them, sliders and the rim of the cone move them, flag
     await drag(page, from, { x: from.x + 40, y: from.y + 40 });
     assert.ok(Math.abs((await opening()) - 35) > 3, `${await opening()}`);
     assert.notDeepEqual(await page.evaluate(() => swivelPage.stage.digests()), digests);
-    for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MOST_SWIVEL']) {
+    for (const field of ['FLEXION_LIMIT', 'HUMERAL_TWIST', 'SHOULDER_BOX', 'WRIST_BOX', 'HAND_CONE', 'FOREARM_TWIST', 'HAND_TWIST', 'WEIGHTS', 'REACH', 'MOST_SWIVEL']) {
       await page.locator(`[data-field=${field}]`).check();
       assert.ok(await page.evaluate((name) => swivelPage.stage.has(swivelPage.stage.limbs[0], name), field), field);
       assert.equal(await page.evaluate(() => swivelPage.stage.flags(swivelPage.stage.limbs[0], 3) >>> 30), 0, `${field}: bad input`);

@@ -44,6 +44,7 @@ export class Bodies {
         this.stage = stage;
         this.figure = figure;
         this.meshes = [];
+        this.drawnCount = 1;  // until show() says it
         const { characters } = stage, jointCount = figure.jointCount;
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
@@ -81,13 +82,13 @@ export class Bodies {
         this.add(3, uniforms, [crowdGlsl, limbGlsl, capsule, limbVertex], limbFragment);
         return drawn;
     }
-    /** The rows of the limb's crowd, which is made again when its features change. */
+    /** The rows of those that are drawn. The limb's crowd is made again when its features change. */
     takeRows(drawn) {
-        const crowd = this.stage.crowdOf(drawn.limb);
-        if (drawn.crowd === crowd) return drawn.rows.update();
+        const crowd = this.stage.crowdOf(drawn.limb), blocks = Math.ceil(this.drawnCount / 16);
+        if (drawn.crowd === crowd && drawn.rows.blocks === blocks) return drawn.rows.update();
         drawn.rows?.dispose();
         drawn.crowd = crowd;
-        drawn.rows = new LimbRows(crowd, drawn.limb, this.stage.characterCount);
+        drawn.rows = new LimbRows(crowd, drawn.limb, blocks);
         for (const [name, value] of Object.entries(drawn.rows.uniforms)) {
             drawn.uniforms[name] ??= { value };
             drawn.uniforms[name].value = value;

@@ -18,6 +18,16 @@ const range = (swivel, [least, most], isOther) => {
     return isOther ? swivel.range(-to, -from) : swivel.range(from, to);
 };
 
+/** Axes of each order of Euler angles, in the order's own sequence. Mirrored in x, turns about y and z change their sense. */
+const AXES = [[0, 1, 2], [0, 2, 1], [1, 2, 0], [1, 0, 2], [2, 0, 1], [2, 1, 0]];
+const boxSliders = ["x", "y", "z"].flatMap((axis) => [angle(`${axis} least`, -180, 180, -60), angle(`${axis} most`, -180, 180, 60)]);
+const box = (swivel, numbers, isOther, old, order) =>
+    AXES[order].flatMap((axis) => Array.from(range(swivel, numbers.slice(2 * axis, 2 * axis + 2), isOther && axis > 0)));
+const boxEnds = (value, order) => AXES[order].reduce((ends, axis, n) => {
+    [ends[2 * axis], ends[2 * axis + 1]] = rangeEnds(value.slice(4 * n, 4 * n + 4));
+    return ends;
+}, []);
+
 /** Each field: what its sliders are, its value from their numbers, their numbers from its value. */
 const FIELDS = [
     { name: "FLEXION_LIMIT", title: "Flexion", sliders: [angle("Least", 0, 180, 10), angle("Most", 0, 180, 140)],
@@ -28,6 +38,7 @@ const FIELDS = [
         numbers: (value) => [Math.acos(value[3]) / RADIANS] },
     { name: "HUMERAL_TWIST", title: "Humeral twist", sliders: [angle("Least", -180, 180, -60), angle("Most", -180, 180, 60)],
         value: range, numbers: rangeEnds },
+    { name: "SHOULDER_BOX", title: "Shoulder box", order: "shoulder_order", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "HAND_CONE", title: "Hand cone", needs: "WITH_HAND", sliders: [angle("Opening", 0, 180, 60)],
         value: (swivel, [most], isOther, old) => swivel.cone(old ? old.slice(0, 3) : [0, 0, 1], most * RADIANS),
         numbers: (value) => [Math.acos(value[3]) / RADIANS] },
@@ -36,6 +47,7 @@ const FIELDS = [
     { name: "HAND_TWIST", title: "Hand twist", needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
         value: (swivel, ends, isOther, old) => [...(old ? old.slice(0, 3) : [0, 0, 1]), ...range(swivel, ends, isOther)],
         numbers: (value) => rangeEnds(value.slice(3)) },
+    { name: "WRIST_BOX", title: "Wrist box", needs: "WITH_HAND", order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "WEIGHTS", title: "Weights", sliders: [share("Position", 1), share("Hand", 1), share("Pole", 1)],
         value: (swivel, weights) => weights, numbers: (value) => value },
     { name: "REACH", title: "Reach",
@@ -44,7 +56,7 @@ const FIELDS = [
     { name: "MOST_SWIVEL", title: "Step", sliders: [angle("Most, a frame", 0, 90, 5)],
         value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
 ];
-const NOT_WITH_AIM = ["WEIGHTS", "REACH", "FLEXION_LIMIT", "HAND_CONE", "FOREARM_TWIST", "HAND_TWIST"];
+const NOT_WITH_AIM = ["WEIGHTS", "REACH", "FLEXION_LIMIT", "HAND_CONE", "FOREARM_TWIST", "HAND_TWIST", "WRIST_BOX"];
 
 /** Why a field cannot be added to a limb's crowd; nothing if it can. */
 function obstacle(stage, limb, field) {
@@ -57,11 +69,12 @@ function obstacle(stage, limb, field) {
 /** A field's switch and sliders. */
 function makeField(page, field, limbsOf) {
     const { stage } = page, { swivel } = stage, old = new Map(stage.limbs.map((limb) => [limb, stage.field(limb, field.name)]));
-    const given = old.get(stage.limbs[0]), numbers = given ? field.numbers(Array.from(given)) : field.sliders.map(({ value }) => value);
+    const orderOf = (limb) => stage.data.crowds[limb.crowdIndex][field.order] ?? 0;
+    const given = old.get(stage.limbs[0]), numbers = given ? field.numbers(Array.from(given), orderOf(stage.limbs[0])) : field.sliders.map(({ value }) => value);
     const isOther = (limb) => limb.name.startsWith("right") !== limb.mirrored;
     const apply = () => {
         stage.setField(limbsOf(), field.name,
-            on.box.checked ? (limb) => Array.from(field.value(swivel, numbers, isOther(limb), old.get(limb))) : null);
+            on.box.checked ? (limb) => Array.from(field.value(swivel, numbers, isOther(limb), old.get(limb), orderOf(limb))) : null);
         page.changed();
     };
     const on = checkbox(field.title, given !== undefined, (isOn) => {

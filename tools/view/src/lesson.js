@@ -16,7 +16,7 @@ const STEPS = [
     ["4. Rotate to the elbow", "A turn by half a circle about the middle line carries the elbow at rest to the elbow. The line itself is this rotation."],
     ["5. Rotate to the wrist", "A turn about the upper arm is left: it brings the forearm into the swivel plane. Both turns together are the shoulder's rotation."],
 ];
-const COLOURS = { p_w: "#ffd34d", pi_swivel: "#b48bff", S1: "#38c6c0", S2: "#4aa3ff", PP: "#e2588f", p_e: "#e0433b", line_se: "#4aa3ff", line_ew: "#38c6c0",
+const COLOURS = { p_w: "#ffd34d", pi_swivel: "#b48bff", S1: "#38c6c0", S2: "#4aa3ff", PP: "#e2588f", p_e: "#e0433b", line_se: "#4aa3ff", line_ew: "#38c6c0", q_e: "#e2588f",
     p_ze: "#8d99a8", pi_M: "#58a968", pi_e: "#98a2b0", l_M: "#ff8a5c", q12: "#ff8a5c", q3: "#b48bff", q_s: "#e0433b" };
 const SHOWN = { p_w: "p_w", pi_swivel: "π_swivel", S1: "S₁", S2: "S₂", PP: "PP", p_e: "p_e", line_se: "l_se", line_ew: "l_ew", c4: "c₄", q_e: "q_e", p_ze: "p_ze",
     pi_M: "π_M", pi_e: "π_e", l_M: "l_M", q12: "q₁₂", c3: "c₃", q3: "q₃", q_s: "q_s" };
@@ -58,6 +58,9 @@ const draw = [
         add(tube(new Vector3(), beyond, thickness, COLOURS.line_se), "line_se", elbow.clone().multiplyScalar(0.5));
         add(tube(elbow, wrist, thickness, COLOURS.line_ew), "line_ew", elbow.clone().add(wrist).multiplyScalar(0.5));
         add(ball(elbow, 2 * thickness, COLOURS.p_e), "c4", beyond);
+        const along = elbow.clone().normalize(), hinge = along.clone().cross(wrist.clone().sub(elbow)).normalize(), bend = flexionOf(elbow, wrist);
+        const at = (share) => elbow.clone().addScaledVector(along.clone().applyAxisAngle(hinge, bend * share), 30 * thickness);
+        for (let n = 0; n < 16; ++n) add(tube(at(n / 16), at((n + 1) / 16), 0.7 * thickness, COLOURS.q_e), n === 8 ? "q_e" : undefined, at(0.5));
     },
     ({ p_ze, p_e, l_M, pi_M, pi_e }, { upper, thickness }, add) => {
         const rest = vectorOf(p_ze), elbow = vectorOf(p_e), line = lineOf(l_M).setLength(1.3 * upper);
@@ -81,7 +84,7 @@ const draw = [
         const turn = signedAngle(before, wrist.clone().sub(elbow), along), at = (share) => elbow.clone().add(before.clone().applyAxisAngle(along, turn * share));
         add(disc(wrist.clone().multiplyScalar(0.5), vectorOf(pi_swivel), 0.8 * wrist.length(), COLOURS.pi_swivel, 0.14), "pi_swivel", wrist.clone().multiplyScalar(0.35));
         add(dashes(elbow, at(0), 0.6 * thickness, COLOURS.p_ze));
-        for (let n = 0; n < 24; ++n) add(tube(at(n / 24), at((n + 1) / 24), 0.7 * thickness, COLOURS.q3), n === 12 ? "q3" : undefined, at(0.5));
+        for (let n = 0; n < 24; ++n) add(tube(at(n / 24), at((n + 1) / 24), 0.7 * thickness, COLOURS.q3), n === 12 ? "q3" : n === 1 ? "c3" : undefined, at(n === 1 ? 0 : 0.5));
         add(tube(new Vector3(), elbow, thickness, COLOURS.q_s), "q_s", elbow.clone().multiplyScalar(0.5));
         add(tube(elbow, wrist, thickness, COLOURS.q_s), "p_w", wrist);
     },
@@ -159,6 +162,7 @@ export function makeLesson(page) {
     };
     box.addEventListener("toggle", () => {
         page.overlays.hide(box.open);
+        if (box.open) box.scrollIntoView({ block: "nearest" });
         update();
         page.redraw();
     });

@@ -23,6 +23,7 @@ import { makeStatus } from "./status.js";
 import css from "./style.css";
 
 const DRAWN = 1000;  // characters at most, unless asked for more
+const MOST_DRAWN = 65536;  // a texture has a line for 16 of them, and some thousand lines
 
 /** What this browser lacks; nothing if it has all. */
 function lack(canvas) {
@@ -130,7 +131,7 @@ class Page {
         const hash = new URLSearchParams(location.hash.slice(1)), frame = Number(hash.get("frame")), character = Number(hash.get("character"));
         if (hash.has("frame") && Number.isInteger(frame) && frame >= 0 && frame < this.stage.frameCount) this.setFrame(frame);
         const limb = this.stage.limbs.find(({ name }) => name === hash.get("limb"));
-        if (!limb || !Number.isInteger(character) || character < 0 || character >= this.stage.characterCount) return;
+        if (!limb || !Number.isInteger(character) || character < 0 || character >= Math.min(this.stage.characterCount, MOST_DRAWN)) return;
         if (character >= this.drawnCount) this.drawFirst(character + 1);
         this.select({ limb, character });
         this.view.lookAt(character, true);
@@ -145,7 +146,7 @@ function build(page, data) {
     const head = element("header", {}, element("div", {}, title, clip, makeStatus(page)), element("nav", {},
         button("Light or dark", () => page.setTheme(page.theme === "dark" ? "light" : "dark")), button("Help", () => page.help.showModal()),
         button("Panel", () => page.togglePanel(), { class: "panel-button" })));
-    const drawn = slider("Drawn", { min: 1, max: stage.characterCount, step: 1, value: page.drawnCount }, (count) => page.drawFirst(count));
+    const drawn = slider("Drawn", { min: 1, max: Math.min(stage.characterCount, MOST_DRAWN), step: 1, value: page.drawnCount }, (count) => page.drawFirst(count));
     const bar = element("footer", {});
     page.player = new Player(page, bar);
     page.legend = makeLegend(page);

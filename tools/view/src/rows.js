@@ -26,10 +26,10 @@ function blockTexture(words, rowCount) {
     return texture;
 }
 
-/** The rows of one limb's group, for the first characters. */
+/** The rows of one limb's group, its first blocks of 16 characters. */
 export class LimbRows {
-    constructor(crowd, limb, characterCount) {
-        this.blocks = Math.ceil(characterCount / 16);
+    constructor(crowd, limb, blocks) {
+        this.blocks = blocks;
         this.firstBlock = crowd.firstLimb(limb.group) / 16;
         this.inputs = this.texture(crowd, crowd.inputRows());
         this.results = this.texture(crowd, crowd.resultRows());
