@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowd's bodies: capsules drawn once for each character and bone. Bodies follow the clip. Limbs follow the solver:
+// The crowd's bodies: capsules, an instance for each character. Bodies follow the clip. Limbs follow the solver:
 // their vertices find elbow and wrist from its rows.
 import {
-    BufferAttribute, CapsuleGeometry, GLSL3, InstancedBufferGeometry, LessDepth, Mesh, ShaderMaterial, Vector3, Vector4,
+    CapsuleGeometry, Float32BufferAttribute, GLSL3, InstancedBufferGeometry, LessDepth, Mesh, ShaderMaterial, Vector3, Vector4,
 } from "three";
 
 import bodyFragment from "./body.frag.glsl";
@@ -20,17 +20,27 @@ import { layout } from "./stage.js";
 
 export const SUN = new Vector3(0.45, 1, 0.35);
 
-/** A capsule whose axis is z: directions from the axis, and which end they belong to. A shadow needs few of them. */
-function capsuleGeometry(isShadow) {
-    const whole = new CapsuleGeometry(1, 1, isShadow ? 1 : 3, isShadow ? 7 : 10).rotateX(Math.PI / 2), geometry = new InstancedBufferGeometry();
-    const { position } = whole.attributes, end = new Float32Array(position.count), directions = new Float32Array(3 * position.count);
-    for (let n = 0; n < position.count; ++n) {
-        end[n] = position.getZ(n) > 0 ? 1 : 0;
-        directions.set([position.getX(n), position.getY(n), position.getZ(n) - (end[n] ? 0.5 : -0.5)], 3 * n);
+/**
+ * The capsules of one character, each with its axis along z: directions from the axis, which end they belong to, and the part that the
+ * capsule is. A shadow needs few of them.
+ */
+function capsules(partCount, isShadow) {
+    const one = new CapsuleGeometry(1, 1, isShadow ? 1 : 3, isShadow ? 7 : 10).rotateX(Math.PI / 2), { position } = one.attributes;
+    const directions = [], ends = [], parts = [], indices = [];
+    for (let part = 0; part < partCount; ++part) {
+        for (const n of one.index.array) indices.push(part * position.count + n);
+        for (let n = 0; n < position.count; ++n) {
+            const end = position.getZ(n) > 0 ? 1 : 0;
+            directions.push(position.getX(n), position.getY(n), position.getZ(n) - (end ? 0.5 : -0.5));
+            ends.push(end);
+            parts.push(part);
+        }
     }
-    geometry.setIndex(whole.index);
-    geometry.setAttribute("position", new BufferAttribute(directions, 3));
-    geometry.setAttribute("end", new BufferAttribute(end, 1));
+    const geometry = new InstancedBufferGeometry();
+    geometry.setIndex(indices);
+    geometry.setAttribute("position", new Float32BufferAttribute(directions, 3));
+    geometry.setAttribute("end", new Float32BufferAttribute(ends, 1));
+    geometry.setAttribute("part", new Float32BufferAttribute(parts, 1));
     return geometry;
 }
 
@@ -63,7 +73,7 @@ export class Bodies {
         const bones = this.figure.bodyBones();
         const texels = floatTexture(bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]));
         this.bodyColour = { value: rgb("#888888") };
-        const uniforms = { uBones: { value: texels }, uBoneCount: { value: bones.length }, uColour: this.bodyColour };
+        const uniforms = { uBones: { value: texels }, uColour: this.bodyColour };
         this.add(bones.length, uniforms, [crowdGlsl, capsule, bodyVertex], bodyFragment);
     }
     addLimb(limb) {
@@ -95,7 +105,7 @@ export class Bodies {
         }
     }
     /** A mesh, and its shadow on the ground: no place of the ground is darkened twice. */
-    add(perCharacter, own, vertex, fragment) {
+    add(partCount, own, vertex, fragment) {
         const uniforms = { ...this.shared, ...own };
         for (const shadow of [false, true]) {
             const material = new ShaderMaterial({
@@ -103,10 +113,9 @@ export class Bodies {
                 vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
                 ...(shadow ? { depthFunc: LessDepth } : {}),
             });
-            const mesh = new Mesh(capsuleGeometry(shadow), material);
+            const mesh = new Mesh(capsules(partCount, shadow), material);
             mesh.frustumCulled = false;
             mesh.renderOrder = shadow ? 1 : 2;
-            mesh.userData.perCharacter = perCharacter;
             this.meshes.push(mesh);
         }
     }
@@ -116,7 +125,7 @@ export class Bodies {
         this.drawnCount = drawnCount;
         this.shared.uFrame.value = this.stage.frame;
         for (const drawn of this.limbs) this.takeRows(drawn);
-        for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount * mesh.userData.perCharacter;
+        for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount;
     }
     choose(limb, character) {
         for (const drawn of this.limbs) drawn.uniforms.uChosen.value = drawn.limb === limb ? character : -1;

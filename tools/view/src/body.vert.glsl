@@ -1,10 +1,8 @@
-// A bone of the body: one instance for each character and bone.
+// A bone of the body; an instance is a character.
 uniform highp sampler2D uBones;  // a texel each: the joints at both ends, the radii there
-uniform int uBoneCount;
 
 void main() {
-    int character = gl_InstanceID / uBoneCount;
-    vec4 bone = texel(uBones, gl_InstanceID % uBoneCount);
-    vec3 place = placeOf(character).xyz;
-    putCapsule(place + jointOf(character, int(bone.x)), place + jointOf(character, int(bone.y)), bone.z, bone.w);
+    vec4 bone = texel(uBones, int(part));
+    vec3 place = placeOf(gl_InstanceID).xyz;
+    putCapsule(place + jointOf(gl_InstanceID, int(bone.x)), place + jointOf(gl_InstanceID, int(bone.y)), bone.z, bone.w);
 }

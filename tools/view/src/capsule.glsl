@@ -1,6 +1,6 @@
 // A capsule from a to b, as wide as their radii: position holds the direction from its axis, z along it; end is 0 at a
 // and 1 at b. Then the eye's space, or the shadow on the ground.
-in float end;
+in float end, part;
 uniform float uScale, uGround;  // metres of the scene for a unit of the clip; the ground's height in the clip
 uniform vec3 uSun;
 out vec3 vNormal;

@@ -1,4 +1,4 @@
-// Upper arm, forearm or hand: one instance for each character and part.
+// Upper arm, forearm and hand, parts 0, 1 and 2; an instance is a character.
 uniform vec4 uRadii;  // at shoulder, elbow, wrist and the hand's end
 uniform int uUpperJoint, uChosen;  // the chosen character, or -1
 flat out int vCharacter;
@@ -6,13 +6,13 @@ flat out uint vFlags;
 flat out float vFlexion, vMissed, vChosen;
 
 void main() {
-    int character = gl_InstanceID / 3, part = gl_InstanceID % 3;
+    int character = gl_InstanceID, n = int(part);
     vec4 place = placeOf(character);
     Limb limb = limbOf(character, place.w);
     vec3 at = place.xyz + jointOf(character, uUpperJoint);
-    vec3 a = part == 0 ? limb.shoulder : part == 1 ? limb.elbow : limb.wrist;
-    vec3 b = part == 0 ? limb.elbow : part == 1 ? limb.wrist : limb.tip;
-    putCapsule(at + a, at + b, uRadii[part], uRadii[part + 1]);
+    vec3 a = n == 0 ? limb.shoulder : n == 1 ? limb.elbow : limb.wrist;
+    vec3 b = n == 0 ? limb.elbow : n == 1 ? limb.wrist : limb.tip;
+    putCapsule(at + a, at + b, uRadii[n], uRadii[n + 1]);
     vCharacter = character;
     vFlags = limb.flags;
     vFlexion = limb.flexion;
