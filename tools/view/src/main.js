@@ -26,9 +26,9 @@ const DRAWN = 1000;  // characters at most, unless asked for more
 const MOST_DRAWN = 65536;  // a texture has a line for 16 of them, and some thousand lines
 
 /** What this browser lacks; nothing if it has all. */
-function lack(canvas) {
+function lack() {
     if (typeof WebAssembly !== "object") return "WebAssembly";
-    if (!canvas.getContext("webgl2")) return "WebGL 2";
+    if (!document.createElement("canvas").getContext("webgl2")) return "WebGL 2";
     // A function that makes a vector of zeros: the smallest module with SIMD.
     const simd = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
     return WebAssembly.validate(new Uint8Array(simd)) ? "" : "WebAssembly with SIMD";
@@ -181,7 +181,7 @@ export function start(data) {
     const canvas = document.querySelector("canvas");
     if (data === null) return refuse("This page shows no crowd: it is the program that swivel view fills.");
     document.title = `${data.title} – swivel`;
-    const missing = lack(canvas);
+    const missing = lack();
     if (missing) return refuse(`This browser has no ${missing}, which the page needs. Current versions of Firefox, Chrome, Edge and Safari have it.`);
     const ready = open(data, canvas).then((page) => {
         page.ready = ready;

@@ -23,8 +23,8 @@ export class Player {
             ...SPEEDS.map((speed) => element("option", { value: speed }, `${speed} ×`)));
         this.speeds.value = "1";
         this.speeds.addEventListener("change", () => { this.speed = Number(this.speeds.value); });
-        bar.append(this.play, button("◂", () => this.step(-1), { title: "Frame before (←)" }),
-            button("▸", () => this.step(1), { title: "Next frame (→)" }), this.scrub, this.place, this.speeds);
+        bar.append(this.play, button("◂", () => this.step(-1), { title: "Frame before (←)", "aria-label": "Frame before" }),
+            button("▸", () => this.step(1), { title: "Next frame (→)", "aria-label": "Next frame" }), this.scrub, this.place, this.speeds);
         page.on("frame", () => this.show());
     }
 

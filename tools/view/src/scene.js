@@ -15,7 +15,7 @@ export class View {
         this.stage = stage;
         this.figure = figure;
         this.metres = HEIGHT / figure.height;  // of the scene for a unit of the clip
-        this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+        this.renderer = new WebGLRenderer({ canvas, antialias: true });
         this.renderer.outputColorSpace = LinearSRGBColorSpace;  // the shaders' colours are the screen's own
         this.scene = new Scene();
         this.camera = new PerspectiveCamera(38, 1, 0.05, 2000);

@@ -114,7 +114,7 @@ class Stage {
         this.seconds = (performance.now() - set) / 1000;
         this.goalSeconds = (set - before) / 1000;
         if (inOrder) ++this.solvedFrames;
-        else if (this.solvedFrames !== this.frame + 1) this.solvedFrames = -1;
+        else if (this.carriesState) this.solvedFrames = -1;
     }
     /** With a budget the first solve is of all limbs. */
     job() {
@@ -258,7 +258,7 @@ class Stage {
         const native = this.data.digests[this.frame];
         if (!native) return "none";
         if (this.changed) return "changed";
-        if (this.carriesState && this.solvedFrames !== this.frame + 1) return "out of order";
+        if (this.carriesState && this.solvedFrames < 0) return "out of order";
         return this.digests().every((digest, n) => digest === native[n]) ? "equal" : "different";
     }
 }
