@@ -15,6 +15,7 @@
 #include "tools/cli/streams.h"
 #include "tools/crowd/clip_motion.h"
 #include "tools/formats/error.h"
+#include "tools/rig/limb_words.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
