@@ -54,11 +54,15 @@ export class Figure {
         this.joints.forEach(({ parent }, joint) => { if (uppers.has(parent) || below.has(parent)) below.add(joint); });
         return below;
     }
+    /** A root on the ground is a handle to move the figure by: nothing hangs from it. */
+    isHandle(joint) {
+        return joint >= 0 && this.joints[joint].parent < 0 && this.at(joint).y < this.ground + 0.05 * this.height;
+    }
     /** Bones of the body: { a, b, radiusA, radiusB } between two joints. */
     bodyBones() {
         const bones = [];
         this.joints.forEach(({ parent }, joint) => {
-            if (parent < 0 || this.solved.has(joint) || this.boneLength(joint) === 0) return;
+            if (parent < 0 || this.isHandle(parent) || this.solved.has(joint) || this.boneLength(joint) === 0) return;
             bones.push({ a: parent, b: joint, radiusA: this.radius(joint), radiusB: 0.85 * this.radius(joint) });
         });
         bones.push(this.head());

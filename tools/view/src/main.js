@@ -126,9 +126,11 @@ class Page {
         this.redraw();
     }
 
-    /** "#frame=12&character=3&limb=left_arm" shows that limb. */
+    /** "#frame=12&character=3&limb=left_arm" shows that limb, "#drawn=200" as many characters. */
     followHash() {
         const hash = new URLSearchParams(location.hash.slice(1)), frame = Number(hash.get("frame")), character = Number(hash.get("character"));
+        const drawn = Number(hash.get("drawn"));
+        if (Number.isInteger(drawn) && drawn > 0) this.drawFirst(Math.min(drawn, this.stage.characterCount, MOST_DRAWN));
         if (hash.has("frame") && Number.isInteger(frame) && frame >= 0 && frame < this.stage.frameCount) this.setFrame(frame);
         const limb = this.stage.limbs.find(({ name }) => name === hash.get("limb"));
         if (!limb || !Number.isInteger(character) || character < 0 || character >= Math.min(this.stage.characterCount, MOST_DRAWN)) return;
@@ -146,7 +148,10 @@ function build(page, data) {
     const head = element("header", {}, element("div", {}, title, clip, makeStatus(page)), element("nav", {},
         button("Light or dark", () => page.setTheme(page.theme === "dark" ? "light" : "dark")), button("Help", () => page.help.showModal()),
         button("Panel", () => page.togglePanel(), { class: "panel-button" })));
-    const drawn = slider("Drawn", { min: 1, max: Math.min(stage.characterCount, MOST_DRAWN), step: 1, value: page.drawnCount }, (count) => page.drawFirst(count));
+    const drawn = slider("Drawn", { min: 1, max: Math.min(stage.characterCount, MOST_DRAWN), step: 1, value: page.drawnCount }, (count) => {
+        page.drawFirst(count);
+        page.home();
+    });
     const bar = element("footer", {});
     page.player = new Player(page, bar);
     page.legend = makeLegend(page);
@@ -166,11 +171,11 @@ async function open(data, canvas) {
     page.view.bodies.show(page.drawnCount);
     build(page, data);
     page.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-    page.home();
     page.changed();
     page.resize();
     addEventListener("resize", () => page.resize());
     addEventListener("hashchange", () => page.followHash());
+    page.home();
     page.followHash();
     page.draw();
     return page;
