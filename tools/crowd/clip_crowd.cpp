@@ -29,21 +29,11 @@ void store(const Quaterniond& q, Floats& to)
     for (int n = 0; n < 4; ++n) to[static_cast<std::size_t>(n)] = static_cast<float>(q.coeffs()[n]);
 }
 
-// The plan as the formula of goals takes it.
-goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
+std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, std::size_t limb_count)
 {
-    const auto as_solved = [&](const Vector3d& v) { return limb.mirrored ? formats::mirrored(v) : v; };
-    goal_plan goals{};
-    if (plan.target_point) store(as_solved(*plan.target_point), goals.target_point);
-    store(as_solved(plan.target_offset), goals.target_offset);
-    store(plan.effector, goals.effector);
-    if (plan.pole_fixed) store(as_solved(*plan.pole_fixed), goals.pole_fixed);
-    goals.has_target_point = plan.target_point.has_value();
-    goals.has_pole_fixed = plan.pole_fixed.has_value();
-    goals.pole = plan.pole == PoleKind::point ? 0 : plan.pole == PoleKind::normal ? 2 : 1;
-    goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
-    goals.is_mirrored = limb.mirrored;
-    return goals;
+    std::vector<std::span<const goal_source>> sources;
+    for (std::size_t limb = 0; limb < limb_count; ++limb) sources.push_back(motion.sources(limb));
+    return sources;
 }
 
 }  // namespace
@@ -54,29 +44,14 @@ ClipCrowd::ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, con
       motion_(clip, limbs),
       limbs_(limbs),
       plans_(plan.limbs),
-      characters_(characters_of(plan, limbs, motion_.frame_count())),
-      crowds_(limbs, plan, file)
+      setups_(limb_setups(limbs, plan)),
+      crowd_(setups_, sources_of(motion_, limbs.size()), characters_of(plan, limbs, motion_.frame_count()),
+             plan.budget_blocks, file)
 {
-    inputs_.resize(limbs.size(), std::vector<goal_input>(plan.characters));
     given_at_.resize(limbs.size(), std::vector<std::int32_t>(plan.characters));
     rows_.resize(limbs.size() * plan.characters);
     const formats::PoseColumns wanted = columns();
     if (wanted.stretch || wanted.clavicle || wanted.twist_count > 0) extras_.resize(rows_.size());
-    for (std::size_t limb = 0; limb < limbs.size(); ++limb) {
-        goal_plans_.push_back(goal_plan_of(plans_[limb], limbs[limb]));
-        if (crowds_.has(limb, SWIVEL_EFFECTOR)) write_effectors(limb);
-    }
-}
-
-// They go with a character's size and stay the same.
-void ClipCrowd::write_effectors(std::size_t limb)
-{
-    std::vector<std::array<float, 3>> values(characters_.size());
-    for (std::size_t n = 0; n < characters_.size(); ++n)
-        for (int axis = 0; axis < 3; ++axis)
-            values[n][static_cast<std::size_t>(axis)] =
-                static_cast<float>(characters_[n].size * plans_[limb].effector[axis]);
-    crowds_.write(limb, SWIVEL_EFFECTOR, values[0].data(), sizeof values[0]);
 }
 
 std::size_t ClipCrowd::limb_index(formats::LimbName name) const
@@ -96,7 +71,7 @@ void ClipCrowd::set_given(std::size_t limb, const formats::Target& target)
 {
     const LimbPlan& plan = plans_[limb];
     const Vector3d at = origin(limb, target.character);
-    goal_input& input = inputs_[limb][target.character];
+    goal_input& input = crowd_.input(limb, target.character);
     store(as_solved(limb, target.position - at + plan.target_offset), input.target);
     if (target.has_pole && !plan.pole_fixed)
         store(as_solved(limb, plan.pole == PoleKind::point ? Vector3d(target.pole - at) : target.pole), input.pole);
@@ -108,7 +83,8 @@ formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) con
 {
     const LimbPlan& plan = plans_[limb];
     const std::size_t at_frame = clip_frame(character);
-    const goal asked = swivel_goal(&goal_plans_[limb], &motion_.sources(limb)[at_frame], characters_[character].size);
+    const goal asked =
+        swivel_goal(&setups_[limb].goals, &motion_.sources(limb)[at_frame], characters()[character].size);
     const Vector3d at = origin(limb, character), pole = as_solved(limb, Vector3d(asked.pole));
     formats::Target target;
     target.position = at + (as_solved(limb, Vector3d(asked.target)) - plan.target_offset);
@@ -139,26 +115,15 @@ Quaterniond ClipCrowd::as_solved(std::size_t limb, const Quaterniond& q) const
 void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> given)
 {
     frame_ = frame;
-    const auto frame_count = static_cast<std::uint32_t>(motion_.frame_count());
-    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-        for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-            swivel_goals(&goal_plans_[limb], motion_.sources(limb).data(), frame_count,
-                         static_cast<std::uint32_t>(frame), &characters_[begin], end - begin, &inputs_[limb][begin]);
-        });
-        std::ranges::fill(given_at_[limb], -1);
-    }
+    crowd_.set_frame(static_cast<std::uint32_t>(frame));
+    for (std::vector<std::int32_t>& at : given_at_) std::ranges::fill(at, -1);
     given_.assign(given.begin(), given.end());
     for (std::size_t n = 0; n < given_.size(); ++n) {
         const std::size_t limb = limb_index(given_[n].limb);
         given_at_[limb][given_[n].character] = static_cast<std::int32_t>(n);
         set_given(limb, given_[n]);
     }
-    for (std::size_t limb = 0; limb < limbs_.size(); ++limb) {
-        crowds_.write_goals(limb, inputs_[limb]);
-        if (frame == 0 || !crowds_.has(limb, SWIVEL_NORMAL)) continue;
-        for (std::uint32_t n = 0; n < character_count(); ++n)  // from the clip's end to its start is no motion
-            if (clip_frame(n) == 0) crowds_.reset(limb, n);
-    }
+    crowd_.write_inputs();
 }
 
 std::vector<ClipCrowd::GivenPlace> ClipCrowd::given_places() const
@@ -171,7 +136,7 @@ std::vector<ClipCrowd::GivenPlace> ClipCrowd::given_places() const
 void ClipCrowd::solve(Statistics& statistics)
 {
     const auto before = std::chrono::steady_clock::now();
-    crowds_.solve();
+    crowd_.crowds().solve();
     statistics.solve_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
@@ -196,53 +161,53 @@ formats::PoseRow ClipCrowd::pose(std::size_t limb, std::uint32_t character) cons
 formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseRow row;
-    const goal_character& who = characters_[character];
+    const goal_character& who = characters()[character];
     row.character = character;
     row.place = std::to_array(who.place);
     row.size = who.size;
     row.start = who.start;
     row.limb = limbs_[limb].name;
-    crowds_.read(limb, SWIVEL_SHOULDER, character, 1, {row.shoulder.data(), sizeof row.shoulder});
-    crowds_.read(limb, SWIVEL_ELBOW, character, 1, {row.elbow.data(), sizeof row.elbow});
-    if (crowds_.has(limb, SWIVEL_WRIST))
-        crowds_.read(limb, SWIVEL_WRIST, character, 1, {row.wrist.data(), sizeof row.wrist});
+    crowds().read(limb, SWIVEL_SHOULDER, character, 1, {row.shoulder.data(), sizeof row.shoulder});
+    crowds().read(limb, SWIVEL_ELBOW, character, 1, {row.elbow.data(), sizeof row.elbow});
+    if (crowds().has(limb, SWIVEL_WRIST))
+        crowds().read(limb, SWIVEL_WRIST, character, 1, {row.wrist.data(), sizeof row.wrist});
     else
         store(in_clip(limb, character).local_wrist(), row.wrist);
-    crowds_.read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
+    crowds().read(limb, SWIVEL_FLAGS, character, 1, {&row.flags, sizeof row.flags});
     return row;
 }
 
 std::uint32_t ClipCrowd::flags(formats::LimbName limb, std::uint32_t character) const
 {
     std::uint32_t flags;
-    crowds_.read(limb_index(limb), SWIVEL_FLAGS, character, 1, {&flags, sizeof flags});
+    crowds().read(limb_index(limb), SWIVEL_FLAGS, character, 1, {&flags, sizeof flags});
     return flags;
 }
 
 std::string ClipCrowd::explain(formats::LimbName limb, std::uint32_t character) const
 {
-    return crowds_.explain(limb_index(limb), character);
+    return crowds().explain(limb_index(limb), character);
 }
 
 Quaterniond ClipCrowd::clavicle(std::size_t limb, std::uint32_t character) const
 {
     float turn[4];
-    crowds_.read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
+    crowds().read(limb, SWIVEL_CLAVICLE_TURN, character, 1, {turn, sizeof turn});
     return in_clip(limb, character).local_parent * Quaterniond(turn[3], turn[0], turn[1], turn[2]);
 }
 
 formats::PoseExtra ClipCrowd::extra(std::size_t limb, std::uint32_t character) const
 {
     formats::PoseExtra extra;
-    if (crowds_.has(limb, SWIVEL_STRETCH))
-        crowds_.read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
+    if (crowds().has(limb, SWIVEL_STRETCH))
+        crowds().read(limb, SWIVEL_STRETCH, character, 1, {&extra.stretch, sizeof extra.stretch});
     if (plans_[limb].has(SWIVEL_WITH_CLAVICLE)) {
         extra.has_clavicle = true;
         store(clavicle(limb, character), extra.clavicle);
     }
     extra.twist_count = plans_[limb].twist_count();
     if (extra.twist_count > 0)
-        crowds_.read(limb, SWIVEL_TWIST_BONES, character, 1, {extra.twist.data(), sizeof extra.twist});
+        crowds().read(limb, SWIVEL_TWIST_BONES, character, 1, {extra.twist.data(), sizeof extra.twist});
     return extra;
 }
 

@@ -10,7 +10,7 @@
 
 #include "tools/crowd/characters.h"
 #include "tools/crowd/clip_motion.h"
-#include "tools/crowd/limb_crowds.h"
+#include "tools/crowd/goal_crowd.h"
 #include "tools/crowd/statistics.h"
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/targets_csv.h"
@@ -26,7 +26,7 @@ public:
     ClipCrowd(const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
               const std::filesystem::path& file);
 
-    std::uint32_t character_count() const { return static_cast<std::uint32_t>(characters_.size()); }
+    std::uint32_t character_count() const { return crowd_.character_count(); }
 
     // Sets all inputs for a frame; frames follow each other. given: this frame's targets in the world. Limbs without
     // one take their plan's point or follow the clip. Without a pole elbows and knees lean as the clip's do, without an
@@ -57,12 +57,8 @@ public:
     std::uint32_t flags(formats::LimbName limb, std::uint32_t character) const;
     std::string explain(formats::LimbName limb, std::uint32_t character) const;
 
-    // What it is made of, for a page that solves it again: its characters, each limb's goals and the crowds.
-    std::span<const goal_character> characters() const { return characters_; }
-    const goal_plan& plan_of_goals(std::size_t limb) const { return goal_plans_[limb]; }
-    std::span<const goal_source> sources_of_goals(std::size_t limb) const { return motion_.sources(limb); }
-    const goal_input& input(std::size_t limb, std::uint32_t character) const { return inputs_[limb][character]; }
-    const LimbCrowds& crowds() const { return crowds_; }
+    // What is solved, for a page or a cache that solves it again.
+    const GoalCrowd& goal_crowd() const { return crowd_; }
     // The limbs that this frame's given targets are for.
     struct GivenPlace {
         std::size_t limb;
@@ -71,10 +67,9 @@ public:
     std::vector<GivenPlace> given_places() const;
 
 private:
-    std::size_t clip_frame(std::uint32_t character) const
-    {
-        return (frame_ + characters_[character].start) % motion_.frame_count();
-    }
+    std::size_t clip_frame(std::uint32_t character) const { return crowd_.clip_frame(character); }
+    std::span<const goal_character> characters() const { return crowd_.characters(); }
+    const LimbCrowds& crowds() const { return crowd_.crowds(); }
     const LimbInClip& in_clip(std::size_t limb, std::uint32_t character) const
     {
         return motion_.at(clip_frame(character), limb);
@@ -85,13 +80,12 @@ private:
     // The upper joint of that character in the world: what targets are counted from.
     Eigen::Vector3d origin(std::size_t limb, std::uint32_t character) const
     {
-        return motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(characters_[character].place);
+        return motion_.origin(clip_frame(character), limb) + Eigen::Vector3d(characters()[character].place);
     }
     std::size_t limb_index(formats::LimbName name) const;  // of one that is solved
     bool follows_clip(std::size_t limb, std::uint32_t character) const;
     // The same rotations between the two bones that the solver knows.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
-    void write_effectors(std::size_t limb);
     formats::Target target(std::size_t limb, std::uint32_t character) const;
     void set_given(std::size_t limb, const formats::Target& target);
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
@@ -103,16 +97,14 @@ private:
     ClipMotion motion_;
     std::span<const Limb> limbs_;
     std::span<const LimbPlan> plans_;
-    std::vector<goal_character> characters_;
-    std::vector<goal_plan> goal_plans_;                // [limb]
-    std::vector<std::vector<goal_input>> inputs_;      // [limb][character]
+    std::vector<LimbSetup> setups_;
     std::vector<formats::Target> given_;               // to set_frame()
     std::vector<std::vector<std::int32_t>> given_at_;  // [limb][character]: which of them; -1: none
     std::vector<formats::Target> targets_;
     std::vector<formats::PoseRow> rows_;
     std::vector<formats::PoseExtra> extras_;  // empty unless there are columns for them
     std::size_t frame_ = 0;
-    LimbCrowds crowds_;
+    GoalCrowd crowd_;
 };
 
 }  // namespace swivel::tools

@@ -54,18 +54,18 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
     std::vector<std::uint32_t> flags(end - begin);
     const LimbPlan& plan = plans_[limb];
     const bool hand = plan.has(SWIVEL_WITH_HAND), aims = plan.has(SWIVEL_WITH_AIM);
-    crowds_.forward(limb, begin, end - begin, {reached[0].elbow, sizeof(Reached)}, {reached[0].wrist, sizeof(Reached)},
-                    {hand ? reached[0].hand : nullptr, sizeof(Reached)});
-    crowds_.read(limb, SWIVEL_FLAGS, begin, end - begin, {flags.data(), sizeof flags[0]});
+    crowds().forward(limb, begin, end - begin, {reached[0].elbow, sizeof(Reached)}, {reached[0].wrist, sizeof(Reached)},
+                     {hand ? reached[0].hand : nullptr, sizeof(Reached)});
+    crowds().read(limb, SWIVEL_FLAGS, begin, end - begin, {flags.data(), sizeof flags[0]});
     std::vector<double> residuals(end - begin);
-    if (aims) crowds_.residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
+    if (aims) crowds().residuals(limb, begin, end - begin, {residuals.data(), sizeof residuals[0]});
     for (std::uint32_t n = begin; n < end; ++n) {
-        if (!crowds_.solved(limb, n)) continue;
+        if (!crowds().solved(limb, n)) continue;
         const Reached& at = reached[n - begin];
-        const goal_input& goal = inputs_[limb][n];
+        const goal_input& goal = crowd_.input(limb, n);
         const double length = double{goal.lengths[0]} + goal.lengths[1];
         const PoseName pose{frame_, n, limbs_[limb].name};
-        const Vector3d effector = characters_[n].size * (Quaterniond(at.hand) * plan.effector);
+        const Vector3d effector = characters()[n].size * (Quaterniond(at.hand) * plan.effector);
         const double distance =
             aims ? residuals[n - begin]
                  : (Vector3d(at.wrist) + effector - Eigen::Vector3f(goal.target).cast<double>()).norm() / length;
@@ -87,8 +87,8 @@ void ClipCrowd::measure_against_clip(std::size_t limb, const PoseName& pose, con
 {
     const std::uint32_t character = pose.character;
     const LimbInClip& from = in_clip(limb, character);
-    const Vector3d wanted = characters_[character].size * from.elbow;
-    const float(&lengths)[2] = inputs_[limb][character].lengths;
+    const Vector3d wanted = characters()[character].size * from.elbow;
+    const float(&lengths)[2] = crowd_.input(limb, character).lengths;
     const double difference = (elbow - wanted).norm() / (double{lengths[0]} + lengths[1]);
     if (!follows_clip(limb, character)) return statistics.given.add(difference, pose);
     const Vector3d upper = from.elbow.normalized(), fore = (from.wrist - from.elbow).normalized();

@@ -4,22 +4,16 @@
 // made into features and values of fields. Knows limbs and the public interface; reads no file.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "tools/crowd/limb_setup.h"
 #include "tools/formats/crowd_file.h"
 #include "tools/rig/limbs.h"
 
 namespace swivel::tools {
-
-// A field that has one value for all characters and frames.
-struct FixedField {
-    swivel_field field;
-    std::array<float, 12> value;
-};
 
 struct LimbPlan {
     swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
@@ -62,5 +56,8 @@ void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 // naming line and key for tables of limbs that are not solved, for keys that mean nothing beside others, and for a
 // clavicle that is not the limb's own.
 CrowdPlan plan_crowd(const formats::CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs);
+
+// The plan for the solver alone, limb by limb.
+std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan& plan);
 
 }  // namespace swivel::tools

@@ -19,18 +19,18 @@ struct Draft {
     LimbCrowds::Shape shape;
     std::vector<swivel_group_def> groups;
 
-    bool takes(const LimbPlan& plan) const
+    bool takes(const LimbSetup& limb) const
     {
-        const auto both = [&](swivel_features box) { return (shape.features & plan.features & box) != 0; };
-        return (shape.features & kShared) == (plan.features & kShared) &&
-               (!both(SWIVEL_WITH_SHOULDER_BOX) || shape.shoulder_order == plan.shoulder_order) &&
-               (!both(SWIVEL_WITH_WRIST_BOX) || shape.wrist_order == plan.wrist_order);
+        const auto both = [&](swivel_features box) { return (shape.features & limb.features & box) != 0; };
+        return (shape.features & kShared) == (limb.features & kShared) &&
+               (!both(SWIVEL_WITH_SHOULDER_BOX) || shape.shoulder_order == limb.shoulder_order) &&
+               (!both(SWIVEL_WITH_WRIST_BOX) || shape.wrist_order == limb.wrist_order);
     }
-    void add(const LimbPlan& plan, const swivel_group_def& group)
+    void add(const LimbSetup& limb, const swivel_group_def& group)
     {
-        if (plan.has(SWIVEL_WITH_SHOULDER_BOX)) shape.shoulder_order = plan.shoulder_order;
-        if (plan.has(SWIVEL_WITH_WRIST_BOX)) shape.wrist_order = plan.wrist_order;
-        shape.features |= plan.features;
+        if (limb.has(SWIVEL_WITH_SHOULDER_BOX)) shape.shoulder_order = limb.shoulder_order;
+        if (limb.has(SWIVEL_WITH_WRIST_BOX)) shape.wrist_order = limb.wrist_order;
+        shape.features |= limb.features;
         groups.push_back(group);
     }
     Crowd make() const
@@ -47,17 +47,17 @@ struct Draft {
 
 }  // namespace
 
-LimbCrowds::LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const std::filesystem::path& file)
-    : budget_blocks_(plan.budget_blocks)
+LimbCrowds::LimbCrowds(std::span<const LimbSetup> limbs, std::uint32_t characters, std::uint32_t budget_blocks,
+                       const std::filesystem::path& file)
+    : budget_blocks_(budget_blocks)
 {
     std::vector<Draft> drafts;
-    for (std::size_t n = 0; n < limbs.size(); ++n) {
-        const LimbPlan& limb = plan.limbs[n];
+    for (const LimbSetup& limb : limbs) {
         std::size_t d = 0;
         while (d < drafts.size() && !drafts[d].takes(limb)) ++d;
         if (d == drafts.size()) drafts.push_back({{limb.features, limb.shoulder_order, limb.wrist_order}, {}});
         places_.push_back({d, static_cast<std::uint32_t>(drafts[d].groups.size())});
-        drafts[d].add(limb, group(plan.characters, limbs[n].bound));
+        drafts[d].add(limb, group(characters, limb.binding));
         priorities_.push_back(limb.priority);
     }
     if (budget_blocks_ > 0 && drafts.size() > 1)
@@ -70,7 +70,7 @@ LimbCrowds::LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const
         shapes_.push_back(draft.shape);
     }
     for (std::size_t n = 0; n < limbs.size(); ++n)
-        for (const FixedField& fixed : plan.limbs[n].fields) write(n, fixed.field, fixed.value.data(), 0);
+        for (const FixedField& fixed : limbs[n].fields) write(n, fixed.field, fixed.value.data(), 0);
 }
 
 bool LimbCrowds::has(std::size_t limb, swivel_field field) const

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowds of the solver that hold a plan's limbs. A crowd has one kind of pole, one order of Euler angles for each
-// box, one number of twist bones, hands or none, and aims or none: limbs that agree share one, as groups. Knows the
-// public interface; no clip.
+// The crowds of the solver that hold the limbs of many characters. A crowd has one kind of pole, one order of Euler
+// angles for each box, one number of twist bones, hands or none, and aims or none: limbs that agree share one, as
+// groups. Knows the public interface; no clip.
 #pragma once
 
+#include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "tools/crowd/crowd_plan.h"
-#include "tools/crowd/goals.h"
+#include "tools/crowd/limb_setup.h"
 
 namespace swivel::tools {
 
 class LimbCrowds {
 public:
-    // Writes what the plan fixes for all frames. Throws InputError, naming file, if the plan has a budget and its limbs
-    // do not share a crowd.
-    LimbCrowds(std::span<const Limb> limbs, const CrowdPlan& plan, const std::filesystem::path& file);
+    // Writes what is fixed for all frames. budget_blocks: blocks of 16 limbs that a frame solves; 0: all. Throws
+    // InputError, naming file, if there is a budget and the limbs do not share a crowd.
+    LimbCrowds(std::span<const LimbSetup> limbs, std::uint32_t characters, std::uint32_t budget_blocks,
+               const std::filesystem::path& file);
 
     bool has(std::size_t limb, swivel_field field) const;
     // Of all characters, as swivel_write() and swivel_read() do; of a field that the limb's crowd has.

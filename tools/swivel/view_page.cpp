@@ -82,20 +82,21 @@ std::vector<float> positions_of(const formats::Clip& clip, std::span<const std::
     return positions;
 }
 
-Json json_of_limb(const Limb& limb, const LimbPlan& plan, std::size_t n, const ClipCrowd& crowd)
+Json json_of_limb(const Limb& limb, const GoalCrowd& crowd, std::size_t n)
 {
     const LimbCrowds::Place& place = crowd.crowds().place(n);
+    const LimbSetup& setup = crowd.limbs()[n];
     Json out{{"name", formats::limb_word(limb.name)},
              {"mirrored", limb.mirrored},
              {"crowd", place.crowd},
              {"group", place.group},
-             {"binding", base64_of(std::span(&limb.bound, 1))},
-             {"plan", base64_of(std::span(&crowd.plan_of_goals(n), 1))},
-             {"sources", base64_of(crowd.sources_of_goals(n))},
-             {"effector", crowd.plan_of_goals(n).effector},
-             {"priority", plan.priority},
+             {"binding", base64_of(std::span(&setup.binding, 1))},
+             {"plan", base64_of(std::span(&setup.goals, 1))},
+             {"sources", base64_of(crowd.sources(n))},
+             {"effector", setup.goals.effector},
+             {"priority", setup.priority},
              {"fixed", Json::array()}};
-    for (const FixedField& fixed : plan.fields)
+    for (const FixedField& fixed : setup.fields)
         out["fixed"].push_back({{"field", fixed.field}, {"value", fixed.value}});
     return out;
 }
@@ -130,13 +131,13 @@ void ViewPage::add_frame(const ClipCrowd& crowd)
     const auto frame = static_cast<std::uint32_t>(digests_.size());
     for (const ClipCrowd::GivenPlace& at : crowd.given_places()) {
         Given& given = given_.emplace_back();
-        const goal_input& input = crowd.input(at.limb, at.character);
+        const goal_input& input = crowd.goal_crowd().input(at.limb, at.character);
         given = {frame, at.character, static_cast<std::uint32_t>(at.limb), 0, {}, {}, {}};
         std::ranges::copy(input.target, given.target);
         std::ranges::copy(input.pole, given.pole);
         std::ranges::copy(input.hand, given.hand);
     }
-    digests_.push_back(crowd.crowds().digests());
+    digests_.push_back(crowd.goal_crowd().crowds().digests());
 }
 
 void ViewPage::commit(const PageNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
@@ -151,18 +152,19 @@ void ViewPage::commit(const PageNames& names, const formats::Clip& clip, std::sp
               {"joints", json_of_joints(clip, drawn)},
               {"positions", base64_of(std::span<const float>(positions_of(clip, drawn)))},
               {"character_count", crowd.character_count()},
-              {"characters", base64_of(crowd.characters())},
+              {"characters", base64_of(crowd.goal_crowd().characters())},
               {"limbs", Json::array()},
               {"crowds", Json::array()},
               {"budget_blocks", plan.budget_blocks},
               {"given", base64_of(std::span<const Given>(given_))},
               {"digests", Json::array()}};
     for (std::size_t n = 0; n < limbs.size(); ++n) {
-        Json limb = json_of_limb(limbs[n], plan.limbs[n], n, crowd);
+        Json limb = json_of_limb(limbs[n], crowd.goal_crowd(), n);
         for (const int joint : limbs[n].joints) limb["joints"].push_back(drawn_at(clip, drawn, joint));
         page["limbs"].push_back(std::move(limb));
     }
-    for (const LimbCrowds::Shape& shape : crowd.crowds().shapes()) page["crowds"].push_back(json_of(shape));
+    for (const LimbCrowds::Shape& shape : crowd.goal_crowd().crowds().shapes())
+        page["crowds"].push_back(json_of(shape));
     for (const std::vector<std::uint64_t>& of_frame : digests_) {
         Json digests = Json::array();
         for (const std::uint64_t digest : of_frame) digests.push_back(fmt::format("{:016x}", digest));

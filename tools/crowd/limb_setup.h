@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+//
+// One limb of every character of a crowd, in the solver's terms alone: what a clip and a crowd file come to, and what a
+// cache stores. Knows the public interface and the formula of goals; no clip, no Eigen.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "swivel/swivel.hpp"
+#include "tools/crowd/goals.h"
+
+namespace swivel::tools {
+
+// A field that has one value for all characters and frames.
+struct FixedField {
+    swivel_field field;
+    std::array<float, 12> value;
+};
+
+struct LimbSetup {
+    swivel_binding binding;
+    swivel_features features;
+    swivel_euler_order shoulder_order, wrist_order;
+    std::vector<FixedField> fields;
+    float priority;
+    goal_plan goals;
+
+    bool has(swivel_features feature) const { return (features & feature) != 0; }
+};
+
+}  // namespace swivel::tools
