@@ -235,7 +235,7 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         std::vector<swivel_group_def> groups;
         for (const std::uint32_t count : counts) groups.push_back(group_of(count));
         Crowd crowd(features, groups);
-        Random random(7);
+        Random random{7};
         for (std::uint32_t g = 0; g < 3; ++g) {
             std::vector<Float3> targets(counts[g]);
             for (Float3& target : targets)
