@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace swivel::tools {
 
@@ -24,17 +23,29 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 
 }  // namespace
 
+CharacterStream::CharacterStream(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
+    : plan_(plan),
+      random_(plan.seed),
+      frame_count_(frame_count),
+      columns_(static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)))),
+      spacing_(plan.spacing * limb_span(limbs))
+{
+}
+
+goal_character CharacterStream::next()
+{
+    const std::uint32_t n = made_++;
+    if (n == 0) return {1, {0, 0, 0}, 0, 0};
+    const double size = plan_.least_size + (plan_.most_size - plan_.least_size) * unit(random_);
+    const auto start = static_cast<std::uint32_t>(random_() % frame_count_);
+    return {size, {spacing_ * (n % columns_), 0, spacing_ * (n / columns_)}, plan_.stagger ? start : 0, 0};
+}
+
 std::vector<goal_character> characters_of(const CrowdPlan& plan, std::span<const Limb> limbs, std::size_t frame_count)
 {
-    std::vector<goal_character> characters(plan.characters, goal_character{1, {0, 0, 0}, 0, 0});
-    std::mt19937_64 random(plan.seed);
-    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(plan.characters)));
-    const double spacing = plan.spacing * limb_span(limbs);
-    for (std::uint32_t n = 1; n < plan.characters; ++n) {
-        const double size = plan.least_size + (plan.most_size - plan.least_size) * unit(random);
-        const auto start = static_cast<std::uint32_t>(random() % frame_count);
-        characters[n] = {size, {spacing * (n % columns), 0, spacing * (n / columns)}, plan.stagger ? start : 0, 0};
-    }
+    CharacterStream stream(plan, limbs, frame_count);
+    std::vector<goal_character> characters(plan.characters);
+    for (goal_character& character : characters) character = stream.next();
     return characters;
 }
 

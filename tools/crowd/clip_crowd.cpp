@@ -126,7 +126,7 @@ void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> gi
     crowd_.write_inputs();
 }
 
-std::vector<ClipCrowd::GivenPlace> ClipCrowd::given_places() const
+std::vector<GivenPlace> ClipCrowd::given_places() const
 {
     std::vector<GivenPlace> places;
     for (const formats::Target& target : given_) places.push_back({limb_index(target.limb), target.character});

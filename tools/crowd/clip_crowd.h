@@ -59,11 +59,8 @@ public:
 
     // What is solved, for a page or a cache that solves it again.
     const GoalCrowd& goal_crowd() const { return crowd_; }
+    const ClipMotion& motion() const { return motion_; }
     // The limbs that this frame's given targets are for.
-    struct GivenPlace {
-        std::size_t limb;
-        std::uint32_t character;
-    };
     std::vector<GivenPlace> given_places() const;
 
 private:

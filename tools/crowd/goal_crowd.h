@@ -12,6 +12,12 @@
 
 namespace swivel::tools {
 
+// A limb of a character.
+struct GivenPlace {
+    std::size_t limb;
+    std::uint32_t character;
+};
+
 class GoalCrowd {
 public:
     // sources: of each limb, one for each frame of the clip; they must outlive the crowd, and so must limbs.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
 
@@ -97,6 +99,18 @@ void LimbCrowds::read(std::size_t limb, swivel_field field, std::uint32_t first,
     check(swivel_read(crowd_of(limb).get(), field, places_[limb].group, first, count, to));
 }
 
+void LimbCrowds::restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers)
+{
+    swivel_crowd* const crowd = crowd_of(limb).get();
+    const swivel_rows rows = swivel_result_rows(crowd);
+    const std::uint32_t first_row = swivel_field_first_row(crowd, field), count = swivel_field_row_count(crowd, field);
+    const std::uint32_t first = swivel_group_first_limb(crowd, places_[limb].group);
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+        const std::size_t i = first + n / count, row = i / SWIVEL_LANES * rows.row_count + first_row + n % count;
+        rows.base[row * SWIVEL_LANES + i % SWIVEL_LANES] = std::bit_cast<float>(numbers[n]);
+    }
+}
+
 void LimbCrowds::forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
                          swivel_out hand) const
 {
@@ -132,6 +146,18 @@ void LimbCrowds::solve()
     std::vector<swivel_in> priorities;
     for (const float& priority : priorities_) priorities.push_back({&priority, 0});
     crowd.choose(priorities, budget_blocks_, active_);
+    crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
+}
+
+void LimbCrowds::solve_blocks(std::span<const std::span<const std::uint8_t>> chosen)
+{
+    Crowd& crowd = crowds_[0];
+    active_.assign((std::size_t{swivel_block_count(crowd.get())} + 1) / 2, 0);
+    for (std::size_t limb = 0; limb < chosen.size(); ++limb) {
+        const std::uint32_t first = swivel_group_first_limb(crowd.get(), places_[limb].group) / SWIVEL_LANES;
+        for (std::uint32_t block = 0; block < chosen[limb].size(); ++block)
+            if (chosen[limb][block]) active_[(first + block) / 2] |= 0xffffu << (first + block) % 2 * SWIVEL_LANES;
+    }
     crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
 }
 

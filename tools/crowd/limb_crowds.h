@@ -26,6 +26,8 @@ public:
     void write(std::size_t limb, swivel_field field, const float* first, std::size_t stride);
     void write_goals(std::size_t limb, std::span<const goal_input> inputs);
     void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
+    // Puts results back that read() gave, each of them numbers of 32 bits side by side.
+    void restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers);
     void forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
                  swivel_out hand) const;
     void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
@@ -35,6 +37,9 @@ public:
 
     // Solves all limbs; with a budget all in the first call, the most urgent blocks of 16 in each after that.
     void solve();
+    // Solves the blocks of 16 limbs that were chosen elsewhere: of each limb, 1 for each of its blocks, else 0. For
+    // limbs that share a crowd.
+    void solve_blocks(std::span<const std::span<const std::uint8_t>> chosen);
     // Whether the last solve() solved it.
     bool solved(std::size_t limb, std::uint32_t character) const;
 

@@ -27,6 +27,10 @@ struct LimbSetup {
     goal_plan goals;
 
     bool has(swivel_features feature) const { return (features & feature) != 0; }
+    unsigned twist_bone_count() const
+    {
+        return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
+    }
 };
 
 }  // namespace swivel::tools

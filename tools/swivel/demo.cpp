@@ -16,6 +16,7 @@
 #include "tools/crowd/demo_clip.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/text.h"
+#include "tools/swivel/cached_clip.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/view_page.h"
@@ -62,10 +63,11 @@ Statistics solve_demo(const DemoOptions& options)
             crowd.set_frame(frame, {});
             crowd.solve(statistics);
             crowd.measure(statistics);
-            if (page && frame < clip.frame_count) page->add_frame(crowd);
+            if (page && frame < clip.frame_count) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
-    if (page) page->commit({"swivel demo", "made up"}, clip, limbs, plan, crowd);
+    if (page)
+        page->commit(cached_clip({"swivel demo", "made up"}, clip, limbs, plan, crowd.motion()), crowd.goal_crowd());
     return statistics;
 }
 

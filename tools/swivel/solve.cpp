@@ -23,7 +23,9 @@
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/text.h"
+#include "tools/swivel/cached_clip.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_keys.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/solve_files.h"
@@ -34,16 +36,6 @@
 namespace swivel::tools {
 
 namespace {
-
-// What the options and the crowd file come to.
-struct Job {
-    std::optional<formats::CrowdFile> crowd;
-    std::vector<Limb> limbs;
-    std::vector<LimbFinding> missing;
-    CrowdPlan plan;
-    std::string targets;  // "clip" or a file
-    std::optional<GivenTargets> given;
-};
 
 std::string page_title(const std::string& file)
 {
@@ -59,7 +51,7 @@ void print_page_size(const SolveOptions& options, std::uint64_t goal_count)
         goal_count > 100'000 ? "; swivel view --frames takes fewer" : "");
 }
 
-Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& job, SolveReport* report)
+Statistics solve_clip(const SolveOptions& options, const MotionFile& file, CrowdJob& job, SolveReport* report)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
@@ -92,7 +84,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& 
             if (report) report->add_frame(of_frame, crowd);
             if (csv) csv->append(static_cast<std::uint32_t>(frame), crowd.poses(), crowd.extras());
             if (kind == OutKind::motion) keys.add(crowd);
-            if (page) page->add_frame(crowd);
+            if (page) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
     signals.check();
@@ -102,68 +94,11 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Job& 
     signals.check();
     if (kind == OutKind::motion) keys.write(out_place(options), file);
     signals.check();
-    if (page) page->commit({page_title(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd);
+    if (page)
+        page->commit(
+            cached_clip({page_title(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
+            crowd.goal_crowd());
     return statistics;
-}
-
-void require_named_limbs_solved(const LimbChoice& choice)
-{
-    if (choice.kinds == "legs" && !choice.arms.empty())
-        throw CommandError(2,
-                           fmt::format("--arm names an arm, but {} solves none; use --limbs all", kinds_words(choice)));
-    if (choice.kinds == "arms" && !choice.legs.empty())
-        throw CommandError(2,
-                           fmt::format("--leg names a leg, but {} solves none; use --limbs all", kinds_words(choice)));
-}
-
-LimbChoice choice_of(const SolveOptions& options)
-{
-    LimbChoice choice;
-    choice.kinds = options.kinds;
-    if (!options.kinds.empty()) choice.kinds_source = {"--limbs"};
-    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
-    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
-    require_named_limbs_solved(choice);
-    return choice;
-}
-
-Between between_of(const SolveOptions& options, const std::string& targets)
-{
-    if (options.between.empty()) return Between::clip;
-    if (targets == "clip")
-        throw CommandError(2, fmt::format("--between {}: is about the rows of a table; give one with --targets FILE",
-                                          options.between));
-    return options.between == "hold" ? Between::hold : Between::linear;
-}
-
-// The command line before the crowd file before what is so without both.
-Job make_job(const SolveOptions& options, LimbChoice choice, MotionFile& file)
-{
-    Job job;
-    if (!options.crowd.empty()) {
-        job.crowd = formats::read_crowd_file(options.crowd);
-        add_choice(*job.crowd, choice);
-        require_named_limbs_solved(choice);
-    }
-    const formats::Clip& clip = file.clip();
-    const FigureJoints joints = choose_joints(clip, options.file, choice);
-    file.sample(joints_of(joints));
-    LimbSearch search = bind_limbs(clip, joints, choice);
-    job.limbs = require_limbs(search, options.file);
-    for (LimbFinding& finding : search.findings)
-        if (!finding.limb) job.missing.push_back(std::move(finding));
-    job.plan = plan_crowd(job.crowd ? &*job.crowd : nullptr, clip, job.limbs);
-    if (options.characters) job.plan.characters = *options.characters;
-    if (clip.frame_time == 0 && job.plan.characters > 1)
-        throw formats::InputError(options.file,
-                                  "its keys lie at uneven times, and the characters of a crowd start at "
-                                  "different frames; give --fps");
-    if (options.seed) job.plan.seed = *options.seed;
-    job.targets = options.targets ? *options.targets : job.crowd ? checked_targets(*job.crowd) : "clip";
-    require_one_reader(options, job.targets);
-    job.given.emplace(job.targets, between_of(options, job.targets), clip, job.limbs, job.plan.characters);
-    if (options.frames > 0 && options.frames < clip.frame_count) file.cut(options.frames);
-    return job;
 }
 
 void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, double seconds)
@@ -175,7 +110,7 @@ void print_report(std::FILE* to, const SolveOptions& options, const Statistics& 
 }
 
 nlohmann::ordered_json json_of_run(const SolveOptions& options, const SolveFacts& facts, const MotionFile& file,
-                                   const Job& job, const Statistics& statistics, double seconds)
+                                   const CrowdJob& job, const Statistics& statistics, double seconds)
 {
     nlohmann::ordered_json out = json_of(facts, file.clip(), job.limbs);
     out["each_character"] = json_of(characters_of(job.plan, job.limbs, file.clip().frame_count));
@@ -200,7 +135,7 @@ void run_solve(const SolveOptions& options)
     std::FILE* const reports = report_stream(options);
     MotionFile file(options.file, options.motion);
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
-    Job job = make_job(options, choice, file);
+    CrowdJob job = make_job(options, choice, file);
     require_own_files(options, file, job.targets);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing};

@@ -6,19 +6,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "tools/crowd/clip_crowd.h"
+#include "tools/cache/cached_crowd.h"
+#include "tools/crowd/goal_crowd.h"
 #include "tools/formats/output_file.h"
 
 namespace swivel::tools {
-
-// What the page says of the crowd.
-struct PageNames {
-    std::string title;  // the motion's file
-    std::string clip;   // the animation in it; may be empty
-};
 
 class ViewPage {
 public:
@@ -26,12 +22,11 @@ public:
     // does.
     explicit ViewPage(const std::filesystem::path& path);
 
-    // Takes a frame just solved: its digests and the goals that were given. Frames in order, from the first.
-    void add_frame(const ClipCrowd& crowd);
+    // Takes a frame just solved: its digests, and the goals that were given. Frames in order, from the first.
+    void add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> given);
 
-    // Writes the page and makes it appear; to be called once, last. clip, limbs and plan: those of the crowd.
-    void commit(const PageNames& names, const formats::Clip& clip, std::span<const Limb> limbs, const CrowdPlan& plan,
-                const ClipCrowd& crowd);
+    // Writes the page and makes it appear; to be called once, last. cached: what the crowd performs.
+    void commit(const CachedCrowd& cached, const GoalCrowd& crowd);
 
 private:
     // A goal of one's own, which takes the formula's place.

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// What a cache says of its crowd beside the characters: the clip that they perform, the limbs, and how the arrays are
+// cut. docs/cache.md has it for readers of the files.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/cache/zarr.h"
+#include "tools/crowd/limb_setup.h"
+#include "tools/formats/limb_name.h"
+
+namespace swivel::tools {
+
+// What a finished cache keeps. Either is enough to have the other's use: poses are there to be read, goals give the
+// same poses again on any machine.
+enum class Keep { goals, poses, both };
+
+// A joint that a picture of the character shows.
+struct CachedJoint {
+    std::string name;
+    int parent;  // among them; -1: none
+};
+
+struct CachedLimb {
+    formats::LimbName name;
+    std::vector<int> joints;  // among the cached ones: shoulder, elbow, wrist
+    LimbSetup setup;
+    std::vector<goal_source> sources;  // one for each frame of the clip
+};
+
+// Frames and characters that one file of an array holds. Characters: a multiple of SWIVEL_LANES.
+struct ChunkShape {
+    std::uint32_t frames, characters;
+};
+
+struct CachedCrowd {
+    std::string title, clip;   // the motion's file, and what it is
+    double frame_seconds = 0;  // from frame to frame
+    std::uint32_t frame_count = 0, character_count = 0;
+    std::uint32_t budget_blocks = 0;  // 0: no budget
+    std::vector<CachedJoint> joints;
+    std::vector<float> positions;  // [frame of the clip][joint][3], in the world
+    std::vector<CachedLimb> limbs;
+    bool has_given = false;  // goals of one's own
+    Keep keep = Keep::both;
+    bool is_closed = false, is_compressed = false;
+    ChunkShape chunk{1, 16};
+
+    std::uint32_t clip_frame_count() const { return static_cast<std::uint32_t>(limbs[0].sources.size()); }
+    // Chunks along the frames and along the characters.
+    std::uint32_t time_count() const { return (frame_count + chunk.frames - 1) / chunk.frames; }
+    std::uint32_t column_count() const { return (character_count + chunk.characters - 1) / chunk.characters; }
+    std::uint32_t frames_in(std::uint32_t time) const
+    {
+        return std::min(chunk.frames, frame_count - time * chunk.frames);
+    }
+    std::uint32_t characters_in(std::uint32_t column) const
+    {
+        return std::min(chunk.characters, character_count - column * chunk.characters);
+    }
+    // Whether a frame's results depend on the frame before.
+    bool carries_state() const;
+    bool has_goals() const { return keep != Keep::poses || !is_closed; }
+    bool has_poses() const { return keep != Keep::goals; }
+};
+
+// A chunk of about 64,000 limbs, whatever the memory and the number of machines: characters first, then frames.
+ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count);
+
+// One field of the results, as an array has it.
+struct ResultField {
+    swivel_field field;
+    const char* name;
+    const char* meaning;
+    std::vector<std::uint64_t> parts;          // numbers of a limb
+    std::vector<std::string> part_dimensions;  // their names
+
+    std::size_t count() const;
+};
+// The fields that any of the limbs has, in the solver's order. Each number is 4 bytes.
+std::vector<ResultField> result_fields(const CachedCrowd& crowd);
+
+// The attributes of the cache's folder. Arrays hold sources and positions.
+nlohmann::ordered_json attributes_of(const CachedCrowd& crowd);
+// The way back, without sources and positions; *clip_frame_count becomes how many of them there are. Throws InputError
+// naming path where a value is missing, damaged or of another version.
+CachedCrowd crowd_of_attributes(const nlohmann::ordered_json& attributes, const std::filesystem::path& path,
+                                std::uint32_t* clip_frame_count);
+
+}  // namespace swivel::tools

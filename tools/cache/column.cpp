@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cache/column.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swivel::tools {
+
+namespace {
+
+constexpr std::uint32_t kNoNumber = 0x7fc00000;  // a float that is NaN
+
+std::vector<LimbSetup> setups_of(const CachedCrowd& crowd)
+{
+    std::vector<LimbSetup> setups;
+    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
+    return setups;
+}
+
+std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
+{
+    std::vector<std::span<const goal_source>> sources;
+    for (const CachedLimb& limb : crowd.limbs) sources.push_back(limb.sources);
+    return sources;
+}
+
+}  // namespace
+
+// Blocks are chosen when the cache is made, so the crowd itself has no budget.
+Column::Column(const CachedCrowd& crowd, std::vector<goal_character> characters, const std::filesystem::path& folder)
+    : cached_(crowd),
+      fields_(result_fields(crowd)),
+      setups_(setups_of(crowd)),
+      crowd_(setups_, sources_of(crowd), std::move(characters), 0, folder)
+{
+}
+
+void Column::write_given(const ChunkGoals& goals, std::uint32_t frame)
+{
+    const std::size_t limb_count = cached_.limbs.size(), wide = cached_.chunk.characters;
+    for (std::size_t limb = 0; limb < limb_count; ++limb)
+        for (std::uint32_t n = 0; n < crowd_.character_count(); ++n) {
+            const std::size_t at = (frame * limb_count + limb) * wide + n;
+            if (std::isnan(goals.target[3 * at])) continue;
+            goal_input& input = crowd_.input(limb, n);
+            std::copy_n(&goals.target[3 * at], 3, input.target);
+            std::copy_n(&goals.pole[3 * at], 3, input.pole);
+            std::copy_n(&goals.hand[4 * at], 4, input.hand);
+        }
+}
+
+void Column::solve_frame(const ChunkGoals& goals, std::uint32_t frame)
+{
+    if (!goals.target.empty()) write_given(goals, frame);
+    crowd_.write_inputs();
+    if (goals.chosen.empty()) return crowd_.crowds().solve();
+    const std::size_t blocks = cached_.chunk.characters / SWIVEL_LANES;
+    const std::size_t here = (crowd_.character_count() + SWIVEL_LANES - 1) / SWIVEL_LANES;
+    std::vector<std::span<const std::uint8_t>> chosen;
+    for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb)
+        chosen.push_back(std::span(goals.chosen).subspan((frame * cached_.limbs.size() + limb) * blocks, here));
+    crowd_.crowds().solve_blocks(chosen);
+}
+
+void Column::read_frame(std::uint32_t frame, Results& results) const
+{
+    for (std::size_t n = 0; n < fields_.size(); ++n)
+        for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
+            if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
+            const std::size_t count = fields_[n].count();
+            const std::size_t at = (frame * cached_.limbs.size() + limb) * cached_.chunk.characters * count;
+            crowd_.crowds().read(limb, fields_[n].field, 0, crowd_.character_count(),
+                                 {&results[n][at], count * sizeof(std::uint32_t)});
+        }
+}
+
+void Column::restore_frame(std::uint32_t frame, const Results& results)
+{
+    for (std::size_t n = 0; n < fields_.size(); ++n)
+        for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
+            if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
+            const std::size_t count = fields_[n].count();
+            const std::size_t at = (frame * cached_.limbs.size() + limb) * cached_.chunk.characters * count;
+            crowd_.crowds().restore(limb, fields_[n].field,
+                                    std::span(results[n]).subspan(at, crowd_.character_count() * count));
+        }
+}
+
+void Column::restore(const Results& state) { restore_frame(0, state); }
+
+std::uint64_t Column::solve(std::uint32_t time, const ChunkGoals& goals, Results& results)
+{
+    ChunkDigest digest;
+    for (std::uint32_t frame = 0; frame < cached_.frames_in(time); ++frame) {
+        crowd_.set_frame(time * cached_.chunk.frames + frame);
+        solve_frame(goals, frame);
+        read_frame(frame, results);
+        digest.add(crowd_.crowds().digests());
+    }
+    return digest.value();
+}
+
+std::uint64_t Column::digest(std::uint32_t time, const Results& results)
+{
+    ChunkDigest digest;
+    for (std::uint32_t frame = 0; frame < cached_.frames_in(time); ++frame) {
+        restore_frame(frame, results);
+        digest.add(crowd_.crowds().digests());
+    }
+    return digest.value();
+}
+
+Results empty_results(const CachedCrowd& crowd)
+{
+    Results results;
+    const std::size_t limbs = std::size_t{crowd.chunk.frames} * crowd.limbs.size() * crowd.chunk.characters;
+    for (const ResultField& field : result_fields(crowd))
+        results.emplace_back(limbs * field.count(), field.field == SWIVEL_FLAGS ? 0 : kNoNumber);
+    return results;
+}
+
+void ChunkDigest::add(const std::vector<std::uint64_t>& of_frame)
+{
+    for (const std::uint64_t digest : of_frame) digest_ = (digest_ ^ digest) * 0x100000001b3u;
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// Solves chunks of a cache: the characters of one column, frame by frame.
+#pragma once
+
+#include <memory>
+
+#include "tools/cache/cache.h"
+#include "tools/crowd/goal_crowd.h"
+
+namespace swivel::tools {
+
+class Column {
+public:
+    // crowd must outlive the column.
+    Column(const CachedCrowd& crowd, std::vector<goal_character> characters, const std::filesystem::path& folder);
+
+    // Starts from the last results of the chunk before, where state is carried.
+    void restore(const Results& state);
+    // Solves the frames of a chunk and fills results; returns their digest. Where state is carried, chunks in order, or
+    // restore() first.
+    std::uint64_t solve(std::uint32_t time, const ChunkGoals& goals, Results& results);
+    // The digest that a chunk with these results has.
+    std::uint64_t digest(std::uint32_t time, const Results& results);
+
+    GoalCrowd& goal_crowd() { return crowd_; }
+
+private:
+    void write_given(const ChunkGoals& goals, std::uint32_t frame);
+    void solve_frame(const ChunkGoals& goals, std::uint32_t frame);
+    void read_frame(std::uint32_t frame, Results& results) const;
+    void restore_frame(std::uint32_t frame, const Results& results);
+
+    const CachedCrowd& cached_;
+    std::vector<ResultField> fields_;
+    std::vector<LimbSetup> setups_;
+    GoalCrowd crowd_;
+};
+
+// Whole chunks' results, all of them NaN, and 0 where they are flags.
+Results empty_results(const CachedCrowd& crowd);
+
+// A chunk's digest, never 0. It takes the digests of each frame's crowds in order, as FNV-1a takes bytes.
+class ChunkDigest {
+public:
+    void add(const std::vector<std::uint64_t>& of_frame);
+    std::uint64_t value() const { return digest_ == 0 ? 1 : digest_; }
+
+private:
+    std::uint64_t digest_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace swivel::tools

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cache/fill.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "tools/cache/column.h"
+#include "tools/crowd/parallel.h"
+#include "tools/formats/error.h"
+
+#ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+#endif
+
+namespace swivel::tools {
+
+namespace {
+
+constexpr std::uint64_t kProgramBytes = std::uint64_t{48} << 20;  // of code, libraries and threads
+constexpr std::uint64_t kBytesOfLimb = 1024;                      // of a solver's limb with its inputs, at most
+constexpr std::size_t kMostInFlight = 16;                         // chunks
+constexpr int kWaiting = 2;  // threads beside the solver's, which wait for the disk
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// The time during which at least one thread was at it.
+class BusyClock {
+public:
+    class Turn {
+    public:
+        explicit Turn(BusyClock& clock) : clock_(clock)
+        {
+            const std::lock_guard lock(clock_.mutex_);
+            if (clock_.count_++ == 0) clock_.begin_ = Clock::now();
+        }
+        ~Turn()
+        {
+            const std::lock_guard lock(clock_.mutex_);
+            if (--clock_.count_ == 0) clock_.seconds_ += seconds_since(clock_.begin_);
+        }
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+
+    private:
+        BusyClock& clock_;
+    };
+    double seconds() const { return seconds_; }
+
+private:
+    std::mutex mutex_;
+    int count_ = 0;
+    Clock::time_point begin_;
+    double seconds_ = 0;
+};
+
+// A chunk on its way.
+struct Work {
+    ChunkAt at;
+    std::vector<goal_character> characters;  // of a column that is new to the solver
+    ChunkGoals goals;
+    std::optional<Results> state;  // to start from; none: from the frame before, or from nothing
+    Results results;
+    std::uint64_t stored = 0, digest = 0;
+};
+
+class Filling {
+public:
+    Filling(const Cache& cache, const FillOptions& options)
+        : cache_(cache), options_(options), chunks_(chunks_of(cache.crowd(), options.shard))
+    {
+    }
+
+    FillReport run();
+
+private:
+    std::unique_ptr<Work> read_next();
+    void solve(Work& work);
+    void write(Work& work);
+    std::string difference(const Work& work) const;
+    std::size_t in_flight() const;
+
+    const Cache& cache_;
+    const FillOptions& options_;
+    std::vector<ChunkAt> chunks_;
+    std::size_t next_ = 0;
+    std::optional<ChunkAt> read_last_;  // by read_next(), and so the last that was solved before the next
+    std::unique_ptr<Column> column_;
+    BusyClock solving_, disk_;
+    std::mutex mutex_;
+    std::uint64_t through_ = 0;
+    FillReport report_;
+};
+
+// Null: there is no more.
+std::unique_ptr<Work> Filling::read_next()
+{
+    const BusyClock::Turn turn(disk_);
+    for (; next_ < chunks_.size(); ++next_) {
+        const ChunkAt at = chunks_[next_];
+        const std::uint64_t stored = cache_.digest(at);
+        if (stored != 0 && !options_.verifies) {
+            const std::lock_guard lock(mutex_);
+            ++report_.skipped;
+            ++through_;
+            continue;
+        }
+        auto work =
+            std::make_unique<Work>(Work{at, {}, cache_.goals(at), {}, empty_results(cache_.crowd()), stored, 0});
+        if (!read_last_ || read_last_->column != at.column) work->characters = cache_.characters(at.column);
+        const bool follows = read_last_ && *read_last_ == ChunkAt{at.time - 1, at.column};
+        if (cache_.crowd().carries_state() && at.time > 0 && !follows) {
+            work->state = cache_.state({at.time - 1, at.column});
+            if (!work->state)
+                throw formats::InputError(
+                    cache_.folder(), fmt::format("the state after chunk {}.{} is missing; run swivel fill --verify",
+                                                 at.time - 1, at.column));
+        }
+        read_last_ = at;
+        ++next_;
+        return work;
+    }
+    return nullptr;
+}
+
+void Filling::solve(Work& work)
+{
+    const BusyClock::Turn turn(solving_);
+    if (!work.characters.empty())
+        column_ = std::make_unique<Column>(cache_.crowd(), std::move(work.characters), cache_.folder());
+    if (work.state) column_->restore(*work.state);
+    work.digest = column_->solve(work.at.time, work.goals, work.results);
+}
+
+// What the files of a chunk that is done have otherwise; empty: nothing.
+std::string Filling::difference(const Work& work) const
+{
+    const CachedCrowd& crowd = cache_.crowd();
+    const auto compare = [](const std::optional<Results>& stored, const Results& wanted,
+                            const std::vector<ZarrArray>& arrays) -> std::string {
+        if (!stored) return "a file is missing";
+        for (std::size_t n = 0; n < wanted.size(); ++n)
+            if ((*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
+        return "";
+    };
+    try {
+        std::string what;
+        if (work.stored != work.digest) what = "digest differs";
+        if (what.empty() && crowd.has_poses())
+            what = compare(cache_.results(work.at), work.results, cache_.arrays().results);
+        if (what.empty() && crowd.carries_state())
+            what = compare(cache_.state(work.at), last_frame(work.results, crowd, work.at.time), cache_.arrays().state);
+        return what;
+    } catch (const formats::InputError& error) {  // it has another size
+        return error.what();
+    }
+}
+
+void Filling::write(Work& work)
+{
+    const BusyClock::Turn turn(disk_);
+    const std::string what = work.stored != 0 ? difference(work) : "";
+    const bool is_written = work.stored == 0 || !what.empty();
+    const std::size_t bytes = is_written ? cache_.write(work.at, work.results, work.digest) : 0;
+    const CachedCrowd& crowd = cache_.crowd();
+    const std::lock_guard lock(mutex_);
+    if (!what.empty()) report_.differences.push_back({work.at, what});
+    ++(work.stored == 0 ? report_.written : report_.compared);
+    report_.bytes += bytes;
+    report_.limbs +=
+        std::uint64_t{crowd.frames_in(work.at.time)} * crowd.characters_in(work.at.column) * crowd.limbs.size();
+    ++through_;
+    if (options_.progress) options_.progress(through_);
+}
+
+// How many chunks may be on their way, by the memory that is left beside the clip and the solver.
+std::size_t Filling::in_flight() const
+{
+    const CachedCrowd& crowd = cache_.crowd();
+    const CacheArrays& arrays = cache_.arrays();
+    std::uint64_t of_chunk = 0;
+    for (const ZarrArray& array : arrays.results) of_chunk += array.chunk_bytes();
+    if (options_.verifies) of_chunk *= 3;  // those that are stored, too, as a file and as numbers
+    for (const ZarrArray& array : arrays.given) of_chunk += 2 * array.chunk_bytes();
+    const std::uint64_t limbs = std::uint64_t{crowd.chunk.characters} * crowd.limbs.size();
+    const std::uint64_t clip = crowd.limbs.size() * crowd.clip_frame_count() * sizeof(goal_source);
+    const std::uint64_t least = kProgramBytes + 2 * clip + limbs * kBytesOfLimb + of_chunk;
+    if (options_.memory < least)
+        throw formats::InputError(cache_.folder(),
+                                  fmt::format("one chunk takes {} MiB of memory, and --memory is {} MiB; give more",
+                                              (least >> 20) + 1, options_.memory >> 20));
+    return std::clamp<std::size_t>((options_.memory - least) / of_chunk + 1, 1, kMostInFlight);
+}
+
+FillReport Filling::run()
+{
+    const Clock::time_point begin = Clock::now();
+    [[maybe_unused]] const std::size_t most = in_flight();
+#ifdef SWIVEL_WITH_TBB
+    using namespace oneapi::tbb;
+    using Item = std::shared_ptr<Work>;
+    const auto threads = static_cast<int>(thread_count());
+    const global_control more(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads + kWaiting));
+    task_arena arena(threads + kWaiting);
+    arena.execute([&] {
+        const auto read = make_filter<void, Item>(filter_mode::serial_in_order, [&](flow_control& control) -> Item {
+            Item work = read_next();
+            if (!work) control.stop();
+            return work;
+        });
+        const auto solved = make_filter<Item, Item>(filter_mode::serial_in_order, [&](Item work) {
+            this_task_arena::isolate([&] { solve(*work); });
+            return work;
+        });
+        const auto written = make_filter<Item, void>(filter_mode::parallel, [&](const Item& work) { write(*work); });
+        parallel_pipeline(most, read & solved & written);
+    });
+#else
+    while (const std::unique_ptr<Work> work = read_next()) {
+        solve(*work);
+        write(*work);
+    }
+#endif
+    report_.seconds = seconds_since(begin);
+    report_.solve_seconds = solving_.seconds();
+    report_.disk_seconds = disk_.seconds();
+    std::ranges::sort(report_.differences, {}, [](const Difference& d) { return std::pair(d.at.column, d.at.time); });
+    return std::move(report_);
+}
+
+}  // namespace
+
+std::vector<ChunkAt> chunks_of(const CachedCrowd& crowd, const Shard& shard)
+{
+    std::vector<ChunkAt> chunks;
+    std::uint64_t unit = 0;
+    for (std::uint32_t column = 0; column < crowd.column_count(); ++column)
+        for (std::uint32_t time = 0; time < crowd.time_count(); ++time) {
+            if (unit % shard.count == shard.index) chunks.push_back({time, column});
+            if (!crowd.carries_state() || time + 1 == crowd.time_count()) ++unit;
+        }
+    return chunks;
+}
+
+FillReport fill(const Cache& cache, const FillOptions& options) { return Filling(cache, options).run(); }
+
+}  // namespace swivel::tools

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Arrays in a folder, as Zarr version 2 has them: a description in JSON beside files of little-endian numbers, one for
+// each chunk. Source: the Zarr storage specification, version 2 (zarr-specs.readthedocs.io). Knows no crowd.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace swivel::tools {
+
+static_assert(std::endian::native == std::endian::little, "chunks hold numbers as this machine has them");
+
+struct ZarrArray {
+    std::string name;                          // its folder within the store's, such as "clip/wrist"
+    std::string type;                          // "<f4", "<f8", "<u4", "<u8", "<i4", "|u1"
+    std::vector<std::string> dimensions;       // their names, the slowest first
+    std::vector<std::uint64_t> shape, chunks;  // chunks at an edge are stored whole; what is past it has the fill value
+    std::string meaning;                       // in a few words, with the unit
+
+    std::size_t number_bytes() const { return static_cast<std::size_t>(type.back() - '0'); }
+    std::size_t chunk_bytes() const;
+};
+
+// Which chunk: its place along each dimension. Shorter than the dimensions: 0 along the rest.
+using ChunkPlace = std::vector<std::uint64_t>;
+
+class ZarrStore {
+public:
+    // is_compressed: chunks of more than 1 KiB are packed by Blosc (LZ4, level 5, bytes shuffled).
+    // Throws InputError if this build has no Blosc.
+    ZarrStore(std::filesystem::path folder, bool is_compressed);
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+    // Makes a group or an array with its attributes, or replaces the attributes of one. Throws InputError as OutputFile
+    // does.
+    void write_group(const std::string& name, const nlohmann::ordered_json& attributes) const;
+    void write_array(const ZarrArray& array,
+                     nlohmann::ordered_json attributes = nlohmann::ordered_json::object()) const;
+    // Throws InputError if the file is missing or is no JSON.
+    nlohmann::ordered_json attributes(const std::string& name) const;
+    // Throws InputError unless the store describes the array in this way.
+    void require(const ZarrArray& array) const;
+
+    // The file of a chunk.
+    std::filesystem::path chunk_path(const ZarrArray& array, const ChunkPlace& place) const;
+    // Writes a whole chunk: under a name of its own, synced, renamed. Returns the bytes of the file.
+    std::size_t write_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes) const;
+    // Reads a whole chunk; false if its file does not exist. Throws InputError, naming the file, for another size and
+    // for what cannot be read or unpacked.
+    bool read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
+
+private:
+    nlohmann::ordered_json description(const ZarrArray& array) const;
+
+    std::filesystem::path folder_;
+    bool is_compressed_;
+};
+
+// Numbers of a chunk as a store takes them.
+template <class Number>
+std::span<const std::byte> bytes_of(const std::vector<Number>& numbers)
+{
+    return std::as_bytes(std::span(numbers));
+}
+
+// A digest of bytes: FNV-1a of 64 bits, by words of 8 bytes instead of by bytes; zeros fill the last word.
+std::uint64_t digest_of(std::span<const std::byte> bytes);
+
+}  // namespace swivel::tools

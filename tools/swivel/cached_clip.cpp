@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/cached_clip.h"
+
+#include <algorithm>
+
+namespace swivel::tools {
+
+namespace {
+
+// The joints that are drawn: bones, and the limbs' own.
+std::vector<std::size_t> drawn_joints(const formats::Clip& clip, std::span<const Limb> limbs)
+{
+    std::vector<std::size_t> drawn;
+    for (std::size_t n = 0; n < clip.joints.size(); ++n) {
+        const auto has = [&](const Limb& limb) { return std::ranges::count(limb.joints, static_cast<int>(n)) > 0; };
+        if (clip.joints[n].is_bone || std::ranges::any_of(limbs, has)) drawn.push_back(n);
+    }
+    return drawn;
+}
+
+// A joint's place among those that are drawn, or of the nearest one above it; -1 where there is none.
+int drawn_at(const formats::Clip& clip, std::span<const std::size_t> drawn, int joint)
+{
+    for (; joint >= 0; joint = joint_at(clip, joint).parent) {
+        const auto at = std::ranges::lower_bound(drawn, static_cast<std::size_t>(joint));
+        if (at != drawn.end() && *at == static_cast<std::size_t>(joint)) return static_cast<int>(at - drawn.begin());
+    }
+    return -1;
+}
+
+std::vector<float> positions_of(const formats::Clip& clip, std::span<const std::size_t> drawn)
+{
+    std::vector<float> positions;
+    std::vector<formats::JointPose> pose_w(clip.joints.size());
+    for (std::size_t frame = 0; frame < clip.frame_count; ++frame) {
+        formats::world_pose(clip, frame, pose_w);
+        for (const std::size_t n : drawn)
+            for (const double coordinate : pose_w[n].position) positions.push_back(static_cast<float>(coordinate));
+    }
+    return positions;
+}
+
+}  // namespace
+
+CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::span<const Limb> limbs,
+                        const CrowdPlan& plan, const ClipMotion& motion)
+{
+    const std::vector<std::size_t> drawn = drawn_joints(clip, limbs);
+    const std::vector<LimbSetup> setups = limb_setups(limbs, plan);
+    CachedCrowd crowd;
+    crowd.title = names.title;
+    crowd.clip = names.clip;
+    crowd.frame_seconds = clip.frame_time;
+    crowd.frame_count = static_cast<std::uint32_t>(clip.frame_count);
+    crowd.character_count = plan.characters;
+    crowd.budget_blocks = plan.budget_blocks;
+    for (const std::size_t n : drawn)
+        crowd.joints.push_back({clip.joints[n].name, drawn_at(clip, drawn, clip.joints[n].parent)});
+    crowd.positions = positions_of(clip, drawn);
+    for (std::size_t n = 0; n < limbs.size(); ++n) {
+        const auto sources = motion.sources(n);
+        crowd.limbs.push_back({limbs[n].name, {}, setups[n], {sources.begin(), sources.end()}});
+        for (const int joint : limbs[n].joints) crowd.limbs[n].joints.push_back(drawn_at(clip, drawn, joint));
+    }
+    return crowd;
+}
+
+}  // namespace swivel::tools

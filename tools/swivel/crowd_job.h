@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// A clip, its limbs and what they are asked for, from the command line and the crowd file: what solve, view and store
+// begin with.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/crowd/crowd_plan.h"
+#include "tools/crowd/given_targets.h"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/motion_file.h"
+
+namespace swivel::tools {
+
+// What the options and the crowd file come to.
+struct CrowdJob {
+    std::optional<formats::CrowdFile> crowd;
+    std::vector<Limb> limbs;
+    std::vector<LimbFinding> missing;
+    CrowdPlan plan;
+    std::string targets;  // "clip" or a file
+    std::optional<GivenTargets> given;
+};
+
+// The limbs that the options name. Throws CommandError where they contradict each other.
+LimbChoice choice_of(const SolveOptions& options);
+
+// The command line before the crowd file before what is so without both. Samples file. Throws InputError and
+// CommandError as what it reads does.
+CrowdJob make_job(const SolveOptions& options, LimbChoice choice, MotionFile& file);
+
+}  // namespace swivel::tools
