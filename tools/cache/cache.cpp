@@ -162,7 +162,8 @@ CachedCrowd read_crowd(const fs::path& folder)
 
 }  // namespace
 
-Cache::Cache(const fs::path& folder) : crowd_(read_crowd(folder)), arrays_(crowd_), store_(folder, crowd_.is_compressed)
+Cache::Cache(const fs::path& folder)
+    : crowd_(read_crowd(folder_name(folder))), arrays_(crowd_), store_(folder_name(folder), crowd_.is_compressed)
 {
     if (crowd_.has_poses())
         for (const ZarrArray& array : arrays_.results) store_.require(array);
@@ -285,6 +286,8 @@ void Cache::close()
     for (const char* group : {"clip", "character", "given", "chosen"}) fs::remove_all(folder() / group);
 }
 
+fs::path folder_name(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
+
 Results last_frame(const Results& results, const CachedCrowd& crowd, std::uint32_t time)
 {
     Results last;
@@ -299,17 +302,17 @@ Results last_frame(const Results& results, const CachedCrowd& crowd, std::uint32
 // ---- a cache in the making
 
 CacheMaker::CacheMaker(const fs::path& folder, CachedCrowd crowd)
-    : target_(folder),
-      partial_(folder.parent_path() / fmt::format(".swivel-{}-{}", ::getpid(), folder.filename().string())),
+    : target_(folder_name(folder)),
+      partial_(target_.parent_path() / fmt::format(".swivel-{}-{}", ::getpid(), target_.filename().string())),
       crowd_(std::move(crowd)),
       arrays_(crowd_),
       store_(partial_, crowd_.is_compressed)
 {
     std::error_code reason;
-    if (fs::exists(fs::symlink_status(folder, reason)))
-        throw InputError(folder, "is there already; remove it, or name another folder");
-    if (folder.has_parent_path() && !fs::is_directory(folder.parent_path(), reason))
-        throw InputError(folder.parent_path(), "is no folder; make it first");
+    if (fs::exists(fs::symlink_status(target_, reason)))
+        throw InputError(target_, "is there already; remove it, or name another folder");
+    if (target_.has_parent_path() && !fs::is_directory(target_.parent_path(), reason))
+        throw InputError(target_.parent_path(), "is no folder; make it first");
     store_.write_group("clip", Json::object());
     store_.write_group("character", Json::object());
     if (crowd_.has_given) store_.write_group("given", Json::object());

@@ -84,6 +84,9 @@ private:
     std::map<std::string, nlohmann::ordered_json> made_;  // digests of chunks of goals, by array
 };
 
+// A folder's name without a slash at its end.
+std::filesystem::path folder_name(const std::filesystem::path& folder);
+
 // The last frame of a chunk's results: what the next chunk starts from.
 Results last_frame(const Results& results, const CachedCrowd& crowd, std::uint32_t time);
 

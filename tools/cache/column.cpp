@@ -35,23 +35,9 @@ Column::Column(const CachedCrowd& crowd, std::vector<goal_character> characters,
 {
 }
 
-void Column::write_given(const ChunkGoals& goals, std::uint32_t frame)
-{
-    const std::size_t limb_count = cached_.limbs.size(), wide = cached_.chunk.characters;
-    for (std::size_t limb = 0; limb < limb_count; ++limb)
-        for (std::uint32_t n = 0; n < crowd_.character_count(); ++n) {
-            const std::size_t at = (frame * limb_count + limb) * wide + n;
-            if (std::isnan(goals.target[3 * at])) continue;
-            goal_input& input = crowd_.input(limb, n);
-            std::copy_n(&goals.target[3 * at], 3, input.target);
-            std::copy_n(&goals.pole[3 * at], 3, input.pole);
-            std::copy_n(&goals.hand[4 * at], 4, input.hand);
-        }
-}
-
 void Column::solve_frame(const ChunkGoals& goals, std::uint32_t frame)
 {
-    if (!goals.target.empty()) write_given(goals, frame);
+    put_given(cached_, goals, frame, 0, crowd_);
     crowd_.write_inputs();
     if (goals.chosen.empty()) return crowd_.crowds().solve();
     const std::size_t blocks = cached_.chunk.characters / SWIVEL_LANES;
@@ -108,6 +94,24 @@ std::uint64_t Column::digest(std::uint32_t time, const Results& results)
         digest.add(crowd_.crowds().digests());
     }
     return digest.value();
+}
+
+void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t frame, std::uint32_t first,
+               GoalCrowd& crowd, std::vector<GivenPlace>* places)
+{
+    if (goals.target.empty()) return;
+    const std::size_t limb_count = cached.limbs.size(), wide = cached.chunk.characters;
+    const std::uint32_t count = std::min(cached.chunk.characters, crowd.character_count() - first);
+    for (std::size_t limb = 0; limb < limb_count; ++limb)
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const std::size_t at = (frame * limb_count + limb) * wide + n;
+            if (std::isnan(goals.target[3 * at])) continue;
+            goal_input& input = crowd.input(limb, first + n);
+            std::copy_n(&goals.target[3 * at], 3, input.target);
+            std::copy_n(&goals.pole[3 * at], 3, input.pole);
+            std::copy_n(&goals.hand[4 * at], 4, input.hand);
+            if (places) places->push_back({limb, first + n});
+        }
 }
 
 Results empty_results(const CachedCrowd& crowd)

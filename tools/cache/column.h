@@ -26,7 +26,6 @@ public:
     GoalCrowd& goal_crowd() { return crowd_; }
 
 private:
-    void write_given(const ChunkGoals& goals, std::uint32_t frame);
     void solve_frame(const ChunkGoals& goals, std::uint32_t frame);
     void read_frame(std::uint32_t frame, Results& results) const;
     void restore_frame(std::uint32_t frame, const Results& results);
@@ -36,6 +35,11 @@ private:
     std::vector<LimbSetup> setups_;
     GoalCrowd crowd_;
 };
+
+// Puts the goals of one's own of a chunk's frame in the formula's place, for the limbs of a crowd whose characters
+// first and on are the chunk's. places, unless null, gets the limbs that had some.
+void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t frame, std::uint32_t first,
+               GoalCrowd& crowd, std::vector<GivenPlace>* places = nullptr);
 
 // Whole chunks' results, all of them NaN, and 0 where they are flags.
 Results empty_results(const CachedCrowd& crowd);

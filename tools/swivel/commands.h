@@ -42,6 +42,40 @@ void run_solve(const SolveOptions& options);
 // The same for the page alone, whose name comes from the file's unless `view` says it.
 void run_view(SolveOptions options);
 
+// The same of a cache's crowd: its first characters, or all of them.
+void view_cache(const SolveOptions& options);
+
+struct StoreOptions {
+    SolveOptions crowd;  // its outputs are not used
+    std::string folder, keep = "both";
+    std::string chunk;  // "FRAMES,CHARACTERS"; empty: by the crowd's size
+    bool compressed = false;
+};
+void run_store(const StoreOptions& options);
+
+struct FillCommand {
+    std::string folder, shard;
+    std::string memory = "1G";
+    bool resumes = false, verifies = false, quiet = false, json = false;
+    unsigned threads = 0;
+};
+void run_fill(const FillCommand& options);
+
+struct CheckOptions {
+    std::string folder;
+    std::string memory = "1G";
+    bool quiet = false;
+    unsigned threads = 0;
+};
+void run_check(const CheckOptions& options);
+
+struct ReplayOptions {
+    std::string folder, frames = ":", characters = ":", out;
+    bool quiet = false;
+    unsigned threads = 0;
+};
+void run_replay(const ReplayOptions& options);
+
 struct RigOptions {
     std::string file, kinds = "all";
     MotionChoice motion;

@@ -6,6 +6,7 @@
 #include "tools/cli/command_error.h"
 #include "tools/crowd/crowd_checks.h"
 #include "tools/formats/error.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/solve_files.h"
 
 namespace swivel::tools {
@@ -32,6 +33,11 @@ Between between_of(const SolveOptions& options, const std::string& targets)
 }
 
 }  // namespace
+
+std::string title_of(const std::string& file)
+{
+    return formats::is_standard_stream(file) ? "motion" : std::filesystem::path(file).filename().string();
+}
 
 LimbChoice choice_of(const SolveOptions& options)
 {

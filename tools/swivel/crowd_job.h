@@ -25,6 +25,9 @@ struct CrowdJob {
     std::optional<GivenTargets> given;
 };
 
+// A motion's file as pages and caches call it.
+std::string title_of(const std::string& file);
+
 // The limbs that the options name. Throws CommandError where they contradict each other.
 LimbChoice choice_of(const SolveOptions& options);
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/cache/cache.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/signals.h"
@@ -36,11 +37,6 @@
 namespace swivel::tools {
 
 namespace {
-
-std::string page_title(const std::string& file)
-{
-    return formats::is_standard_stream(file) ? "motion" : std::filesystem::path(file).filename().string();
-}
 
 // A page holds goals of one's own, and they may be many.
 void print_page_size(const SolveOptions& options, std::uint64_t goal_count)
@@ -96,7 +92,7 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     signals.check();
     if (page)
         page->commit(
-            cached_clip({page_title(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
+            cached_clip({title_of(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
             crowd.goal_crowd());
     return statistics;
 }
@@ -143,8 +139,7 @@ void run_solve(const SolveOptions& options)
 
     const ThreadLimit limit(options.threads);
     std::optional<SolveReport> report;
-    if (!options.report.empty())
-        report.emplace(options.report, options.view, "swivel solve " + page_title(options.file));
+    if (!options.report.empty()) report.emplace(options.report, options.view, "swivel solve " + title_of(options.file));
     const Statistics statistics = solve_clip(options, file, job, report ? &*report : nullptr);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (report) report->commit(json_of_run(options, facts, file, job, statistics, seconds));
@@ -157,8 +152,11 @@ void run_solve(const SolveOptions& options)
 
 void run_view(SolveOptions options)
 {
-    if (options.view.empty()) options.view = page_title(options.file) + ".html";
-    run_solve(options);
+    std::error_code ignored;
+    const bool is_cache = std::filesystem::is_directory(options.file, ignored);
+    const std::filesystem::path named = is_cache ? folder_name(options.file) : std::filesystem::path(options.file);
+    if (options.view.empty()) options.view = title_of(named.string()) + ".html";
+    is_cache ? view_cache(options) : run_solve(options);
 }
 
 }  // namespace swivel::tools

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+//
+// `swivel fill`: solves the chunks of a cache. `swivel check`: proves that all of them are right, and ends the filling.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/cache/column.h"
+#include "tools/cache/fill.h"
+#include "tools/cli/command_error.h"
+#include "tools/cli/option_checks.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/signals.h"
+#include "tools/cli/streams.h"
+#include "tools/crowd/parallel.h"
+#include "tools/formats/error.h"
+#include "tools/formats/text.h"
+#include "tools/swivel/commands.h"
+#include "tools/swivel/report.h"
+
+namespace swivel::tools {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string chunk_name(ChunkAt at) { return fmt::format("{}.{}", at.time, at.column); }
+
+Shard shard_of_option(const std::string& text)
+{
+    if (text.empty()) return {};
+    try {
+        return shard_of(text);
+    } catch (const std::invalid_argument& error) {
+        throw CommandError(2, fmt::format("--shard {}: {}", formats::printable(text), error.what()));
+    }
+}
+
+// Those that are not done.
+std::vector<ChunkAt> missing_of(const Cache& cache, std::span<const ChunkAt> chunks)
+{
+    std::vector<ChunkAt> missing;
+    for (const ChunkAt at : chunks)
+        if (cache.digest(at) == 0) missing.push_back(at);
+    return missing;
+}
+
+// Fills with progress on stderr, and stops for signals between chunks.
+FillReport fill_visibly(const Cache& cache, FillOptions options, std::size_t chunk_count, bool quiet)
+{
+    const StopSignals signals;
+    Progress progress("chunks", std::max<std::size_t>(chunk_count, 1), quiet);
+    options.progress = [&](std::uint64_t done) {
+        signals.check();
+        progress.show(done);
+    };
+    return fill(cache, options);
+}
+
+double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+
+Json json_of_fill(const FillReport& report)
+{
+    Json differences = Json::array();
+    for (const Difference& each : report.differences)
+        differences.push_back({{"chunk", chunk_name(each.at)}, {"what", each.what}});
+    return {{"chunks_written", report.written},
+            {"chunks_compared", report.compared},
+            {"chunks_skipped", report.skipped},
+            {"limbs", report.limbs},
+            {"bytes_written", report.bytes},
+            {"seconds", report.seconds},
+            {"solver_seconds", report.solve_seconds},
+            {"disk_seconds", report.disk_seconds},
+            {"limit", report.solve_seconds < report.disk_seconds ? "disk" : "solver"},
+            {"written_again", std::move(differences)}};
+}
+
+void print_fill(const FillReport& report)
+{
+    say(stdout, "chunks   {} written, {} compared, {} were done\n", report.written, report.compared, report.skipped);
+    for (const Difference& each : report.differences)
+        say(stdout, "again    chunk {} was not what its goals give: {}; it is written again\n", chunk_name(each.at),
+            each.what);
+    if (report.limbs == 0) return;
+    const bool is_disk = report.solve_seconds < report.disk_seconds;
+    say(stdout, "speed    {:.2f} s: the solver took {:.2f} s, {:.1f} million limbs/s; the disk {:.2f} s, {:.0f} MB/s\n",
+        report.seconds, report.solve_seconds, rate(static_cast<double>(report.limbs), report.solve_seconds) / 1e6,
+        report.disk_seconds, rate(static_cast<double>(report.bytes), report.disk_seconds) / 1e6);
+    say(stdout, "limit    {}\n", is_disk ? "the disk" : "the solver");
+}
+
+// Poses without goals are held against their digests alone.
+std::vector<ChunkAt> damaged_poses(const Cache& cache, std::span<const ChunkAt> chunks, bool quiet)
+{
+    const CachedCrowd& crowd = cache.crowd();
+    const StopSignals signals;
+    Progress progress("chunks", chunks.size(), quiet);
+    std::vector<ChunkAt> damaged;
+    std::unique_ptr<Column> column;
+    std::uint32_t columns_made = 0;
+    for (std::size_t n = 0; n < chunks.size(); ++n) {
+        signals.check();
+        progress.show(n);
+        const ChunkAt at = chunks[n];
+        if (at.column >= columns_made) {
+            const std::vector<goal_character> anyone(crowd.characters_in(at.column), goal_character{1, {}, 0, 0});
+            column = std::make_unique<Column>(crowd, anyone, cache.folder());
+            columns_made = at.column + 1;
+        }
+        const std::optional<Results> results = cache.results(at);
+        if (!results || column->digest(at.time, *results) != cache.digest(at)) damaged.push_back(at);
+    }
+    return damaged;
+}
+
+}  // namespace
+
+void run_fill(const FillCommand& options)
+{
+    FillOptions how;
+    how.shard = shard_of_option(options.shard);
+    how.verifies = options.verifies;
+    how.memory = bytes_of(options.memory);
+    const Cache cache(options.folder);
+    if (cache.crowd().is_closed) throw formats::InputError(cache.folder(), "is closed: all of its chunks are done");
+    const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), how.shard);
+    const std::size_t done = chunks.size() - missing_of(cache, chunks).size();
+    if (done > 0 && !options.resumes && !options.verifies)
+        throw formats::InputError(
+            cache.folder(),
+            fmt::format("{} of {} chunks are done already; add --resume to go on, or --verify", done, chunks.size()));
+    if (!options.json && !options.quiet && !options.shard.empty())
+        say(stdout, "shard    {} of the cache, by {}: {} chunks\n", how.shard.words(), how.shard.source, chunks.size());
+    const ThreadLimit limit(options.threads);
+    const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
+    if (options.json) {
+        Json out{{"cache", options.folder}, {"shard", how.shard.words()}};
+        out.update(json_of_fill(report));
+        print_json(out);
+    } else if (!options.quiet) {
+        print_fill(report);
+    }
+}
+
+void run_check(const CheckOptions& options)
+{
+    Cache cache(options.folder);
+    const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), {});
+    const std::vector<ChunkAt> missing = missing_of(cache, chunks);
+    if (!missing.empty())
+        throw formats::InputError(cache.folder(), fmt::format("{} of {} chunks are not done, the first is {}; run "
+                                                              "swivel fill --resume",
+                                                              missing.size(), chunks.size(), chunk_name(missing[0])));
+    const ThreadLimit limit(options.threads);
+    if (!cache.crowd().has_goals()) {
+        const std::vector<ChunkAt> damaged = damaged_poses(cache, chunks, options.quiet);
+        if (!damaged.empty())
+            throw formats::InputError(
+                cache.folder(),
+                fmt::format("{} of {} chunks are damaged, the first is {}; the cache keeps no goals, so "
+                            "take their files from a copy",
+                            damaged.size(), chunks.size(), chunk_name(damaged[0])));
+        if (!options.quiet) say(stdout, "right    {} chunks: their poses have their digests\n", chunks.size());
+        return;
+    }
+    FillOptions how;
+    how.verifies = true;
+    how.memory = bytes_of(options.memory);
+    const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
+    if (!report.differences.empty()) {
+        const Difference& first = report.differences[0];
+        throw formats::InputError(
+            cache.folder(), fmt::format("{} of {} chunks were damaged and are written again, the first is {}: {}; run "
+                                        "swivel check once more",
+                                        report.differences.size(), chunks.size(), chunk_name(first.at), first.what));
+    }
+    cache.close();
+    if (options.quiet) return;
+    say(stdout, "right    {} chunks: solved again, and all bits are equal\n", chunks.size());
+    say(stdout, "speed    {:.2f} s, {:.1f} million limbs/s\n", report.seconds,
+        rate(static_cast<double>(report.limbs), report.seconds) / 1e6);
+    say(stdout, "closed   {}\n", options.folder);
+}
+
+}  // namespace swivel::tools
