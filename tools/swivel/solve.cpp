@@ -89,11 +89,11 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     if (exported) exported->commit();
     signals.check();
     if (kind == OutKind::motion) keys.write(out_place(options), file);
+    if (!page) return statistics;
     signals.check();
-    if (page)
-        page->commit(
-            cached_clip({title_of(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
-            crowd.goal_crowd());
+    page->commit(
+        cached_clip({title_of(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
+        crowd.goal_crowd());
     return statistics;
 }
 
