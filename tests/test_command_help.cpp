@@ -122,7 +122,8 @@ TEST_CASE("help: a slip in a command or an option is told")
         return outcome.err;
     };
     CHECK(said({"slove", "x"}) == "swivel: there is no command 'slove'; did you mean solve?\n");
-    CHECK_THAT(said({"dance"}), Contains("there is no command 'dance'; known are demo, solve, view, store, fill, check, replay, rig"));
+    CHECK_THAT(said({"dance"}),
+               Contains("there is no command 'dance'; known are demo, solve, view, store, fill, check, replay, rig"));
     CHECK(said({"--verison"}) == "swivel: there is no option --verison; did you mean --version?\n");
     CHECK(said({"solve", "x", "--foo"}) == "swivel: there is no option --foo; see swivel solve --help\n");
     CHECK(said({"solve", "x", "--trgets=y"}) == "swivel: there is no option --trgets; did you mean --targets?\n");
