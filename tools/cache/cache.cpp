@@ -169,16 +169,23 @@ Cache::Cache(const fs::path& folder)
         for (const ZarrArray& array : arrays_.results) store_.require(array);
     for (const ZarrArray& array : arrays_.state) store_.require(array);
     store_.require(arrays_.digest);
-    if (!crowd_.has_goals()) return;
-    std::vector<ZarrArray> made = arrays_.clip;
-    for (const auto& arrays : {arrays_.characters, arrays_.given})
-        made.insert(made.end(), arrays.begin(), arrays.end());
-    if (arrays_.chosen) made.push_back(*arrays_.chosen);
+    std::vector<ZarrArray> made = arrays_.characters;
+    if (crowd_.has_goals()) {
+        for (const auto& arrays : {arrays_.clip, arrays_.given}) made.insert(made.end(), arrays.begin(), arrays.end());
+        if (arrays_.chosen) made.push_back(*arrays_.chosen);
+    }
     for (const ZarrArray& array : made) {
         store_.require(array);
         made_[array.name] = store_.attributes(array.name).value("digests", Json::object());
     }
-    read_clip();
+    if (crowd_.has_goals()) read_clip();
+}
+
+void Cache::require_goals() const
+{
+    if (!crowd_.has_goals())
+        throw InputError(folder(),
+                         "keeps poses and no goals, so nothing can be solved again; docs/cache.md reads them");
 }
 
 void Cache::read_clip()
@@ -200,7 +207,8 @@ bool Cache::read_made(const ZarrArray& array, const ChunkPlace& place, std::span
 {
     const Json& digests = made_.at(array.name);
     const auto digest = digests.find(place_text(array, place));
-    const bool is_there = store_.read_chunk(array, place, bytes);
+    const ChunkRead read = store_.read_chunk(array, place, bytes);
+    const bool is_there = read != ChunkRead::missing;
     const auto damaged = [&](const char* how) {
         return InputError(
             store_.chunk_path(array, place),
@@ -209,7 +217,8 @@ bool Cache::read_made(const ZarrArray& array, const ChunkPlace& place, std::span
                         how));
     };
     if (is_there != (digest != digests.end())) throw damaged(is_there ? "nobody made it" : "is missing");
-    if (is_there && *digest != fmt::format("{:016x}", digest_of(bytes))) throw damaged("is damaged");
+    if (is_there && (read == ChunkRead::damaged || *digest != fmt::format("{:016x}", digest_of(bytes))))
+        throw damaged("is damaged");
     return is_there;
 }
 
@@ -243,8 +252,8 @@ ChunkGoals Cache::goals(ChunkAt at) const
 std::uint64_t Cache::digest(ChunkAt at) const
 {
     std::vector<std::uint64_t> digest(1);
-    store_.read_chunk(arrays_.digest, {at.time, at.column}, std::as_writable_bytes(std::span(digest)));
-    return digest[0];
+    const auto bytes = std::as_writable_bytes(std::span(digest));
+    return store_.read_chunk(arrays_.digest, {at.time, at.column}, bytes) == ChunkRead::whole ? digest[0] : 0;
 }
 
 std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place) const
@@ -252,7 +261,8 @@ std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const C
     Results results;
     for (const ZarrArray& array : arrays) {
         std::vector<std::uint32_t>& numbers = results.emplace_back(array.chunk_bytes() / sizeof(std::uint32_t));
-        if (!store_.read_chunk(array, place, std::as_writable_bytes(std::span(numbers)))) return std::nullopt;
+        const auto bytes = std::as_writable_bytes(std::span(numbers));
+        if (store_.read_chunk(array, place, bytes) != ChunkRead::whole) return std::nullopt;
     }
     return results;
 }
@@ -283,7 +293,7 @@ void Cache::close()
     crowd_.is_closed = true;
     store_.write_group("", attributes_of(crowd_));
     if (crowd_.has_goals()) return;
-    for (const char* group : {"clip", "character", "given", "chosen"}) fs::remove_all(folder() / group);
+    for (const char* group : {"clip", "given", "chosen"}) fs::remove_all(folder() / group);
 }
 
 fs::path folder_name(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }

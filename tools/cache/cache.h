@@ -54,14 +54,16 @@ public:
     const CachedCrowd& crowd() const { return crowd_; }
     const CacheArrays& arrays() const { return arrays_; }
 
+    // Throws InputError if the cache keeps poses alone: then nothing can be solved again.
+    void require_goals() const;
     // The characters of a column, and what a chunk is asked for. Throws InputError naming the file that is missing, or
     // whose bytes are not those that were made.
     std::vector<goal_character> characters(std::uint32_t column) const;
     ChunkGoals goals(ChunkAt at) const;
 
-    // 0: the chunk is not done.
+    // 0: the chunk is not done, or the file of its digest is damaged, which comes to the same.
     std::uint64_t digest(ChunkAt at) const;
-    // The stored poses of a chunk; nothing if a file of them is missing. Throws InputError for one of a wrong size.
+    // The stored poses of a chunk; nothing if a file of them is missing or cut.
     std::optional<Results> results(ChunkAt at) const;
     // What the chunk after this one starts from.
     std::optional<Results> state(ChunkAt at) const;
@@ -69,8 +71,8 @@ public:
     // Writes poses, as far as the cache keeps them, then state, then the digest. Returns the bytes of the files.
     std::size_t write(ChunkAt at, const Results& results, std::uint64_t digest) const;
 
-    // Ends the filling: removes what unfinished writers left, and goals if the cache keeps poses alone. For one process
-    // with no other at work.
+    // Ends the filling: removes what unfinished writers left, and goals but for the characters if the cache keeps poses
+    // alone. For one process with no other at work.
     void close();
 
 private:

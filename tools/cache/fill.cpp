@@ -10,10 +10,11 @@
 #include <mutex>
 
 #include "tools/cache/column.h"
-#include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
 
 #ifdef SWIVEL_WITH_TBB
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 #endif
@@ -144,22 +145,18 @@ std::string Filling::difference(const Work& work) const
     const CachedCrowd& crowd = cache_.crowd();
     const auto compare = [](const std::optional<Results>& stored, const Results& wanted,
                             const std::vector<ZarrArray>& arrays) -> std::string {
-        if (!stored) return "a file is missing";
+        if (!stored) return fmt::format("a file of {} is missing or cut", arrays[0].name);
         for (std::size_t n = 0; n < wanted.size(); ++n)
             if ((*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
         return "";
     };
-    try {
-        std::string what;
-        if (work.stored != work.digest) what = "digest differs";
-        if (what.empty() && crowd.has_poses())
-            what = compare(cache_.results(work.at), work.results, cache_.arrays().results);
-        if (what.empty() && crowd.carries_state())
-            what = compare(cache_.state(work.at), last_frame(work.results, crowd, work.at.time), cache_.arrays().state);
-        return what;
-    } catch (const formats::InputError& error) {  // it has another size
-        return error.what();
-    }
+    std::string what;
+    if (work.stored != work.digest) what = "digest differs";
+    if (what.empty() && crowd.has_poses())
+        what = compare(cache_.results(work.at), work.results, cache_.arrays().results);
+    if (what.empty() && crowd.carries_state())
+        what = compare(cache_.state(work.at), last_frame(work.results, crowd, work.at.time), cache_.arrays().state);
+    return what;
 }
 
 void Filling::write(Work& work)
@@ -205,9 +202,9 @@ FillReport Filling::run()
 #ifdef SWIVEL_WITH_TBB
     using namespace oneapi::tbb;
     using Item = std::shared_ptr<Work>;
-    const auto threads = static_cast<int>(thread_count());
+    const int threads = options_.threads > 0 ? static_cast<int>(options_.threads) : info::default_concurrency();
     const global_control more(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads + kWaiting));
-    task_arena arena(threads + kWaiting);
+    task_arena arena(threads + kWaiting), solvers(threads);
     arena.execute([&] {
         const auto read = make_filter<void, Item>(filter_mode::serial_in_order, [&](flow_control& control) -> Item {
             Item work = read_next();
@@ -215,7 +212,7 @@ FillReport Filling::run()
             return work;
         });
         const auto solved = make_filter<Item, Item>(filter_mode::serial_in_order, [&](Item work) {
-            this_task_arena::isolate([&] { solve(*work); });
+            solvers.execute([&] { solve(*work); });
             return work;
         });
         const auto written = make_filter<Item, void>(filter_mode::parallel, [&](const Item& work) { write(*work); });
@@ -248,6 +245,10 @@ std::vector<ChunkAt> chunks_of(const CachedCrowd& crowd, const Shard& shard)
     return chunks;
 }
 
-FillReport fill(const Cache& cache, const FillOptions& options) { return Filling(cache, options).run(); }
+FillReport fill(const Cache& cache, const FillOptions& options)
+{
+    cache.require_goals();
+    return Filling(cache, options).run();
+}
 
 }  // namespace swivel::tools

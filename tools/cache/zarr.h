@@ -28,12 +28,15 @@ struct ZarrArray {
     std::size_t chunk_bytes() const;
 };
 
+// What became of a reading. damaged: the file has another size, or cannot be unpacked.
+enum class ChunkRead { missing, damaged, whole };
+
 // Which chunk: its place along each dimension. Shorter than the dimensions: 0 along the rest.
 using ChunkPlace = std::vector<std::uint64_t>;
 
 class ZarrStore {
 public:
-    // is_compressed: chunks of more than 1 KiB are packed by Blosc (LZ4, level 5, bytes shuffled).
+    // is_compressed: chunks are packed by Blosc (LZ4, level 5, bytes shuffled).
     // Throws InputError if this build has no Blosc.
     ZarrStore(std::filesystem::path folder, bool is_compressed);
 
@@ -53,9 +56,8 @@ public:
     std::filesystem::path chunk_path(const ZarrArray& array, const ChunkPlace& place) const;
     // Writes a whole chunk: under a name of its own, synced, renamed. Returns the bytes of the file.
     std::size_t write_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes) const;
-    // Reads a whole chunk; false if its file does not exist. Throws InputError, naming the file, for another size and
-    // for what cannot be read or unpacked.
-    bool read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
+    // Reads a whole chunk. Throws InputError for a file that may not be read.
+    ChunkRead read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
 
 private:
     nlohmann::ordered_json description(const ZarrArray& array) const;

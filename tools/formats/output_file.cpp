@@ -70,6 +70,15 @@ void keep_rights(int descriptor, const struct stat& before)
     static_cast<void>(::fchmod(descriptor, mode));
 }
 
+// A loss of power leaves the new name only once the folder is on the disk, too. Some file systems cannot do that.
+void sync_folder(const fs::path& folder)
+{
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    static_cast<void>(::fsync(descriptor));
+    ::close(descriptor);
+}
+
 std::mutex list_mutex;
 OutputFile* all_files = nullptr;
 
@@ -152,6 +161,7 @@ void OutputFile::commit()
     descriptor_ = -1;
     if (status != 0) fail("cannot be written");
     if (!partial_.empty() && ::rename(partial_.c_str(), target_.c_str()) != 0) fail("cannot be renamed to");
+    if (!partial_.empty()) sync_folder(target_.parent_path());
     partial_.clear();
 }
 

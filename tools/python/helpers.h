@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What needs no crowd: values of limit fields, bindings, the library itself.
+// What needs no crowd: values of limit fields, bindings, the library itself, caches.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,5 +11,6 @@ void add_limits(pybind11::module_& module);    // range, cone, flexion, turn, ai
 void add_steps(pybind11::module_& module);     // Entity, steps, blade names
 void add_bindings(pybind11::module_& module);  // Binding, bind
 void add_library(pybind11::module_& module);   // version, instruction sets, verify, compact words
+void add_cache(pybind11::module_& module);     // filling crowds in folders
 
 }  // namespace swivel::python

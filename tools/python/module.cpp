@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The extension module swivel._core: swivel.hpp for Python and NumPy. The package swivel shows all of it as its own.
-// Knows the public headers and nothing else of swivel.
+// Knows the public headers and, for caches of crowds, tools/cache.
 #include <pybind11/pybind11.h>
 
 #include "tools/python/crowd.h"
@@ -30,4 +30,5 @@ PYBIND11_MODULE(_core, module)
     add_limits(module);
     add_steps(module);
     add_library(module);
+    add_cache(module);
 }

@@ -122,8 +122,8 @@ void run_fill(const FillCommand& options)
     how.shard = shard_of_option(options.shard);
     how.verifies = options.verifies;
     how.memory = bytes_of(options.memory);
+    how.threads = options.threads;
     const Cache cache(options.folder);
-    if (cache.crowd().is_closed) throw formats::InputError(cache.folder(), "is closed: all of its chunks are done");
     const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), how.shard);
     const std::size_t done = chunks.size() - missing_of(cache, chunks).size();
     if (done > 0 && !options.resumes && !options.verifies)
@@ -132,7 +132,6 @@ void run_fill(const FillCommand& options)
             fmt::format("{} of {} chunks are done already; add --resume to go on, or --verify", done, chunks.size()));
     if (!options.json && !options.quiet && !options.shard.empty())
         say(stdout, "shard    {} of the cache, by {}: {} chunks\n", how.shard.words(), how.shard.source, chunks.size());
-    const ThreadLimit limit(options.threads);
     const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
     if (options.json) {
         Json out{{"cache", options.folder}, {"shard", how.shard.words()}};
@@ -152,8 +151,8 @@ void run_check(const CheckOptions& options)
         throw formats::InputError(cache.folder(), fmt::format("{} of {} chunks are not done, the first is {}; run "
                                                               "swivel fill --resume",
                                                               missing.size(), chunks.size(), chunk_name(missing[0])));
-    const ThreadLimit limit(options.threads);
     if (!cache.crowd().has_goals()) {
+        const ThreadLimit limit(options.threads);
         const std::vector<ChunkAt> damaged = damaged_poses(cache, chunks, options.quiet);
         if (!damaged.empty())
             throw formats::InputError(
@@ -167,6 +166,7 @@ void run_check(const CheckOptions& options)
     FillOptions how;
     how.verifies = true;
     how.memory = bytes_of(options.memory);
+    how.threads = options.threads;
     const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
     if (!report.differences.empty()) {
         const Difference& first = report.differences[0];

@@ -43,12 +43,6 @@ Range range_of(const char* option, const std::string& text, std::uint32_t count)
     return {static_cast<std::uint32_t>(*begin), static_cast<std::uint32_t>(*end)};
 }
 
-void require_goals(const Cache& cache)
-{
-    if (!cache.crowd().has_goals())
-        throw InputError(cache.folder(), "keeps poses alone; read them from its arrays (docs/cache.md)");
-}
-
 // One column of one time chunk, solved and proved.
 struct Slice {
     std::vector<goal_character> characters;
@@ -148,7 +142,7 @@ private:
 void run_replay(const ReplayOptions& options)
 {
     const Cache cache(options.folder);
-    require_goals(cache);
+    cache.require_goals();
     const CachedCrowd& crowd = cache.crowd();
     const Range frames = range_of("--frames", options.frames, crowd.frame_count);
     const Range characters = range_of("--characters", options.characters, crowd.character_count);
@@ -198,7 +192,7 @@ void run_replay(const ReplayOptions& options)
 void view_cache(const SolveOptions& options)
 {
     const Cache cache(options.file);
-    require_goals(cache);
+    cache.require_goals();
     const CachedCrowd& crowd = cache.crowd();
     const std::uint32_t count = std::min(options.characters.value_or(crowd.character_count), crowd.character_count);
     if (crowd.budget_blocks > 0 && count < crowd.character_count)

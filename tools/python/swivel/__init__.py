@@ -14,9 +14,9 @@ are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results 
 """
 from ._arms import Arms, solve
 from ._core import (LANES, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, aim, arm_axis, bind, bind_joints, blade_name,
-                    cone, flexion, isa_name, isas, mirror, needed_features, range, steps, turn, unpack_rotations, use_isa, verify, version)
+                    cone, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, turn, unpack_rotations, use_isa, verify, version)
 
 __version__ = ".".join(map(str, version()))
 __all__ = ["LANES", "Arms", "Binding", "Check", "Crowd", "Entity", "EulerOrder", "Feature", "Field", "Flag", "aim", "arm_axis", "bind",
-           "bind_joints", "blade_name", "cone", "flexion", "isa_name", "isas", "mirror", "needed_features", "range", "solve", "steps", "turn", "unpack_rotations", "use_isa",
-           "verify", "version"]
+           "bind_joints", "blade_name", "cone", "fill_cache", "flexion", "isa_name", "isas", "mirror", "needed_features", "range", "solve", "steps", "turn",
+           "unpack_rotations", "use_isa", "verify", "version"]
