@@ -153,7 +153,8 @@ ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size
 {
     const std::uint64_t blocks = (std::uint64_t{characters} + SWIVEL_LANES - 1) / SWIVEL_LANES;
     const auto most = static_cast<std::uint32_t>(kLimbsInChunk / limb_count);
-    const auto of_chunk = static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks * SWIVEL_LANES, most / 4));
+    const auto of_chunk =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(blocks, most / 4 / SWIVEL_LANES)) * SWIVEL_LANES;
     return {std::clamp(most / of_chunk, 1u, frames), of_chunk};
 }
 

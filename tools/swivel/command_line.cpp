@@ -248,7 +248,7 @@ void add_store(CLI::App& app)
                               "Frames and characters in a file, such as 8,4096. Without it by the crowd's size"),
           name("write FRAMES,CHARACTERS"));
     command->add_flag("--compress", options->compressed, "Pack chunks by Blosc");
-    add_quiet(*command, options->crowd.quiet, "Print errors and nothing else");
+    add_quiet(*command, options->crowd.quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->crowd.json);
     command->footer("Then swivel fill CACHE solves it, here or on many machines, and swivel check CACHE proves it.");
     command->callback([options] { run_store(*options); });
@@ -269,7 +269,7 @@ void add_fill(CLI::App& app)
                       "Go on: solve chunks that are done, too, and write those again that differ");
     add_memory(*command, options->memory);
     add_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors and nothing else");
+    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_fill(*options); });
 }
@@ -281,7 +281,8 @@ void add_check(CLI::App& app)
     add_cache(*command, options->folder, "The folder that swivel store made");
     add_memory(*command, options->memory);
     add_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors and nothing else");
+    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
+    add_json(*command, options->json);
     command->footer("All chunks are solved again and compared. A chunk that differs is named and written again.");
     command->callback([options] { run_check(*options); });
 }
@@ -302,7 +303,8 @@ void add_replay(CLI::App& app)
                               "alone"),
           file_name());
     add_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors and nothing else");
+    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
+    add_json(*command, options->json);
     command->callback([options] { run_replay(*options); });
 }
 

@@ -64,14 +64,14 @@ void run_fill(const FillCommand& options);
 struct CheckOptions {
     std::string folder;
     std::string memory = "1G";
-    bool quiet = false;
+    bool quiet = false, json = false;
     unsigned threads = 0;
 };
 void run_check(const CheckOptions& options);
 
 struct ReplayOptions {
     std::string folder, frames = ":", characters = ":", out;
-    bool quiet = false;
+    bool quiet = false, json = false;
     unsigned threads = 0;
 };
 void run_replay(const ReplayOptions& options);

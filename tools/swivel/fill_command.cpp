@@ -160,7 +160,10 @@ void run_check(const CheckOptions& options)
                 fmt::format("{} of {} chunks are damaged, the first is {}; the cache keeps no goals, so "
                             "take their files from a copy",
                             damaged.size(), chunks.size(), chunk_name(damaged[0])));
-        if (!options.quiet) say(stdout, "right    {} chunks: their poses have their digests\n", chunks.size());
+        if (options.json)
+            print_json({{"cache", options.folder}, {"chunks", chunks.size()}, {"proved_by", "digests"}});
+        else if (!options.quiet)
+            say(stdout, "right    {} chunks: their poses have their digests\n", chunks.size());
         return;
     }
     FillOptions how;
@@ -175,8 +178,14 @@ void run_check(const CheckOptions& options)
                                         "swivel check once more",
                                         report.differences.size(), chunks.size(), chunk_name(first.at), first.what));
     }
-    cache.close();
-    if (options.quiet) return;
+    if (!cache.crowd().is_closed) cache.close();  // a closed cache may be one that can only be read
+    if (options.json)
+        print_json({{"cache", options.folder},
+                    {"chunks", chunks.size()},
+                    {"proved_by", "solving"},
+                    {"limbs", report.limbs},
+                    {"seconds", report.seconds}});
+    if (options.json || options.quiet) return;
     say(stdout, "right    {} chunks: solved again, and all bits are equal\n", chunks.size());
     say(stdout, "speed    {:.2f} s, {:.1f} million limbs/s\n", report.seconds,
         rate(static_cast<double>(report.limbs), report.seconds) / 1e6);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
@@ -16,6 +17,7 @@
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/report.h"
 #include "tools/swivel/view_page.h"
 
 namespace swivel::tools {
@@ -184,7 +186,8 @@ void run_replay(const ReplayOptions& options)
     signals.check();
     if (csv) csv->commit();
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
-    if (options.quiet) return;
+    if (options.json) print_json({{"cache", options.folder}, {"chunks_proved", proved}, {"out", options.out}}, to);
+    if (options.json || options.quiet) return;
     say(to, "proved   {} chunks: their digests are those of the cache\n", proved);
     if (csv && to == stdout) say(to, "written  {}\n", options.out);
 }

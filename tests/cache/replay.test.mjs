@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: WebAssembly computes a cache's poses from its goals, bit for bit, by nothing but what docs/cache.md says of the files.
+//   SWIVEL: the command. CLIP: a motion file. PACKAGE, MODULE: the package for the web, and the page's module, which has swivel_goals().
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as zarr from 'zarrita';
+
+const { SWIVEL, CLIP, PACKAGE, MODULE } = process.env;
+const { instantiate } = await import(`${PACKAGE}/instantiate.js`);
+const { Field, LANES } = await import(`${PACKAGE}/layout.js`);
+const { Swivel } = await import(`${PACKAGE}/swivel.js`);
+const { Binding } = await import(`${PACKAGE}/binding.js`);
+
+const folder = mkdtempSync(join(tmpdir(), 'swivel-cache-'));
+after(() => rmSync(folder, { recursive: true }));
+
+// ---- structures of C, as tools/crowd/goals.h and batch/swivel.h have them, from the cache's numbers
+
+const doubles = (...numbers) => Buffer.from(new Float64Array(numbers.flat()).buffer);
+const floats = (...numbers) => Buffer.from(new Float32Array(numbers.flat(2).map((number) => number ?? NaN)).buffer);
+const words = (...numbers) => Buffer.from(new Uint32Array(numbers).buffer);
+
+const bindingBytes = (b) => Buffer.concat([
+  floats(b.parent_from_arm, b.upper_from_arm, b.elbow_parent_from_arm, b.fore_from_arm, b.wrist_parent_from_arm, b.shoulder_rest,
+    b.elbow_rest, b.wrist_rest, b.lengths),
+  words(b.twist_bone_count), floats(b.twist_parent_from_arm, b.twist_from_arm)]);
+const planBytes = (p) => Buffer.concat([doubles(p.target_point, p.target_offset, p.effector, p.pole_fixed),
+  words(p.has_target_point, p.has_pole_fixed, p.pole, p.hand_is_local, p.is_mirrored, 0)]);
+
+/** Everything that zarrita reads of a cache, whole. */
+async function open(path) {
+  const files = { get: async (key) => { try { return new Uint8Array(readFileSync(join(path, key))); } catch { return undefined; } } };
+  const root = await zarr.open.v2(zarr.root(files), { kind: 'group', attrs: true }), { attrs } = root;
+  const read = async (name) => (await zarr.get(await zarr.open.v2(root.resolve(name), { kind: 'array' })));
+  const readAll = (...names) => Promise.all(names.map(read));
+  const members = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'parent', 'shoulder', 'elbow_local', 'wrist_local'];
+  const clip = await readAll(...members.map((name) => `clip/${name}`));
+  const frames = attrs.clip_frames;
+  const part = ({ data, shape }, index) => data.subarray(index * shape[2], (index + 1) * shape[2]);
+  const sources = attrs.limbs.map((_, limb) => Buffer.concat(Array.from({ length: frames }, (__, frame) => {
+    const row = clip.map((array) => Buffer.from(part(array, limb * frames + frame).slice().buffer));
+    return Buffer.concat(row);
+  })));
+  const [size, place, start] = await readAll('character/size', 'character/place', 'character/start');
+  return { attrs, read, sources, size: size.data, place: place.data, start: start.data };
+}
+
+/** A column of characters, solved frame by frame. */
+class Column {
+  constructor(memory, cache, first) {
+    Object.assign(this, { memory, cache, first, swivel: new Swivel(memory) });
+    const { attrs } = cache;
+    this.count = Math.min(attrs.chunk_characters, attrs.characters - first);
+    const who = Array.from({ length: this.count }, (_, n) => first + n);
+    this.characters = this.keep(Buffer.concat(who.map((c) => Buffer.concat([
+      doubles(cache.size[c], Array.from(cache.place.subarray(3 * c, 3 * c + 3))), words(cache.start[c], 0)]))));
+    this.limbs = attrs.limbs.map((limb, n) => this.makeLimb(limb, cache.sources[n]));
+  }
+  keep(bytes) {
+    const at = this.memory.allocate(bytes.length);
+    this.memory.bytes(at, bytes.length).set(bytes);
+    return at;
+  }
+  makeLimb(limb, sources) {
+    const binding = new Binding(new Uint8Array(bindingBytes(limb.binding)));
+    const options = { shoulderOrder: limb.shoulder_order, wristOrder: limb.wrist_order };
+    const crowd = this.swivel.crowd([{ limbCount: this.count, binding }], BigInt(limb.features), options);
+    const write = (field, values) => crowd.write(field, values, {});
+    for (const { field, value } of limb.fixed) write(field, value.slice(0, crowd.componentCount(field)));
+    if (crowd.componentCount(Field.EFFECTOR) > 0) {
+      const sizes = this.cache.size.subarray(this.first, this.first + this.count);
+      write(Field.EFFECTOR, Array.from(sizes).flatMap((size) => limb.goals.effector.map((axis) => Math.fround(size * axis))));
+    }
+    return { crowd, plan: this.keep(planBytes(limb.goals)), sources: this.keep(sources), inputs: this.memory.allocate(124 * this.count) };
+  }
+  solve(frame, given, chosen) {
+    const { memory, cache: { attrs, start } } = this, { calls } = memory;
+    this.limbs.forEach(({ crowd, plan, sources, inputs }, limb) => {
+      calls.swivel_goals(plan, sources, attrs.clip_frames, frame, this.characters, this.count, inputs);
+      const numbers = memory.floats(inputs, 31 * this.count);
+      for (let n = 0; given && n < this.count; ++n) {
+        const at = (frame * attrs.limbs.length + limb) * attrs.characters + this.first + n, [target, pole, hand] = given;
+        if (Number.isNaN(target.data[3 * at])) continue;
+        numbers.set(target.data.subarray(3 * at, 3 * at + 3), 31 * n);
+        numbers.set(pole.data.subarray(3 * at, 3 * at + 3), 31 * n + 3);
+        numbers.set(hand.data.subarray(4 * at, 4 * at + 4), 31 * n + 15);
+      }
+      memory.check(calls.swivel_goals_write(crowd.crowd, 0, this.count, inputs));
+      if (crowd.componentCount(Field.NORMAL) > 0)
+        for (let n = 0; n < this.count; ++n) if ((frame + start[this.first + n]) % attrs.clip_frames === 0) crowd.reset({ first: n, count: 1 });
+      crowd.solve(chosen ? { mask: this.maskOf(frame, limb, chosen) } : {});
+    });
+  }
+  maskOf(frame, limb, { data, shape }) {
+    const blocks = Math.ceil(this.count / LANES), mask = new Uint32Array(Math.ceil(blocks / 2));
+    for (let block = 0; block < blocks; ++block)
+      if (data[(frame * shape[1] + limb) * shape[2] + this.first / LANES + block]) mask[block >> 1] |= 0xffff << (16 * (block & 1));
+    return mask;
+  }
+  dispose() { this.limbs.forEach(({ crowd }) => crowd.dispose()); }
+}
+
+const results = { shoulder: 'SHOULDER', elbow: 'ELBOW', wrist: 'WRIST', flags: 'FLAGS', stretch: 'STRETCH', normal: 'NORMAL', clavicle_turn: 'CLAVICLE_TURN' };
+const LIMITED = `
+[crowd]
+limbs = "all"
+[limb.all]
+hand = true
+twist_bones = 2
+[limb.arms]
+effector = [0, -0.4, 0]
+[limb.arms.reach]
+most_stretch = 1.1
+[limb.arms.clavicle]
+share = 0.2
+[limb.arms.limits]
+flexion_deg = [0, 150]
+[limb.arms.limits.shoulder_cone]
+axis = [0, 0.5, 1]
+opening_deg = 80
+`;
+const BUDGET = `${LIMITED}
+[limb.all.swivel]
+most_deg_per_second = 900
+[budget]
+blocks = 3
+`;
+
+for (const [name, toml, options] of [
+  ['a plain crowd', '', []], ['limits, clavicles, twist bones', LIMITED, []], ['state and a budget', BUDGET, []],
+  ['packed chunks', LIMITED, ['--compress']], ['targets of one\'s own', LIMITED, ['targets']],
+])
+  test(`wasm replays ${name}`, async () => {
+    const run = (...list) => execFileSync(SWIVEL, list, { cwd: folder, stdio: 'pipe' });
+    rmSync(join(folder, 'cache'), { recursive: true, force: true });
+    writeFileSync(join(folder, 'crowd.toml'), toml);
+    if (options[0] === 'targets') {
+      run('solve', CLIP, '--limbs', 'all', '--export-targets', 'all.csv', '--quiet');
+      const rows = readFileSync(join(folder, 'all.csv'), 'utf8').split('\n');
+      writeFileSync(join(folder, 'targets.csv'), `${rows[0]}\n${rows.slice(1).filter((row) => /^(3|11),.*right/.test(row)).join('\n')}\n`);
+      options.splice(0, 1, '--targets', 'targets.csv', '--between', 'hold');
+    }
+    run('store', CLIP, 'cache', '--frames', '24', '--characters', '75', '--chunk', '8,32', '--quiet', ...(toml ? ['--crowd', 'crowd.toml'] : []), ...options);
+    run('fill', 'cache', '--quiet');
+    const cache = await open(join(folder, 'cache')), { attrs } = cache;
+    const chosen = attrs.budget_blocks > 0 ? await cache.read('chosen') : undefined;
+    const given = attrs.has_given ? await Promise.all(['target', 'pole', 'hand'].map((each) => cache.read(`given/${each}`))) : undefined;
+    const names = Object.keys(results).filter((field) => { try { return readFileSync(join(folder, 'cache', field, '.zarray')); } catch { return false; } });
+    const stored = Object.fromEntries(await Promise.all(names.map(async (field) => [field, await cache.read(field)])));
+    let compared = 0, solvedLimbs = 0;
+    for (const first of [0, 32, 64]) {
+      const memory = await instantiate({ wasm: readFileSync(MODULE), megabytes: 64 }), column = new Column(memory, cache, first);
+      for (let frame = 0; frame < attrs.frames; ++frame) {
+        column.solve(frame, given, chosen);
+        column.limbs.forEach(({ crowd }, limb) => {
+          for (const field of names) {
+            const parts = crowd.componentCount(Field[results[field]]);
+            if (parts === 0) continue;
+            const { data } = stored[field], at = ((frame * attrs.limbs.length + limb) * attrs.characters + first) * parts;
+            const wanted = new Uint32Array(data.slice(at, at + column.count * parts).buffer);
+            const numbers = crowd.read(Field[results[field]], {}), found = new Uint32Array(numbers.buffer, numbers.byteOffset, numbers.length);
+            assert.deepEqual(found, wanted, `${field} of limb ${limb}, frame ${frame}, characters from ${first} on`);
+            compared += wanted.length;
+          }
+          solvedLimbs += column.count;
+        });
+      }
+      column.dispose();
+    }
+    assert.equal(solvedLimbs, 24 * 75 * attrs.limbs.length);
+    assert.ok(compared >= solvedLimbs * 9);
+  });

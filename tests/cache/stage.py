@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of caches share: the command, crowds to store, and a cache's files as bytes.
+
+SWIVEL names the command. SWIVEL_TEST_DATA may hold the clip; Debian's assimp-testmodels has it."""
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+SWIVEL = os.environ["SWIVEL"]
+PLACES = (Path("/usr/share/assimp/models/BVH/01_01.bvh"), Path(os.environ.get("SWIVEL_TEST_DATA", "")) / "bvh/cmu_01_01_forward_jump.bvh")
+CLIP = next(str(place) for place in PLACES if place.is_file())
+
+LIMITED = """
+[crowd]
+limbs = "all"
+[limb.all]
+hand = true
+twist_bones = 2
+[limb.arms.reach]
+most_stretch = 1.1
+[limb.arms.clavicle]
+share = 0.2
+[limb.arms.limits]
+flexion_deg = [0, 150]
+[limb.arms.limits.shoulder_cone]
+axis = [0, 0.5, 1]
+opening_deg = 80
+"""
+BUDGET = LIMITED + """
+[limb.all.swivel]
+most_deg_per_second = 900
+[budget]
+blocks = 3
+"""
+STEPS = """
+[limb.left_arm.swivel]
+most_deg_per_frame = 4
+"""
+
+
+def run(*words, **options):
+    return subprocess.run([SWIVEL, *map(str, words)], capture_output=True, text=True, **options)
+
+
+def files_of(cache):
+    """Every file of a cache by its name within it, with its bytes."""
+    return {str(path.relative_to(cache)): path.read_bytes() for path in sorted(Path(cache).rglob("*")) if path.is_file()}
+
+
+def array_of(cache, name, time, column, shape, kind="<f4"):
+    """One chunk of an array that is not packed, by its file alone."""
+    place = f"{time}.0.{column}" + ".0" * (len(shape) - 3)
+    return np.frombuffer((Path(cache) / name / place).read_bytes(), kind).reshape(shape)
+
+
+class Stage(unittest.TestCase):
+    """A folder for each test, and the commands' outcomes checked on the way."""
+
+    place = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # each chunk is synced, and memory does not wait for that
+
+    def setUp(self):
+        made = tempfile.TemporaryDirectory(dir=self.place)
+        self.addCleanup(made.cleanup)
+        self.folder = Path(made.name)
+
+    def swivel(self, *words, **options):
+        done = run(*words, cwd=self.folder, **options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        return done.stdout
+
+    def store(self, name="cache", *words, clip=CLIP, toml="", characters=100, frames=40, chunk="8,32"):
+        if toml:
+            (self.folder / "crowd.toml").write_text(toml)
+            words += ("--crowd", "crowd.toml")
+        self.swivel("store", clip, name, "--characters", characters, "--frames", frames, "--chunk", chunk, "--quiet", *words)
+        return self.folder / name
+
+    def fill(self, cache, *words):
+        self.swivel("fill", cache, "--quiet", *words)
+        return cache
+
+    def assert_same(self, one, other):
+        """File by file; names first, since they tell more."""
+        one, other = files_of(one), files_of(other)
+        self.assertEqual(sorted(one), sorted(other))
+        self.assertEqual([name for name in one if one[name] != other[name]], [])
+
+    def assert_refused(self, done, what, code=1):
+        """One line that says what."""
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertRegex(done.stderr, f"^swivel: .*{what}")

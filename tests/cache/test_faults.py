@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: MIT
+"""The promise: what goes wrong with a cache is one line that says what, where and what to do, and nothing that was done is lost.
+
+FULL_DISK: the library that full_disk.c makes."""
+import json
+import os
+import shutil
+import subprocess
+import unittest
+
+from stage import BUDGET, CLIP, LIMITED, SWIVEL, Stage, files_of, run
+
+DISK = {"LD_PRELOAD": os.environ["FULL_DISK"]}
+
+
+def flip(path, at=-1):
+    content = bytearray(path.read_bytes())
+    content[at] ^= 1
+    path.write_bytes(content)
+
+
+def edit(path, change):
+    content = json.loads(path.read_text())
+    change(content)
+    path.write_text(json.dumps(content))
+
+
+class Disk(Stage):
+    def test_a_full_disk_leaves_whole_chunks_and_the_rest_is_filled_later(self):
+        for toml in (LIMITED, BUDGET):
+            empty = self.store("empty", toml=toml, characters=150)
+            one = self.fill(shutil.copytree(empty, self.folder / "one"))
+            for count in (0, 1000, 1_500_000, 2_500_000):
+                with self.subTest(bytes=count):
+                    other = shutil.copytree(empty, self.folder / "other")
+                    done = run("fill", other, "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": str(count)})
+                    self.assert_refused(done, f"{other}/[a-z_/]*[0-9.]+: cannot be written: No space left on device; free some space")
+                    left, wanted = files_of(other), files_of(one)
+                    self.assertEqual([name for name in left if left[name] != wanted[name]], [])
+                    self.assertEqual(count > 1000, any(name.startswith("digest/0") for name in left))
+                    self.fill(other, "--resume")
+                    self.assert_same(one, other)
+                    shutil.rmtree(other)
+            shutil.rmtree(empty)
+            shutil.rmtree(one)
+
+    def test_a_store_that_does_not_fit_leaves_nothing(self):
+        done = run("store", CLIP, self.folder / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": "1000"})
+        self.assert_refused(done, "No space left on device; free some space")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_folder_that_may_only_be_read(self):
+        cache = self.store()
+        nobody = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+        self.folder.chmod(0o755)
+        for path in [cache, *cache.rglob("*")]:
+            path.chmod(0o555 if path.is_dir() else 0o444)
+        before = files_of(cache)
+        self.assert_refused(run("fill", cache, "--quiet", **nobody), "Permission denied; check the folder and its permissions")
+        self.assert_refused(run("store", CLIP, cache / "other", "--quiet", **nobody), "Permission denied; check the folder and its permissions")
+        self.assertEqual(files_of(cache), before)
+        for path in [cache, *cache.rglob("*")]:
+            path.chmod(0o755)
+        self.fill(cache)
+        self.swivel("check", cache, "--quiet")
+        self.assertEqual(run("check", cache, "--quiet", **nobody).returncode, 0)  # a closed cache is only read
+
+    def test_a_cache_is_not_replaced(self):
+        cache = self.fill(self.store())
+        before = files_of(cache)
+        self.assert_refused(run("store", CLIP, cache, "--quiet"), "is there already; remove it, or name another folder")
+        self.assert_refused(run("store", CLIP, self.folder / "none/cache", "--quiet"), "is no folder; make it first")
+        self.assert_refused(run("fill", cache, "--quiet"), "20 of 20 chunks are done already; add --resume to go on, or --verify")
+        self.assertEqual(files_of(cache), before)
+
+
+class Damage(Stage):
+    def test_poses_that_changed_are_named_and_made_again(self):
+        for words in ((), ("--compress",)):
+            cache = self.fill(self.store("cache", *words, toml=BUDGET))
+            before = files_of(cache)
+            for name, what in (("shoulder/2.0.1.0", "shoulder differs"), ("flags/2.0.1", "flags differs"), ("digest/2.1", "digest differs"),
+                               ("state/elbow/2.0.1.0", "state/elbow differs")):
+                with self.subTest(file=name, words=words):
+                    flip(cache / name)
+                    done = run("check", cache, "--quiet")
+                    self.assert_refused(done, rf"1 of 20 chunks were damaged and are written again, the first is 2\.1: {what}|"
+                                              rf"the first is 2\.1: a file of .* is missing or cut|1 of 20 chunks are not done, the first is 2\.1")
+                    self.fill(cache, "--resume")
+                    self.assertEqual(files_of(cache), before)
+            shutil.rmtree(cache)
+
+    def test_files_that_are_gone_or_cut_are_made_again(self):
+        for toml in (LIMITED, BUDGET):
+            cache = self.fill(self.store("cache", toml=toml))
+            before = files_of(cache)
+            names = ["elbow/1.0.2.0", "digest/1.2", "twist_bones/1.0.2.0.0"] + (["state/flags/1.0.2"] if toml == BUDGET else [])
+            for name in names:
+                for damage in (os.remove, lambda path: os.truncate(path, 3)):
+                    with self.subTest(file=name):
+                        damage(cache / name)
+                        said = json.loads(self.swivel("fill", cache, "--verify", "--json", "--quiet"))
+                        again = [each["chunk"] for each in said["written_again"]]
+                        self.assertEqual(again or said["chunks_written"], 1 if name.startswith("digest") else ["1.2"])
+                        self.assertEqual(files_of(cache), before)
+            shutil.rmtree(cache)
+
+    def test_what_is_not_done_is_named(self):
+        cache = self.fill(self.store(), "--shard", "1/2")
+        self.assert_refused(run("check", cache, "--quiet"), r"10 of 20 chunks are not done, the first is 1\.0; run swivel fill --resume")
+        self.assert_refused(run("replay", cache, "--quiet"), r"chunk 0\.1 is not done, so nothing proves it; run swivel fill --resume")
+        self.swivel("replay", cache, "--frames", "0:8", "--characters", "0:32", "--quiet")
+
+    def test_goals_that_changed_are_reported(self):
+        whole = self.fill(self.store(toml=BUDGET))
+        names = ["clip/wrist/0.0.0", "clip/position/0.0.0", "character/size/1", "chosen/1.0.1"]
+        for name in names:
+            for damage, what in ((flip, "is damaged"), (os.remove, "is missing"), (lambda path: os.truncate(path, 5), "is damaged")):
+                with self.subTest(file=name, what=what):
+                    cache = shutil.copytree(whole, self.folder / "damaged")
+                    damage(cache / name)
+                    before = files_of(cache)
+                    for command in (("fill", cache, "--verify"), ("check", cache), ("replay", cache)):
+                        done = run(*command, "--quiet")
+                        self.assert_refused(done, f"{cache / name}: {what}; goals cannot be computed again: take the file from a copy")
+                    self.assertEqual(files_of(cache), before)
+                    shutil.rmtree(cache)
+
+    def test_poses_without_goals_are_reported(self):
+        cache = self.fill(self.store("cache", "--store", "poses"))
+        self.swivel("check", cache, "--quiet")
+        self.assertFalse((cache / "clip").exists())
+        self.assertIn("right    20 chunks: their poses have their digests\n", self.swivel("check", cache))
+        for command in ("replay", "fill", "view"):
+            words = ("--resume",) if command == "fill" else ()
+            self.assert_refused(run(command, cache, *words, cwd=self.folder), "keeps poses and no goals, so nothing can be solved again")
+        flip(cache / "elbow/3.0.1.0")
+        os.remove(cache / "flags/4.0.2")
+        self.assert_refused(run("check", cache, "--quiet"), r"2 of 20 chunks are damaged, the first is 3\.1; the cache keeps no goals, so "
+                                                            "take their files from a copy")
+
+
+class Metadata(Stage):
+    def test_damaged_metadata(self):
+        whole = self.fill(self.store(toml=LIMITED))
+        changes = [
+            (".zattrs", lambda path: os.truncate(path, 100), "is no JSON object: it was changed or cut"),
+            (".zattrs", os.remove, "is no cache of swivel; swivel store makes one"),
+            (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=2)),
+             "the cache has format 2, this swivel reads format 1; use the swivel that made it"),
+            (".zattrs", lambda path: edit(path, lambda a: a.update(characters=101)), "was changed: its digest is another"),
+            (".zattrs", lambda path: edit(path, lambda a: a["limbs"][0].update(priority=2)), "was changed: its digest is another"),
+            (".zattrs", lambda path: edit(path, lambda a: a.pop("swivel_cache")), "describes no cache of swivel"),
+            ("shoulder/.zarray", lambda path: edit(path, lambda a: a.update(shape=[40, 4, 101, 4])),
+             r"shape is \[40,4,101,4\] instead of \[40,4,100,4\]: it was changed"),
+            ("elbow/.zarray", lambda path: edit(path, lambda a: a.update(zarr_format=3)), "zarr_format is 3 instead of 2"),
+            ("flags/.zarray", lambda path: edit(path, lambda a: a.update(dtype="<f4")), 'dtype is "<f4" instead of "<u4"'),
+            ("digest/.zarray", os.remove, "No such file or directory"),
+            ("clip/wrist/.zarray", lambda path: os.truncate(path, 10), "is no JSON object"),
+            ("clip/wrist/.zattrs", lambda path: edit(path, lambda a: a.pop("digests")), "clip/wrist/0.0.0: nobody made it"),
+        ]
+        for name, change, what in changes:
+            with self.subTest(what=what):
+                cache = shutil.copytree(whole, self.folder / "damaged")
+                change(cache / name)
+                before = files_of(cache)
+                for words in (("fill", cache, "--verify"), ("check", cache), ("replay", cache), ("view", cache)):
+                    self.assert_refused(run(*words, "--quiet", cwd=self.folder), what)
+                self.assertEqual(files_of(cache), before)
+                shutil.rmtree(cache)
+
+    def test_what_is_no_cache(self):
+        (self.folder / "empty").mkdir()
+        (self.folder / "file").write_text("no cache\n")
+        for name in ("empty", "file", "missing"):
+            self.assert_refused(run("fill", self.folder / name, "--quiet"), f"{name}: is no cache of swivel; swivel store makes one")
+
+    def test_options_that_are_wrong(self):
+        cache = self.store()
+        for words, what in ((("--shard", "0/4"), "write i/n with i from 1 to n, such as 1/4, or auto"), (("--shard", "5/4"), "write i/n"),
+                            (("--shard", "x"), "write i/n"), (("--memory", "1K"), "is not an amount of memory from 1M on"),
+                            (("--memory", "much"), "is not an amount of memory"), (("--threads", "-1"), "--threads")):
+            self.assert_refused(run("fill", cache, *words), what, code=2)
+        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk takes \d+ MiB of memory, and --memory is 1 MiB; give more")
+        for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
+                            (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B")):
+            self.assert_refused(run("replay", cache, *words), what, code=2)
+        for chunk in ("8", "8,17", "0,16", "8,16,1"):
+            done = run("store", CLIP, self.folder / "other", "--chunk", chunk)
+            self.assert_refused(done, "write FRAMES,CHARACTERS, such as 8,4096", code=2)
+
+
+class Stops(Stage):
+    def test_a_signal_ends_a_fill_between_chunks(self):
+        cache = self.store(characters=4000, frames=400)
+        process = subprocess.Popen([SWIVEL, "fill", cache, "--quiet"], stderr=subprocess.PIPE, text=True)
+        while not any((cache / "digest").glob("[0-9]*")):
+            pass
+        process.terminate()
+        said = process.communicate()[1]
+        self.assertEqual((process.returncode, said), (-15, "swivel: interrupted; unfinished files are removed\n"))
+        self.assertEqual([path for path in cache.rglob(".swivel-*")], [])
+        self.fill(cache, "--resume")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""The promise: other programs read a cache as it stands, and what they read is what the library gives, bit for bit."""
+import csv
+import os
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import xarray
+import zarr
+
+from stage import BUDGET, CLIP, LIMITED, ROOT, SWIVEL, Stage, run, unittest
+
+LIMBS = ["left_arm", "right_arm", "left_leg", "right_leg"]
+
+
+def bits(numbers):
+    return np.asarray(numbers, "<f4").view("<u4")
+
+
+def table_of(path):
+    """A table of poses by limb, frame and character."""
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {(row["limb"], int(row["frame"]), int(row["character"])): row for row in rows}
+
+
+def rotation_of(row, joint):
+    return bits([float(row[f"{joint}_{axis}"]) for axis in "xyzw"])
+
+
+def short_clip(path, frame_count):
+    """The first frames of the clip as a file of its own."""
+    head, _, motion = Path(CLIP).read_text().partition("Frames:")
+    lines = motion.splitlines()
+    path.write_text("\n".join([f"{head}Frames: {frame_count}", *lines[1:2 + frame_count]]) + "\n")
+    return path
+
+
+class Values(Stage):
+    def assert_table(self, cache, table, limbs, frames, characters):
+        for (name, frame, character), row in table.items():
+            at = frame, limbs.index(name), character
+            for joint in ("shoulder", "elbow", "wrist"):
+                if joint in cache:
+                    self.assertEqual(rotation_of(row, joint).tolist(), bits(cache[joint][at]).tolist(), (at, joint))
+            self.assertEqual(int(row["flags"]), cache["flags"][at])
+        self.assertEqual(len(table), len(frames) * len(limbs) * len(characters))
+
+    def test_zarr_reads_what_solve_reads_from_the_library(self):
+        """`swivel solve` reads its table's rotations by swivel_read, from crowds that know no cache."""
+        targets = self.folder / "targets.csv"
+        clip = short_clip(self.folder / "clip.bvh", 20)
+        self.swivel("solve", clip, "--limbs", "all", "--export-targets", "all.csv", "--quiet")
+        rows = (self.folder / "all.csv").read_text().splitlines()
+        kept = [row for row in rows[1:] if row.startswith(("3,", "11,")) and "right" in row]
+        targets.write_text("\n".join(rows[:1] + kept) + "\n")
+        for name, toml, words in (("plain", "", ()), ("limited", LIMITED, ("--compress",)), ("budget", BUDGET, ()),
+                                  ("given", LIMITED, ("--targets", targets, "--between", "hold"))):
+            with self.subTest(crowd=name):
+                folder = self.fill(self.store(name, *words, clip=clip, toml=toml, characters=45, frames=20, chunk="8,16"))
+                options = ["--crowd", "crowd.toml"] if toml else []
+                options += words[0:4] if name == "given" else []
+                self.swivel("solve", clip, "--characters", 45, "--out", "solved.csv", "--quiet", *options)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    cache = zarr.open(str(folder), mode="r")
+                limbs = LIMBS if toml else LIMBS[:2]
+                self.assertEqual(cache["shoulder"].shape, (20, len(limbs), 45, 4))
+                values = {name: cache[name][:] for name in ("shoulder", "elbow", "wrist", "flags") if name in cache}
+                self.assert_table(values, table_of(self.folder / "solved.csv"), limbs, range(20), range(45))
+                self.swivel("replay", folder, "--frames", "5:17", "--characters", "10:40", "--out", "replayed.csv", "--quiet")
+                table = table_of(self.folder / "replayed.csv")
+                self.assertEqual({key[1:] for key in table}, {(frame, who) for frame in range(5, 17) for who in range(10, 40)})
+                self.assert_table(values, table, limbs, range(5, 17), range(10, 40))
+
+    def test_goals_alone_give_the_same_poses(self):
+        both = self.fill(self.store("both", toml=BUDGET))
+        goals = self.fill(self.store("goals", "--store", "goals", toml=BUDGET))
+        for cache in (both, goals):
+            self.swivel("check", cache, "--quiet")
+            self.swivel("replay", cache, "--out", f"{cache.name}.csv", "--quiet")
+        self.assertEqual((self.folder / "goals.csv").read_bytes(), (self.folder / "both.csv").read_bytes())
+        self.assertFalse((goals / "shoulder").exists())
+        self.assertIn("goals", self.swivel("store", CLIP, "printed", "--store", "goals"))
+
+    def test_edges_of_chunks_are_empty(self):
+        cache = self.fill(self.store("cache", toml=LIMITED, characters=20, frames=10))
+        edge = np.fromfile(cache / "shoulder/1.0.0.0", "<f4").reshape(8, 4, 32, 4)
+        self.assertTrue(np.isnan(edge[2:]).all() and np.isnan(edge[:, :, 20:]).all() and not np.isnan(edge[:2, :, :20]).any())
+
+
+class Documentation(Stage):
+    def test_programs_run(self):
+        """The page's programs, in a folder with the cache that they read."""
+        text = (ROOT / "docs/cache.md").read_text(encoding="utf-8")
+        programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        self.assertGreaterEqual(len(programs), 2)
+        self.swivel("store", CLIP, "crowd.cache", "--characters", 100, "--limbs", "all", "--frames", 20, "--quiet")
+        self.swivel("fill", "crowd.cache", "--quiet")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        names = {}
+        for program in programs:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                exec(program, names)
+        self.assertEqual(names["crowd"]["shoulder"].shape, (20, 4, 100, 4))
+
+    def test_the_schema_is_the_cache(self):
+        """Every array of the page is in a cache that has everything, with its type and dimensions, and the other way round."""
+        text = (ROOT / "docs/cache.md").read_text(encoding="utf-8")
+        rows = {name: (kind, dimensions) for name, kind, dimensions in re.findall(r"^\| `([a-z_/]+)` \| `([<|][a-z]\d)` \| ([a-z_, ]+) \|", text, re.M)}
+        self.swivel("solve", CLIP, "--export-targets", "targets.csv", "--limbs", "all", "--quiet")
+        folder = self.store("cache", "--targets", "targets.csv", toml=BUDGET, characters=20, frames=4, chunk="2,16")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            cache, found = zarr.open(str(folder), mode="r"), {}
+        cache.visititems(lambda name, item: found.update({name: item}) if hasattr(item, "chunks") else None)
+        self.assertEqual({name for name in found if not name.startswith("state/")}, {name for name in rows if not name.startswith("state/")})
+        for name, (kind, dimensions) in rows.items():
+            with self.subTest(array=name):
+                self.assertEqual((found[name].dtype.str, found[name].attrs["_ARRAY_DIMENSIONS"]), (kind, dimensions.split(", ")))
+
+
+class Xarray(Stage):
+    def test_xarray_names_dimensions(self):
+        cache = self.fill(self.store("cache", toml=LIMITED))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            data = xarray.open_zarr(str(cache), consolidated=False, mask_and_scale=False)
+            raw = zarr.open(str(cache), mode="r")
+        self.assertEqual(dict(data.sizes)["character"], 100)
+        self.assertEqual(data.shoulder.dims, ("frame", "limb", "character", "xyzw"))
+        one = data.shoulder.isel(frame=11, limb=2, character=70).values
+        self.assertEqual(bits(one).tolist(), bits(raw["shoulder"][11, 2, 70]).tolist())
+        self.assertAlmostEqual(float(np.square(one).sum()), 1, places=6)
+
+
+if __name__ == "__main__":
+    unittest.main()

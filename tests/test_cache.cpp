@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a cache is cut in the same way whoever fills it; shards share nothing and leave nothing out; what was
+// written is read back or known to be damaged; and a crowd goes through store, fill, check, replay and solve with the
+// same bits.
+#include <rapidcheck/catch.h>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tests/pipe_stage.h"
+#include "tools/cache/column.h"
+#include "tools/cache/fill.h"
+
+using namespace swivel;
+using namespace swivel::test;
+using namespace swivel::tools;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::uint32_t up_to(std::uint32_t most) { return *rc::gen::inRange(1u, most + 1); }
+
+CachedCrowd some_crowd()
+{
+    CachedCrowd crowd;
+    crowd.frame_count = up_to(60);
+    crowd.character_count = up_to(300);
+    crowd.limbs.resize(up_to(4));
+    if (*rc::gen::arbitrary<bool>()) crowd.limbs.back().setup.features = SWIVEL_WITH_MOST_SWIVEL;
+    crowd.chunk = {up_to(20), 16 * up_to(6)};
+    return crowd;
+}
+
+// Where a chunk is, as a number that orders work.
+std::pair<std::uint32_t, std::uint32_t> in_order(ChunkAt at) { return {at.column, at.time}; }
+
+std::map<std::string, std::string> files_of(const fs::path& folder)
+{
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder)] = slurp(entry.path());
+    return files;
+}
+
+void require_done(const Outcome& outcome)
+{
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("Chunks hold whole blocks, cover the crowd and depend on nothing else")
+{
+    rc::prop("chunk_shape", [] {
+        const std::uint32_t frames = up_to(100'000), characters = up_to(10'000'000), limbs = up_to(4);
+        const ChunkShape shape = chunk_shape(frames, characters, limbs);
+        RC_ASSERT(shape.frames >= 1 && shape.frames <= frames);
+        RC_ASSERT(shape.characters % SWIVEL_LANES == 0);
+        RC_ASSERT(std::uint64_t{shape.frames} * shape.characters * limbs <= 65'536u);
+        CachedCrowd crowd;
+        crowd.frame_count = frames, crowd.character_count = characters, crowd.chunk = shape;
+        std::uint64_t all = 0;
+        for (std::uint32_t time = 0; time < crowd.time_count(); ++time) all += crowd.frames_in(time);
+        RC_ASSERT(all == frames);
+        all = 0;
+        for (std::uint32_t column = 0; column < crowd.column_count(); ++column) all += crowd.characters_in(column);
+        RC_ASSERT(all == characters);
+    });
+}
+
+TEST_CASE("Shards share no chunk and leave none out")
+{
+    rc::prop("chunks_of", [] {
+        const CachedCrowd crowd = some_crowd();
+        const std::uint32_t count = up_to(9);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> all;
+        std::map<std::uint32_t, std::uint32_t> shard_of_column;
+        std::size_t chunks = 0;
+        for (std::uint32_t index = 0; index < count; ++index) {
+            const std::vector<ChunkAt> mine = chunks_of(crowd, {index, count, ""});
+            RC_ASSERT(std::ranges::is_sorted(mine, {}, in_order));
+            for (const ChunkAt at : mine) {
+                all.insert(in_order(at));
+                const bool is_own = shard_of_column.try_emplace(at.column, index).first->second == index;
+                RC_ASSERT(is_own || !crowd.carries_state());
+            }
+            chunks += mine.size();
+        }
+        RC_ASSERT(chunks == all.size());
+        RC_ASSERT(chunks == std::size_t{crowd.time_count()} * crowd.column_count());
+    });
+}
+
+TEST_CASE("Chunks are read back, and cut or packed wrongly they are known")
+{
+    const TempFolder folder;
+    rc::prop("ZarrStore", [&] {
+        const bool is_packed = *rc::gen::arbitrary<bool>();
+        const ZarrStore store(folder / (is_packed ? "packed" : "plain"), is_packed);
+        const std::uint64_t count = up_to(2000);
+        const ZarrArray array{"numbers", "<u4", {"n"}, {count}, {count}, "any"};
+        store.write_array(array);
+        store.require(array);
+        const auto numbers =
+            *rc::gen::container<std::vector<std::uint32_t>>(count, rc::gen::arbitrary<std::uint32_t>());
+        std::vector<std::uint32_t> found(count);
+        const auto read = [&] { return store.read_chunk(array, {0}, std::as_writable_bytes(std::span(found))); };
+        fs::remove(store.chunk_path(array, {0}));
+        RC_ASSERT(read() == ChunkRead::missing);
+        const std::size_t size = store.write_chunk(array, {0}, bytes_of(numbers));
+        RC_ASSERT(fs::file_size(store.chunk_path(array, {0})) == size);
+        RC_ASSERT(read() == ChunkRead::whole);
+        RC_ASSERT(found == numbers);
+        fs::resize_file(store.chunk_path(array, {0}), *rc::gen::inRange<std::size_t>(0, size));
+        RC_ASSERT(read() == ChunkRead::damaged);
+    });
+}
+
+TEST_CASE("A digest sees every bit and every word's place")
+{
+    rc::prop("digest_of", [] {
+        auto bytes = *rc::gen::nonEmpty(rc::gen::arbitrary<std::vector<std::uint8_t>>());
+        const auto digest = [&] { return digest_of(std::as_bytes(std::span(bytes))); };
+        const std::uint64_t before = digest();
+        bytes[*rc::gen::inRange<std::size_t>(0, bytes.size())] ^=
+            static_cast<std::uint8_t>(1 << *rc::gen::inRange(0, 8));
+        RC_ASSERT(digest() != before);
+    });
+}
+
+TEST_CASE("A crowd goes through store, fill, check and replay with the bits of solve")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "crowd.toml",
+          "[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 3\n");
+    const auto run = [&](std::vector<std::string> words) { return run_command(folder.path, words); };
+    const std::vector<std::string> crowd{"--crowd", "crowd.toml", "--characters", "40"};
+    const auto with_crowd = [&](std::vector<std::string> words) {
+        words.insert(words.end(), crowd.begin(), crowd.end());
+        return words;
+    };
+    require_done(run(with_crowd({"store", "clip.bvh", "cache", "--chunk", "1,16"})));
+    require_done(run({"fill", "cache", "--shard", "2/2"}));
+    const Outcome early = run({"check", "cache"});
+    CHECK(early.exit_code == 1);
+    CHECK_THAT(early.err, Contains("chunks are not done, the first is 0.0; run swivel fill --resume"));
+    require_done(run({"fill", "cache", "--resume"}));
+    const auto filled = files_of(folder / "cache");
+    require_done(run({"fill", "cache", "--verify"}));
+    CHECK(files_of(folder / "cache") == filled);
+    require_done(run({"check", "cache"}));
+    require_done(run({"replay", "cache", "--out", "replayed.csv"}));
+    require_done(run(with_crowd({"solve", "clip.bvh", "--out", "solved.csv"})));
+    CHECK(slurp(folder / "replayed.csv") == slurp(folder / "solved.csv"));
+}
