@@ -111,7 +111,7 @@ class Documentation(Stage):
     def test_the_schema_is_the_cache(self):
         """Every array of the page is in a cache that has everything, with its type and dimensions, and the other way round."""
         text = (ROOT / "docs/cache.md").read_text(encoding="utf-8")
-        rows = {name: (kind, dimensions) for name, kind, dimensions in re.findall(r"^\| `([a-z_/]+)` \| `([<|][a-z]\d)` \| ([a-z_, ]+) \|", text, re.M)}
+        rows = {name: (kind, dimensions) for name, kind, dimensions in re.findall(r"^\| `([a-z_/]+)` \| `\\?([<|][a-z]\d)` \| ([a-z_, ]+) \|", text, re.M)}
         self.swivel("solve", CLIP, "--export-targets", "targets.csv", "--limbs", "all", "--quiet")
         folder = self.store("cache", "--targets", "targets.csv", toml=BUDGET, characters=20, frames=4, chunk="2,16")
         with warnings.catch_warnings():

@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("CHANGELOG.md", "CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py", "batch", "cmake",
-           "core", "simd", "tools/python")
+           "core", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
 USE = """
 import sys, pathlib, importlib.metadata, swivel
 folder = pathlib.Path(swivel.__file__).parent
@@ -49,7 +49,7 @@ def source_distribution():
     [archive] = FOLDER.glob("swivel-*.tar.gz")
     with tarfile.open(archive) as files:
         held = {name.partition("/")[2] for name in files.getnames()}
-    for folder in ("batch", "cmake", "core", "simd", "tools/python"):
+    for folder in ("batch", "cmake", "core", "simd", "tools/cache", "tools/python"):
         files = {str(path.relative_to(ROOT)) for path in (ROOT / folder).rglob("*.*") if path.suffix != ".pyc" and path.is_file()}
         if files - held:
             sys.exit(f"the source distribution lacks {sorted(files - held)}")
