@@ -3,6 +3,8 @@
 // `swivel store`: makes a cache of a clip's crowd, with all goals and no poses yet.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -13,9 +15,11 @@
 #include "tools/cli/streams.h"
 #include "tools/crowd/clip_crowd.h"
 #include "tools/formats/error.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/cached_clip.h"
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_report.h"
 
 namespace swivel::tools {
