@@ -132,29 +132,82 @@ TEST_CASE("A digest sees every bit and every word's place")
     });
 }
 
-TEST_CASE("A crowd goes through store, fill, check and replay with the bits of solve")
-{
-    const TempFolder folder;
-    spill(folder / "clip.bvh", kTwoArms);
-    spill(folder / "crowd.toml",
-          "[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 3\n");
-    const auto run = [&](std::vector<std::string> words) { return run_command(folder.path, words); };
-    const std::vector<std::string> crowd{"--crowd", "crowd.toml", "--characters", "40"};
-    const auto with_crowd = [&](std::vector<std::string> words) {
+// A crowd of 40 characters with limits, step limits and a budget, in a cache that is filled.
+struct CacheStage {
+    TempFolder folder;
+    std::vector<std::string> crowd{"--crowd", "crowd.toml", "--characters", "40"};
+
+    CacheStage()
+    {
+        spill(folder / "clip.bvh", kTwoArms);
+        spill(folder / "crowd.toml",
+              "[budget]\nblocks = 2\n[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame "
+              "= 3\n");
+        require_done(run(with_crowd({"store", "clip.bvh", "cache", "--chunk", "1,16"})));
+    }
+    Outcome run(const std::vector<std::string>& words) const { return run_command(folder.path, words); }
+    std::vector<std::string> with_crowd(std::vector<std::string> words) const
+    {
         words.insert(words.end(), crowd.begin(), crowd.end());
         return words;
-    };
-    require_done(run(with_crowd({"store", "clip.bvh", "cache", "--chunk", "1,16"})));
-    require_done(run({"fill", "cache", "--shard", "2/2"}));
-    const Outcome early = run({"check", "cache"});
+    }
+    std::map<std::string, std::string> files() const { return files_of(folder / "cache"); }
+};
+
+TEST_CASE("A crowd goes through store, fill, check and replay with the bits of solve")
+{
+    const CacheStage stage;
+    require_done(stage.run({"fill", "cache", "--shard", "2/2"}));
+    const Outcome early = stage.run({"check", "cache"});
     CHECK(early.exit_code == 1);
     CHECK_THAT(early.err, Contains("chunks are not done, the first is 0.0; run swivel fill --resume"));
-    require_done(run({"fill", "cache", "--resume"}));
-    const auto filled = files_of(folder / "cache");
-    require_done(run({"fill", "cache", "--verify"}));
-    CHECK(files_of(folder / "cache") == filled);
-    require_done(run({"check", "cache"}));
-    require_done(run({"replay", "cache", "--out", "replayed.csv"}));
-    require_done(run(with_crowd({"solve", "clip.bvh", "--out", "solved.csv"})));
-    CHECK(slurp(folder / "replayed.csv") == slurp(folder / "solved.csv"));
+    require_done(stage.run({"fill", "cache", "--resume"}));
+    const auto filled = stage.files();
+    require_done(stage.run({"fill", "cache", "--verify"}));
+    CHECK(stage.files() == filled);
+    require_done(stage.run({"check", "cache"}));
+    require_done(stage.run({"replay", "cache", "--out", "replayed.csv"}));
+    require_done(stage.run(stage.with_crowd({"solve", "clip.bvh", "--out", "solved.csv"})));
+    CHECK(slurp(stage.folder / "replayed.csv") == slurp(stage.folder / "solved.csv"));
+}
+
+TEST_CASE("A fill goes on in the middle of a crowd that carries state")
+{
+    const CacheStage stage;
+    require_done(stage.run({"fill", "cache"}));
+    const auto filled = stage.files();
+    fs::remove(stage.folder / "cache/digest/1.1");
+    fs::remove(stage.folder / "cache/elbow/1.0.1.0");
+    require_done(stage.run({"fill", "cache", "--resume"}));
+    CHECK(stage.files() == filled);
+    require_done(stage.run({"replay", "cache", "--frames", "1:2", "--quiet"}));
+}
+
+TEST_CASE("A bit that turns over is named, in poses mended, in goals reported")
+{
+    const CacheStage stage;
+    require_done(stage.run({"fill", "cache"}));
+    const auto filled = stage.files();
+    const auto flip = [&](const std::string& name) {
+        std::string bytes = slurp(stage.folder / ("cache/" + name));
+        bytes[9 % bytes.size()] ^= 1;
+        spill(stage.folder / ("cache/" + name), bytes);
+    };
+    for (const char* name : {"shoulder/1.0.2.0", "flags/1.0.2", "state/normal/1.0.2.0", "digest/1.2"}) {
+        flip(name);
+        const Outcome mended = stage.run({"check", "cache"});
+        CHECK(mended.exit_code == 1);
+        CHECK_THAT(mended.err, Contains("1 of 6 chunks were damaged and are written again, the first is 1.2: "));
+        CHECK(stage.files() == filled);
+    }
+    for (const char* name : {"clip/wrist/0.0.0", "character/start/2", "chosen/1.0.2"}) {
+        flip(name);
+        for (const char* command : {"check", "replay"}) {
+            const Outcome reported = stage.run({command, "cache"});
+            CHECK(reported.exit_code == 1);
+            CHECK_THAT(reported.err, Contains(std::string(name) + ": is damaged; goals cannot be computed again"));
+        }
+        flip(name);
+    }
+    CHECK(stage.files() == filled);
 }
