@@ -185,6 +185,8 @@ class Metadata(Stage):
         for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
                             (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B")):
             self.assert_refused(run("replay", cache, *words), what, code=2)
+        for words in (("--limbs", "all"), ("--frames", "3"), ("--crowd", "crowd.toml"), ("--seed", "1")):
+            self.assert_refused(run("view", cache, *words), f"{words[0]}: the cache has its crowd already; leave the option out", code=2)
         for chunk in ("8", "8,17", "0,16", "8,16,1"):
             done = run("store", CLIP, self.folder / "other", "--chunk", chunk)
             self.assert_refused(done, "write FRAMES,CHARACTERS, such as 8,4096", code=2)

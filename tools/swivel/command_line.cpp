@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
 #include <sstream>
+#include <string_view>
 
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
@@ -196,10 +198,20 @@ void add_solve(CLI::App& app)
     command->callback([options] { run_solve(*options); });
 }
 
+// The first option given that says what a clip's crowd is. Empty: none is.
+std::string option_about_clip(const CLI::App& command)
+{
+    constexpr std::string_view kOfPages[] = {"FILE", "--out", "--characters", "--threads", "--quiet"};
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0 && std::ranges::find(kOfPages, option->get_name()) == std::end(kOfPages))
+            return option->get_name();
+    return {};
+}
+
 void add_view_command(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand(
-        "view", "Write a page that shows a clip's crowd, solves it live and lets you drag its limbs");
+        "view", "Write a page that shows the crowd of a clip or a cache, solves it live and lets you drag its limbs");
     auto options = std::make_shared<SolveOptions>();
     add_crowd_of_clip(*command, *options);
     takes(command->add_option("-o,--out", options->view,
@@ -211,7 +223,8 @@ void add_view_command(CLI::App& app)
                               "a smaller page"),
           whole_number(1, 1'000'000));
     add_quiet(*command, options->quiet, "Print errors and nothing else");
-    command->callback([options] { run_view(*options); });
+    command->footer("FILE may also be a cache that swivel store made.");
+    command->callback([options, command] { run_view(*options, option_about_clip(*command)); });
 }
 
 void add_memory(CLI::App& command, std::string& memory)

@@ -39,11 +39,12 @@ struct SolveOptions {
     bool strict = false, quiet = false, json = false;
 };
 void run_solve(const SolveOptions& options);
-// The same for the page alone, whose name comes from the file's unless `view` says it.
-void run_view(SolveOptions options);
+// The same for the page alone, whose name comes from the file's unless `view` says it. The file may be a cache.
+// about_clip: the first option given that a cache has no use for; empty: none is given.
+void run_view(SolveOptions options, const std::string& about_clip);
 
 // The same of a cache's crowd: its first characters, or all of them.
-void view_cache(const SolveOptions& options);
+void view_cache(const SolveOptions& options, const std::string& about_clip);
 
 struct StoreOptions {
     SolveOptions crowd;  // its outputs are not used

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // `swivel replay`: computes a part of a cached crowd again from its goals, proves it by the digests, and writes it.
-// `swivel view` of a cache: the page of its crowd.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,7 +17,6 @@
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/view_page.h"
 
 namespace swivel::tools {
 
@@ -190,56 +188,6 @@ void run_replay(const ReplayOptions& options)
     if (options.json || options.quiet) return;
     say(to, "proved   {} chunks: their digests are those of the cache\n", proved);
     if (csv && to == stdout) say(to, "written  {}\n", options.out);
-}
-
-void view_cache(const SolveOptions& options)
-{
-    const Cache cache(options.file);
-    cache.require_goals();
-    const CachedCrowd& crowd = cache.crowd();
-    const std::uint32_t count = std::min(options.characters.value_or(crowd.character_count), crowd.character_count);
-    if (crowd.budget_blocks > 0 && count < crowd.character_count)
-        throw CommandError(2, "--characters: a budget couples the whole crowd; leave the option out");
-    ViewPage page(options.view);
-    std::vector<goal_character> characters;
-    std::vector<LimbSetup> setups;
-    std::vector<std::span<const goal_source>> sources;
-    for (std::uint32_t column = 0; characters.size() < count; ++column) {
-        const std::vector<goal_character> more = cache.characters(column);
-        characters.insert(characters.end(), more.begin(), more.end());
-    }
-    characters.resize(count);
-    for (const CachedLimb& limb : crowd.limbs) {
-        setups.push_back(limb.setup);
-        sources.push_back(limb.sources);
-    }
-    const ThreadLimit limit(options.threads);
-    GoalCrowd solved(setups, sources, characters, crowd.budget_blocks, cache.folder());
-    // The page plays the clip round and round.
-    const std::uint32_t frames =
-        std::min({crowd.frame_count, crowd.clip_frame_count(), options.frames > 0 ? options.frames : ~0u});
-    const StopSignals signals;
-    Progress progress("frames", frames, options.quiet);
-    std::vector<ChunkGoals> goals;
-    for (std::uint32_t frame = 0; frame < frames; ++frame) {
-        signals.check();
-        progress.show(frame);
-        solved.set_frame(frame);
-        std::vector<GivenPlace> given;
-        for (std::uint32_t column = 0; crowd.has_given && column * crowd.chunk.characters < count; ++column) {
-            if (frame % crowd.chunk.frames == 0) {
-                goals.resize(crowd.column_count());
-                goals[column] = cache.goals({frame / crowd.chunk.frames, column});
-            }
-            put_given(crowd, goals[column], frame % crowd.chunk.frames, column * crowd.chunk.characters, solved,
-                      &given);
-        }
-        solved.write_inputs();
-        solved.crowds().solve();
-        page.add_frame(solved, given);
-    }
-    signals.check();
-    page.commit(crowd, solved);
 }
 
 }  // namespace swivel::tools

@@ -150,13 +150,13 @@ void run_solve(const SolveOptions& options)
     if (options.strict && went_wrong(statistics)) throw CommandError(1, "--strict: " + what_went_wrong(statistics));
 }
 
-void run_view(SolveOptions options)
+void run_view(SolveOptions options, const std::string& about_clip)
 {
     std::error_code ignored;
     const bool is_cache = std::filesystem::is_directory(options.file, ignored);
     const std::filesystem::path named = is_cache ? folder_name(options.file) : std::filesystem::path(options.file);
     if (options.view.empty()) options.view = title_of(named.string()) + ".html";
-    is_cache ? view_cache(options) : run_solve(options);
+    is_cache ? view_cache(options, about_clip) : run_solve(options);
 }
 
 }  // namespace swivel::tools
