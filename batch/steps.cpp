@@ -12,6 +12,7 @@ using namespace swivel;
 namespace {
 
 constexpr double kLeast = 1e-9;  // below this share a length or a sine is rounding: dividing by it says nothing
+constexpr double kShortest = 1e-15, kLongest = 1e15;  // valid input, as swivel.h has it: eighth powers stay finite
 
 // Blades in the order of their numbers; a coefficient's blade is in the multivector's type.
 template <BladeSet S>
@@ -60,7 +61,13 @@ void add_all(const PipelineSteps<double>& m, Entities& to)
     to.add(5, "q_s", m.q_s, "the shoulder's rotation: q12 q3");
 }
 
-bool is_finite(const Vector<double>& v) { return std::isfinite(len2(v)); }
+bool is_valid(const Vector<double>& v)
+{
+    for (const double c : v.c)
+        if (!(std::fabs(c) <= kLongest)) return false;
+    return true;
+}
+bool is_valid(double length) { return length >= kShortest && length <= kLongest; }
 double length(const Vector<double>& v) { return std::sqrt(len2(v)); }
 
 swivel_status refuse(const char* why) { return fail(SWIVEL_INVALID_ARGUMENT, "swivel_steps: %s", why); }
@@ -73,11 +80,11 @@ swivel_status refuse_by(const char* why, double distance)
 swivel_status check_goal(const Vector<double>& target, const Vector<double>& pole, double upper, double fore)
 {
     const double distance = length(target), sum = upper + fore, difference = std::fabs(upper - fore);
-    if (!is_finite(target) || !is_finite(pole)) return refuse("target or pole is not finite or too large");
-    if (!(upper > 0 && fore > 0) || !std::isfinite(sum))
-        return refuse("upper or fore is no length; give numbers above 0");
+    if (!is_valid(target) || !is_valid(pole))
+        return refuse("target or pole is not finite or too large; components are at most 1e15");
+    if (!is_valid(upper) || !is_valid(fore)) return refuse("upper or fore is no length; give 1e-15 to 1e15");
     if (distance < kLeast * sum) return refuse("pi_swivel is undefined: the target is on the shoulder");
-    if (length(cross(target, pole)) < kLeast * distance * length(pole) || len2(pole) == 0)
+    if (length(pole) < kShortest || length(cross(target, pole)) < kLeast * distance * length(pole))
         return refuse("pi_swivel is undefined: the pole is on the line from shoulder to target");
     if (distance > sum * (1 + kLeast)) return refuse_by("the target is too far", distance - sum);
     if (distance < difference - kLeast * sum) return refuse_by("the target is too near", difference - distance);
@@ -104,7 +111,7 @@ swivel_status swivel_steps(const double target[3], const double pole[3], double 
     const Vector<double> to = vector(target[0], target[1], target[2]), side = vector(pole[0], pole[1], pole[2]);
     if (const swivel_status status = check_goal(to, side, upper, fore); status != SWIVEL_OK) return status;
     const PipelineSteps<double> steps = solve_pipeline(to, normalise(cross(to, side)), upper, fore);
-    if (length(steps.pi_e) < kLeast * upper * upper)
+    if (!(length(steps.pi_e) >= kLeast * upper * upper))
         return refuse("l_M is undefined: the upper arm is along e3 or -e3, so pi_e or pi_M is no plane");
     Entities all{entities, capacity};
     add_all(steps, all);

@@ -761,12 +761,17 @@ typedef struct swivel_entity {
 
 // The lecture's five steps for one arm, entity by entity, in double, in the arm frame. Source: D. Hildenbrand, Inverse
 // Kinematics of a Virtual Character (TU Darmstadt, 2019). This is for people who learn or check the formulas;
-// swivel_solve() takes others, which hold for every arm. target is where the wrist goes. pole is a point on the elbow's
-// side. upper and fore are the bones' lengths, above 0. At most capacity entities are stored, in the order of the
-// steps; *entity_count, unless null, says how many there are. *closing_error, unless null, becomes the distance from
-// the target to the wrist that the rotors give, in arm lengths. It fails for what is not finite, and for an arm whose
-// formulas divide by zero: out of reach, straight or folded, its pole on the line to the target, its upper arm along e3
-// or -e3. The message names the entity. Any thread; no allocation.
+// swivel_solve() takes others, which hold for every arm. All lengths are in one unit, the caller's.
+// target: where the wrist goes, 3 components of at most 1e15 in magnitude.
+// pole: a point on the elbow's side, 3 components, likewise; at least 1e-15 from the shoulder.
+// upper, fore: the bones' lengths, 1e-15..1e15.
+// entities: an array of capacity elements, which overlaps no other argument; null if capacity is 0. The first entities
+//     are stored, in the order of the steps, as many as fit.
+// entity_count: becomes how many entities there are, whatever the capacity; or null.
+// closing_error: becomes the distance from the target to the wrist that the rotors give, in arm lengths; or null.
+// It fails for values outside these ranges, and for an arm whose formulas divide by zero: out of reach, straight or
+// folded, its pole on the line to the target, its upper arm along e3 or -e3. The message names the entity, and nothing
+// is written. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
                                       swivel_entity* entities, uint32_t capacity, uint32_t* entity_count,
                                       double* closing_error);

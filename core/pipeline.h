@@ -4,8 +4,8 @@
 // swivel plane and its lengths. Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt, 2019).
 //
 // Read this algorithm first; solve_arm.h solves the same arm and is exact where these formulas lose digits. This is
-// valid for a wrist within reach, an arm that is neither straight nor folded, and an upper arm that is not along -e3.
-// Elsewhere it divides by zero.
+// valid for a wrist within reach, an arm that is neither straight nor folded, and an upper arm that is not along e3 or
+// -e3. Elsewhere it divides by zero.
 #pragma once
 
 #include "core/conformal.h"
@@ -96,9 +96,10 @@ SWIVEL_INLINE constexpr PipelineSteps<T> solve_pipeline(const Vector<T>& wrist, 
 
     // Step 5, rotate to the wrist about k: pi_yz2 = q12 pi_yz ~q12. c3 is the cosine of the angle from it to pi_swivel,
     // measured here before the turn by q12. q3 = sqrt((1+c3)/2) + s sqrt((1-c3)/2) k, where s is the sign of the angle.
+    // Rounding may carry c3 past 1 or -1, where a root has no value.
     const Vector<T> n = grade_part<1>(~m.q12 * m.pi_swivel * m.q12);
     const T s3 = n.template at<kE2>();
-    m.c3 = n.template at<kE1>();
+    m.c3 = hi(lo(n.template at<kE1>(), T(1)), T(-1));
     const T s = select(s3 < T(0), T(-1), T(1));
     m.q3 = rotor(T(0), T(0), s * sqrt((T(1) - m.c3) * T(0.5)), sqrt((T(1) + m.c3) * T(0.5)));
     m.q_s = m.q12 * m.q3;

@@ -254,10 +254,12 @@ TEST_CASE("process: a signal after the last frame ends the run, too, and no furt
         std::string piped;
         Words words, left_out;
     };
-    // Both are written after the frames, and have less than a buffer, but more than a pipe holds.
+    // All are written after the frames, and have less than a buffer, but more than a pipe holds.
     for (const auto& [piped, words, left_out] :
          std::vector<Case>{{"walk.bvh", {"--out", "walk.bvh"}, {}},
-                           {"t.csv", {"--export-targets", "t.csv", "--out", "o.bvh"}, {"o.bvh"}}}) {
+                           {"t.csv", {"--export-targets", "t.csv", "--out", "o.bvh"}, {"o.bvh"}},
+                           {"t.csv", {"--export-targets", "t.csv", "--report", "r.html"}, {"r.html"}},
+                           {"r.html", {"--report", "r.html"}, {}}}) {
         FullPipe pipe(stage.folder / piped, SIGTERM);
         Surroundings slow;
         slow.meanwhile = [&](pid_t process) { pipe(process); };
@@ -270,6 +272,28 @@ TEST_CASE("process: a signal after the last frame ends the run, too, and no furt
         CHECK(outcome.err == "swivel: interrupted; unfinished files are removed\n");
         for (const std::string& file : left_out) CHECK_FALSE(fs::exists(stage.folder / file));
         fs::remove(stage.folder / piped);
+        CHECK(stage.folder.file_count() == 1);
+    }
+}
+
+TEST_CASE("process: a signal during the work of a report leaves no partial file")
+{
+    const LongRun stage(20);
+    for (const Words& words :
+         std::vector<Words>{{"solve", "clip.bvh", "--characters", "200000", "--report", "r.html", "--quiet"},
+                            {"verify", "--arms", "100000000", "--report", "r.html", "--quiet"},
+                            {"bench", "--seconds", "100", "--report", "r.html", "--quiet"}}) {
+        INFO(words.front());
+        int looks = 0;
+        bool is_sent = false;
+        Surroundings stopped;
+        stopped.meanwhile = [&](pid_t process) {
+            if (is_sent || (stage.folder.file_count() == 1 && ++looks < 50)) return;  // half a second, or a file
+            is_sent = ::kill(process, SIGINT) == 0;
+        };
+        const Outcome outcome = spawn_command(stage.folder.path, words, stopped);
+        CHECK(is_sent);
+        CHECK(outcome.exit_code == -SIGINT);
         CHECK(stage.folder.file_count() == 1);
     }
 }

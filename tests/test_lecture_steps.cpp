@@ -179,10 +179,52 @@ TEST_CASE("arms for which the lecture's formulas divide by zero are refused, wit
     CHECK_THAT(refused({x, y, 1, NAN}), Contains("no length"));
     CHECK_THAT(refused({NAN * x, y, 1, 1}), Contains("not finite"));
     CHECK_THAT(refused({1e200 * x, y, 1, 1}), Contains("too large"));
+    CHECK_THAT(refused({x, 1e-200 * y, 1, 1}), Contains("pi_swivel"));
     swivel_entity entity;
     const double target[] = {1, 0, 0.5};
     CHECK(swivel_steps(nullptr, target, 1, 1, &entity, 1, nullptr, nullptr) == SWIVEL_INVALID_ARGUMENT);
     CHECK(swivel_steps(target, target, 1, 1, nullptr, 1, nullptr, nullptr) == SWIVEL_INVALID_ARGUMENT);
+}
+
+TEST_CASE("arms in the plane of e2 and e3 close to half of the digits: c3 is 1 or -1, but for rounding")
+{
+    Random random{7};
+    for (int n = 0; n < 2000; ++n) {
+        LectureArm arm = random_lecture_arm(random);
+        const double distance = arm.target.norm(), angle = random.between(-3, 3);
+        arm.target = distance * Vector3d(0, std::sin(angle), std::cos(angle));
+        arm.pole = (n % 2 == 0 ? 1 : -1) * Vector3d(0, std::cos(angle), -std::sin(angle));
+        swivel_entity elbow[6];
+        if (swivel_steps(arm.target.data(), arm.pole.data(), arm.upper, arm.fore, elbow, 6, nullptr, nullptr) !=
+                SWIVEL_OK ||
+            std::fabs(elbow[5].coefficients[2]) < 0.05 * arm.upper)
+            continue;  // the upper arm is nearly along e3 or -e3
+        const LectureEntities got(arm);
+        REQUIRE(got.closing_error < 1e-7);
+        REQUIRE(std::fabs(got.scalar("c3")) <= 1);
+        for (const auto& [name, entity] : got.of)
+            for (const double c : entity.coefficients) REQUIRE(std::isfinite(c));
+    }
+}
+
+TEST_CASE("arms of any valid size close, and those of other sizes are refused")
+{
+    const LectureArm arm{{1.1, 1.1, 1.1}, {1.1, 1.1, 0}, 1.4, 1.3};
+    const auto scaled = [&](double size) {
+        return LectureArm{size * arm.target, size * arm.pole, size * arm.upper, size * arm.fore};
+    };
+    for (const double size : {7e14, 1e9, 1e-9, 1e-15}) {
+        INFO(size);
+        const LectureEntities got(scaled(size));
+        CHECK(got.closing_error < 1e-14);
+        CHECK((got.vector("p_e") / size - LectureEntities(arm).vector("p_e")).norm() < 1e-14);
+    }
+    for (const double size : {1e100, 1e60, 1e15, 7e-16, 1e-60, 1e-100}) {
+        INFO(size);
+        CHECK_THAT(refused(scaled(size)), Contains(size > 1 ? "at most 1e15" : "1e-15 to 1e15"));
+    }
+    CHECK_THAT(refused({arm.target, arm.pole, 1e60, 1e60}), Contains("1e-15 to 1e15"));
+    CHECK_THAT(refused({arm.target, arm.pole, 1e-60, 1.3}), Contains("1e-15 to 1e15"));
 }
 
 TEST_CASE("blades have names, and as many entities are stored as fit")

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: reports show text as text, whatever names hold; plots put points where their axes say; numbers are those
-// of
-// --json; limbs link into the page.
+// of --json; the worst limbs are those that forward kinematics of the tables tells. tests/test_view.cpp has the links.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
+#include <tuple>
 
 #include "tests/plain_motion.h"
+#include "tests/pose_rows.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
 #include "tools/report/html.h"
@@ -81,6 +85,43 @@ Json run_json(const TempFolder& folder, std::vector<std::string> words)
     return Json::parse(outcome.out);
 }
 
+// A frame, a character and a limb.
+using LimbPlace = std::tuple<std::size_t, std::size_t, std::string>;
+
+// A row of the worst limbs: its place, the error and the flags.
+const std::string kLimbRow =
+    "<td[^>]*>frame (\\d+), character (\\d+), (\\w+)</td><td[^>]*>([^<]+)</td><td[^>]*>([^<]*)</td>";
+
+// From the tables p.csv and t.csv of clip.bvh, by forward kinematics: how far wrists are from their targets, in limb
+// lengths. offset: what the crowd file adds to all targets.
+std::map<LimbPlace, double> errors_of_tables(const TempFolder& folder, const Eigen::Vector3d& offset)
+{
+    const PlainMotion clip = plain_motion_of(folder / "clip.bvh");
+    std::map<LimbPlace, Eigen::Vector3d> targets;
+    std::istringstream table(slurp(folder / "t.csv"));
+    std::string line;
+    for (std::getline(table, line); std::getline(table, line);) {
+        const std::vector<std::string> cells = cells_of(line);
+        targets[{std::stoul(cells[0]), std::stoul(cells[1]), cells[2]}] =
+            Eigen::Vector3d(std::stod(cells[3]), std::stod(cells[4]), std::stod(cells[5])) + offset;
+    }
+    std::map<LimbPlace, double> errors;
+    const std::vector<PlainArm> arms = arms_of(clip);
+    for (const PoseLine& row : pose_lines(slurp(folder / "p.csv"))) {
+        const PlainArm& arm = arms[row.limb == "left_arm" ? 0 : 1];
+        const auto start = static_cast<std::size_t>(row.number("start"));
+        const PlainArmPose at = arm_pose(clip, arm, (row.frame + start) % clip.values.size());
+        const Eigen::Vector3d place(row.number("place_x"), row.number("place_y"), row.number("place_z"));
+        const Eigen::Matrix3d upper = at.parent * row.joint[0].toRotationMatrix();
+        const Eigen::Matrix3d fore = upper * row.joint[1].toRotationMatrix();
+        const Eigen::Vector3d reach = upper * clip.joint(arm.elbow).offset + fore * clip.joint(arm.wrist).offset;
+        const Eigen::Vector3d wrist = at.shoulder + place + row.number("size") * reach;
+        errors[{row.frame, row.character, row.limb}] =
+            (wrist - targets.at({row.frame, row.character, row.limb})).norm() / (row.number("size") * arm.length());
+    }
+    return errors;
+}
+
 }  // namespace
 
 TEST_CASE("text of any kind is text in a report")
@@ -109,6 +150,25 @@ TEST_CASE("a plot's points are where its ticks say, on both kinds of axes")
     CHECK(svg_of({"none", "x", "y", false, true, {{"zeros", {{1, 0}, {2, NAN}}}}}).empty());
 }
 
+TEST_CASE("a point without neighbours is a dot, however many points there are")
+{
+    Series series{"series", {}};
+    for (int n = 0; n < 100; ++n) series.points.emplace_back(n, n == 50 ? 3 : n < 98 ? 0 : 5);
+    const std::string svg = svg_of({"plot", "x", "y", false, true, {series}});  // 0 has no logarithm
+    const std::vector<std::smatch> circles = matches(svg, "<circle [^>]*><title>([^<]+)<");
+    REQUIRE(circles.size() == 1);
+    CHECK(circles[0][1] == "series: 50, 3");
+    CHECK(matches(svg, "class=\"series[^>]*><path d=\"M[0-9. ]+L[0-9. ]+\"/>").size() == 1);  // the last two
+
+    for (const bool is_bound : {false, true}) {
+        const std::string lone = svg_of({"plot", "x", "y", false, true, {{"series", {{1, 2}}, true, is_bound}}});
+        CHECK(matches(lone, "<circle ").size() == 1);
+        CHECK(matches(lone, "class=\"series[^>]*><path").empty());
+    }
+    series.is_line = false;
+    CHECK(matches(svg_of({"plot", "x", "y", false, true, {series}}), "<circle ").size() == 3);
+}
+
 TEST_CASE("addresses are relative to the report, and hold no sign that ends them")
 {
     const TempFolder folder;
@@ -117,14 +177,14 @@ TEST_CASE("addresses are relative to the report, and hold no sign that ends them
     CHECK(address_of(folder.path / "p.html", folder.path / "reports/r.html", "x") == "../p.html#x");
 }
 
-TEST_CASE("a solve's report has the figures of --json, and links its worst limbs into the page")
+TEST_CASE("a solve's report has the figures of --json, limbs that do not bind, and without a page no links")
 {
     const TempFolder folder;
     const std::string name = "<img src=x onerror=alert(1)>\"'&.bvh";
     spill(folder / name, edited(kTwoArms, "JOINT LeftHand", "JOINT </script><img/src=x/onerror=alert(1)>'&"));
     spill(folder / "crowd.toml", "[limb.all]\ntarget.offset = [4, 4, 4]\n");
     const Json told = run_json(folder, {"solve", name, "--arm", "left:#1,#2,#3", "--characters", "20", "--crowd",
-                                        "crowd.toml", "--report", "r.html"});
+                                        "crowd.toml", "--limbs", "all", "--report", "r.html"});
     require_well_formed(folder, "r.html");
     const std::string text = slurp(folder / "r.html");
     CHECK_THAT(text, Contains("&lt;/script&gt;&lt;img/src=x/onerror=alert(1)&gt;&#39;&amp;<"));
@@ -139,8 +199,45 @@ TEST_CASE("a solve's report has the figures of --json, and links its worst limbs
     for (const auto& [flag, count] : told.at("flags").items())
         if (count > 0) CHECK_THAT(text, Contains(">" + flag + "</td><td class=\"number\">" + count.dump() + "<"));
     CHECK_THAT(text, Contains("too far") || Contains("out of reach"));
+    for (const Json& limb : told.at("missing"))
+        CHECK_THAT(text, Contains(">" + limb.at("limb").get<std::string>() + "</td><td class=\"\">" +
+                                  escaped(limb.at("problem").get<std::string>()) + "<"));
+    CHECK(told.at("missing").size() == 2);  // the legs
     CHECK(matches(text, "<svg").size() == 2);
     CHECK_THAT(text, !Contains("<a href"));  // there is no page to link into
+}
+
+TEST_CASE("the worst limbs of a report are those of its tables, each in its worst frame")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "crowd.toml", "[limb.all]\ntarget.offset = [4, 4, 4]\n");  // all of them are clamped far
+    REQUIRE(run_command(folder.path, {"solve", "clip.bvh", "--characters", "200", "--crowd", "crowd.toml", "--out",
+                                      "p.csv", "--export-targets", "t.csv", "--report", "r.html"})
+                .exit_code == 0);
+    const std::map<LimbPlace, double> errors = errors_of_tables(folder, Eigen::Vector3d(4, 4, 4));
+    std::map<std::pair<std::size_t, std::string>, double> worst_of;
+    for (const auto& [place, error] : errors) {
+        double& worst = worst_of[{std::get<1>(place), std::get<2>(place)}];
+        worst = std::max(worst, error);
+    }
+    std::vector<double> sorted;
+    for (const auto& [limb, worst] : worst_of) sorted.push_back(worst);
+    std::ranges::sort(sorted, std::greater());
+    REQUIRE(sorted.size() == 400);
+
+    const std::string text = slurp(folder / "r.html");
+    const std::vector<std::smatch> rows = matches(text.substr(text.find("The worst limbs")), kLimbRow);
+    REQUIRE(rows.size() == 10);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        const LimbPlace place{std::stoul(rows[n][1]), std::stoul(rows[n][2]), rows[n][3]};
+        INFO(rows[n][0]);
+        CHECK(std::stod(rows[n][4]) == Approx(sorted[n]).epsilon(1e-3));  // of four digits
+        CHECK(errors.at(place) == Approx(sorted[n]).epsilon(1e-6));
+        CHECK(worst_of.count({std::get<1>(place), std::get<2>(place)}) == 1);
+        worst_of.erase({std::get<1>(place), std::get<2>(place)});  // no limb is there twice
+        CHECK(rows[n][5] == "clamped far");
+    }
 }
 
 TEST_CASE("a verification's report has the figures of --json")

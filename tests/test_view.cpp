@@ -248,7 +248,9 @@ TEST_CASE("damaged and foreign files give no page")
 TEST_CASE("a page replaces no input and no other output")
 {
     const Stage stage;
-    require_failure(stage.run({"view", "clip.bvh", "--out", "clip.bvh"}), 2, "is the clip itself");
+    require_failure(stage.run({"view", "clip.bvh", "--out", "clip.bvh"}), 2,
+                    "swivel: --out clip.bvh: is the clip itself");
+    require_failure(stage.run({"solve", "clip.bvh", "--view", "clip.bvh"}), 2, "swivel: --view clip.bvh: is the clip");
     require_failure(stage.run({"solve", "clip.bvh", "--out", "a.csv", "--view", "a.csv"}), 2, "is the file of --out");
     CHECK(slurp(stage.at("clip.bvh")) == kTwoArms);
     const Outcome outcome = stage.run({"view", "clip.bvh", "--out", "-"});
@@ -263,4 +265,7 @@ TEST_CASE("a report links the worst limbs into its page")
     REQUIRE(stage.run({"solve", "clip.bvh", "--view", "a page.html", "--report", "r.html"}).exit_code == 0);
     CHECK_THAT(slurp(stage.at("r.html")),
                Contains("<a href=\"a%20page.html#frame=") && Contains("&amp;character=0&amp;limb=left_arm\">frame "));
+    // A page on standard output has no address.
+    REQUIRE(stage.run({"solve", "clip.bvh", "--view", "-", "--report", "r.html"}).exit_code == 0);
+    CHECK_THAT(slurp(stage.at("r.html")), Contains(">frame ") && !Contains("<a href"));
 }

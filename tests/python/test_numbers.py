@@ -330,6 +330,10 @@ class Bits(unittest.TestCase):
         for wrong in (lambda: swivel.steps((9, 0, 0), (0, 1, 0), 1, 1), lambda: swivel.steps((1, 0), (0, 1, 0), 1, 1),
                       lambda: swivel.blade_name(32), lambda: swivel.blade_name(-1)):
             self.assertRaises(ValueError, wrong)
+        for shape in ((2,), (1, 3), (4, 3), ()):  # it takes one arm
+            with self.assertRaises(ValueError) as refused:
+                swivel.steps(np.ones(shape), (0, 1, 0), 1, 1)
+            self.assertEqual(str(refused.exception), f"target: expected shape (3,), got {shape}")
 
     def test_the_library_checks_itself(self):
         passed, checks = swivel.verify(arm_count=200, seed=3)

@@ -27,6 +27,7 @@ OptionValue whole_number(std::uint64_t least, std::uint64_t most);
 OptionValue number(double least, double most);
 // As many such numbers, above `least`, with commas between; numbers_of() gives them.
 OptionValue numbers(std::size_t count, double least);
+// Numbers with commas between; empty if any of them is none.
 std::vector<double> numbers_of(const std::string& text);
 // Bytes, at least a MiB: a whole number with K, M, G or T for powers of 1024; bytes_of() gives them.
 OptionValue bytes();

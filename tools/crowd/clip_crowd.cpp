@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <type_traits>
 
 #include "tools/crowd/parallel.h"
 
@@ -23,10 +24,17 @@ void store(const Vector3d& v, Number (&to)[3])
     for (int n = 0; n < 3; ++n) to[n] = static_cast<Number>(v[n]);
 }
 
-template <class Floats>
-void store(const Quaterniond& q, Floats& to)
+template <class Numbers>
+void store(const Quaterniond& q, Numbers& to)
 {
-    for (int n = 0; n < 4; ++n) to[static_cast<std::size_t>(n)] = static_cast<float>(q.coeffs()[n]);
+    for (std::size_t n = 0; n < 4; ++n)
+        to[n] = static_cast<std::remove_reference_t<decltype(to[n])>>(q.coeffs()[static_cast<Eigen::Index>(n)]);
+}
+
+template <std::size_t count>
+void round_to(float (&to)[count], const double (&from)[count])
+{
+    for (std::size_t n = 0; n < count; ++n) to[n] = static_cast<float>(from[n]);
 }
 
 std::vector<std::span<const goal_source>> sources_of(const ClipMotion& motion, std::size_t limb_count)
@@ -63,19 +71,38 @@ std::size_t ClipCrowd::limb_index(formats::LimbName name) const
 bool ClipCrowd::follows_clip(std::size_t limb, std::uint32_t character) const
 {
     const LimbPlan& plan = plans_[limb];
-    return !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole && given_at_[limb][character] < 0;
+    return !plan.target_point && plan.target_offset.isZero(0) && plan.follows_pole && !given(limb, character);
 }
 
-// What the target leaves out stays as the plan has it.
-void ClipCrowd::set_given(std::size_t limb, const formats::Target& target)
+const formats::Target* ClipCrowd::given(std::size_t limb, std::uint32_t character) const
+{
+    const std::int32_t at = given_at_[limb][character];
+    return at < 0 ? nullptr : &given_[static_cast<std::size_t>(at)];
+}
+
+// What a given target leaves out stays as the plan has it.
+goal ClipCrowd::asked(std::size_t limb, std::uint32_t character) const
 {
     const LimbPlan& plan = plans_[limb];
-    const Vector3d at = origin(limb, target.character);
-    goal_input& input = crowd_.input(limb, target.character);
-    store(as_solved(limb, target.position - at + plan.target_offset), input.target);
-    if (target.has_pole && !plan.pole_fixed)
-        store(as_solved(limb, plan.pole == PoleKind::point ? Vector3d(target.pole - at) : target.pole), input.pole);
-    if (target.has_orientation && !plan.has(SWIVEL_WITH_AIM)) store(as_solved(limb, target.orientation), input.hand);
+    goal asked =
+        swivel_goal(&setups_[limb].goals, &motion_.sources(limb)[clip_frame(character)], characters()[character].size);
+    const formats::Target* const target = given(limb, character);
+    if (!target) return asked;
+    const Vector3d at = origin(limb, character);
+    store(as_solved(limb, target->position - at + plan.target_offset), asked.target);
+    if (target->has_pole && !plan.pole_fixed)
+        store(as_solved(limb, plan.pole == PoleKind::point ? Vector3d(target->pole - at) : target->pole), asked.pole);
+    if (target->has_orientation && !plan.has(SWIVEL_WITH_AIM)) store(as_solved(limb, target->orientation), asked.hand);
+    return asked;
+}
+
+void ClipCrowd::set_given(std::size_t limb, std::uint32_t character)
+{
+    const goal from = asked(limb, character);
+    goal_input& input = crowd_.input(limb, character);
+    round_to(input.target, from.target);
+    round_to(input.pole, from.pole);
+    round_to(input.hand, from.hand);
 }
 
 // In double, as it was given or made.
@@ -90,11 +117,10 @@ formats::Target ClipCrowd::target(std::size_t limb, std::uint32_t character) con
     target.position = at + (as_solved(limb, Vector3d(asked.target)) - plan.target_offset);
     target.pole = plan.pole == PoleKind::point ? Vector3d(at + pole) : pole;
     target.orientation = as_solved(limb, motion_.at(at_frame, limb).hand);
-    if (given_at_[limb][character] >= 0) {
-        const formats::Target& given = given_[static_cast<std::size_t>(given_at_[limb][character])];
-        target.position = given.position;
-        if (given.has_pole && !plan.pole_fixed) target.pole = given.pole;
-        if (given.has_orientation) target.orientation = given.orientation;
+    if (const formats::Target* const told = given(limb, character)) {
+        target.position = told->position;
+        if (told->has_pole && !plan.pole_fixed) target.pole = told->pole;
+        if (told->has_orientation) target.orientation = told->orientation;
     }
     target.frame = static_cast<std::uint32_t>(frame_);
     target.character = character;
@@ -121,7 +147,7 @@ void ClipCrowd::set_frame(std::size_t frame, std::span<const formats::Target> gi
     for (std::size_t n = 0; n < given_.size(); ++n) {
         const std::size_t limb = limb_index(given_[n].limb);
         given_at_[limb][given_[n].character] = static_cast<std::int32_t>(n);
-        set_given(limb, given_[n]);
+        set_given(limb, given_[n].character);
     }
     crowd_.write_inputs();
 }

@@ -84,7 +84,10 @@ private:
     // The same rotations between the two bones that the solver knows.
     formats::PoseRow solved_pose(std::size_t limb, std::uint32_t character) const;
     formats::Target target(std::size_t limb, std::uint32_t character) const;
-    void set_given(std::size_t limb, const formats::Target& target);
+    const formats::Target* given(std::size_t limb, std::uint32_t character) const;  // in this frame; null: none
+    // The goal of this frame, in double: before the solver's input is rounded.
+    goal asked(std::size_t limb, std::uint32_t character) const;
+    void set_given(std::size_t limb, std::uint32_t character);
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
     void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
     void measure_against_clip(std::size_t limb, const PoseName& pose, const Eigen::Vector3d& elbow,

@@ -62,13 +62,13 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
     for (std::uint32_t n = begin; n < end; ++n) {
         if (!crowds().solved(limb, n)) continue;
         const Reached& at = reached[n - begin];
-        const goal_input& goal = crowd_.input(limb, n);
-        const double length = double{goal.lengths[0]} + goal.lengths[1];
+        const goal wanted = asked(limb, n);
+        const float(&lengths)[2] = crowd_.input(limb, n).lengths;
+        const double length = double{lengths[0]} + lengths[1];
         const PoseName pose{frame_, n, limbs_[limb].name};
         const Vector3d effector = characters()[n].size * (Quaterniond(at.hand) * plan.effector);
         const double distance =
-            aims ? residuals[n - begin]
-                 : (Vector3d(at.wrist) + effector - Eigen::Vector3f(goal.target).cast<double>()).norm() / length;
+            aims ? residuals[n - begin] : (Vector3d(at.wrist) + effector - Vector3d(wanted.target)).norm() / length;
         const std::uint32_t word = flags[n - begin];
         statistics.add_flags(word, distance, pose);
         if (word & SWIVEL_BAD_INPUT) continue;  // counted; its errors mean nothing
@@ -76,8 +76,9 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
             (word & SWIVEL_REACHED ? statistics.aimed : statistics.aim_missed).add(distance, pose);
         else if (!plan.blends_position)
             (word & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(distance, pose);
+        if (aims || !plan.blends_position) statistics.worst.add(distance, pose);
         if (hand && !plan.blends_hand && !aims)
-            statistics.orientation.add(angle(quaternion(goal.hand).conjugate() * Quaterniond(at.hand)), pose);
+            statistics.orientation.add(angle(Quaterniond(wanted.hand).conjugate() * Quaterniond(at.hand)), pose);
         measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);
     }
 }

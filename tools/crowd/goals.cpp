@@ -44,8 +44,8 @@ Vec3 pole_of(const goal_plan& plan, const goal_source& from, double size)
 {
     if (plan.has_pole_fixed) return vec3(plan.pole_fixed);
     const Vec3 elbow = vec3(from.elbow);
-    if (plan.pole == 0) return size * elbow;
-    return plan.pole == 2 ? cross(vec3(from.wrist), elbow) : elbow;
+    if (plan.pole == GOAL_POLE_POINT) return size * elbow;
+    return plan.pole == GOAL_POLE_NORMAL ? cross(vec3(from.wrist), elbow) : elbow;
 }
 
 void fill(const goal_plan& plan, const goal_source& from, double size, goal_input& input)

@@ -31,13 +31,16 @@ typedef struct goal_character {
     uint32_t reserved;
 } goal_character;
 
+// What a goal's pole is.
+enum goal_pole { GOAL_POLE_POINT = 0, GOAL_POLE_DIRECTION = 1, GOAL_POLE_NORMAL = 2 };  // of the swivel plane
+
 // What a limb is asked for beside the clip's motion. Vectors are as solved: mirrored for a mirrored limb.
 typedef struct goal_plan {
     double target_point[3], target_offset[3];
     double effector[3];  // in the end joint's frame, of a character of size 1
     double pole_fixed[3];
     uint32_t has_target_point, has_pole_fixed;  // 0 or 1
-    uint32_t pole;                              // 0: a point, 1: a direction, 2: a normal of the swivel plane
+    uint32_t pole;                              // a goal_pole
     uint32_t hand_is_local;  // 1: the hand goal is the wrist's own local rotation, for SWIVEL_WITH_AIM
     uint32_t is_mirrored;
     uint32_t reserved;

@@ -24,6 +24,7 @@ public:
     bool has(std::size_t limb, swivel_field field) const;
     // Of all characters, as swivel_write() and swivel_read() do; of a field that the limb's crowd has.
     void write(std::size_t limb, swivel_field field, const float* first, std::size_t stride);
+    // Inputs of all characters, to the fields that the limb has.
     void write_goals(std::size_t limb, std::span<const goal_input> inputs);
     void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
     // Puts results back that read() gave, each of them numbers of 32 bits side by side.
@@ -31,6 +32,7 @@ public:
     void forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
                  swivel_out hand) const;
     void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
+    // Why the limb is as it is; see swivel_explain().
     std::string explain(std::size_t limb, std::uint32_t character) const;
     // Forgets a limb's swivel, where it is carried.
     void reset(std::size_t limb, std::uint32_t character);

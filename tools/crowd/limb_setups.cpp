@@ -25,7 +25,9 @@ goal_plan goal_plan_of(const LimbPlan& plan, const Limb& limb)
     if (plan.pole_fixed) put(as_solved(*plan.pole_fixed), goals.pole_fixed);
     goals.has_target_point = plan.target_point.has_value();
     goals.has_pole_fixed = plan.pole_fixed.has_value();
-    goals.pole = plan.pole == PoleKind::point ? 0 : plan.pole == PoleKind::normal ? 2 : 1;
+    goals.pole = plan.pole == PoleKind::point    ? GOAL_POLE_POINT
+                 : plan.pole == PoleKind::normal ? GOAL_POLE_NORMAL
+                                                 : GOAL_POLE_DIRECTION;
     goals.hand_is_local = plan.has(SWIVEL_WITH_AIM);
     goals.is_mirrored = limb.mirrored;
     return goals;

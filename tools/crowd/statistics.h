@@ -10,6 +10,8 @@
 #include <compare>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "swivel/swivel.h"
 #include "tools/formats/limb_name.h"
@@ -25,6 +27,9 @@ struct PoseName {
     friend auto operator<=>(const PoseName&, const PoseName&) = default;
 };
 constexpr PoseName kNoPose{std::numeric_limits<std::uint64_t>::max(), 0, {}};  // after all others
+
+// A NaN is as bad as infinity.
+inline double rank_of(double error) { return std::isnan(error) ? std::numeric_limits<double>::infinity() : error; }
 
 struct ErrorStat {
     double max = 0, sum2 = 0;
@@ -45,13 +50,52 @@ struct ErrorStat {
     }
     void keep_worst(double error, const PoseName& pose)
     {
-        // A NaN is as bad as infinity: the earlier of them stays.
-        const auto rank = [](double e) { return std::isnan(e) ? std::numeric_limits<double>::infinity() : e; };
-        if (rank(error) < rank(max) || (rank(error) == rank(max) && worst_pose <= pose)) return;
+        if (rank_of(error) < rank_of(max) || (rank_of(error) == rank_of(max) && worst_pose <= pose)) return;
         max = error;
         worst_pose = pose;
     }
     double rms() const { return count ? std::sqrt(sum2 / static_cast<double>(count)) : 0; }
+};
+
+struct WorstLimb {
+    PoseName pose;
+    double error = 0;
+};
+
+// The limbs with the largest errors, each in its worst frame: the largest first, no limb of a character twice.
+class WorstLimbs {
+public:
+    static constexpr std::size_t kMost = 10;
+
+    void add(double error, const PoseName& pose)
+    {
+        const WorstLimb limb{pose, error};
+        if (count_ == kMost && !is_worse(limb, limbs_.back())) return;
+        WorstLimb* const same = std::find_if(limbs_.data(), limbs_.data() + count_, [&](const WorstLimb& other) {
+            return other.pose.character == pose.character && other.pose.limb == pose.limb;
+        });
+        const bool is_new = same == limbs_.data() + count_;
+        if (!is_new && !is_worse(limb, *same)) return;
+        if (is_new && count_ < kMost) ++count_;
+        WorstLimb* to = is_new ? limbs_.data() + count_ - 1 : same;  // in the place of the least, or of itself
+        *to = limb;
+        for (; to != limbs_.data() && is_worse(*to, to[-1]); --to) std::swap(*to, to[-1]);
+    }
+    void add(const WorstLimbs& other)
+    {
+        for (const WorstLimb& limb : other.limbs()) add(limb.error, limb.pose);
+    }
+    std::span<const WorstLimb> limbs() const { return {limbs_.data(), count_}; }
+
+private:
+    static bool is_worse(const WorstLimb& a, const WorstLimb& b)
+    {
+        const double rank = rank_of(a.error), other = rank_of(b.error);
+        return rank > other || (rank == other && a.pose < b.pose);
+    }
+
+    std::array<WorstLimb, kMost> limbs_;
+    std::size_t count_ = 0;
 };
 
 struct FlagStat {
@@ -75,6 +119,7 @@ struct LimbStatistics {
     ErrorStat missed;       // the same, of the others
     ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim and hit it
     ErrorStat aim_missed;   // the same, of limbs that aim and do not
+    WorstLimbs worst;       // by these four
     ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
     // Differences from the clip, of elbow or knee in limb lengths:
     ErrorStat given;  // of limbs that were given another goal, pole or aim than the clip's; all others follow it
@@ -101,6 +146,7 @@ struct LimbStatistics {
         missed.add(other.missed);
         aimed.add(other.aimed);
         aim_missed.add(other.aim_missed);
+        worst.add(other.worst);
         orientation.add(other.orientation);
         given.add(other.given);
         bent.add(other.bent);

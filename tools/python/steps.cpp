@@ -17,8 +17,12 @@ namespace swivel::python {
 
 namespace {
 
+// Of one arm, not of an array of limbs.
 std::array<double, 3> array3(const char* name, const py::object& values)
 {
+    const py::array given = py::array::ensure(values);
+    if (given && (given.ndim() != 1 || given.shape(0) != 3))
+        throw py::value_error(std::string(name) + ": expected shape (3,), got " + shape_text(given));
     const Input in = input({name, 1, 3}, values, py::dtype::of<double>(), true);
     std::array<double, 3> numbers;
     std::memcpy(numbers.data(), in.values.data, sizeof numbers);  // of any alignment

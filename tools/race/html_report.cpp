@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/rivals/level.h"
 
 namespace swivel::tools {

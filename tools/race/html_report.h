@@ -8,6 +8,7 @@
 
 namespace swivel::tools {
 
+// As tables and plots. The plot of sizes needs sizes that were timed.
 void put_measured(Report& report, const Measured& measured);
 
 }  // namespace swivel::tools

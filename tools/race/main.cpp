@@ -5,7 +5,6 @@
 // bench/. A program of its own, so that the command needs no rivals to build.
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +14,7 @@
 #include "tools/race/html_report.h"
 #include "tools/race/report.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/report_file.h"
 
 namespace {
 
@@ -36,19 +36,14 @@ void race(int argc, char** argv)
             is_right = false;
     }
     if (!is_right) throw CommandError(2, "usage: swivel-race SECONDS [--json] [--quiet] [--report FILE]");
-    if (place == "-") throw CommandError(2, "--report -: standard output has the figures; name a file");
-    std::optional<Report> report;
-    if (!place.empty()) report.emplace(place, "swivel bench");
-    const Measured measured = measure(seconds, quiet);
-    if (report) {
-        put_measured(*report, measured);
-        report->commit();
-    }
+    require_report_file(place);
+    const Measured measured = measure(seconds, !place.empty(), quiet);  // only a report shows sizes
+    if (!place.empty()) write_report(place, "swivel bench", [&](Report& report) { put_measured(report, measured); });
     if (json)
         print_json(json_of(measured));
     else
         print_measured(measured);
-    if (report && !json) say(stdout, "\nwritten  {}\n", place);
+    if (!place.empty() && !json) say(stdout, "\nwritten  {}\n", place);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ void require_right(const std::string& name, double worst)
 // The runners, by name; what they work on lives as long as this.
 class Bench {
 public:
-    explicit Bench(std::string isa)
+    Bench(std::string isa, bool with_sizes)
         : isa_(std::move(isa)),
           limbs_(bench::random_limbs(bench::arms_within(1, 0))),
           cached_(bench::make_crowd(0, limbs_.size(), limbs_)),
@@ -46,7 +46,7 @@ public:
         add_cached();
         add_rivals();
         add_frames();
-        add_sizes();
+        if (with_sizes) add_sizes();
         add_crowd("resident", resident_, isa_);
         add_crowd("memory", large_, isa_);
         const swivel_rows in = swivel_input_rows(large_.get()), out = swivel_result_rows(large_.get());
@@ -92,6 +92,7 @@ public:
     std::vector<Size> sizes() const
     {
         std::vector<Size> sizes;
+        if (sized_.empty()) return sizes;
         for (const std::size_t arms : kSizes)
             sizes.push_back(
                 {arms, race_.ns(fmt::format("P of {}", arms)), race_.ns(fmt::format("resident of {}", arms))});
@@ -166,7 +167,7 @@ private:
     std::string isa_;
     std::vector<bench::Limb> limbs_;
     Crowd cached_, large_, resident_, shared_;
-    std::vector<Crowd> sized_;  // for each of kSizes: plain, resident
+    std::vector<Crowd> sized_;  // for each of kSizes: plain, resident; or none
     bench::WholeFrame frame_;
     std::vector<bench::Contender> rivals_;
     Race race_;
@@ -180,12 +181,12 @@ struct KeepIsa {
 
 }  // namespace
 
-Measured measure(double seconds, bool quiet)
+Measured measure(double seconds, bool with_sizes, bool quiet)
 {
     const char* isa = swivel_isa_name();
     if (!isa) throw CommandError(1, swivel_last_error());
     const KeepIsa keep{isa};
-    Bench runners(keep.isa);
+    Bench runners(keep.isa, with_sizes);
     Measured out{bench::measure_machine(), bench::count_ops(), bench::row_bytes(0), 0, keep.isa, {}, {}, {}};
     runners.run(seconds, quiet);
     out.memory_ns = runners.ns("memory");

@@ -39,12 +39,12 @@ struct Measured {
     double memory_ns;       // of an arm in problem P, out of cache
     std::string isa;        // that the process uses
     std::vector<Pair> pairs;
-    std::vector<Size> sizes{};
+    std::vector<Size> sizes{};  // empty unless they were wanted
     std::vector<Bound> bounds;  // one for each instruction set that runs here, best first
 };
 
-// Takes about that many seconds and two more. quiet: shows no progress. Throws CommandError if someone's results are
-// wrong.
-Measured measure(double seconds, bool quiet);
+// Takes about that many seconds and two more. with_sizes: times crowds of many sizes, too, which leaves less time for
+// each of the others. quiet: shows no progress. Throws CommandError if someone's results are wrong.
+Measured measure(double seconds, bool with_sizes, bool quiet);
 
 }  // namespace swivel::tools

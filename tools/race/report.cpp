@@ -52,6 +52,7 @@ void print_bounds(const Measured& measured)
 
 void print_sizes(const Measured& measured)
 {
+    if (measured.sizes.empty()) return;
     say(stdout, "\nNanoseconds an arm by the crowd's size, {}, one thread:\n{:>10}{:>10}{:>12}\n", measured.isa, "arms",
         "P", "resident");
     for (const Size& size : measured.sizes)
@@ -99,7 +100,7 @@ Json json_of(const Measured& measured)
                                  {"arithmetic_ns", bound.bound.arithmetic_ns},
                                  {"bound_ns", bound.bound.ns()},
                                  {"measured_ns", bound.measured_ns}});
-    for (const Size& size : measured.sizes)
+    for (const Size& size : measured.sizes)  // those of a report
         out["sizes"].push_back({{"arms", size.arms}, {"plain_ns", size.plain_ns}, {"resident_ns", size.resident_ns}});
     out["row_bytes"] = measured.row_bytes;
     out["memory_ns"] = measured.memory_ns;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 
 namespace swivel::tools {
 
@@ -142,8 +141,8 @@ std::string address_of(const std::filesystem::path& file, const std::filesystem:
     const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(folder.lexically_normal());
     std::string address;
     for (const char c : relative.generic_string()) {
-        const bool is_plain =
-            std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-._~/").find(c) != std::string_view::npos;
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                              std::string_view("-._~/").find(c) != std::string_view::npos;
         address += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }
     return address + "#" + std::string(fragment);

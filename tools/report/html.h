@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/formats/output_file.h"
@@ -32,7 +33,9 @@ public:
     // Opens the file. Throws InputError as OutputFile does.
     Report(const std::filesystem::path& path, std::string_view title);
 
+    // Of what follows, up to the next one.
     void heading(std::string_view text);
+    // Plain text; long words are broken.
     void paragraph(std::string_view text);
     // Rows as long as heads. Columns whose cells are numbers stand to the right.
     void table(const std::vector<std::string>& heads, const std::vector<std::vector<Cell>>& rows);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "tools/report/html.h"
 
@@ -96,24 +97,40 @@ std::string grid_of(const std::vector<Tick>& x_ticks, const std::vector<Tick>& y
     return svg;
 }
 
+using Points = std::span<const std::pair<double, double>>;
+
+// Runs of neighbours that both axes show.
+std::vector<Points> segments_of(const Series& series, const Axis& x, const Axis& y)
+{
+    std::vector<Points> segments;
+    const Points all(series.points);
+    std::size_t first = 0;
+    for (std::size_t n = 0; n <= all.size(); ++n) {
+        if (n < all.size() && x.shows(all[n].first) && y.shows(all[n].second)) continue;
+        if (n > first) segments.push_back(all.subspan(first, n - first));
+        first = n + 1;
+    }
+    return segments;
+}
+
 std::string svg_of(const Series& series, std::size_t number, const Axis& x, const Axis& y)
 {
+    constexpr std::size_t kMostDots = 60;  // more would hide the line
     std::string path, dots;
-    bool is_open = false;
-    for (const auto& [at_x, at_y] : series.points) {
-        if (!x.shows(at_x) || !y.shows(at_y)) {
-            is_open = false;
-            continue;
+    for (const Points& segment : segments_of(series, x, y)) {
+        const bool is_dotted = series.points.size() <= kMostDots && !series.is_bound;
+        const bool is_drawn = series.is_line && segment.size() > 1;  // a line of one point paints nothing
+        for (std::size_t n = 0; n < segment.size(); ++n) {
+            const auto& [at_x, at_y] = segment[n];
+            if (is_drawn) path += fmt::format("{}{:.2f} {:.2f}", n == 0 ? "M" : "L", x.place(at_x), y.place(at_y));
+            if (is_dotted || !is_drawn)
+                dots += fmt::format(
+                    "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.2\"><title>{}: {:.6g}, {:.6g}</title></circle>",
+                    x.place(at_x), y.place(at_y), escaped(series.name), at_x, at_y);
         }
-        path += fmt::format("{}{:.2f} {:.2f}", is_open ? "L" : "M", x.place(at_x), y.place(at_y));
-        is_open = true;
-        if (series.points.size() <= 60 && !series.is_bound)
-            dots +=
-                fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.2\"><title>{}: {:.6g}, {:.6g}</title></circle>",
-                            x.place(at_x), y.place(at_y), escaped(series.name), at_x, at_y);
     }
     return fmt::format("<g class=\"series s{}{}\">{}{}</g>", number % 8, series.is_bound ? " bound" : "",
-                       series.is_line ? fmt::format("<path d=\"{}\"/>", path) : "", dots);
+                       path.empty() ? "" : fmt::format("<path d=\"{}\"/>", path), dots);
 }
 
 }  // namespace

@@ -213,6 +213,7 @@ void add_view_command(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "view", "Write a page that shows the crowd of a clip or a cache, solves it live and lets you drag its limbs");
     auto options = std::make_shared<SolveOptions>();
+    options->view_option = "--out";
     add_crowd_of_clip(*command, *options);
     takes(command->add_option("-o,--out", options->view,
                               "The page, to open in a browser; it needs no network and no other file. Without it it is "
@@ -344,7 +345,7 @@ void add_steps(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("steps", "Print the lecture's five steps for one arm, entity by entity, as multivectors");
     auto options = std::make_shared<StepsOptions>();
-    const auto vector = [](double least) { return numbers(3, least); };
+    const auto vector = [] { return numbers(3, -HUGE_VAL); };
     CLI::Option* file =
         takes(command->add_option("FILE", options->file,
                                   "A clip, instead of an arm by its numbers: .bvh, .glb, .gltf or .vrm. "
@@ -353,11 +354,11 @@ void add_steps(CLI::App& app)
             ->option_text(" ");
     takes(command->add_option("--target", options->target, "Where the wrist goes, in the arm frame")
               ->capture_default_str(),
-          vector(-HUGE_VAL))
+          vector())
         ->excludes(file);
     takes(command->add_option("--pole", options->pole, "A point on the elbow's side, in the arm frame")
               ->capture_default_str(),
-          vector(-HUGE_VAL))
+          vector())
         ->excludes(file);
     takes(command->add_option("--lengths", options->lengths, "Upper arm and forearm")->capture_default_str(),
           numbers(2, 0))
@@ -371,6 +372,7 @@ void add_steps(CLI::App& app)
         ->needs(file);
     add_named_limbs(*command, options->arms, options->legs, "Without it names in use tell the joints");
     add_motion(*command, options->motion, "A file without animations has its rest pose alone");
+    for (const char* about_file : {"--arm", "--leg", "--clip", "--fps"}) command->get_option(about_file)->needs(file);
     add_json(*command, options->json);
     command->footer(
         "The arm frame has the shoulder at its origin; a straight arm at rest lies along e3. Without any option\n"

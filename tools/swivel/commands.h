@@ -24,10 +24,11 @@ void run_demo(const DemoOptions& options);
 
 struct SolveOptions {
     std::string file, crowd, out, export_targets;
-    std::string view;          // the page to write; empty: none
-    std::string report;        // the report to write as HTML; empty: none
-    std::uint32_t frames = 0;  // of the clip, from its first; 0: all
-    std::string format;        // of out; empty: its suffix's
+    std::string view;                    // the page to write; empty: none
+    const char* view_option = "--view";  // which names it
+    std::string report;                  // the report to write as HTML; empty: none
+    std::uint32_t frames = 0;            // of the clip, from its first; 0: all
+    std::string format;                  // of out; empty: its suffix's
     MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;

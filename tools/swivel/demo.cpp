@@ -47,6 +47,7 @@ CrowdPlan demo_plan(const DemoOptions& options, std::size_t limb_count)
 
 Statistics solve_demo(const DemoOptions& options)
 {
+    const StopSignals signals;  // there may be a page to remove
     std::optional<ViewPage> page;
     if (!options.view.empty()) page.emplace(options.view);
     const formats::Clip clip = demo_clip(std::min<std::size_t>(options.frames, kDemoFrames));
@@ -54,7 +55,6 @@ Statistics solve_demo(const DemoOptions& options)
     const CrowdPlan plan = demo_plan(options, limbs.size());
     ClipCrowd crowd(clip, limbs, plan, "demo");
     Statistics statistics;
-    const StopSignals signals;
     {
         Progress progress("frames", options.frames, options.quiet);
         for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
@@ -66,6 +66,7 @@ Statistics solve_demo(const DemoOptions& options)
             if (page && frame < clip.frame_count) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
+    signals.check();
     if (page)
         page->commit(cached_clip({"swivel demo", "made up"}, clip, limbs, plan, crowd.motion()), crowd.goal_crowd());
     return statistics;

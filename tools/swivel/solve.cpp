@@ -47,7 +47,8 @@ void print_page_size(const SolveOptions& options, std::uint64_t goal_count)
         goal_count > 100'000 ? "; swivel view --frames takes fewer" : "");
 }
 
-Statistics solve_clip(const SolveOptions& options, const MotionFile& file, CrowdJob& job, SolveReport* report)
+Statistics solve_clip(const SolveOptions& options, const MotionFile& file, CrowdJob& job, const StopSignals& signals,
+                      SolveHtml* report)
 {
     const OutKind kind = out_kind(options, job.plan.characters);
     if (kind == OutKind::motion && job.crowd) require_fits_motion(*job.crowd, job.limbs);
@@ -55,7 +56,6 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
     if (!options.view.empty()) page.emplace(options.view);
     print_page_size(options, job.given->count(file.clip().frame_count));
     ClipCrowd crowd(file.clip(), job.limbs, job.plan, options.crowd);
-    const StopSignals signals;  // from here on there may be files to remove
     std::optional<formats::PosesCsv> csv;
     if (kind == OutKind::csv) csv.emplace(options.out, crowd.columns());
     std::optional<formats::TargetsCsv> exported;
@@ -95,6 +95,12 @@ Statistics solve_clip(const SolveOptions& options, const MotionFile& file, Crowd
         cached_clip({title_of(options.file), file.describe()}, file.clip(), job.limbs, job.plan, crowd.motion()),
         crowd.goal_crowd());
     return statistics;
+}
+
+// Where links lead; empty where the page has no name.
+std::string page_of(const SolveOptions& options)
+{
+    return formats::is_standard_stream(options.view) ? "" : options.view;
 }
 
 void print_report(std::FILE* to, const SolveOptions& options, const Statistics& statistics, double seconds)
@@ -138,11 +144,16 @@ void run_solve(const SolveOptions& options)
     if (!options.json && !options.quiet) print_clip(reports, facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);
-    std::optional<SolveReport> report;
-    if (!options.report.empty()) report.emplace(options.report, options.view, "swivel solve " + title_of(options.file));
-    const Statistics statistics = solve_clip(options, file, job, report ? &*report : nullptr);
+    const StopSignals signals;  // from here on there may be files to remove
+    std::optional<SolveHtml> report;
+    if (!options.report.empty())
+        report.emplace(options.report, page_of(options), "swivel solve " + title_of(options.file));
+    const Statistics statistics = solve_clip(options, file, job, signals, report ? &*report : nullptr);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-    if (report) report->commit(json_of_run(options, facts, file, job, statistics, seconds));
+    if (report) {
+        signals.check();
+        report->commit(json_of_run(options, facts, file, job, statistics, seconds));
+    }
     if (options.json)
         print_json(json_of_run(options, facts, file, job, statistics, seconds), reports);
     else if (!options.quiet)

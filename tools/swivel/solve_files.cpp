@@ -91,12 +91,12 @@ void require_own_files(const SolveOptions& options, const MotionFile& clip, cons
     };
     const std::pair<const char*, const std::string&> outputs[] = {{"--out", options.out},
                                                                   {"--export-targets", options.export_targets},
-                                                                  {"--view", options.view},
+                                                                  {options.view_option, options.view},
                                                                   {"--report", options.report}};
     for (const auto& [option, file] : outputs) {
         require_not_read(option, file);
         for (const auto& [other, other_file] : outputs) {
-            if (option == other) break;
+            if (&file == &other_file) break;
             if (!file.empty() && !other_file.empty())
                 refuse_if(is_same_file(file, other_file), option, file, fmt::format("the file of {}", other).c_str());
         }

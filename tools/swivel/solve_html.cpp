@@ -14,8 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kWorstCount = 10;
-
 std::string words_of_key(std::string key)
 {
     std::ranges::replace(key, '_', ' ');
@@ -35,12 +33,12 @@ PoseName pose_of(const Json& json)
 
 }  // namespace
 
-SolveReport::SolveReport(const std::filesystem::path& path, const std::filesystem::path& page, const std::string& title)
+SolveHtml::SolveHtml(const std::filesystem::path& path, const std::filesystem::path& page, const std::string& title)
     : path_(path), page_(page), report_(path, title)
 {
 }
 
-void SolveReport::add_frame(const Statistics& of_frame, const ClipCrowd& crowd)
+void SolveHtml::add_frame(const Statistics& of_frame, const ClipCrowd& crowd)
 {
     Frame frame;
     LimbStatistics all = of_frame.arms;
@@ -53,29 +51,24 @@ void SolveReport::add_frame(const Statistics& of_frame, const ClipCrowd& crowd)
     frame.missed_worst = all.missed.max;
     for (std::size_t bit = 0; bit < all.flags.size(); ++bit) frame.flags[bit] = all.flags[bit].count;
     frames_.push_back(frame);
-    keep_worst(all.reached, crowd);
-    keep_worst(all.missed, crowd);
+    keep_worst(all.worst, crowd);
 }
 
-// A limb is listed in its worst frame alone.
-void SolveReport::keep_worst(const ErrorStat& stat, const ClipCrowd& crowd)
+// Only now does the crowd know why.
+void SolveHtml::keep_worst(const WorstLimbs& of_frame, const ClipCrowd& crowd)
 {
-    if (stat.count == 0) return;
-    const PoseName& pose = stat.worst_pose;
-    const auto is_same = [&](const Worst& worst) {
-        return worst.pose.character == pose.character && worst.pose.limb == pose.limb;
-    };
-    const auto same = std::ranges::find_if(worst_, is_same);
-    if (same != worst_.end() && same->error >= stat.max) return;
-    if (same != worst_.end()) worst_.erase(same);
-    if (worst_.size() == kWorstCount && worst_.back().error >= stat.max) return;
-    worst_.push_back(
-        {pose, stat.max, crowd.flags(pose.limb, pose.character), crowd.explain(pose.limb, pose.character)});
-    std::ranges::stable_sort(worst_, std::ranges::greater(), &Worst::error);
-    if (worst_.size() > kWorstCount) worst_.pop_back();
+    worst_.add(of_frame);
+    std::map<PoseName, Why> why;
+    for (const auto& [pose, error] : worst_.limbs()) {
+        const auto known = why_.find(pose);
+        why[pose] = known != why_.end()
+                        ? known->second
+                        : Why{crowd.flags(pose.limb, pose.character), crowd.explain(pose.limb, pose.character)};
+    }
+    why_ = std::move(why);
 }
 
-Cell SolveReport::place_of(const PoseName& pose) const
+Cell SolveHtml::place_of(const PoseName& pose) const
 {
     const std::string text =
         fmt::format("frame {}, character {}, {}", pose.frame, pose.character, limb_word(pose.limb));
@@ -85,7 +78,7 @@ Cell SolveReport::place_of(const PoseName& pose) const
                        fmt::format("frame={}&character={}&limb={}", pose.frame, pose.character, limb_word(pose.limb)))};
 }
 
-void SolveReport::put_facts(const Json& run)
+void SolveHtml::put_facts(const Json& run)
 {
     std::vector<std::vector<Cell>> rows;
     for (const auto& [key, value] : run.items())
@@ -94,7 +87,7 @@ void SolveReport::put_facts(const Json& run)
 }
 
 // A table for each kind, whose columns are what --json says of the first.
-void SolveReport::put_limbs(const Json& run)
+void SolveHtml::put_limbs(const Json& run)
 {
     report_.heading("Limbs");
     for (const char* kind : {"arms_bound", "legs_bound"}) {
@@ -110,7 +103,16 @@ void SolveReport::put_limbs(const Json& run)
     }
 }
 
-void SolveReport::put_errors(const Json& run)
+void SolveHtml::put_missing(const Json& run)
+{
+    if (!run.contains("missing")) return;
+    report_.heading("Limbs that do not bind");
+    std::vector<std::vector<Cell>> rows;
+    for (const Json& limb : run.at("missing")) rows.push_back({text_of(limb.at("limb")), text_of(limb.at("problem"))});
+    report_.table({"limb", "problem"}, rows);
+}
+
+void SolveHtml::put_errors(const Json& run)
 {
     report_.heading("Errors and differences");
     std::vector<std::vector<Cell>> rows;
@@ -126,7 +128,7 @@ void SolveReport::put_errors(const Json& run)
     report_.plot(errors_over_time());
 }
 
-void SolveReport::put_flags(const Json& run)
+void SolveHtml::put_flags(const Json& run)
 {
     report_.heading("Flags");
     std::vector<std::vector<Cell>> rows;
@@ -137,18 +139,18 @@ void SolveReport::put_flags(const Json& run)
     report_.plot(flags_over_time());
 }
 
-void SolveReport::put_worst()
+void SolveHtml::put_worst()
 {
     report_.heading("The worst limbs");
     report_.paragraph("Those whose wrist or ankle is furthest from its target, each in its worst frame.");
     std::vector<std::vector<Cell>> rows;
-    for (const Worst& worst : worst_)
+    for (const auto& [pose, error] : worst_.limbs())
         rows.push_back(
-            {place_of(worst.pose), fmt::format("{:.3e}", worst.error), flag_names(worst.flags), worst.sentence});
+            {place_of(pose), fmt::format("{:.3e}", error), flag_names(why_.at(pose).flags), why_.at(pose).sentence});
     report_.table({"limb", "limb lengths off", "flags", "why"}, rows);
 }
 
-Plot SolveReport::flags_over_time() const
+Plot SolveHtml::flags_over_time() const
 {
     Plot plot{"Flags over time: the share of limbs in each frame", "frame", "share of limbs", false, false, {}};
     for (std::uint32_t bit = 0; bit < 32; ++bit) {
@@ -163,7 +165,7 @@ Plot SolveReport::flags_over_time() const
     return plot;
 }
 
-Plot SolveReport::errors_over_time() const
+Plot SolveHtml::errors_over_time() const
 {
     Plot plot{"Errors over time: from target to wrist or ankle", "frame", "limb lengths", false, true, {}};
     plot.series = {{"reached, worst", {}}, {"reached, rms", {}}, {"not reached, worst", {}}};
@@ -175,10 +177,11 @@ Plot SolveReport::errors_over_time() const
     return plot;
 }
 
-void SolveReport::commit(const Json& run)
+void SolveHtml::commit(const Json& run)
 {
     put_facts(run);
     put_limbs(run);
+    put_missing(run);
     put_errors(run);
     put_flags(run);
     put_worst();

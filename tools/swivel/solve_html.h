@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The report of a solve as an HTML file: what --json says, as tables, flags and errors frame by frame, and the worst
-// limbs, with links into the page that shows them.
+// The report of a solve as an HTML file: what --json says but for each character, as tables; flags and errors frame by
+// frame; the worst limbs, with links into the page that shows them.
 #pragma once
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -16,10 +17,10 @@
 
 namespace swivel::tools {
 
-class SolveReport {
+class SolveHtml {
 public:
     // Opens the file. page: the one that shows the crowd; empty: none. title: for people.
-    SolveReport(const std::filesystem::path& path, const std::filesystem::path& page, const std::string& title);
+    SolveHtml(const std::filesystem::path& path, const std::filesystem::path& page, const std::string& title);
 
     // Takes a frame that was just solved, whose statistics these are. Frames in order. Memory grows with frames.
     void add_frame(const Statistics& of_frame, const ClipCrowd& crowd);
@@ -33,16 +34,15 @@ private:
         std::uint64_t limb_count = 0;
         std::array<std::uint64_t, 32> flags{};
     };
-    struct Worst {
-        PoseName pose;
-        double error;
+    struct Why {
         std::uint32_t flags;
         std::string sentence;
     };
-    void keep_worst(const ErrorStat& stat, const ClipCrowd& crowd);
+    void keep_worst(const WorstLimbs& of_frame, const ClipCrowd& crowd);
     Cell place_of(const PoseName& pose) const;
     void put_facts(const nlohmann::ordered_json& run);
     void put_limbs(const nlohmann::ordered_json& run);
+    void put_missing(const nlohmann::ordered_json& run);
     void put_errors(const nlohmann::ordered_json& run);
     void put_flags(const nlohmann::ordered_json& run);
     void put_worst();
@@ -52,7 +52,8 @@ private:
     std::filesystem::path path_, page_;
     Report report_;
     std::vector<Frame> frames_;
-    std::vector<Worst> worst_;  // the largest error first, no limb twice
+    WorstLimbs worst_;
+    std::map<PoseName, Why> why_;  // of these
 };
 
 }  // namespace swivel::tools

@@ -58,11 +58,22 @@ StepsArm given_arm(const StepsOptions& options)
     return {vector(options.target), vector(options.pole), lengths[0], lengths[1]};
 }
 
+// Joints of the other kind of limb would change nothing.
+void require_joints_of(const StepsOptions& options, formats::LimbKind kind)
+{
+    const bool is_arm = kind == formats::LimbKind::arm;
+    if ((is_arm ? options.legs : options.arms).empty()) return;
+    throw CommandError(
+        2, fmt::format("{} names {}, but --limb {} is {}; choose another --limb", is_arm ? "--leg" : "--arm",
+                       is_arm ? "a leg" : "an arm", options.limb, is_arm ? "an arm" : "a leg"));
+}
+
 // Where the clip has the limb in that frame; its pole is the clip's own elbow.
 StepsArm arm_of_clip(const StepsOptions& options)
 {
-    MotionFile motion(options.file, options.motion);
     const formats::LimbName name = *formats::limb_of_word(options.limb);
+    require_joints_of(options, name.kind);
+    MotionFile motion(options.file, options.motion);
     LimbChoice choice;
     choice.kinds = name.kind == formats::LimbKind::arm ? "arms" : "legs";
     for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
@@ -82,7 +93,8 @@ StepsArm arm_of_clip(const StepsOptions& options)
     return {array3(from_world * in.wrist), array3(from_world * in.elbow), in.upper_length(), in.fore_length()};
 }
 
-// Coefficients that are rounding beside the largest are left out.
+// Coefficients that are rounding beside the largest are left out. 1e-14 of it is 45 roundings of a double, more than
+// sums of a few products make where they should be 0.
 std::string text_of(const swivel_entity& entity)
 {
     double most = 0;

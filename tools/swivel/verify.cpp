@@ -8,7 +8,6 @@
 #include <array>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +18,9 @@
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/golden.h"
 #include "tools/crowd/parallel.h"
-#include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/report_file.h"
 #include "tools/swivel/verify_html.h"
 
 namespace swivel::tools {
@@ -191,10 +190,7 @@ std::string what_is_wrong(const Digest& digest)
 void run_verify(const VerifyOptions& options)
 {
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    if (formats::is_standard_stream(options.report))
-        throw CommandError(2, "--report -: standard output has the figures; name a file");
-    std::optional<Report> report;
-    if (!options.report.empty()) report.emplace(options.report, "swivel verify");
+    require_report_file(options.report);
     Listener listener{options.json};
     int passed = 0;
     check(swivel_verify(options.arms, options.seed, hear, &listener, &passed));
@@ -207,16 +203,14 @@ void run_verify(const VerifyOptions& options)
                                      {"equal_digests", equal},
                                      {"passed", passed && equal},
                                      {"digests", json_of(digests)}};
-    if (report) {
-        put_verification(*report, run);
-        report->commit();
-    }
+    if (!options.report.empty())
+        write_report(options.report, "swivel verify", [&](Report& report) { put_verification(report, run); });
     if (options.json) {
         print_json(run);
     } else {
         print_digests(digests);
         say(stdout, "{}\n", passed && equal ? "all checks passed, all digests are the golden ones" : "FAILED");
-        if (report) say(stdout, "written  {}\n", options.report);
+        if (!options.report.empty()) say(stdout, "written  {}\n", options.report);
     }
     if (!passed) throw CommandError(1, "verify: a check is over its limit; the lines marked FAILED say which");
     if (!equal) throw CommandError(1, "verify: " + what_is_wrong(*wrong));

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# tools/demo gives its arguments on, and its standard output is the command's alone. Here it runs among stand-ins, which build nothing.
+set(stage ${WORK}/check_demo)
+file(REMOVE_RECURSE ${stage})
+configure_file(${SOURCE}/tools/demo ${stage}/tools/demo COPYONLY)
+file(WRITE ${stage}/tools/packages "build_packages=(one)\n")
+file(WRITE ${stage}/build/release/build.ninja "")
+function(stand_in path lines)
+  file(WRITE ${stage}/${path} "#!/bin/sh\n${lines}\n")
+  file(CHMOD ${stage}/${path} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+endfunction()
+stand_in(tools/setup "echo setting up")
+stand_in(bin/cmake "echo building")
+stand_in(build/release/bin/swivel "echo swivel $*")
+
+# expect(WORDS OUTPUT OPENS): OPENS: whether it says where the page is.
+function(expect words output opens)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env "PATH=${stage}/bin:$ENV{PATH}" ${stage}/tools/demo ${words}
+                  OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE code)
+  string(REGEX MATCH "open +file://" opened "${err}")
+  if(NOT code EQUAL 0 OR NOT out STREQUAL "${output}\n" OR (opens AND NOT opened) OR (opened AND NOT opens))
+    message(SEND_ERROR "tools/demo ${words}: exit code ${code}, output '${out}', errors '${err}'; expected '${output}'")
+  endif()
+endfunction()
+stand_in(tools/view/build "echo built")
+expect("" "swivel demo --view build/demo.html" TRUE)
+expect("--json" "swivel demo --view build/demo.html --json" TRUE)
+expect("--help" "swivel demo --help" FALSE)
+expect("--view;mine.html" "swivel demo --view mine.html" FALSE)
+expect("--view=mine.html" "swivel demo --view=mine.html" FALSE)
+stand_in(tools/view/build "echo no npm\nexit 1")
+expect("--json" "swivel demo --json" FALSE)

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/report_file.h"
+
+#include "tools/cli/command_error.h"
+#include "tools/cli/signals.h"
+#include "tools/formats/output_file.h"
+#include "tools/formats/text.h"
+
+namespace swivel::tools {
+
+void require_report_file(const std::string& file)
+{
+    if (file.empty()) return;
+    if (formats::is_standard_stream(file))
+        throw CommandError(2, "--report -: standard output has the figures; name a file");
+    const StopSignals signals;
+    {
+        const formats::OutputFile can_be_written(file);
+    }
+    signals.check();
+}
+
+void write_report(const std::string& file, const std::string& title, const std::function<void(Report&)>& put)
+{
+    const StopSignals signals;
+    Report report(file, title);
+    put(report);
+    signals.check();
+    report.commit();
+}
+
+}  // namespace swivel::tools
