@@ -181,7 +181,7 @@ class Metadata(Stage):
                             (("--shard", "x"), "write i/n"), (("--memory", "1K"), "is not an amount of memory from 1M on"),
                             (("--memory", "much"), "is not an amount of memory"), (("--threads", "-1"), "--threads")):
             self.assert_refused(run("fill", cache, *words), what, code=2)
-        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk takes \d+ MiB of memory, and --memory is 1 MiB; give more")
+        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk for each of \d+ threads takes \d+ MiB of memory, and --memory is 1 MiB; give more, or fewer threads")
         for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
                             (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B")):
             self.assert_refused(run("replay", cache, *words), what, code=2)

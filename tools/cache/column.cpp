@@ -27,8 +27,10 @@ std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
 }  // namespace
 
 // Blocks are chosen when the cache is made, so the crowd itself has no budget.
-Column::Column(const CachedCrowd& crowd, std::vector<goal_character> characters, const std::filesystem::path& folder)
+Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters,
+               const std::filesystem::path& folder)
     : cached_(crowd),
+      index_(index),
       fields_(result_fields(crowd)),
       setups_(setups_of(crowd)),
       crowd_(setups_, sources_of(crowd), std::move(characters), 0, folder)

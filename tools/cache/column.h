@@ -12,8 +12,10 @@ namespace swivel::tools {
 
 class Column {
 public:
-    // crowd must outlive the column.
-    Column(const CachedCrowd& crowd, std::vector<goal_character> characters, const std::filesystem::path& folder);
+    // crowd must outlive the column. index: which column of it these are the characters of.
+    Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters,
+           const std::filesystem::path& folder);
+    std::uint32_t index() const { return index_; }
 
     // Starts from the last results of the chunk before, where state is carried.
     void restore(const Results& state);
@@ -31,6 +33,7 @@ private:
     void restore_frame(std::uint32_t frame, const Results& results);
 
     const CachedCrowd& cached_;
+    std::uint32_t index_;
     std::vector<ResultField> fields_;
     std::vector<LimbSetup> setups_;
     GoalCrowd crowd_;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <semaphore>
 
 #include "tools/cache/column.h"
 #include "tools/formats/error.h"
@@ -27,6 +28,12 @@ constexpr std::uint64_t kProgramBytes = std::uint64_t{48} << 20;  // of code, li
 constexpr std::uint64_t kBytesOfLimb = 1024;                      // of a solver's limb with its inputs, at most
 constexpr std::size_t kMostInFlight = 16;                         // chunks
 constexpr int kWaiting = 2;  // threads beside the solver's, which wait for the disk
+
+// Gives back its place among those that solve, however the solving ends.
+struct Release {
+    std::counting_semaphore<>& solvers;
+    ~Release() { solvers.release(); }
+};
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -61,10 +68,12 @@ private:
     double seconds_ = 0;
 };
 
+using Characters = std::shared_ptr<const std::vector<goal_character>>;
+
 // A chunk on its way.
 struct Work {
     ChunkAt at;
-    std::vector<goal_character> characters;  // of a column that is new to the solver
+    Characters characters;  // of its column
     ChunkGoals goals;
     std::optional<Results> state;  // to start from; none: from the frame before, or from nothing
     Results results;
@@ -82,6 +91,7 @@ public:
 
 private:
     std::unique_ptr<Work> read_next();
+    std::unique_ptr<Column> take_column(const Work& work);
     void solve(Work& work);
     void write(Work& work);
     std::string difference(const Work& work) const;
@@ -89,12 +99,14 @@ private:
 
     const Cache& cache_;
     const FillOptions& options_;
+    unsigned threads_ = 1;  // that solve
     std::vector<ChunkAt> chunks_;
     std::size_t next_ = 0;
     std::optional<ChunkAt> read_last_;  // by read_next(), and so the last that was solved before the next
-    std::unique_ptr<Column> column_;
+    Characters characters_;             // of that chunk's column
     BusyClock solving_, disk_;
-    std::mutex mutex_;
+    std::mutex mutex_;                              // of all below
+    std::vector<std::unique_ptr<Column>> columns_;  // that nobody solves with now
     std::uint64_t through_ = 0;
     FillReport report_;
 };
@@ -114,7 +126,9 @@ std::unique_ptr<Work> Filling::read_next()
         }
         auto work =
             std::make_unique<Work>(Work{at, {}, cache_.goals(at), {}, empty_results(cache_.crowd()), stored, 0});
-        if (!read_last_ || read_last_->column != at.column) work->characters = cache_.characters(at.column);
+        if (!read_last_ || read_last_->column != at.column)
+            characters_ = std::make_shared<const std::vector<goal_character>>(cache_.characters(at.column));
+        work->characters = characters_;
         const bool follows = read_last_ && *read_last_ == ChunkAt{at.time - 1, at.column};
         if (cache_.crowd().carries_state() && at.time > 0 && !follows) {
             work->state = cache_.state({at.time - 1, at.column});
@@ -130,13 +144,32 @@ std::unique_ptr<Work> Filling::read_next()
     return nullptr;
 }
 
+// The chunk's column, as it was left; a new one if there is none. There are never more of them than threads.
+std::unique_ptr<Column> Filling::take_column(const Work& work)
+{
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found =
+            std::ranges::find(columns_, work.at.column, [](const auto& column) { return column->index(); });
+        std::unique_ptr<Column> column;
+        if (!columns_.empty()) {
+            std::swap(found == columns_.end() ? columns_.back() : *found, columns_.back());
+            column = std::move(columns_.back());
+            columns_.pop_back();
+        }
+        if (column && column->index() == work.at.column) return column;
+    }
+    return std::make_unique<Column>(cache_.crowd(), work.at.column, *work.characters, cache_.folder());
+}
+
 void Filling::solve(Work& work)
 {
     const BusyClock::Turn turn(solving_);
-    if (!work.characters.empty())
-        column_ = std::make_unique<Column>(cache_.crowd(), std::move(work.characters), cache_.folder());
-    if (work.state) column_->restore(*work.state);
-    work.digest = column_->solve(work.at.time, work.goals, work.results);
+    std::unique_ptr<Column> column = take_column(work);
+    if (work.state) column->restore(*work.state);
+    work.digest = column->solve(work.at.time, work.goals, work.results);
+    const std::lock_guard lock(mutex_);
+    columns_.push_back(std::move(column));
 }
 
 // What the files of a chunk that is done have otherwise; empty: nothing.
@@ -185,40 +218,48 @@ std::size_t Filling::in_flight() const
     for (const ZarrArray& array : arrays.results) of_chunk += array.chunk_bytes();
     if (options_.verifies) of_chunk *= 3;  // those that are stored, too, as a file and as numbers
     for (const ZarrArray& array : arrays.given) of_chunk += 2 * array.chunk_bytes();
-    const std::uint64_t limbs = std::uint64_t{crowd.chunk.characters} * crowd.limbs.size();
+    const std::uint64_t limbs = std::uint64_t{crowd.chunk.characters} * crowd.limbs.size() * threads_;
     const std::uint64_t clip = crowd.limbs.size() * crowd.clip_frame_count() * sizeof(goal_source);
     const std::uint64_t least = kProgramBytes + 2 * clip + limbs * kBytesOfLimb + of_chunk;
     if (options_.memory < least)
-        throw formats::InputError(cache_.folder(),
-                                  fmt::format("one chunk takes {} MiB of memory, and --memory is {} MiB; give more",
-                                              (least >> 20) + 1, options_.memory >> 20));
+        throw formats::InputError(
+            cache_.folder(), fmt::format("one chunk for each of {} threads takes {} MiB of memory, and --memory is {} "
+                                         "MiB; give more, or fewer threads",
+                                         threads_, (least >> 20) + 1, options_.memory >> 20));
     return std::clamp<std::size_t>((options_.memory - least) / of_chunk + 1, 1, kMostInFlight);
 }
 
 FillReport Filling::run()
 {
     const Clock::time_point begin = Clock::now();
-    [[maybe_unused]] const std::size_t most = in_flight();
 #ifdef SWIVEL_WITH_TBB
     using namespace oneapi::tbb;
     using Item = std::shared_ptr<Work>;
     const int threads = options_.threads > 0 ? static_cast<int>(options_.threads) : info::default_concurrency();
-    const global_control more(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads + kWaiting));
-    task_arena arena(threads + kWaiting), solvers(threads);
+    threads_ = static_cast<unsigned>(threads);
+    const global_control more(global_control::max_allowed_parallelism, threads_ + kWaiting);
+    // Chunks that carry state follow each other, each on all threads. Others are solved side by side.
+    const bool in_order = cache_.crowd().carries_state();
+    const filter_mode mode = in_order ? filter_mode::serial_in_order : filter_mode::parallel;
+    std::counting_semaphore<> solvers(threads);
+    task_arena arena(threads + kWaiting);
     arena.execute([&] {
         const auto read = make_filter<void, Item>(filter_mode::serial_in_order, [&](flow_control& control) -> Item {
             Item work = read_next();
             if (!work) control.stop();
             return work;
         });
-        const auto solved = make_filter<Item, Item>(filter_mode::serial_in_order, [&](Item work) {
-            solvers.execute([&] { solve(*work); });
+        const auto solved = make_filter<Item, Item>(mode, [&](Item work) {
+            solvers.acquire();
+            const Release release{solvers};
+            task_arena(in_order ? threads : 1).execute([&] { solve(*work); });
             return work;
         });
         const auto written = make_filter<Item, void>(filter_mode::parallel, [&](const Item& work) { write(*work); });
-        parallel_pipeline(most, read & solved & written);
+        parallel_pipeline(in_flight(), read & solved & written);
     });
 #else
+    in_flight();  // the check of --memory
     while (const std::unique_ptr<Work> work = read_next()) {
         solve(*work);
         write(*work);

@@ -98,15 +98,13 @@ std::vector<ChunkAt> damaged_poses(const Cache& cache, std::span<const ChunkAt> 
     Progress progress("chunks", chunks.size(), quiet);
     std::vector<ChunkAt> damaged;
     std::unique_ptr<Column> column;
-    std::uint32_t columns_made = 0;
     for (std::size_t n = 0; n < chunks.size(); ++n) {
         signals.check();
         progress.show(n);
         const ChunkAt at = chunks[n];
-        if (at.column >= columns_made) {
+        if (!column || column->index() != at.column) {
             const std::vector<goal_character> anyone(crowd.characters_in(at.column), goal_character{1, {}, 0, 0});
-            column = std::make_unique<Column>(crowd, anyone, cache.folder());
-            columns_made = at.column + 1;
+            column = std::make_unique<Column>(crowd, at.column, anyone, cache.folder());
         }
         const std::optional<Results> results = cache.results(at);
         if (!results || column->digest(at.time, *results) != cache.digest(at)) damaged.push_back(at);

@@ -60,7 +60,7 @@ Slice solve_slice(const Cache& cache, ChunkAt at)
     const std::uint64_t stored = cache.digest(at);
     if (stored == 0) throw not_done(at);
     Slice slice{cache.characters(at.column), empty_results(crowd)};
-    Column column(crowd, slice.characters, cache.folder());
+    Column column(crowd, at.column, slice.characters, cache.folder());
     if (crowd.carries_state() && at.time > 0) {
         const std::optional<Results> state = cache.state({at.time - 1, at.column});
         if (!state) throw not_done({at.time - 1, at.column});
