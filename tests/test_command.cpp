@@ -368,6 +368,18 @@ TEST_CASE("command: bench has a row for everyone on every instruction set")
     for (const std::string work : {"P out of cache", "resident", "whole frame"}) CHECK(has_pair(work, info.at("isa")));
     for (const Json& bound : out.at("bounds"))
         CHECK(bound.at("bound_ns") == std::max(bound.at("divider_ns"), bound.at("arithmetic_ns")));
+    CHECK_FALSE(out.contains("sizes"));  // they take time from the others, and only a report shows them
+
+    const Outcome reported =
+        spawn_command(folder.path, {"bench", "--json", "--seconds", "0.2", "--quiet", "--report", "r.html"});
+    REQUIRE(reported.exit_code == 0);
+    const Json sizes = Json::parse(reported.out).at("sizes");
+    CHECK(sizes.size() == 8);
+    for (const Json& size : sizes) {
+        CHECK(size.at("plain_ns") > 0);
+        CHECK(size.at("resident_ns") > 0);
+        CHECK_THAT(slurp(folder / "r.html"), Contains(">" + size.at("arms").dump() + "<"));
+    }
 
     const Outcome text = spawn_command(folder.path, {"bench", "--seconds", "0.2", "--quiet"}, kTerminal);
     CHECK(text.exit_code == 0);

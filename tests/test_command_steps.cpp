@@ -132,7 +132,7 @@ TEST_CASE("steps: a clip's limb in a frame is seen from its arm frame, a right a
 {
     const StepsStage stage;
     const std::vector<PlainArm> arms = arms_of(stage.motion);
-    for (const std::size_t frame : {0, 1})
+    for (const std::size_t frame : {0u, 1u})
         for (const PlainArm& arm : arms) {
             INFO(arm.side << " " << frame);
             const bool is_right = arm.side == "right";
