@@ -123,9 +123,11 @@ test('overlays, colours, light and dark, drawn characters change the picture', a
     const drawn = await difference(page, () => page.evaluate(() => swivelPage.drawFirst(4)));
     assert.ok(drawn.share > 0.005, `${drawn.share}`);
   }, link);
-  const background = (colorScheme) => new Promise((resolve) => {
-    visit(demo, async (page) => resolve(await page.evaluate(() => document.documentElement.dataset.theme)), { colorScheme });
-  });
+  const background = async (colorScheme) => {
+    let theme;
+    await visit(demo, async (page) => { theme = await page.evaluate(() => document.documentElement.dataset.theme); }, { colorScheme });
+    return theme;
+  };
   assert.deepEqual([await background('light'), await background('dark')], ['light', 'dark']);
 });
 
@@ -194,3 +196,4 @@ test('a phone sees the panel below, and a touch chooses', async () => {
     assert.ok(box.width < 400 && box.y > 300);
   }, { ...link, viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true });
 });
+    assert.equal(await frame(), 239);
