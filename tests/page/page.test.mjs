@@ -17,6 +17,7 @@ const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
 }), frames);
 
 test('one classic inline script, no network, the command\'s digests, a picture that moves', async () => {
+  assert.ok(text.includes('three.js authors') && text.includes('Permission is hereby granted'), "three's licence");
   const demo = write('demo.html', 'demo', '--characters', '60');
   const text = readFileSync(demo, 'utf8');
   assert.equal(text.match(/<script/g).length, 1);
