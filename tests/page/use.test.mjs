@@ -4,16 +4,11 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';
-import { difference, drag, until, visit, write } from './harness.mjs';
+import { difference, drag, pixel, until, visit, write } from './harness.mjs';
 
 const demo = write('use.html', 'demo', '--characters', '12');
 /** Looks at character 3 from near; its left arm is chosen by a link. */
 const link = { hash: '#frame=20&character=3&limb=left_arm' };
-const pixel = (page, part) => page.evaluate((which) => {
-  const { stage, view, selection: { limb, character } } = swivelPage;
-  const at = which in { target: 0, pole: 0 } ? stage.goal(limb, character, which) : stage.pose(limb, character)[which];
-  return view.project(at);
-}, part);
 
 test('a dragged wrist gives the native library\'s elbow, bit for bit', async () => {
   await visit(demo, async (page) => {
@@ -157,6 +152,23 @@ test('the lesson shows the library\'s entities, step by step, while the arm is d
   }, link);
 });
 
+test('play, pause and play within one picture play at one speed', async () => {
+  await visit(demo, async (page) => {
+    const ticks = await page.evaluate(async () => {
+      const { player } = swivelPage, times = [], { tick } = player;
+      player.tick = (now) => {
+        times.push(now);
+        tick.call(player, now);
+      };
+      [0, 1, 2].forEach(() => player.toggle());
+      while (times.length < 6) await new Promise(requestAnimationFrame);
+      player.pause();
+      return times;
+    });
+    assert.equal(new Set(ticks).size, ticks.length, `${ticks}`);
+  });
+});
+
 test('keyboard: play, steps, ends, choice, help, follow', async () => {
   await visit(demo, async (page) => {
     const frame = () => page.evaluate(() => swivelPage.stage.frame);
@@ -166,6 +178,7 @@ test('keyboard: play, steps, ends, choice, help, follow', async () => {
     await page.keyboard.press('ArrowRight');
     assert.equal(await frame(), 0);
     await page.keyboard.press('ArrowLeft');
+    assert.equal(await frame(), 239);
     await page.keyboard.press('Home');
     assert.equal(await frame(), 0);
     await page.keyboard.press('n');
@@ -196,4 +209,3 @@ test('a phone sees the panel below, and a touch chooses', async () => {
     assert.ok(box.width < 400 && box.y > 300);
   }, { ...link, viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true });
 });
-    assert.equal(await frame(), 239);
