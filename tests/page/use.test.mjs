@@ -169,6 +169,30 @@ test('play, pause and play within one picture play at one speed', async () => {
   });
 });
 
+test('links: characters drawn or why not, frames and limbs that there are', async () => {
+  await visit(demo, async (page) => {
+    const go = async (hash) => {
+      await page.evaluate((to) => new Promise((resolve) => {
+        addEventListener('hashchange', () => setTimeout(resolve), { once: true });
+        location.hash = to;
+      }), hash);
+      return page.textContent('.notice');
+    };
+    const drawn = () => page.evaluate(() => [swivelPage.drawnCount, Number(document.querySelector('[aria-label=Drawn]').value)]);
+    assert.equal(await go('#drawn=4'), '');
+    assert.deepEqual(await drawn(), [4, 4]);
+    assert.equal(await go('#character=9&limb=left_arm'), '');
+    assert.deepEqual(await drawn(), [10, 10]);
+    assert.equal(await page.evaluate(() => swivelPage.selection.character), 9);
+    assert.match(await go('#character=12&limb=left_arm'), /asks for character 12.* 0 to 11/);
+    assert.match(await go('#frame=240'), /asks for frame 240.* 0 to 239/);
+    assert.match(await go('#character=2&limb=left_wing'), /limb left_wing.*left_arm, right_arm/);
+    await page.evaluate(() => { swivelPage.mostDrawn = 8; });
+    assert.match(await go('#frame=3&character=10&limb=left_arm'), /Character 10 is solved but cannot be shown: .*first 8/);
+    assert.equal(await page.evaluate(() => swivelPage.stage.frame), 3);
+  });
+});
+
 test('keyboard: play, steps, ends, choice, help, follow', async () => {
   await visit(demo, async (page) => {
     const frame = () => page.evaluate(() => swivelPage.stage.frame);
