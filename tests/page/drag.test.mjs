@@ -50,3 +50,43 @@ test('everyone\'s poles that are directions go where the pointer points, whateve
   });
 });
 
+test('a choice by keys ends the drag of a handle', async () => {
+  await visit(demo, async (page) => {
+    for (const key of ['n', 'Escape']) {
+      const at = await pixel(page, 'target');
+      await page.mouse.move(at.x, at.y);
+      await page.mouse.down();
+      await page.keyboard.press(key);
+      await page.mouse.move(at.x + 30, at.y + 20, { steps: 3 });
+      await page.mouse.up();
+      assert.equal(await state(page), 'equal', key);
+    }
+    assert.equal(await page.evaluate(() => swivelPage.selection), null);
+  }, link);
+});
+
+test('two fingers choose nothing, and a second one does not drag', async () => {
+  await visit(demo, async (page) => {
+    const client = await page.context().newCDPSession(page), places = new Map();
+    const touch = (type) => client.send('Input.dispatchTouchEvent', { type, touchPoints: [...places].map(([id, { x, y }]) => ({ id, x, y })) });
+    const down = (id, at) => touch('touchStart', places.set(id, at)), move = (id, at) => touch('touchMove', places.set(id, at));
+    const up = (id) => touch('touchEnd', places.delete(id));
+    const chosen = () => page.evaluate(() => swivelPage.selection && [swivelPage.selection.limb.name, swivelPage.selection.character]);
+    const wrist = await pixel(page, 'wrist'), target = await pixel(page, 'target');
+    await down(0, target);
+    await down(1, { x: target.x - 90, y: target.y });
+    await move(1, { x: target.x - 120, y: target.y + 60 });
+    const now = await pixel(page, 'target');
+    assert.ok(Math.hypot(now.x - target.x, now.y - target.y) < 2, 'the target stays under the first finger');
+    await up(1);
+    await up(0);
+    assert.deepEqual(await chosen(), ['left_arm', 3]);
+    await page.evaluate(() => swivelPage.select(null));
+    await down(0, wrist);
+    await down(1, { x: wrist.x - 90, y: wrist.y });
+    await move(1, { x: wrist.x - 130, y: wrist.y + 10 });
+    await up(0);
+    await up(1);
+    assert.equal(await chosen(), null);
+  }, { ...link, hasTouch: true });
+});
