@@ -81,6 +81,48 @@ for (const [name, [words, toml]] of Object.entries(crowds))
     });
   });
 
+test('panel, overlays and lesson show the limb that is solved, with clavicle, effector and any pole', async () => {
+  for (const pole of ['point', 'normal', 'incoming']) {
+    const toml = file(`${pole}.toml`, `[limb.all]\nclavicle.share = 0.6\neffector = [0.5, 0.2, 0]\npole.kind = "${pole}"\npole.angle_deg = 20\n`);
+    const place = write(`${pole}.html`, 'view', clip, '--characters', '4', '--frames', '60', '--crowd', toml);
+    await visit(place, async (page) => {
+      for (const name of ['left_arm', 'right_arm']) {
+        const seen = await page.evaluate(async (which) => {
+          const { stage, view, lesson } = swivelPage, limb = stage.limbs.find((each) => each.name === which);
+          swivelPage.select({ limb, character: 2 });
+          view.lookAt(2, true);
+          lesson.box.open = true;
+          await new Promise((resolve) => setTimeout(resolve, 100));
+          swivelPage.setFrame(40);
+          swivelPage.draw();
+          const pose = stage.pose(limb, 2), off = (a, b) => Math.hypot(...a.map((coordinate, axis) => coordinate - b[axis]));
+          const label = (text) => [...document.querySelectorAll('.labels span')].find((each) => each.textContent === text).style.transform.match(/-?[\d.]+/g).map(Number);
+          const apart = (text, at) => Math.hypot(label(text)[0] - 8 - view.project(at).x, label(text)[1] + 22 - view.project(at).y);
+          const facts = [...document.querySelectorAll('aside dt')], flexion = parseFloat(facts.find((each) => each.textContent === 'Flexion').nextSibling.textContent);
+          return { sides: [off(pose.shoulder, pose.elbow), off(pose.elbow, pose.wrist), off(pose.shoulder, pose.wrist)], lengths: Array.from(stage.input(limb, 2, 'lengths')),
+            moved: off(pose.shoulder, stage.origin(limb, 2)), flexion, labels: [apart('p_e', pose.elbow), apart('p_w', pose.wrist)], closing: document.querySelector('.lesson .hint').textContent };
+        }, name);
+        const [upper, fore, whole] = seen.sides, flexion = 180 - Math.acos((upper ** 2 + fore ** 2 - whole ** 2) / (2 * upper * fore)) * 180 / Math.PI;
+        assert.ok(seen.moved > 0.01 * upper, 'the clavicle turns');
+        seen.lengths.forEach((length, bone) => assert.ok(Math.abs(length / seen.sides[bone] - 1) < 1e-5, `${pole}: ${seen.sides} ${seen.lengths}`));
+        assert.ok(Math.abs(seen.flexion - flexion) < 0.11, `${pole}: ${seen.flexion} ${flexion}`);
+        assert.ok(Math.max(...seen.labels) < 0.5, `${pole}, ${name}: labels are ${seen.labels} pixels from elbow and wrist`);
+        assert.ok(!seen.closing.includes('another'), seen.closing);
+      }
+    });
+  }
+});
+
+test('the lesson says where the solver goes another way', async () => {
+  const open = (name, toml, expected) => visit(write(name, 'view', clip, '--frames', '5', '--crowd', file(`${name}.toml`, toml)), async (page) => {
+    await page.getByText('The lecture, step by step').click();
+    await page.locator('.lesson h3', { hasText: '1. ' }).waitFor();
+    assert.match(await page.textContent('.lesson'), expected);
+  });
+  await open('aims.html', '[limb.all]\naim = { axis = [0, 1, 0], flexion_deg = 60 }\n', /This limb aims/);
+  await open('weights.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\nweights.position = 0.3\n', /The solver's arm is another: .* arm lengths away/);
+});
+
 test('a crowd that carries state has the command\'s digests if it is played in order', async () => {
   const toml = file('state.toml', '[budget]\nblocks = 3\n[limb.all]\nswivel.most_deg_per_frame = 2\n');
   const place = write('state.html', 'view', clip, '--characters', '100', '--frames', '40', '--crowd', toml);

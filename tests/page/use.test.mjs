@@ -152,6 +152,25 @@ test('the lesson shows the library\'s entities, step by step, while the arm is d
   }, link);
 });
 
+test('the lesson leaves keys alone while it is closed, and errors that are not the solver\'s', async () => {
+  await visit(demo, async (page) => {
+    const summary = page.getByText('The lecture, step by step');
+    await summary.focus();
+    await page.keyboard.press('ArrowRight');
+    await summary.click();
+    await page.locator('.lesson h3:not(:empty)').waitFor();
+    assert.ok((await page.textContent('.lesson h3')).startsWith('1. '));
+    await summary.focus();
+    await page.keyboard.press('ArrowRight');
+    assert.ok((await page.textContent('.lesson h3')).startsWith('2. '));
+    assert.equal(await page.evaluate(() => {
+      swivelPage.stage.swivel.steps = () => { throw new TypeError('a fault'); };
+      try { swivelPage.setFrame(3); } catch (error) { return error.message; }
+      return 'hidden';
+    }), 'a fault');
+  }, link);
+});
+
 test('play, pause and play within one picture play at one speed', async () => {
   await visit(demo, async (page) => {
     const ticks = await page.evaluate(async () => {
