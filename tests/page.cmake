@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise: the page that swivel view writes opens from disk, solves as the library does, and can be used (page/).
-#   BUILD: a build folder of emscripten. SWIVEL: the command, in a folder beside which the page's program goes. ARM: swivel's build of page/arm.cpp.
+#   BUILD: a build folder of emscripten. SWIVEL: the command, of which a copy goes beside the page's program. ARM: the program of page/limb.cpp.
 #   SOURCE: the repository. WORK: an own folder. NODE, CHROMIUM.
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
@@ -16,9 +16,10 @@ foreach(folder tests/page tools/view)
     message(FATAL_ERROR "npm packages are missing; run: tools/npm_packages ${folder}")
   endif()
 endforeach()
-get_filename_component(share ${SWIVEL}/../../share/swivel ABSOLUTE)
-file(MAKE_DIRECTORY ${WORK} ${share})
+file(MAKE_DIRECTORY ${WORK}/share/swivel)
+file(COPY ${SWIVEL} DESTINATION ${WORK}/bin)
+get_filename_component(command ${SWIVEL} NAME)
 run(${CMAKE_COMMAND} --build ${BUILD} --target swivel_wasm_package swivel_view)
-run(${NODE} ${SOURCE}/tools/view/bundle.mjs ${BUILD}/tools/wasm ${share}/view.html)
+run(${NODE} ${SOURCE}/tools/view/bundle.mjs ${BUILD}/tools/wasm ${WORK}/share/swivel/view.html)
 file(GLOB tests ${SOURCE}/tests/page/*.test.mjs)
-run(${CMAKE_COMMAND} -E env SWIVEL=${SWIVEL} ARM=${ARM} CHROMIUM=${CHROMIUM} WORK=${WORK} ${NODE} --test ${tests})
+run(${CMAKE_COMMAND} -E env SWIVEL=${WORK}/bin/${command} ARM=${ARM} CHROMIUM=${CHROMIUM} WORK=${WORK} ${NODE} --test ${tests})

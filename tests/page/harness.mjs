@@ -4,7 +4,7 @@
 //   SWIVEL: the command. CHROMIUM. WORK: a folder for pages.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { existsSync } from 'node:fs';
+import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after } from 'node:test';
 import { chromium } from 'playwright-core';
@@ -18,6 +18,11 @@ const browser = await chromium.launch({
 });
 after(() => browser.close());
 
+/** Writes a file into the folder for pages. */
+export function file(name, text) {
+  writeFileSync(join(WORK, name), text);
+  return join(WORK, name);
+}
 /** Writes a page by the command, and returns its place. */
 export function write(name, ...words) {
   const file = join(WORK, name);
@@ -44,6 +49,25 @@ export async function visit(file, use, { before, hash = '', ...options } = {}) {
     await context.close();
   }
 }
+
+/** What a page says in place of a crowd. before: as visit() has it. */
+export async function refusal(place, { before } = {}) {
+  const page = await browser.newPage();
+  try {
+    if (before) await page.addInitScript(before);
+    await page.goto(`file://${encodeURI(place)}`);
+    return await page.textContent('.refusal');
+  } finally {
+    await page.close();
+  }
+}
+
+/** Where a part of the chosen limb is on the page: "target", "pole", "shoulder", "elbow" or "wrist". */
+export const pixel = (page, part) => page.evaluate((which) => {
+  const { stage, view, selection: { limb, character } } = swivelPage;
+  const at = which in { target: 0, pole: 0 } ? stage.goal(limb, character, which) : stage.pose(limb, character)[which];
+  return view.project(at);
+}, part);
 
 /** How much of the picture differs between two moments, as a share of its pixels. */
 export async function difference(page, act) {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The promise: the page opens from disk alone, gives the command's bits in every frame, and draws what the solver found.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { clip, difference, visit, write } from './harness.mjs';
+import { clip, difference, file, refusal, run, visit, write } from './harness.mjs';
 
-const { WORK } = process.env;
-const file = (name, text) => {
-  writeFileSync(join(WORK, name), text);
-  return join(WORK, name);
-};
 const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
   swivelPage.setFrame(frame);
   return swivelPage.stage.digestState();
@@ -22,6 +17,7 @@ test('one classic inline script, no network, the command\'s digests, a picture t
   assert.equal(text.match(/<script/g).length, 1);
   assert.ok(text.includes('<script>'));
   assert.equal(text.match(/<\/script/g).length, 1);
+  assert.ok(text.includes('three.js authors') && text.includes('Permission is hereby granted'), "three's licence");
   await visit(demo, async (page) => {
     assert.equal(await page.title(), 'swivel demo – swivel');
     assert.deepEqual(await state(page, [0, 1, 17, 239, 5]), Array(5).fill('equal'));
@@ -48,16 +44,21 @@ pole.kind = "direction"
 target.offset = [0, 4, 3]
 reach = { soft_far = 0.1, most_stretch = 1.4 }
 `],
+  'aiming hands': [['--characters', '30', '--frames', '300'], `[limb.all]
+aim = { axis = [0, 1, 0], flexion_deg = 60 }
+effector = [0, 0.5, 0.2]
+target.offset = [3, 4, 9]
+`],
 };
 for (const [name, [words, toml]] of Object.entries(crowds))
-  test(`the shader's elbows and wrists are swivel_forward's: ${name}`, async () => {
+  test(`the shader's elbows, wrists and errors are the library's: ${name}`, async () => {
     const more = toml ? ['--crowd', file('crowd.toml', toml)] : [];
     const place = write(`${name.replaceAll(/\W+/g, '_')}.html`, 'view', clip, ...words, ...more);
     await visit(place, async (page) => {
       assert.deepEqual(await state(page, [0, 150, 299]), Array(3).fill('equal'));
-      const worst = await page.evaluate(() => {
+      const [worst, wrong] = await page.evaluate(() => {
         const { stage } = swivelPage, count = stage.characterCount;
-        let most = 0;
+        let most = 0, wrong = 0;
         for (const frame of [0, 40, 120, 299]) {
           swivelPage.setFrame(frame);
           swivelPage.draw();
@@ -65,6 +66,7 @@ for (const [name, [words, toml]] of Object.entries(crowds))
             const drawn = swivelPage.readback(limb, count);
             for (let n = 0; n < count; ++n) {
               const { elbow, wrist } = stage.pose(limb, n), { place } = stage.characters[n];
+              wrong = Math.max(wrong, Math.abs(drawn[2 * n][3] - stage.residual(limb, n)));
               [elbow, wrist].forEach((joint, which) => {
                 const off = Math.hypot(...joint.map((coordinate, axis) => coordinate - place[axis] - drawn[2 * n + which][axis]));
                 most = Math.max(most, off / stage.armLength(limb, n));
@@ -72,11 +74,54 @@ for (const [name, [words, toml]] of Object.entries(crowds))
             }
           }
         }
-        return most;
+        return [most, wrong];
       });
       assert.ok(worst > 0 && worst < 1e-5, `${worst} arm lengths`);
+      assert.ok(wrong < 1e-5, `errors are wrong by ${wrong} arm lengths`);
     });
   });
+
+test('panel, overlays and lesson show the limb that is solved, with clavicle, effector and any pole', async () => {
+  for (const pole of ['point', 'normal', 'incoming']) {
+    const toml = file(`${pole}.toml`, `[limb.all]\nclavicle.share = 0.6\neffector = [0.5, 0.2, 0]\npole.kind = "${pole}"\npole.angle_deg = 20\n`);
+    const place = write(`${pole}.html`, 'view', clip, '--characters', '4', '--frames', '60', '--crowd', toml);
+    await visit(place, async (page) => {
+      for (const name of ['left_arm', 'right_arm']) {
+        const seen = await page.evaluate(async (which) => {
+          const { stage, view, lesson } = swivelPage, limb = stage.limbs.find((each) => each.name === which);
+          swivelPage.select({ limb, character: 2 });
+          view.lookAt(2, true);
+          lesson.box.open = true;
+          await new Promise((resolve) => setTimeout(resolve, 100));
+          swivelPage.setFrame(40);
+          swivelPage.draw();
+          const pose = stage.pose(limb, 2), off = (a, b) => Math.hypot(...a.map((coordinate, axis) => coordinate - b[axis]));
+          const label = (text) => [...document.querySelectorAll('.labels span')].find((each) => each.textContent === text).style.transform.match(/-?[\d.]+/g).map(Number);
+          const apart = (text, at) => Math.hypot(label(text)[0] - 8 - view.project(at).x, label(text)[1] + 22 - view.project(at).y);
+          const facts = [...document.querySelectorAll('aside dt')], flexion = parseFloat(facts.find((each) => each.textContent === 'Flexion').nextSibling.textContent);
+          return { sides: [off(pose.shoulder, pose.elbow), off(pose.elbow, pose.wrist), off(pose.shoulder, pose.wrist)], lengths: Array.from(stage.input(limb, 2, 'lengths')),
+            moved: off(pose.shoulder, stage.origin(limb, 2)), flexion, labels: [apart('p_e', pose.elbow), apart('p_w', pose.wrist)], closing: document.querySelector('.lesson .hint').textContent };
+        }, name);
+        const [upper, fore, whole] = seen.sides, flexion = 180 - Math.acos((upper ** 2 + fore ** 2 - whole ** 2) / (2 * upper * fore)) * 180 / Math.PI;
+        assert.ok(seen.moved > 0.01 * upper, 'the clavicle turns');
+        seen.lengths.forEach((length, bone) => assert.ok(Math.abs(length / seen.sides[bone] - 1) < 1e-5, `${pole}: ${seen.sides} ${seen.lengths}`));
+        assert.ok(Math.abs(seen.flexion - flexion) < 0.11, `${pole}: ${seen.flexion} ${flexion}`);
+        assert.ok(Math.max(...seen.labels) < 0.5, `${pole}, ${name}: labels are ${seen.labels} pixels from elbow and wrist`);
+        assert.ok(!seen.closing.includes('another'), seen.closing);
+      }
+    });
+  }
+});
+
+test('the lesson says where the solver goes another way', async () => {
+  const open = (name, toml, expected) => visit(write(name, 'view', clip, '--frames', '5', '--crowd', file(`${name}.toml`, toml)), async (page) => {
+    await page.getByText('The lecture, step by step').click();
+    await page.locator('.lesson h3', { hasText: '1. ' }).waitFor();
+    assert.match(await page.textContent('.lesson'), expected);
+  });
+  await open('aims.html', '[limb.all]\naim = { axis = [0, 1, 0], flexion_deg = 60 }\n', /This limb aims/);
+  await open('weights.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\nweights.position = 0.3\n', /The solver's arm is another: .* arm lengths away/);
+});
 
 test('a crowd that carries state has the command\'s digests if it is played in order', async () => {
   const toml = file('state.toml', '[budget]\nblocks = 3\n[limb.all]\nswivel.most_deg_per_frame = 2\n');
@@ -95,6 +140,37 @@ test('goals of one\'s own are the command\'s, too', async () => {
   await visit(place, async (page) => assert.deepEqual(await state(page, [0, 7, 10, 29]), Array(4).fill('equal')));
 });
 
+test('a page of a cache has the command\'s digests, too', async () => {
+  rmSync(join(process.env.WORK, 'crowd.zarr'), { recursive: true, force: true });
+  assert.equal(run('store', clip, 'crowd.zarr', '--characters', '20', '--frames', '5', '--store', 'goals').status, 0);
+  assert.equal(run('fill', 'crowd.zarr').status, 0);
+  await visit(write('cache.html', 'view', 'crowd.zarr'), async (page) => assert.deepEqual(await state(page, [0, 1, 4]), Array(3).fill('equal')));
+});
+
+test('a long clip opens', async () => {
+  await visit(write('long.html', 'demo', '--characters', '2'), async (page) => {
+    const frames = await page.evaluate(async () => {  // the clip 600 times: more than the module's memory was without it
+      const { data } = swivelPage.stage, long = (text) => text.repeat(600), canvas = document.createElement('canvas');
+      document.body.replaceChildren(canvas);
+      const page = await swivelView.start({ ...data, frame_count: 600 * data.frame_count, positions: long(data.positions),
+        limbs: data.limbs.map((limb) => ({ ...limb, sources: long(limb.sources) })) });
+      page.setFrame(100);
+      return [page.stage.frameCount, page.stage.digestState()];
+    });
+    assert.deepEqual(frames, [144000, 'equal']);
+  });
+});
+
+test('a page\'s program and a command that do not fit get a sentence', async () => {
+  const text = readFileSync(write('fits.html', 'demo', '--characters', '2', '--frames', '3'), 'utf8');
+  const refused = (name, from, to) => {
+    assert.notEqual(text.replace(from, to), text);
+    return refusal(file(name, text.replace(from, to)));
+  };
+  assert.match(await refused('version.html', /"version":"[\d.]+"/, '"version":"9.8.7"'), /the command is swivel 9\.8\.7, and the page's program is swivel \d/);
+  assert.match(await refused('plan.html', /"plan":"..../, '"plan":"'), /wrote 117 bytes for the plan of left_arm, and the page's program expects 120/);
+});
+
 test('names from files are text', async () => {
   const evil = '</script><img/src=x/onerror=alert(1)>"\'&';
   const text = readFileSync(clip, 'utf8').replace(/ROOT \S+/, `ROOT ${evil}`);
@@ -107,9 +183,14 @@ test('names from files are text', async () => {
   });
 });
 
-test('a browser without WebGL 2 or SIMD gets a sentence', async () => {
+test('a browser without WebGL 2 or SIMD, or with small textures, gets a sentence', async () => {
   const place = write('small.html', 'demo', '--characters', '2', '--frames', '3');
   const expect = (words, before) => visit(place, async (page) => assert.ok((await page.textContent('body')).includes(words)), { before });
+  const words = await refusal(place, { before: () => {
+    const { getParameter } = WebGL2RenderingContext.prototype;
+    WebGL2RenderingContext.prototype.getParameter = function (name) { return name === WebGL2RenderingContext.MAX_TEXTURE_SIZE ? 1024 : getParameter.call(this, name); };
+  } });
+  assert.match(words, /graphics cannot hold .*: a texture has 1024 texels a side, and they take \d+\. Take fewer --frames/);
   await expect('This browser has no WebGL 2', () => { HTMLCanvasElement.prototype.getContext = () => null; });
   await expect('This browser has no WebAssembly with SIMD', () => { WebAssembly.validate = () => false; });
   await expect('This browser has no WebAssembly,', () => { delete window.WebAssembly; });

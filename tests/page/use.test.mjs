@@ -4,16 +4,11 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';
-import { difference, drag, until, visit, write } from './harness.mjs';
+import { difference, drag, pixel, until, visit, write } from './harness.mjs';
 
 const demo = write('use.html', 'demo', '--characters', '12');
 /** Looks at character 3 from near; its left arm is chosen by a link. */
 const link = { hash: '#frame=20&character=3&limb=left_arm' };
-const pixel = (page, part) => page.evaluate((which) => {
-  const { stage, view, selection: { limb, character } } = swivelPage;
-  const at = which in { target: 0, pole: 0 } ? stage.goal(limb, character, which) : stage.pose(limb, character)[which];
-  return view.project(at);
-}, part);
 
 test('a dragged wrist gives the native library\'s elbow, bit for bit', async () => {
   await visit(demo, async (page) => {
@@ -123,9 +118,11 @@ test('overlays, colours, light and dark, drawn characters change the picture', a
     const drawn = await difference(page, () => page.evaluate(() => swivelPage.drawFirst(4)));
     assert.ok(drawn.share > 0.005, `${drawn.share}`);
   }, link);
-  const background = (colorScheme) => new Promise((resolve) => {
-    visit(demo, async (page) => resolve(await page.evaluate(() => document.documentElement.dataset.theme)), { colorScheme });
-  });
+  const background = async (colorScheme) => {
+    let theme;
+    await visit(demo, async (page) => { theme = await page.evaluate(() => document.documentElement.dataset.theme); }, { colorScheme });
+    return theme;
+  };
   assert.deepEqual([await background('light'), await background('dark')], ['light', 'dark']);
 });
 
@@ -155,6 +152,66 @@ test('the lesson shows the library\'s entities, step by step, while the arm is d
   }, link);
 });
 
+test('the lesson leaves keys alone while it is closed, and errors that are not the solver\'s', async () => {
+  await visit(demo, async (page) => {
+    const summary = page.getByText('The lecture, step by step');
+    await summary.focus();
+    await page.keyboard.press('ArrowRight');
+    await summary.click();
+    await page.locator('.lesson h3:not(:empty)').waitFor();
+    assert.ok((await page.textContent('.lesson h3')).startsWith('1. '));
+    await summary.focus();
+    await page.keyboard.press('ArrowRight');
+    assert.ok((await page.textContent('.lesson h3')).startsWith('2. '));
+    assert.equal(await page.evaluate(() => {
+      swivelPage.stage.swivel.steps = () => { throw new TypeError('a fault'); };
+      try { swivelPage.setFrame(3); } catch (error) { return error.message; }
+      return 'hidden';
+    }), 'a fault');
+  }, link);
+});
+
+test('play, pause and play within one picture play at one speed', async () => {
+  await visit(demo, async (page) => {
+    const ticks = await page.evaluate(async () => {
+      const { player } = swivelPage, times = [], { tick } = player;
+      player.tick = (now) => {
+        times.push(now);
+        tick.call(player, now);
+      };
+      [0, 1, 2].forEach(() => player.toggle());
+      while (times.length < 6) await new Promise(requestAnimationFrame);
+      player.pause();
+      return times;
+    });
+    assert.equal(new Set(ticks).size, ticks.length, `${ticks}`);
+  });
+});
+
+test('links: characters drawn or why not, frames and limbs that there are', async () => {
+  await visit(demo, async (page) => {
+    const go = async (hash) => {
+      await page.evaluate((to) => new Promise((resolve) => {
+        addEventListener('hashchange', () => setTimeout(resolve), { once: true });
+        location.hash = to;
+      }), hash);
+      return page.textContent('.notice');
+    };
+    const drawn = () => page.evaluate(() => [swivelPage.drawnCount, Number(document.querySelector('[aria-label=Drawn]').value)]);
+    assert.equal(await go('#drawn=4'), '');
+    assert.deepEqual(await drawn(), [4, 4]);
+    assert.equal(await go('#character=9&limb=left_arm'), '');
+    assert.deepEqual(await drawn(), [10, 10]);
+    assert.equal(await page.evaluate(() => swivelPage.selection.character), 9);
+    assert.match(await go('#character=12&limb=left_arm'), /asks for character 12.* 0 to 11/);
+    assert.match(await go('#frame=240'), /asks for frame 240.* 0 to 239/);
+    assert.match(await go('#character=2&limb=left_wing'), /limb left_wing.*left_arm, right_arm/);
+    await page.evaluate(() => { swivelPage.mostDrawn = 8; });
+    assert.match(await go('#frame=3&character=10&limb=left_arm'), /Character 10 is solved but cannot be shown: .*first 8/);
+    assert.equal(await page.evaluate(() => swivelPage.stage.frame), 3);
+  });
+});
+
 test('keyboard: play, steps, ends, choice, help, follow', async () => {
   await visit(demo, async (page) => {
     const frame = () => page.evaluate(() => swivelPage.stage.frame);
@@ -164,6 +221,7 @@ test('keyboard: play, steps, ends, choice, help, follow', async () => {
     await page.keyboard.press('ArrowRight');
     assert.equal(await frame(), 0);
     await page.keyboard.press('ArrowLeft');
+    assert.equal(await frame(), 239);
     await page.keyboard.press('Home');
     assert.equal(await frame(), 0);
     await page.keyboard.press('n');

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "swivel/swivel.h"
 #include "tools/cli/command_error.h"

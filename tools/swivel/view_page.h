@@ -4,8 +4,8 @@
 // crowd is written into it. Knows what the page holds; what it draws is the page's affair.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>

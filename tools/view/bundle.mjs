@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // usage: node tools/view/bundle.mjs WASM_FOLDER PAGE
-// Puts the page's program, three.js and the wasm module into one HTML file. WASM_FOLDER: where tools/wasm was built.
+// Puts the page's program, three.js with its licence, and the wasm module into one HTML file. WASM_FOLDER: where tools/wasm was built.
 import { readFile, rename, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
@@ -20,6 +20,8 @@ const { outputFiles } = await build({
     define: { "import.meta.url": "location.href" },  // where the package looks for its own module, which the page brings
 });
 const program = outputFiles[0].text.replaceAll("</script", "<\\/script");
-const shell = await readFile(here("page.html"), "utf8");
-await writeFile(`${page}.partial`, shell.replace("/*program*/", () => program));
+const shell = await readFile(here("page.html"), "utf8"), licence = await readFile(here("node_modules/three/LICENSE"), "utf8");
+if (licence.includes("--")) throw new Error("three's licence cannot stand in a comment of HTML");
+const notice = `<!--\nThis page's program has three.js in it.\n\n${licence.trim()}\n-->`;
+await writeFile(`${page}.partial`, shell.replace("<!--notices-->", () => notice).replace("/*program*/", () => program));
 await rename(`${page}.partial`, page);

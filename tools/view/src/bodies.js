@@ -16,9 +16,9 @@ import limbFragment from "./limb.frag.glsl";
 import limbGlsl from "./limb.glsl";
 import limbVertex from "./limb.vert.glsl";
 import { floatTexture, LimbRows } from "./rows.js";
-import { layout } from "./stage.js";
+import { Flag, rotationOf } from "./stage.js";
 
-export const SUN = new Vector3(0.45, 1, 0.35);
+const SUN = new Vector3(0.45, 1, 0.35);
 
 /**
  * The capsules of one character, each with its axis along z: directions from the axis, which end they belong to, and the part that the
@@ -44,23 +44,31 @@ function capsules(partCount, isShadow) {
     return geometry;
 }
 
-function quaternionAt(binding, member) {
-    return new Vector4().fromArray(new Float32Array(binding.bytes.slice(layout.swivel_binding[member]).buffer, 0, 4)).normalize();
-}
+const quaternionOf = (binding, member) => new Vector4().fromArray(rotationOf(binding, member));
+
+/** The flags of each colour, as limb.frag.glsl asks for them. */
+const LIMITS = Object.keys(Flag).filter((name) => name.startsWith("LIMITED_"));
+const flagsOf = (...names) => `${names.reduce((word, name) => word | Flag[name], 0)}u`;
+const DEFINES = {
+    BAD: flagsOf("BAD_INPUT"), UNDEFINED: flagsOf("SWIVEL_UNDEFINED"), LIMITED: flagsOf(...LIMITS, "INFEASIBLE", "JUMPED"),
+    CLAMPED: flagsOf("CLAMPED_FAR", "CLAMPED_NEAR"), EASED: flagsOf("SOFTENED", "STRETCHED"),
+};
 
 export class Bodies {
-    /** scale: metres of the scene for a unit of the clip. */
-    constructor(stage, figure, scale) {
+    /** scale: metres of the scene for a unit of the clip. mostTexels: of a side of a texture. */
+    constructor(stage, figure, scale, mostTexels) {
         this.stage = stage;
         this.figure = figure;
+        this.mostTexels = mostTexels;
         this.meshes = [];
         this.drawnCount = 1;  // until show() says it
         const { characters } = stage, jointCount = figure.jointCount;
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
         this.shared = {
-            uCharacters: floatTexture(characters.flatMap(({ size, place, start }) => [...place, size, start, 0, 0, 0])),
-            uPositions: floatTexture(positions), uFrame: 0, uFrameCount: figure.frameCount, uJointCount: jointCount,
+            uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start }) => [...place, size, start, 0, 0, 0]), mostTexels),
+            uPositions: floatTexture("the clip's positions", positions, mostTexels),
+            uFrame: 0, uFrameCount: figure.frameCount, uJointCount: jointCount,
             uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
             uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
         };
@@ -71,7 +79,7 @@ export class Bodies {
 
     addBody() {
         const bones = this.figure.bodyBones();
-        const texels = floatTexture(bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]));
+        const texels = floatTexture("the bones", bones.flatMap(({ a, b, radiusA, radiusB }) => [a, b, radiusA, radiusB]), this.mostTexels);
         this.bodyColour = { value: rgb("#888888") };
         const uniforms = { uBones: { value: texels }, uColour: this.bodyColour };
         this.add(bones.length, uniforms, [crowdGlsl, capsule, bodyVertex], bodyFragment);
@@ -79,9 +87,9 @@ export class Bodies {
     addLimb(limb) {
         const { radii, tip } = this.figure.limbShape(limb), { binding } = limb;
         const uniforms = {
-            uUpperFromArm: quaternionAt(binding, "upper_from_arm"), uElbowParentFromArm: quaternionAt(binding, "elbow_parent_from_arm"),
-            uForeFromArm: quaternionAt(binding, "fore_from_arm"), uWristParentFromArm: quaternionAt(binding, "wrist_parent_from_arm"),
-            uWristRest: quaternionAt(binding, "wrist_rest"), uMirror: limb.mirrored ? -1 : 1, uTip: tip,
+            uUpperFromArm: quaternionOf(binding, "upper_from_arm"), uElbowParentFromArm: quaternionOf(binding, "elbow_parent_from_arm"),
+            uForeFromArm: quaternionOf(binding, "fore_from_arm"), uWristParentFromArm: quaternionOf(binding, "wrist_parent_from_arm"),
+            uWristRest: quaternionOf(binding, "wrist_rest"), uMirror: limb.mirrored ? -1 : 1, uTip: tip,
             uRadii: new Vector4(1.05 * radii[0], 0.85 * radii[0], 0.8 * radii[1], 0.75 * radii[2]), uUpperJoint: limb.joints[0], uChosen: -1,
             uColour: rgb(LIMB_COLOURS[limb.index % LIMB_COLOURS.length]), uChosenColour: rgb(CHOSEN), uColourBy: 0,
             uRamp: rampColours(), uFlagColours: flagColours(),
@@ -98,7 +106,7 @@ export class Bodies {
         if (drawn.crowd === crowd && drawn.rows.blocks === blocks) return drawn.rows.update();
         drawn.rows?.dispose();
         drawn.crowd = crowd;
-        drawn.rows = new LimbRows(crowd, drawn.limb, blocks);
+        drawn.rows = new LimbRows(crowd, drawn.limb, blocks, this.mostTexels);
         for (const [name, value] of Object.entries(drawn.rows.uniforms)) {
             drawn.uniforms[name] ??= { value };
             drawn.uniforms[name].value = value;
@@ -109,7 +117,7 @@ export class Bodies {
         const uniforms = { ...this.shared, ...own };
         for (const shadow of [false, true]) {
             const material = new ShaderMaterial({
-                uniforms, glslVersion: GLSL3, defines: shadow ? { SHADOW: "" } : {},
+                uniforms, glslVersion: GLSL3, defines: shadow ? { ...DEFINES, SHADOW: "" } : DEFINES,
                 vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
                 ...(shadow ? { depthFunc: LessDepth } : {}),
             });

@@ -3,10 +3,13 @@
 // The page's binary data: base64 of C structures, as tools/crowd/goals.h and batch/swivel.h lay them out.
 
 /** Bytes of each structure. */
-export const SIZE = { character: 40, source: 184, input: 124, given: 56 };
+export const SIZE = { character: 40, source: 184, input: 124, plan: 120, given: 56 };
 
 /** Where the floats of a goal_input begin, counted in floats. */
 export const INPUT = { target: 0, pole: 3, lengths: 6, position: 8, rotation: 11, hand: 15, shoulder: 19, elbow: 23, wrist: 27, count: 31 };
+
+/** How many bytes a text stands for. */
+export const byteCountOf = (base64) => base64.length / 4 * 3 - (base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0);
 
 export function bytesOf(base64) {
     const text = atob(base64), bytes = new Uint8Array(text.length);
@@ -30,6 +33,7 @@ export function charactersOf(bytes) {
 /** What is drawn of a limb's goal_source in each frame: its shoulder in the world, and its hand's rotation as solved. */
 export class Sources {
     constructor(bytes) { this.view = new DataView(bytes.buffer); }
+    get frameCount() { return this.view.byteLength / SIZE.source; }
     doubles(frame, first, count) {
         return Array.from({ length: count }, (_, n) => this.view.getFloat64(frame * SIZE.source + 8 * (first + n), true));
     }

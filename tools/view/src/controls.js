@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Limits, weights, reach and step of all limbs of a kind, by sliders. A switch adds the field to the crowd or takes it
-// away.
+// away, the crowd file's, too.
 import { checkbox, element, section, slider } from "./dom.js";
-import { Feature } from "./stage.js";
+import { Feature, SwivelError } from "./stage.js";
 
 const RADIANS = Math.PI / 180;
 const degreesOfHalf = (cos) => 2 * Math.acos(cos) / RADIANS;
@@ -12,8 +12,11 @@ const angle = (text, least, most, value) => ({ text, min: least, max: most, step
 const share = (text, value, max = 1) => ({ text, min: 0, max, step: 0.01, value });
 
 /** Numbers of a range as the solver has it: its ends in degrees, and back. Twists of the other side turn the other way. */
-const rangeEnds = (range) => [middle(range) - middle(range.slice(2)), middle(range) + middle(range.slice(2))];
-const range = (swivel, [least, most], isOther) => {
+const rangeEnds = (range, { isOther }) => {
+    const [from, to] = [middle(range) - middle(range.slice(2)), middle(range) + middle(range.slice(2))];
+    return isOther ? [-to, -from] : [from, to];
+};
+const range = (swivel, [least, most], { isOther }) => {
     const [from, to] = [Math.min(least, most) * RADIANS, Math.max(least, most) * RADIANS];
     return isOther ? swivel.range(-to, -from) : swivel.range(from, to);
 };
@@ -21,37 +24,43 @@ const range = (swivel, [least, most], isOther) => {
 /** Axes of each order of Euler angles, in the order's own sequence. Mirrored in x, turns about y and z change their sense. */
 const AXES = [[0, 1, 2], [0, 2, 1], [1, 2, 0], [1, 0, 2], [2, 0, 1], [2, 1, 0]];
 const boxSliders = ["x", "y", "z"].flatMap((axis) => [angle(`${axis} least`, -180, 180, -60), angle(`${axis} most`, -180, 180, 60)]);
-const box = (swivel, numbers, isOther, old, order) =>
-    AXES[order].flatMap((axis) => Array.from(range(swivel, numbers.slice(2 * axis, 2 * axis + 2), isOther && axis > 0)));
-const boxEnds = (value, order) => AXES[order].reduce((ends, axis, n) => {
-    [ends[2 * axis], ends[2 * axis + 1]] = rangeEnds(value.slice(4 * n, 4 * n + 4));
+const box = (swivel, numbers, { isOther, order }) =>
+    AXES[order].flatMap((axis) => Array.from(range(swivel, numbers.slice(2 * axis, 2 * axis + 2), { isOther: isOther && axis > 0 })));
+const boxEnds = (value, { isOther, order }) => AXES[order].reduce((ends, axis, n) => {
+    [ends[2 * axis], ends[2 * axis + 1]] = rangeEnds(value.slice(4 * n, 4 * n + 4), { isOther: isOther && axis > 0 });
     return ends;
 }, []);
 
-/** Each field: what its sliders are, its value from their numbers, their numbers from its value. */
+/** The axis that the crowd file gives, or the limb's own. */
+const axisOf = ({ given }) => (given ? Array.from(given).slice(0, 3) : [0, 0, 1]);
+const cone = (opening) => ({
+    sliders: [angle("Opening", 0, 180, opening)],
+    value: (swivel, [most], limb) => swivel.cone(axisOf(limb), most * RADIANS), numbers: (value) => [Math.acos(value[3]) / RADIANS],
+});
+
+/**
+ * Each field: what its sliders are, its value from their numbers, their numbers from its value. Both get what of the limb matters: isOther,
+ * whether its twists turn the other way, the order of its boxes, and the value that the crowd file gives.
+ */
 const FIELDS = [
     { name: "FLEXION_LIMIT", title: "Flexion", sliders: [angle("Least", 0, 180, 10), angle("Most", 0, 180, 140)],
         value: (swivel, [least, most]) => swivel.flexion(Math.min(least, most) * RADIANS, Math.max(least, most) * RADIANS),
         numbers: (value) => [degreesOfHalf(value[0]), degreesOfHalf(value[1])] },
-    { name: "SHOULDER_CONE", title: "Shoulder cone", sliders: [angle("Opening", 0, 180, 80)],
-        value: (swivel, [most], isOther, old) => swivel.cone(old ? old.slice(0, 3) : [0, 0, 1], most * RADIANS),
-        numbers: (value) => [Math.acos(value[3]) / RADIANS] },
+    { name: "SHOULDER_CONE", title: "Shoulder cone", ...cone(80) },
     { name: "HUMERAL_TWIST", title: "Humeral twist", sliders: [angle("Least", -180, 180, -60), angle("Most", -180, 180, 60)],
         value: range, numbers: rangeEnds },
     { name: "SHOULDER_BOX", title: "Shoulder box", order: "shoulder_order", sliders: boxSliders, value: box, numbers: boxEnds },
-    { name: "HAND_CONE", title: "Hand cone", needs: "WITH_HAND", sliders: [angle("Opening", 0, 180, 60)],
-        value: (swivel, [most], isOther, old) => swivel.cone(old ? old.slice(0, 3) : [0, 0, 1], most * RADIANS),
-        numbers: (value) => [Math.acos(value[3]) / RADIANS] },
+    { name: "HAND_CONE", title: "Hand cone", needs: "WITH_HAND", ...cone(60) },
     { name: "FOREARM_TWIST", title: "Forearm twist", needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
         value: range, numbers: rangeEnds },
     { name: "HAND_TWIST", title: "Hand twist", needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
-        value: (swivel, ends, isOther, old) => [...(old ? old.slice(0, 3) : [0, 0, 1]), ...range(swivel, ends, isOther)],
-        numbers: (value) => rangeEnds(value.slice(3)) },
+        value: (swivel, ends, limb) => [...axisOf(limb), ...range(swivel, ends, limb)], numbers: (value, limb) => rangeEnds(value.slice(3), limb) },
     { name: "WRIST_BOX", title: "Wrist box", needs: "WITH_HAND", order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "WEIGHTS", title: "Weights", sliders: [share("Position", 1), share("Hand", 1), share("Pole", 1)],
         value: (swivel, weights) => weights, numbers: (value) => value },
     { name: "REACH", title: "Reach",
-        sliders: [share("Soft, far", 0.05, 0.5), share("Soft, near", 0, 0.5), { text: "Stretch", min: 1, max: 2, step: 0.01, value: 1 }, share("Least distance", 0)],
+        sliders: [share("Soft, far", 0.05, 0.5), share("Soft, near", 0, 0.5), { text: "Stretch", min: 1, max: 2, step: 0.01, value: 1 },
+            share("Least distance", 0)],
         value: (swivel, numbers) => numbers, numbers: (value) => value },
     { name: "MOST_SWIVEL", title: "Step", sliders: [angle("Most, a frame", 0, 90, 5)],
         value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
@@ -66,40 +75,60 @@ function obstacle(stage, limb, field) {
     return "";
 }
 
-/** A field's switch and sliders. */
+/** What of a limb matters to a field's value. */
+function traits(stage, limb, field) {
+    return {
+        isOther: limb.name.startsWith("right") !== limb.mirrored, order: stage.data.crowds[limb.crowdIndex][field.order] ?? 0,
+        given: limb.fixed.get(field.name),
+    };
+}
+
+/** A field's switch and sliders, for the limbs that limbsOf() names. */
 function makeField(page, field, limbsOf) {
-    const { stage } = page, { swivel } = stage, old = new Map(stage.limbs.map((limb) => [limb, stage.field(limb, field.name)]));
-    const orderOf = (limb) => stage.data.crowds[limb.crowdIndex][field.order] ?? 0;
-    const given = old.get(stage.limbs[0]), numbers = given ? field.numbers(Array.from(given), orderOf(stage.limbs[0])) : field.sliders.map(({ value }) => value);
-    const isOther = (limb) => limb.name.startsWith("right") !== limb.mirrored;
+    const { stage } = page, numbers = field.sliders.map(({ value }) => value);
+    const valueOf = (limb) => Array.from(field.value(stage.swivel, numbers, traits(stage, limb, field)));
     const apply = () => {
-        stage.setField(limbsOf(), field.name,
-            on.box.checked ? (limb) => Array.from(field.value(swivel, numbers, isOther(limb), old.get(limb), orderOf(limb))) : null);
+        try {
+            stage.setField(limbsOf(), field.name, on.box.checked ? valueOf : null);
+            page.say("");
+            show();
+        } catch (error) {
+            if (!(error instanceof SwivelError)) throw error;
+            page.say(`${field.title} stays as it was: ${error.message}.`);
+            follow();
+        }
         page.changed();
     };
-    const on = checkbox(field.title, given !== undefined, (isOn) => {
-        bars.forEach((bar) => { bar.hidden = !isOn; });
+    const on = checkbox(field.title, false, apply, { "data-field": field.name });
+    const bars = field.sliders.map((bar, n) => slider(bar.text, bar, (number) => {
+        numbers[n] = number;
         apply();
-    }, { "data-field": field.name });
-    const bars = field.sliders.map((bar, n) => {
-        const made = slider(bar.text, { ...bar, value: numbers[n] }, (number) => {
-            numbers[n] = number;
-            apply();
-        });
-        made.hidden = given === undefined;
-        return made;
+    }));
+    const take = (next) => bars.forEach((bar, n) => {
+        numbers[n] = next[n];
+        bar.set(next[n]);
     });
-    const why = obstacle(stage, stage.limbs[0], field);
-    if (why) Object.assign(on.box, { disabled: true }).parentElement.title = why;
+    const having = () => limbsOf().filter((limb) => stage.field(limb, field.name) !== undefined);
+    const show = () => {
+        const limbs = limbsOf(), count = having().length;
+        on.title = limbs.map((limb) => obstacle(stage, limb, field)).find((text) => text !== "") ?? "";
+        Object.assign(on.box, { checked: count > 0, indeterminate: count > 0 && count < limbs.length, disabled: on.title !== "" });
+        bars.forEach((bar) => { bar.hidden = count === 0; });
+    };
+    /** Takes over what the limbs have; the first that has the field gives the numbers. */
+    const follow = () => {
+        const [first] = having();
+        if (first) take(field.numbers(Array.from(stage.field(first, field.name)), traits(stage, first, field)));
+        show();
+    };
+    page.on("select", follow);
+    follow();
     /** Takes numbers from elsewhere, such as a handle in the scene. */
     const set = (next) => {
-        next.forEach((number, n) => {
-            numbers[n] = number;
-            bars[n].set(number);
-        });
+        take(next);
         apply();
     };
-    return { box: element("div", { class: "field" }, on, ...bars), set, isOn: () => on.box.checked };
+    return { box: element("div", { class: "field" }, on, ...bars), set };
 }
 
 export function makeControls(page) {

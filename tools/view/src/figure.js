@@ -12,7 +12,7 @@ export class Figure {
         this.positions = positions;
         this.limbs = limbs;
         this.jointCount = data.joints.length;
-        this.frameCount = data.frame_count;
+        this.frameCount = positions.length / (3 * this.jointCount);  // of the clip
         this.height = this.extent();
         this.hanging = this.hangingLengths();
         this.solved = this.jointsOfLimbs();
@@ -79,7 +79,7 @@ export class Figure {
 
     /** A limb's radii, and where its hand ends, in the wrist joint's frame as solved. */
     limbShape({ joints, mirrored, sources }) {
-        const [upper, lower, end] = joints;
+        const [, lower, end] = joints;
         const radii = [this.radius(lower), this.radius(end), 0.8 * this.radius(end)];
         const tip = new Vector3(), tips = this.children(end);
         tips.forEach((joint) => tip.add(this.at(joint)));
@@ -87,6 +87,6 @@ export class Figure {
         else tip.copy(this.at(end)).sub(this.at(lower)).multiplyScalar(0.3);
         if (mirrored) tip.x = -tip.x;
         tip.applyQuaternion(new Quaternion().fromArray(sources.hand(0)).invert());
-        return { upper, radii, tip };
+        return { radii, tip };
     }
 }

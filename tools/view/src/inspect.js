@@ -10,18 +10,12 @@ const wordsOf = (flag) => flag.toLowerCase().replaceAll("_", " ");
 const place = (vector) => vector.map((coordinate) => coordinate.toPrecision(5)).join(", ");
 const degrees = (radians) => `${(radians * 180 / Math.PI).toFixed(1)}°`;
 
-function flexionOf({ shoulder, elbow, wrist }) {
-    const upper = elbow.map((c, n) => c - shoulder[n]), fore = wrist.map((c, n) => c - elbow[n]);
-    const dot = upper.reduce((sum, c, n) => sum + c * fore[n], 0);
-    return Math.acos(Math.min(1, Math.max(-1, dot / (Math.hypot(...upper) * Math.hypot(...fore)))));
-}
-
 function rowsOf(stage, limb, character) {
     const pose = stage.pose(limb, character), goal = stage.goal(limb, character, "target"), who = stage.characters[character];
     const rows = [
         ["Character", `${character}, size ${who.size.toFixed(3)}`], ["Clip frame", `${stage.clipFrame(character)}`],
         ["Target", place(goal)], ["Wrist", place(pose.wrist)], ["Elbow", place(pose.elbow)],
-        ["Off by", `${stage.residual(limb, character).toExponential(2)} arm lengths`], ["Flexion", degrees(flexionOf(pose))],
+        ["Off by", `${stage.residual(limb, character).toExponential(2)} arm lengths`], ["Flexion", degrees(stage.flexion(limb, character))],
     ];
     if (stage.has(limb, "STRETCH")) rows.push(["Stretch", stage.read(limb, character, "STRETCH")[0].toFixed(4)]);
     return rows;
@@ -32,7 +26,7 @@ export function makeInspector(page) {
     const none = element("p", { class: "hint" }, "Click a limb. Then drag the yellow ball, its target, or the white one, its pole.");
     const title = element("h3"), table = element("div"), flags = element("p", { class: "flags" }), why = element("p", { class: "why" });
     const everyone = checkbox("Drag everyone's", false, (isOn) => { page.dragsEveryone = isOn; },
-        { title: "A drag moves this limb of all characters by the same offset, times their size" });
+        { title: "A drag moves this limb of all characters by the same offset, times their size. Those moved alone go along" });
     const follow = checkbox("Follow this character", false, (isOn) => page.follow(isOn));
     const release = button("Let go", () => page.letGo(), { title: "Give the goals back to the clip" });
     const body = element("div", {}, title, table, flags, why, everyone, follow, element("div", { class: "row" }, release));

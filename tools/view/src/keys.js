@@ -14,7 +14,7 @@ export function keysOf(page) {
         { keys: ["n", "N"], label: "N", text: "next limb", act: () => page.selectNext() },
         { keys: ["f", "F"], label: "F", text: "follow the chosen character, or stop", act: () => page.follow(page.view.followed == null) },
         { keys: ["r", "R"], label: "R", text: "camera back to the start", act: () => page.home() },
-        { keys: ["t", "T"], label: "T", text: "light or dark", act: () => page.setTheme(page.theme === "dark" ? "light" : "dark") },
+        { keys: ["t", "T"], label: "T", text: "light or dark", act: () => page.toggleTheme() },
         { keys: ["p", "P"], label: "P", text: "show or hide the panel", act: () => page.togglePanel() },
         { keys: ["?", "h", "H"], label: "H", text: "this help", act: () => page.help.showModal() },
         { keys: ["Escape"], label: "Esc", text: "choose nothing", act: () => page.select(null) },

@@ -20,9 +20,5 @@ export function makeLegend(page) {
     };
     select.addEventListener("change", show);
     show();
-    const set = (index) => {
-        select.value = index;
-        show();
-    };
-    return { box: section("Colour", true, element("label", { class: "row" }, "Colour limbs by", select), list), set };
+    return section("Colour", true, element("label", { class: "row" }, "Colour limbs by", select), list);
 }

@@ -3,7 +3,6 @@ uniform int uColourBy;         // 0: its own, 1: error, 2: flag, 3: flexion
 uniform vec3 uRamp[5];         // of error and flexion
 uniform vec3 uFlagColours[6];  // reached, softened or stretched, out of reach, limited, undefined swivel, bad input
 uniform vec3 uChosenColour;
-flat in int vCharacter;
 flat in uint vFlags;
 flat in float vFlexion, vMissed, vChosen;
 
@@ -13,11 +12,11 @@ vec3 ramp(float share) {
     return mix(uRamp[n], uRamp[n + 1], at - float(n));
 }
 vec3 ofFlags() {
-    if ((vFlags & 0x40000000u) != 0u) return uFlagColours[5];
-    if ((vFlags & 0x00000020u) != 0u) return uFlagColours[4];
-    if ((vFlags & 0x0001ffc0u) != 0u) return uFlagColours[3];
-    if ((vFlags & 0x00000018u) != 0u) return uFlagColours[2];
-    if ((vFlags & 0x00000006u) != 0u) return uFlagColours[1];
+    if ((vFlags & BAD) != 0u) return uFlagColours[5];
+    if ((vFlags & UNDEFINED) != 0u) return uFlagColours[4];
+    if ((vFlags & LIMITED) != 0u) return uFlagColours[3];
+    if ((vFlags & CLAMPED) != 0u) return uFlagColours[2];
+    if ((vFlags & EASED) != 0u) return uFlagColours[1];
     return uFlagColours[0];
 }
 void main() {

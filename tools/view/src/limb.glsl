@@ -1,8 +1,8 @@
 // Forward kinematics of a limb, from the rows that the solver reads and writes: row r of limb i is texel
 // (16 r + i % 16, i / 16). All is relative to the limb's shoulder.
 uniform highp usampler2D uInputs, uResults;
-uniform int uRotationRow, uLengthsRow, uTargetRow, uClavicleRow;                     // of inputs; -1: there are none
-uniform int uShoulderRow, uElbowRow, uWristRow, uFlagsRow, uStretchRow, uTurnRow;    // of results
+uniform int uRotationRow, uLengthsRow, uTargetRow, uClavicleRow, uEffectorRow, uAimRow;  // of inputs; -1: there are none
+uniform int uShoulderRow, uElbowRow, uWristRow, uFlagsRow, uStretchRow, uTurnRow;        // of results
 uniform vec4 uUpperFromArm, uElbowParentFromArm, uForeFromArm, uWristParentFromArm, uWristRest;
 uniform float uMirror;  // -1 where the limb is solved in the mirror image, else 1
 uniform vec3 uTip;      // the hand's end, in the wrist joint's frame
@@ -22,10 +22,21 @@ vec4 times(vec4 a, vec4 b) { return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz
 vec4 back(vec4 q) { return vec4(-q.xyz, q.w); }
 vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
+// How far the wrist, or the effector, is from its target. With an aim: how far the target is from the hand's ray.
+float missedBy(int limb, vec3 wrist, vec4 hand) {
+    vec3 miss = vector(uInputs, uTargetRow, limb) - wrist;
+    if (uEffectorRow >= 0) miss -= turned(hand, vector(uInputs, uEffectorRow, limb));
+    if (uAimRow >= 0) {
+        vec3 axis = normalize(turned(hand, vector(uInputs, uAimRow, limb)));
+        miss -= max(dot(miss, axis), 0.0) * axis;
+    }
+    return length(miss);
+}
+
 struct Limb {
     vec3 shoulder, elbow, wrist, tip;
     uint flags;
-    float flexion, missed;  // radians; between wrist and target, in arm lengths
+    float flexion, missed;  // radians; as swivel_residuals() has it, in arm lengths
 };
 
 Limb limbOf(int limb, float size) {
@@ -46,7 +57,7 @@ Limb limbOf(int limb, float size) {
     vec3 upperAxis = turned(upperAxes, vec3(0.0, 0.0, 1.0)), foreAxis = turned(foreAxes, vec3(0.0, 0.0, 1.0));
     vec3 elbow = shoulder + upper * upperAxis, wrist = elbow + fore * foreAxis, tip = wrist + size * turned(hand, uTip);
     vec3 mirror = vec3(uMirror, 1.0, 1.0);
-    float missed = length(wrist - vector(uInputs, uTargetRow, limb)) / max(upper + fore, 1e-30);
     return Limb(mirror * shoulder, mirror * elbow, mirror * wrist, mirror * tip, word(uResults, uFlagsRow, limb),
-                acos(clamp(dot(upperAxis, foreAxis), -1.0, 1.0)), missed);
+                acos(clamp(dot(upperAxis, foreAxis), -1.0, 1.0)),
+                missedBy(limb, wrist, hand) / max(upper + fore, 1e-30));
 }

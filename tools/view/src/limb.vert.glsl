@@ -1,7 +1,6 @@
 // Upper arm, forearm and hand, parts 0, 1 and 2; an instance is a character.
 uniform vec4 uRadii;  // at shoulder, elbow, wrist and the hand's end
 uniform int uUpperJoint, uChosen;  // the chosen character, or -1
-flat out int vCharacter;
 flat out uint vFlags;
 flat out float vFlexion, vMissed, vChosen;
 
@@ -13,7 +12,6 @@ void main() {
     vec3 a = n == 0 ? limb.shoulder : n == 1 ? limb.elbow : limb.wrist;
     vec3 b = n == 0 ? limb.elbow : n == 1 ? limb.wrist : limb.tip;
     putCapsule(at + a, at + b, uRadii[n], uRadii[n + 1]);
-    vCharacter = character;
     vFlags = limb.flags;
     vFlexion = limb.flexion;
     vMissed = limb.missed;

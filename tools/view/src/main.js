@@ -2,9 +2,9 @@
 //
 // The page: a crowd that is solved as you look at it. start() makes it from the data that `swivel view` writes.
 //
-// The parts share one object, `page`: stage (the crowd), view (the scene), selection ({ limb, character } or null), and
-// the calls below. Its events are "frame" after every solve, "select" after a choice and "draw" after every picture. window.swivelPage is this
-// object, for tests and scripts: await swivelPage.ready first.
+// The parts share one object, `page`: stage (the crowd), view (the scene), selection ({ limb, character } or null), and the calls below.
+// Its events are "frame" after every solve, "select" after a choice, "draw" after every picture, and "say" with something to tell.
+// window.swivelPage is this object, for tests and scripts: await swivelPage.ready first.
 import { floatsOf } from "./bytes.js";
 import { makeControls } from "./controls.js";
 import { button, element, section, slider } from "./dom.js";
@@ -13,17 +13,19 @@ import { makeInspector } from "./inspect.js";
 import { keysOf, listen, makeHelp } from "./keys.js";
 import { makeLegend } from "./legend.js";
 import { makeLesson } from "./lesson.js";
+import { followLink } from "./link.js";
+import { openStage } from "./open.js";
 import { makeOverlays } from "./overlays.js";
 import { Picker } from "./pick.js";
 import { Player } from "./player.js";
 import { readback } from "./readback.js";
+import { mostDrawn } from "./rows.js";
 import { View } from "./scene.js";
-import { openStage } from "./stage.js";
 import { makeStatus } from "./status.js";
 import css from "./style.css";
 
 const DRAWN = 1000;  // characters at most, unless asked for more
-const MOST_DRAWN = 65536;  // a texture has a line for 16 of them, and some thousand lines
+const MOST_DRAWN = 65536;
 
 /** What this browser lacks; nothing if it has all. */
 function lack() {
@@ -40,19 +42,22 @@ function refuse(text) {
 
 class Page {
     constructor(stage, data, canvas) {
-        this.listeners = { frame: [], select: [], draw: [] };
+        this.listeners = { frame: [], select: [], draw: [], say: [] };
         this.stage = stage;
         this.canvas = canvas;
         this.selection = null;
         this.dragsEveryone = false;
-        this.drawnCount = Math.min(stage.characterCount, DRAWN);
         this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs));
+        this.mostDrawn = Math.min(stage.characterCount, MOST_DRAWN, mostDrawn(this.view.bodies.mostTexels));
+        this.drawnCount = Math.min(this.mostDrawn, DRAWN);
         this.view.controls.addEventListener("change", () => this.redraw());
         this.picker = new Picker(this);
     }
 
     on(event, hear) { this.listeners[event].push(hear); }
-    tell(event) { this.listeners[event].forEach((hear) => hear()); }
+    tell(event, ...more) { this.listeners[event].forEach((hear) => hear(...more)); }
+    /** Shows a sentence until the next one; "" shows none. */
+    say(text) { this.tell("say", text); }
 
     setFrame(frame) {
         this.stage.setFrame(frame);
@@ -93,6 +98,7 @@ class Page {
         this.select({ limb: next, character: Math.max(0, who) });
     }
     drag(part, world) {
+        if (!this.selection) return;
         const { limb, character } = this.selection;
         this.stage.drag(limb, character, part, world, this.dragsEveryone);
         this.changed();
@@ -115,6 +121,7 @@ class Page {
         this.view.setTheme(theme);
         this.redraw();
     }
+    toggleTheme() { this.setTheme(this.theme === "dark" ? "light" : "dark"); }
     togglePanel() {
         document.body.classList.toggle("wide");
         this.resize();
@@ -126,19 +133,6 @@ class Page {
         this.redraw();
     }
 
-    /** "#frame=12&character=3&limb=left_arm" shows that limb, "#drawn=200" as many characters. */
-    followHash() {
-        const hash = new URLSearchParams(location.hash.slice(1)), frame = Number(hash.get("frame")), character = Number(hash.get("character"));
-        const drawn = Number(hash.get("drawn"));
-        if (Number.isInteger(drawn) && drawn > 0) this.drawFirst(Math.min(drawn, this.stage.characterCount, MOST_DRAWN));
-        if (hash.has("frame") && Number.isInteger(frame) && frame >= 0 && frame < this.stage.frameCount) this.setFrame(frame);
-        const limb = this.stage.limbs.find(({ name }) => name === hash.get("limb"));
-        if (!limb || !Number.isInteger(character) || character < 0 || character >= Math.min(this.stage.characterCount, MOST_DRAWN)) return;
-        if (character >= this.drawnCount) this.drawFirst(character + 1);
-        this.select({ limb, character });
-        this.view.lookAt(character, true);
-        this.redraw();
-    }
     readback(limb, count) { return readback(this.view, limb, count); }
 }
 
@@ -146,20 +140,20 @@ function build(page, data) {
     const { stage } = page, keys = keysOf(page), title = element("h1", {}, data.title), clip = element("p", { class: "clip" }, data.clip);
     page.help = makeHelp(keys);
     const head = element("header", {}, element("div", {}, title, clip, makeStatus(page)), element("nav", {},
-        button("Light or dark", () => page.setTheme(page.theme === "dark" ? "light" : "dark")), button("Help", () => page.help.showModal()),
+        button("Light or dark", () => page.toggleTheme()), button("Help", () => page.help.showModal()),
         button("Panel", () => page.togglePanel(), { class: "panel-button" })));
-    const drawn = slider("Drawn", { min: 1, max: Math.min(stage.characterCount, MOST_DRAWN), step: 1, value: page.drawnCount }, (count) => {
+    const drawn = slider("Drawn", { min: 1, max: page.mostDrawn, step: 1, value: page.drawnCount }, (count) => {
         page.drawFirst(count);
         page.home();
     });
+    page.on("frame", () => drawn.set(page.drawnCount));
     const bar = element("footer", {});
     page.player = new Player(page, bar);
-    page.legend = makeLegend(page);
-    const inspector = makeInspector(page), controls = makeControls(page);
+    const inspector = makeInspector(page), legend = makeLegend(page), controls = makeControls(page);
     page.overlays = makeOverlays(page);
     page.lesson = makeLesson(page);
     const figures = element("p", { class: "hint" }, `Of ${stage.characterCount.toLocaleString("en")} characters. All are solved, drawn or not.`);
-    const panel = element("aside", { "aria-label": "Panel" }, inspector, page.legend.box, controls, page.overlays.box, page.lesson.box,
+    const panel = element("aside", { "aria-label": "Panel" }, inspector, legend, controls, page.overlays.box, page.lesson.box,
         section("Characters", false, drawn, figures));
     document.body.append(head, panel, bar, page.help);
     listen(keys);
@@ -174,9 +168,9 @@ async function open(data, canvas) {
     page.changed();
     page.resize();
     addEventListener("resize", () => page.resize());
-    addEventListener("hashchange", () => page.followHash());
+    addEventListener("hashchange", () => followLink(page));
     page.home();
-    page.followHash();
+    followLink(page);
     page.draw();
     return page;
 }

@@ -33,7 +33,8 @@ export function sphere(centre, radius, colour) {
     return skin.add(wires);
 }
 export function tube(from, to, radius, colour) {
-    const length = from.distanceTo(to), made = new Mesh(new CylinderGeometry(radius, radius, length, 8), new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 }));
+    const length = from.distanceTo(to), material = new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 });
+    const made = new Mesh(new CylinderGeometry(radius, radius, length, 8), material);
     made.position.addVectors(from, to).multiplyScalar(0.5);
     if (length > 0) made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).normalize());
     return onTop(made);

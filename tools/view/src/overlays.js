@@ -6,7 +6,7 @@ import { ConeGeometry, Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 
 import { checkbox, element, section } from "./dom.js";
 import { ball, clear, dashes, disc, sphere, surface, tube } from "./marks.js";
-import { Feature, layout } from "./stage.js";
+import { Feature, rotationOf } from "./stage.js";
 
 /** name: of the switch and of the group that is drawn. */
 const OVERLAYS = [
@@ -19,20 +19,16 @@ const OVERLAYS = [
 ];
 const FORBIDDEN = "#e0433b";
 
-const quaternion = (binding, member) =>
-    new Quaternion().fromArray(new Float32Array(binding.bytes.slice(layout.swivel_binding[member]).buffer, 0, 4)).normalize();
-
-/** The chosen limb as its solve has it: vectors relative to the shoulder, and the arm frame's axes. */
+/** The chosen limb as its solve has it: vectors relative to the shoulder as the clavicle moves it, and the arm frame's axes. */
 export function geometryOf(stage, { limb, character }) {
-    const vector = (part) => new Vector3().fromArray(stage.input(limb, character, part));
-    const { elbows, wrists } = stage.joints(limb, character, 1);
+    const { shift, parent } = stage.clavicle(limb, character), { elbows, wrists } = stage.joints(limb, character, 1);
+    const place = (numbers) => new Vector3().fromArray(numbers).sub(shift), input = (part) => stage.input(limb, character, part);
     const stretch = stage.has(limb, "STRETCH") ? stage.read(limb, character, "STRETCH")[0] : 1;
-    const [upper, fore] = Array.from(stage.input(limb, character, "lengths"), (length) => stretch * length);
-    const parent = new Quaternion().fromArray(stage.input(limb, character, "rotation")).normalize();
-    const elbow = new Vector3().fromArray(elbows), wrist = new Vector3().fromArray(wrists);
+    const [upper, fore] = Array.from(input("lengths"), (length) => stretch * length);
+    const elbow = place(elbows), wrist = place(wrists), isPoint = stage.hasPole(limb) && stage.poleIsPoint(limb);
     return {
-        elbow, wrist, upper, fore, target: vector("target"), pole: vector("pole"), parent,
-        armAxes: parent.clone().multiply(quaternion(limb.binding, "parent_from_arm")),
+        elbow, wrist, upper, fore, target: place(input("target")), pole: isPoint ? place(input("pole")) : new Vector3().fromArray(input("pole")),
+        armAxes: parent.clone().multiply(new Quaternion().fromArray(rotationOf(limb.binding, "parent_from_arm"))),
         along: wrist.lengthSq() > 0 ? wrist.clone().normalize() : new Vector3(0, 0, 1),
     };
 }
@@ -42,7 +38,7 @@ function circleOf({ wrist, along, upper, fore }) {
     return { centre: along.clone().multiplyScalar(at), radius: Math.sqrt(Math.max(0, upper ** 2 - at ** 2)) };
 }
 /** Where the elbow would go by the pole alone: at right angles to the line. */
-function wishOf(stage, { limb }, { pole, elbow, along }) {
+export function wishOf(stage, { limb }, { pole, elbow, along }) {
     const features = stage.featuresOf(limb), isNormal = (features & Feature.POLE_NORMAL) !== 0n;
     const wish = (features & Feature.POLE_INCOMING) !== 0n ? elbow.clone() : isNormal ? pole.clone().cross(along) : pole.clone();
     return wish.addScaledVector(along, -wish.dot(along)).normalize();
@@ -111,13 +107,40 @@ function rimOf(geometry, cone, length) {
     return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(across.normalize(), 0.6 * length * Math.sin(angle));
 }
 
-export function makeOverlays(page) {
-    const { stage, view } = page, anchor = new Group(), groups = {}, wanted = {};
-    const rim = ball(new Vector3(), 0.016 * view.figure.height, "#ffd34d");
-    for (const { name, isOn } of OVERLAYS) {
-        anchor.add(groups[name] = new Group());
+/** The anchor that overlays hang on: at the limb's shoulder, mirrored where the limb is solved so. */
+function place(anchor, stage, { limb, character }) {
+    anchor.position.fromArray(stage.shoulder(limb, character));
+    anchor.scale.set(limb.mirrored ? -1 : 1, 1, 1);
+}
+
+/** The ball on the rim of the shoulder cone: a drag opens or shuts the cone, so that its rim is at a point of the scene. */
+function makeRim(page) {
+    const { stage, view } = page, rim = ball(new Vector3(), 0.016 * view.figure.height, "#ffd34d");
+    page.picker.addHandle("cone", rim, (world) => {
+        const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
+        const at = new Vector3().fromArray(stage.toSolved(limb, character, world)).sub(stage.clavicle(limb, character).shift).normalize();
+        const axis = new Vector3().fromArray(stage.field(limb, "SHOULDER_CONE")).applyQuaternion(geometry.armAxes).normalize();
+        page.fields.SHOULDER_CONE.set([Math.round(axis.angleTo(at) * 1800 / Math.PI) / 10]);
+    });
+    return rim;
+}
+
+/** A switch for each overlay. */
+function makeSwitches(wanted, change) {
+    return OVERLAYS.map(({ name, text, colour, isOn }) => {
         wanted[name] = isOn;
-    }
+        const row = checkbox(text, isOn, (now) => {
+            wanted[name] = now;
+            change();
+        }, { "data-overlay": name });
+        row.prepend(element("i", { class: "swatch", style: `--swatch: ${colour}` }));
+        return row;
+    });
+}
+
+export function makeOverlays(page) {
+    const { stage, view } = page, anchor = new Group(), groups = {}, wanted = {}, rim = makeRim(page);
+    for (const { name } of OVERLAYS) anchor.add(groups[name] = new Group());
     anchor.add(rim);
     view.marks.add(anchor);
     let isAway = false;
@@ -126,32 +149,19 @@ export function makeOverlays(page) {
         Object.values(groups).forEach(clear);
         rim.visible = false;
         if (!anchor.visible) return;
-        const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
-        anchor.position.fromArray(stage.origin(limb, character));
-        anchor.scale.set(limb.mirrored ? -1 : 1, 1, 1);
-        const length = geometry.upper + geometry.fore, context = { stage, selection: page.selection, length, thickness: 0.006 * length };
+        const { selection } = page, geometry = geometryOf(stage, selection), length = geometry.upper + geometry.fore;
+        place(anchor, stage, selection);
+        const context = { stage, selection, length, thickness: 0.006 * length };
         for (const { name } of OVERLAYS) if (wanted[name]) draw[name](groups[name], geometry, context);
-        const cone = stage.field(limb, "SHOULDER_CONE");
+        const cone = stage.field(selection.limb, "SHOULDER_CONE");
         rim.visible = wanted.cones && cone !== undefined;
         if (rim.visible) rim.position.copy(rimOf(geometry, cone, length));
     };
     page.on("frame", update);
     page.on("select", update);
-    /** Opens or shuts the shoulder cone, so that its rim is at a point of the scene. */
-    page.picker.addHandle("cone", rim, (world) => {
-        const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
-        const at = new Vector3().fromArray(stage.toSolved(limb, character, world)).normalize();
-        const axis = new Vector3().fromArray(stage.field(limb, "SHOULDER_CONE")).applyQuaternion(geometry.armAxes).normalize();
-        page.fields.SHOULDER_CONE.set([Math.round(axis.angleTo(at) * 1800 / Math.PI) / 10]);
-    });
-    const rows = OVERLAYS.map(({ name, text, colour, isOn }) => {
-        const row = checkbox(text, isOn, (now) => {
-            wanted[name] = now;
-            update();
-            page.redraw();
-        }, { "data-overlay": name });
-        row.prepend(element("i", { class: "swatch", style: `--swatch: ${colour}` }));
-        return row;
+    const rows = makeSwitches(wanted, () => {
+        update();
+        page.redraw();
     });
     update();
     /** The lesson draws entities of its own. */
@@ -159,5 +169,5 @@ export function makeOverlays(page) {
         isAway = isHidden;
         update();
     };
-    return { hide, box: section("Overlays", false, ...rows), groups };
+    return { hide, box: section("Overlays", false, ...rows) };
 }

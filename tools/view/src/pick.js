@@ -24,9 +24,12 @@ export class Picker {
         domElement.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
         domElement.addEventListener("pointermove", (event) => this.move(event));
         domElement.addEventListener("pointerup", (event) => this.up(event));
-        domElement.addEventListener("pointercancel", () => this.stop());
+        domElement.addEventListener("pointercancel", (event) => { if (this.isPressed(event)) this.stop(); });
         page.on("frame", () => this.placeHandles());
-        page.on("select", () => this.placeHandles());
+        page.on("select", () => {
+            this.stop();
+            this.placeHandles();
+        });
     }
 
     handle(colour, size) {
@@ -79,16 +82,21 @@ export class Picker {
             const { elbows, wrists } = stage.joints(limb, 0, drawnCount);
             for (let n = 0; n < drawnCount; ++n) {
                 const elbow = stage.toWorld(limb, n, elbows.subarray(3 * n, 3 * n + 3));
-                meet(limb, n, stage.origin(limb, n), elbow);
+                meet(limb, n, stage.shoulder(limb, n), elbow);
                 meet(limb, n, elbow, stage.toWorld(limb, n, wrists.subarray(3 * n, 3 * n + 3)));
             }
         }
         return found;
     }
 
+    /** Whether it is the pointer that went down first. */
+    isPressed(event) { return this.pressed?.id === event.pointerId; }
     down(event) {
-        if (!event.isPrimary || event.button !== 0) return;
-        this.pressed = { x: event.clientX, y: event.clientY };
+        if (!event.isPrimary || event.button !== 0) {
+            if (!this.dragging) this.pressed = null;  // two fingers turn the camera and choose nothing
+            return;
+        }
+        this.pressed = { id: event.pointerId, x: event.clientX, y: event.clientY };
         const part = this.handleAt(event);
         if (part) this.start(event, part);
     }
@@ -103,11 +111,13 @@ export class Picker {
             event.target.style.cursor = this.handleAt(event) ? "grab" : "";
             return;
         }
+        if (!this.isPressed(event)) return;
         const at = this.aim(event).intersectPlane(this.dragging.plane, new Vector3());
         if (at) this.drags[this.dragging.part](this.page.view.toClip(at));
     }
     up(event) {
-        const isClick = this.pressed && Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) < SLACK;
+        if (!this.isPressed(event)) return;
+        const isClick = Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) < SLACK;
         if (isClick && !this.dragging) this.page.select(this.limbAt(event));
         this.stop();
     }

@@ -38,9 +38,10 @@ export class Player {
         this.isPlaying = true;
         this.play.textContent = "Pause";
         this.since = null;
-        requestAnimationFrame((now) => this.tick(now));
+        this.next = requestAnimationFrame((now) => this.tick(now));
     }
     pause() {
+        cancelAnimationFrame(this.next);
         this.isPlaying = false;
         this.play.textContent = "Play";
     }
@@ -51,7 +52,6 @@ export class Player {
     }
     /** As many frames as time has passed. A crowd that carries state takes each of them; it may fall behind. */
     tick(now) {
-        if (!this.isPlaying) return;
         const { stage } = this.page, due = this.since === null ? 0 : Math.floor((now - this.since) / 1000 * this.rate * this.speed);
         if (this.since === null) this.since = now;
         if (due > 0) {
@@ -59,6 +59,6 @@ export class Player {
             const steps = stage.carriesState ? Math.min(due, 4) : 1, stride = stage.carriesState ? 1 : due;
             for (let n = 0; n < steps; ++n) this.page.setFrame((stage.frame + stride) % stage.frameCount);
         }
-        requestAnimationFrame((later) => this.tick(later));
+        this.next = requestAnimationFrame((later) => this.tick(later));
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the shader makes of a limb, read back for tests: elbow and wrist of the first characters, relative to the
-// character's place, by the vertex shader's own function.
+// character's place, and how far the limb misses, by the vertex shader's own function.
 import { BufferGeometry, FloatType, GLSL3, NearestFilter, Points, RGBAFormat, Scene, ShaderMaterial, WebGLRenderTarget } from "three";
 
 import crowdGlsl from "./crowd.glsl";
@@ -9,20 +9,20 @@ import limbGlsl from "./limb.glsl";
 
 const vertex = `
 uniform int uUpperJoint, uCount;
-flat out vec3 vJoint;
+flat out vec4 vJoint;
 void main() {
     int character = gl_VertexID / 2;
     Limb limb = limbOf(character, placeOf(character).w);
-    vJoint = jointOf(character, uUpperJoint) + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist);
+    vJoint = vec4(jointOf(character, uUpperJoint) + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
     gl_Position = vec4((float(gl_VertexID) + 0.5) / float(2 * uCount) * 2.0 - 1.0, 0.0, 0.0, 1.0);
     gl_PointSize = 1.0;
 }`;
 const fragment = `
-flat in vec3 vJoint;
+flat in vec4 vJoint;
 out vec4 colour;
-void main() { colour = vec4(vJoint, 1.0); }`;
+void main() { colour = vJoint; }`;
 
-/** Elbow and wrist in turns, three numbers each. count: at most some thousand. */
+/** Elbow and wrist in turns: three numbers each, and what the limb misses by. count: at most some thousand. */
 export function readback(view, limb, count) {
     const { bodies, renderer, camera } = view, { uniforms } = bodies.limbs[limb.index];
     const target = new WebGLRenderTarget(2 * count, 1, { type: FloatType, format: RGBAFormat, minFilter: NearestFilter, magFilter: NearestFilter });
@@ -41,5 +41,5 @@ export function readback(view, limb, count) {
     renderer.readRenderTargetPixels(target, 0, 0, 2 * count, 1, texels);
     renderer.setRenderTarget(null);
     [target, material, geometry].forEach((each) => each.dispose());
-    return Array.from({ length: 2 * count }, (_, n) => Array.from(texels.subarray(4 * n, 4 * n + 3)));
+    return Array.from({ length: 2 * count }, (_, n) => Array.from(texels.subarray(4 * n, 4 * n + 4)));
 }

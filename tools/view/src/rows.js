@@ -7,9 +7,20 @@ import { Field } from "./stage.js";
 
 const WIDTH = 2048;  // of textures that are only long
 
+/** Refuses what a browser's textures cannot hold. most: how many texels a side of them has at most. */
+function checkSides(what, width, height, most) {
+    const side = Math.max(width, height);
+    if (side <= most) return;
+    const why = `a texture has ${most} texels a side, and they take ${side}`;
+    throw new Error(`this browser's graphics cannot hold ${what}: ${why}. Take fewer --frames or --characters`);
+}
+/** How many characters fit: a texture has a line for a block of 16. */
+export const mostDrawn = (most) => 16 * most;
+
 /** A texture of four floats a texel, one after the other. */
-export function floatTexture(texels) {
+export function floatTexture(what, texels, most) {
     const height = Math.max(1, Math.ceil(texels.length / (4 * WIDTH)));
+    checkSides(what, WIDTH, height, most);
     const padded = new Float32Array(4 * WIDTH * height);
     padded.set(texels);
     const texture = new DataTexture(padded, WIDTH, height, RGBAFormat, FloatType);
@@ -28,7 +39,8 @@ function blockTexture(words, rowCount) {
 
 /** The rows of one limb's group, its first blocks of 16 characters. */
 export class LimbRows {
-    constructor(crowd, limb, blocks) {
+    constructor(crowd, limb, blocks, most) {
+        this.most = most;
         this.blocks = blocks;
         this.firstBlock = crowd.firstLimb(limb.group) / 16;
         this.inputs = this.texture(crowd, crowd.inputRows());
@@ -37,6 +49,7 @@ export class LimbRows {
         this.uniforms = {
             uInputs: this.inputs, uResults: this.results,
             uRotationRow: row("PARENT_ROTATION"), uLengthsRow: row("LENGTHS"), uTargetRow: row("TARGET"), uClavicleRow: row("CLAVICLE"),
+            uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"),
             uShoulderRow: row("SHOULDER"), uElbowRow: row("ELBOW"), uWristRow: row("WRIST"), uFlagsRow: row("FLAGS"),
             uStretchRow: row("STRETCH"), uTurnRow: row("CLAVICLE_TURN"),
         };
@@ -44,6 +57,7 @@ export class LimbRows {
     texture(crowd, rows) {
         const blockCount = this.blockCountOf(crowd), perBlock = rows.length / blockCount;
         const words = new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * this.firstBlock, perBlock * this.blocks);
+        checkSides("the limbs' numbers", perBlock, this.blocks, this.most);
         return blockTexture(words, perBlock / 16);
     }
     blockCountOf(crowd) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The scene in metres: camera, ground, bodies. draw() shows it once; nothing here keeps drawing.
-import { Color, GLSL3, Group, LinearSRGBColorSpace, Mesh, PerspectiveCamera, PlaneGeometry, Scene, ShaderMaterial, Vector3, WebGLRenderer } from "three";
+import {
+    Color, GLSL3, Group, LinearSRGBColorSpace, Mesh, PerspectiveCamera, PlaneGeometry, Scene, ShaderMaterial, Vector3, WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { Bodies } from "./bodies.js";
@@ -23,7 +25,7 @@ export class View {
         this.controls.maxPolarAngle = 0.497 * Math.PI;  // above the ground
         this.controls.minDistance = 0.4;
         this.controls.maxDistance = 400;
-        this.bodies = new Bodies(stage, figure, this.metres);
+        this.bodies = new Bodies(stage, figure, this.metres, this.renderer.capabilities.maxTextureSize);
         this.addGround();
         this.scene.add(...this.bodies.meshes);
         this.marks = new Group();  // what is drawn on top: handles and overlays, in units of the clip
@@ -53,8 +55,7 @@ export class View {
     }
     /** Where a character's first joint is on the ground. */
     placeOf(character) {
-        const { place, start } = this.stage.characters[character], frame = (Math.max(this.stage.frame, 0) + start) % this.stage.frameCount;
-        const root = this.figure.at(0, frame);
+        const { place } = this.stage.characters[character], root = this.figure.at(0, this.stage.clipFrame(character));
         return new Vector3(root.x + place[0], 0, root.z + place[2]).multiplyScalar(this.metres);
     }
     /** A point of the clip's world in the scene. */

@@ -2,33 +2,31 @@
 //
 // The crowd and its solves: goals by the formula of the command, changes by the user, one solve for all limbs. Knows the
 // solver; nothing is drawn here. World coordinates are the clip's.
-import { instantiate } from "swivel-wasm/instantiate.js";
-import { Feature, Field, Flag, layout } from "swivel-wasm/layout.js";
+import { SwivelError } from "swivel-wasm/arguments.js";
 import { Binding } from "swivel-wasm/binding.js";
+import { Feature, Field, Flag, layout } from "swivel-wasm/layout.js";
 import { Swivel } from "swivel-wasm/swivel.js";
-import wasm from "view.wasm";
+import { Quaternion, Vector3 } from "three";
 
 import { bytesOf, charactersOf, givenOf, INPUT, Sources } from "./bytes.js";
-
-/** Opens a stage for the page's data. */
-export async function openStage(data) {
-    const limbCount = data.limbs.length * data.character_count;
-    const megabytes = Math.min(4096, 48 + Math.ceil(limbCount / 500));
-    return new Stage(await instantiate({ wasm, megabytes }), data);
-}
+import { dragEveryone, dragOne, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
+import { fieldOf, fixedOf, makeCrowds, setOwn, writeFields } from "./fields.js";
 
 /** The names of a flag word's flags. */
 export function flagNames(word) {
     return Object.keys(Flag).filter((name) => (word & Flag[name]) !== 0);
 }
 
-/** The name of the feature that brings a field. */
-const featureOf = (name) => Feature[`WITH_${name}`];
+/** A rotation of a binding: x, y, z, w. */
+export function rotationOf(binding, member) {
+    const bytes = binding.bytes.slice(layout.swivel_binding[member]), rotation = Array.from(new Float32Array(bytes.buffer, 0, 4));
+    return rotation.map((part) => part / Math.hypot(...rotation));
+}
 
 /** A vector in the world, as a limb is solved, and back: mirrored limbs are solved in the mirror image. */
 const mirrored = (limb, [x, y, z]) => [limb.mirrored ? -x : x, y, z];
 
-class Stage {
+export class Stage {
     constructor(memory, data) {
         this.memory = memory;
         this.swivel = new Swivel(memory);
@@ -40,9 +38,11 @@ class Stage {
         this.charactersAt = this.keep(characters);
         this.characters = charactersOf(characters);
         this.given = givenOf(data.given);
-        this.pins = new Map();  // "limb:character" to { target, pole } in the world
+        this.pins = new Map();  // goals moved alone: "limb:character" to { target, pole } in the world
         this.limbs = data.limbs.map((limb, index) => this.makeLimb(limb, index));
+        this.clipFrameCount = this.limbs[0].sources.frameCount;
         this.changed = false;  // by the user, since the page was opened
+        this.crowds = [];
         this.makeCrowds();
     }
 
@@ -62,40 +62,26 @@ class Stage {
         return {
             index, name: limb.name, mirrored: limb.mirrored, joints: limb.joints, group: limb.group, crowdIndex: limb.crowd,
             binding: new Binding(bytesOf(limb.binding)), effector: limb.effector, priority: limb.priority,
-            fixed: new Map(limb.fixed.map(({ field, value }) => [field, value])),
-            own: new Map(),  // fields' values by the user: name to numbers
-            shift: { target: [0, 0, 0], pole: [0, 0, 0] },  // of everyone's goals, for a character of size 1
+            fixed: fixedOf(limb.fixed),
+            own: new Map(),  // fields' values by the user: name to numbers, or to null for one taken away
+            shift: NO_SHIFT,  // of everyone's goals, as solved, for a character of size 1
             planAt: this.keep(bytesOf(limb.plan)), sourcesAt: this.keep(sources), sources: new Sources(sources), inputsAt,
             inputs: this.memory.floats(inputsAt, INPUT.count * this.characters.length),
         };
     }
 
-    /** Makes the crowds, with the features that the user's fields need. */
+    /** Makes the crowds, with the features that the user's fields need. The old ones stay if that fails. */
     makeCrowds() {
-        this.crowds?.forEach((crowd) => crowd.dispose());
-        this.crowds = this.data.crowds.map((shape, index) => {
-            const limbs = this.limbs.filter((limb) => limb.crowdIndex === index);
-            const own = limbs.flatMap((limb) => [...limb.own.keys()]);
-            let features = own.reduce((all, name) => all | featureOf(name), BigInt(shape.features));
-            if (features & Feature.WITH_WEIGHTS) features |= Feature.WITH_INCOMING;
-            const groups = limbs.map((limb) => ({ limbCount: this.characterCount, binding: limb.binding }));
-            return this.swivel.crowd(groups, features, { shoulderOrder: shape.shoulder_order, wristOrder: shape.wrist_order });
-        });
-        for (const limb of this.limbs) this.writeFixed(limb);
+        const made = makeCrowds(this.swivel, this.data.crowds, this.limbs, this.characters);
+        this.crowds.forEach((crowd) => crowd.dispose());
+        this.crowds = made;
         this.carriesState = this.data.budget_blocks > 0 || this.limbs.some((limb) => this.has(limb, "NORMAL"));
         this.solvedFrames = 0;  // in order, from the first on
         this.hasSolved = false;
     }
     crowdOf(limb) { return this.crowds[limb.crowdIndex]; }
     has(limb, name) { return this.crowdOf(limb).componentCount(Field[name]) > 0; }
-    writeFixed(limb) {
-        const crowd = this.crowdOf(limb), { group } = limb;
-        const write = (field, value) => crowd.write(field, Array.from(value).slice(0, crowd.componentCount(field)), { group });
-        for (const [field, value] of limb.fixed) write(field, value);
-        for (const [name, value] of limb.own) write(Field[name], value);
-        if (this.has(limb, "EFFECTOR"))
-            crowd.write(Field.EFFECTOR, this.characters.flatMap(({ size }) => limb.effector.map((part) => size * part)), { group });
-    }
+    writeFields(limb) { writeFields(this.crowdOf(limb), limb, this.characters); }
 
     /** Goes to a frame and solves it. */
     setFrame(frame) {
@@ -106,13 +92,11 @@ class Stage {
     /** Solves the frame again, with whatever has changed. */
     solve() {
         const inOrder = this.solvedFrames === this.frame;
-        const before = performance.now();
         for (const limb of this.limbs) this.setGoals(limb);
-        const set = performance.now();
+        const before = performance.now();
         this.crowds.forEach((crowd) => crowd.solve(this.job()));
         this.hasSolved = true;
-        this.seconds = (performance.now() - set) / 1000;
-        this.goalSeconds = (set - before) / 1000;
+        this.seconds = (performance.now() - before) / 1000;
         if (inOrder) ++this.solvedFrames;
         else if (this.carriesState) this.solvedFrames = -1;
     }
@@ -123,31 +107,19 @@ class Stage {
     }
     setGoals(limb) {
         const { calls } = this.memory, count = this.characterCount, crowd = this.crowdOf(limb);
-        calls.swivel_goals(limb.planAt, limb.sourcesAt, this.frameCount, this.frame, this.charactersAt, count, limb.inputsAt);
-        for (const given of this.given.get(this.frame) ?? [])
-            if (given.limb === limb.index)
-                for (const part of ["target", "pole", "hand"]) this.input(limb, given.character, part).set(given[part]);
-        this.shiftGoals(limb);
-        for (const [key, pin] of this.pins) this.setPin(limb, key, pin);
+        this.askGoals(limb);
+        moveGoals(this, limb);
         this.memory.check(calls.swivel_goals_write(crowd.crowd, limb.group, count, limb.inputsAt));
         if (this.hasSolved && this.has(limb, "NORMAL"))
             for (let n = 0; n < count; ++n) if (this.clipFrame(n) === 0) crowd.reset({ group: limb.group, first: n, count: 1 });
     }
-    shiftGoals(limb) {
-        for (const part of ["target", "pole"]) {
-            const shift = mirrored(limb, limb.shift[part]);
-            if (shift.every((number) => number === 0)) continue;
-            this.characters.forEach(({ size }, n) => {
-                const at = this.input(limb, n, part);
-                shift.forEach((number, axis) => { at[axis] += size * number; });
-            });
-        }
-    }
-    setPin(limb, key, pin) {
-        const [index, character] = key.split(":").map(Number);
-        if (index !== limb.index) return;
-        for (const part of ["target", "pole"])
-            if (pin[part]) this.input(limb, character, part).set(this.toSolved(limb, character, pin[part], part));
+    /** The goals as the command has them. */
+    askGoals(limb) {
+        const { calls } = this.memory;
+        calls.swivel_goals(limb.planAt, limb.sourcesAt, this.clipFrameCount, this.frame, this.charactersAt, this.characterCount, limb.inputsAt);
+        for (const given of this.given.get(this.frame) ?? [])
+            if (given.limb === limb.index)
+                for (const part of ["target", "pole", "hand"]) this.input(limb, given.character, part).set(given[part]);
     }
 
     /** Part of what the solver takes of a limb: a view that a solve reads. */
@@ -156,23 +128,21 @@ class Stage {
         const length = { target: 3, pole: 3, lengths: 2, position: 3 }[part] ?? 4;
         return limb.inputs.subarray(first, first + length);
     }
-    clipFrame(character) { return (this.frame + this.characters[character].start) % this.frameCount; }
-    /** A limb's shoulder in the world. */
+    clipFrame(character) { return (this.frame + this.characters[character].start) % this.clipFrameCount; }
+    /** Where goals are relative to, in the world: a limb's shoulder, before its clavicle has turned. */
     origin(limb, character) {
         const origin = limb.sources.origin(this.clipFrame(character));
         return origin.map((coordinate, axis) => coordinate + this.characters[character].place[axis]);
     }
     /** Poles may be points or directions; a direction is shown at the end of the limb. */
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }
+    isPoint(limb, part) { return part === "target" || this.poleIsPoint(limb); }
     hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | Feature.POLE_INCOMING)) === 0n; }
     featuresOf(limb) { return BigInt(this.data.crowds[limb.crowdIndex].features); }
     toWorld(limb, character, relative, part = "target") {
         const origin = this.origin(limb, character);
         let vector = mirrored(limb, Array.from(relative));
-        if (part === "pole" && !this.poleIsPoint(limb)) {
-            const length = this.armLength(limb, character) / Math.max(Math.hypot(...vector), 1e-30);
-            vector = vector.map((coordinate) => coordinate * length);
-        }
+        if (!this.isPoint(limb, part)) vector = unit(vector).map((coordinate) => coordinate * this.armLength(limb, character));
         return vector.map((coordinate, axis) => coordinate + origin[axis]);
     }
     toSolved(limb, character, world) {
@@ -188,47 +158,36 @@ class Stage {
 
     /** Moves a goal to a place in the world: of this limb alone, or by the same offset of everyone's. Solves the crowd. */
     drag(limb, character, part, world, everyone) {
+        (everyone ? dragEveryone : dragOne)(this, limb, character, part, world);
         this.changed = true;
-        if (!everyone) {
-            const key = `${limb.index}:${character}`;
-            this.pins.set(key, { ...this.pins.get(key), [part]: world });
-        } else {
-            const now = this.goal(limb, character, part), { size } = this.characters[character];
-            limb.shift[part] = limb.shift[part].map((shift, axis) => shift + (world[axis] - now[axis]) / size);
-        }
         this.solve();
     }
     /** Gives a limb's goals back to the clip, and everyone's of that limb. Solves the crowd. */
     letGo(limb, character) {
-        this.pins.delete(`${limb.index}:${character}`);
-        limb.shift = { target: [0, 0, 0], pole: [0, 0, 0] };
+        dropDrags(this, limb, character);
         this.noteChanges();
         this.solve();
     }
-    isDragged(limb, character) {
-        return this.pins.has(`${limb.index}:${character}`) || Object.values(limb.shift).flat().some((number) => number !== 0);
-    }
-    noteChanges() {
-        const isOwn = (limb) => limb.own.size > 0 || Object.values(limb.shift).flat().some((number) => number !== 0);
-        this.changed = this.pins.size > 0 || this.limbs.some(isOwn);
-    }
+    isDragged(limb, character) { return isPinned(this, limb, character) || isShifted(limb); }
+    noteChanges() { this.changed = this.pins.size > 0 || this.limbs.some((limb) => limb.own.size > 0 || isShifted(limb)); }
 
-    /** Sets a field, by its name in Field, for all characters of some limbs; null takes it away. Solves the crowd. */
+    /** Sets a field, by its name in Field, for all characters of some limbs; null takes it away. Solves the crowd. Changes nothing if it fails. */
     setField(limbs, name, valueOf) {
-        let isNew = false;
-        for (const limb of limbs) {
-            const value = valueOf && valueOf(limb);
-            isNew ||= value ? !this.has(limb, name) : limb.own.has(name);
-            if (value) limb.own.set(name, value);
-            else limb.own.delete(name);
+        const values = limbs.map((limb) => (valueOf ? valueOf(limb) : null)), before = limbs.map(({ own }) => new Map(own));
+        const isNew = limbs.some((limb) => this.has(limb, name) !== (valueOf !== null));
+        const write = () => (isNew ? this.makeCrowds() : limbs.forEach((limb) => this.writeFields(limb)));
+        limbs.forEach((limb, n) => setOwn(limb, name, values[n]));
+        try {
+            write();
+        } catch (error) {
+            limbs.forEach((limb, n) => { limb.own = before[n]; });
+            if (!isNew) write();
+            throw error;
         }
-        if (isNew) this.makeCrowds();
-        else limbs.forEach((limb) => this.writeFixed(limb));
         this.noteChanges();
         this.solve();
     }
-    /** What a field of a limb is for all characters: the user's, else the file's, else nothing. */
-    field(limb, name) { return limb.own.get(name) ?? limb.fixed.get(Field[name]); }
+    field(limb, name) { return fieldOf(limb, name); }
 
     /** The results of one limb. */
     read(limb, character, name) {
@@ -243,14 +202,26 @@ class Stage {
         const limbs = { group: limb.group, first, count }, crowd = this.crowdOf(limb);
         return { elbows: crowd.elbows(limbs), wrists: crowd.wrists(limbs) };
     }
+    /** What the clavicle makes of the shoulder, as solved: how far it is moved, and its parent's rotation. */
+    clavicle(limb, character) {
+        const parent = new Quaternion().fromArray(this.input(limb, character, "rotation")).normalize(), shift = new Vector3();
+        if (!this.has(limb, "CLAVICLE")) return { shift, parent };
+        const bone = new Vector3().fromArray(this.read(limb, character, "CLAVICLE"));
+        const turn = new Quaternion().fromArray(this.read(limb, character, "CLAVICLE_TURN")).normalize();
+        return { shift: shift.copy(bone).applyQuaternion(turn).sub(bone).applyQuaternion(parent), parent: parent.multiply(turn) };
+    }
+    /** A limb's shoulder in the world. */
+    shoulder(limb, character) { return this.toWorld(limb, character, this.clavicle(limb, character).shift.toArray()); }
     /** Shoulder, elbow and wrist of one limb in the world. */
     pose(limb, character) {
         const { elbows, wrists } = this.joints(limb, character, 1);
         return {
-            shoulder: this.origin(limb, character),
+            shoulder: this.shoulder(limb, character),
             elbow: this.toWorld(limb, character, elbows), wrist: this.toWorld(limb, character, wrists),
         };
     }
+    /** The elbow's flexion in radians. */
+    flexion(limb, character) { return this.crowdOf(limb).jointAngles({ group: limb.group, first: character, count: 1 })[3]; }
 
     digests() { return this.crowds.map((crowd) => crowd.digest().toString(16).padStart(16, "0")); }
     /** How this frame's digests are beside the command's: "equal", "different", "changed", "out of order" or "none". */
@@ -263,4 +234,4 @@ class Stage {
     }
 }
 
-export { Feature, Field, Flag, layout };
+export { Feature, Field, Flag, SwivelError };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How much was solved, how fast, and whether the bits are the command's.
+// How much was solved, how fast, whether the bits are the command's, and what the page has to say.
 import { element } from "./dom.js";
 
 /** What a frame's digest is beside the command's. */
@@ -21,5 +21,7 @@ export function makeStatus(page) {
         digest.dataset.state = state;
         digest.textContent = `digest ${stage.digests().join(" ")}, ${DIGEST_WORDS[state](stage.data.digests[stage.frame]?.join(" "))}`;
     });
-    return element("div", { class: "status" }, speed, digest);
+    const notice = element("p", { class: "notice", role: "status" });
+    page.on("say", (text) => { notice.textContent = text; });
+    return element("div", { class: "status" }, speed, digest, notice);
 }

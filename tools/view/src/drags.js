@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Goals that the user has moved: one alone, which then stays in its place, or everyone's of a limb, by one shift for all.
+
+const PARTS = ["target", "pole"];
+export const NO_SHIFT = { target: [0, 0, 0], pole: [0, 0, 0] };
+
+/** A vector of length 1; as it is where it has none. */
+export function unit(vector) {
+    const length = Math.hypot(...vector);
+    return Array.from(vector, (part) => (length > 0 ? part / length : part));
+}
+const keyOf = (limb, character) => `${limb.index}:${character}`;
+
+export const isPinned = (stage, limb, character) => stage.pins.has(keyOf(limb, character));
+export const isShifted = (limb) => PARTS.some((part) => limb.shift[part].some((number) => number !== 0));
+
+/** Moves a limb's goals, which the stage has just filled in, to where the user wants them. */
+export function moveGoals(stage, limb) {
+    for (const part of PARTS) if (limb.shift[part].some((number) => number !== 0)) shiftAll(stage, limb, part);
+    for (const [key, pin] of stage.pins) {
+        const [index, character] = key.split(":").map(Number);
+        if (index !== limb.index) continue;
+        for (const part of PARTS) if (pin[part]) stage.input(limb, character, part).set(stage.toSolved(limb, character, pin[part]));
+    }
+}
+/** Points go by the shift times the character's size, directions of length 1 by the shift itself. */
+function shiftAll(stage, limb, part) {
+    const shift = limb.shift[part], isPoint = stage.isPoint(limb, part);
+    stage.characters.forEach(({ size }, n) => {
+        const at = stage.input(limb, n, part);
+        at.set(isPoint ? at.map((number, axis) => number + size * shift[axis]) : unit(unit(at).map((number, axis) => number + shift[axis])));
+    });
+}
+
+/** world: where the goal of this character goes. */
+export function dragOne(stage, limb, character, part, world) {
+    const key = keyOf(limb, character);
+    stage.pins.set(key, { ...stage.pins.get(key), [part]: world });
+}
+/** The same for everyone's. Those that were moved alone go along again. */
+export function dragEveryone(stage, limb, character, part, world) {
+    for (const [key, { [part]: _, ...rest }] of stage.pins) {
+        if (Number(key.split(":")[0]) !== limb.index) continue;
+        if (Object.keys(rest).length > 0) stage.pins.set(key, rest);
+        else stage.pins.delete(key);
+    }
+    stage.askGoals(limb);
+    const asked = stage.input(limb, character, part), place = stage.toSolved(limb, character, world);
+    const shift = stage.isPoint(limb, part) ? place.map((coordinate, axis) => (coordinate - asked[axis]) / stage.characters[character].size)
+        : unit(place).map((coordinate, axis) => coordinate - unit(asked)[axis]);
+    limb.shift = { ...limb.shift, [part]: shift };
+}
+/** A limb's goals are the clip's again, and everyone's of that limb. */
+export function dropDrags(stage, limb, character) {
+    stage.pins.delete(keyOf(limb, character));
+    limb.shift = NO_SHIFT;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+//
+// From the data that `swivel view` writes to a stage: whether command and page fit each other, and how much memory to take.
+import { instantiate } from "swivel-wasm/instantiate.js";
+import { layout, VERSION } from "swivel-wasm/layout.js";
+import wasm from "view.wasm";
+
+import { byteCountOf, SIZE } from "./bytes.js";
+import { Stage } from "./stage.js";
+
+const MOST_MEGABYTES = 4096;  // that WebAssembly can address
+
+/** Frames of the clip, by the positions of its joints. The crowd may have been solved for fewer. */
+const clipFramesOf = (data) => byteCountOf(data.positions) / (12 * data.joints.length);
+
+/** Refuses data of a command whose structures are laid out in another way. */
+function check(data) {
+    const again = "Make both of one source: tools/view/build makes the page's program";
+    if (data.version !== VERSION) throw new Error(`the command is swivel ${data.version}, and the page's program is swivel ${VERSION}. ${again}`);
+    const expect = (name, base64, bytes) => {
+        const given = byteCountOf(base64);
+        if (given !== bytes) throw new Error(`the command wrote ${given} bytes for ${name}, and the page's program expects ${bytes}. ${again}`);
+    };
+    expect("characters", data.characters, SIZE.character * data.character_count);
+    for (const { name, binding, plan, sources } of data.limbs) {
+        expect(`the binding of ${name}`, binding, layout.swivel_binding.bytes);
+        expect(`the plan of ${name}`, plan, SIZE.plan);
+        expect(`the clip of ${name}`, sources, SIZE.source * clipFramesOf(data));
+    }
+}
+
+/** What the module's memory must hold: the clip, and for each limb what goes in, what comes out, and crowds made anew beside the old. */
+function megabytesFor(data) {
+    const clip = data.limbs.reduce((sum, { sources }) => sum + byteCountOf(sources), byteCountOf(data.characters));
+    const limbs = data.limbs.length * data.character_count * (2048 + SIZE.input);
+    const megabytes = 48 + Math.ceil((clip + limbs) / 2 ** 20);
+    if (megabytes > MOST_MEGABYTES)
+        throw new Error(`this crowd takes ${megabytes} MB of memory, and a page can have ${MOST_MEGABYTES}. Take fewer --frames or --characters`);
+    return megabytes;
+}
+
+/** Opens a stage for the page's data. */
+export async function openStage(data) {
+    check(data);
+    return new Stage(await instantiate({ wasm, megabytes: megabytesFor(data) }), data);
+}
