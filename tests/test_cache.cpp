@@ -6,6 +6,9 @@
 #include <rapidcheck/catch.h>
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -100,7 +103,7 @@ TEST_CASE("Chunks are read back, and cut or packed wrongly they are known")
     const TempFolder folder;
     rc::prop("ZarrStore", [&] {
         const bool is_packed = *rc::gen::arbitrary<bool>();
-        const ZarrStore store(folder / (is_packed ? "packed" : "plain"), is_packed);
+        const ZarrStore store(folder.path, is_packed);
         const std::uint64_t count = up_to(2000);
         const ZarrArray array{"numbers", "<u4", {"n"}, {count}, {count}, "any"};
         store.write_array(array);
@@ -111,7 +114,7 @@ TEST_CASE("Chunks are read back, and cut or packed wrongly they are known")
         const auto read = [&] { return store.read_chunk(array, {0}, std::as_writable_bytes(std::span(found))); };
         fs::remove(store.chunk_path(array, {0}));
         RC_ASSERT(read() == ChunkRead::missing);
-        const std::size_t size = store.write_chunk(array, {0}, bytes_of(numbers));
+        const std::size_t size = store.write_chunk(array, {0}, bytes_in(numbers));
         RC_ASSERT(fs::file_size(store.chunk_path(array, {0})) == size);
         RC_ASSERT(read() == ChunkRead::whole);
         RC_ASSERT(found == numbers);
@@ -132,18 +135,19 @@ TEST_CASE("A digest sees every bit and every word's place")
     });
 }
 
+const std::string kLimited =
+    "[budget]\nblocks = 2\n[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 3\n";
+
 // A crowd of 40 characters with limits, step limits and a budget, in a cache that is filled.
 struct CacheStage {
     TempFolder folder;
     std::vector<std::string> crowd{"--crowd", "crowd.toml", "--characters", "40"};
 
-    CacheStage()
+    explicit CacheStage(const std::string& toml = kLimited, const std::string& keeps = "both")
     {
         spill(folder / "clip.bvh", kTwoArms);
-        spill(folder / "crowd.toml",
-              "[budget]\nblocks = 2\n[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame "
-              "= 3\n");
-        require_done(run(with_crowd({"store", "clip.bvh", "cache", "--chunk", "1,16"})));
+        spill(folder / "crowd.toml", toml);
+        require_done(run(with_crowd({"store", "clip.bvh", "cache", "--chunk", "1,16", "--store", keeps})));
     }
     Outcome run(const std::vector<std::string>& words) const { return run_command(folder.path, words); }
     std::vector<std::string> with_crowd(std::vector<std::string> words) const
@@ -152,6 +156,20 @@ struct CacheStage {
         return words;
     }
     std::map<std::string, std::string> files() const { return files_of(folder / "cache"); }
+    // Turns a bit of a file over.
+    void flip(const std::string& name) const
+    {
+        std::string bytes = slurp(folder / ("cache/" + name));
+        bytes[9 % bytes.size()] ^= 1;
+        spill(folder / ("cache/" + name), bytes);
+    }
+    void require_refused(const std::vector<std::string>& words, const std::string& what) const
+    {
+        const Outcome outcome = run(words);
+        CHECK(outcome.exit_code == 1);
+        CHECK_THAT(outcome.err, Contains(what));
+        CHECK(std::ranges::count(outcome.err, '\n') == 1);
+    }
 };
 
 TEST_CASE("A crowd goes through store, fill, check and replay with the bits of solve")
@@ -188,26 +206,122 @@ TEST_CASE("A bit that turns over is named, in poses mended, in goals reported")
     const CacheStage stage;
     require_done(stage.run({"fill", "cache"}));
     const auto filled = stage.files();
-    const auto flip = [&](const std::string& name) {
-        std::string bytes = slurp(stage.folder / ("cache/" + name));
-        bytes[9 % bytes.size()] ^= 1;
-        spill(stage.folder / ("cache/" + name), bytes);
-    };
     for (const char* name : {"shoulder/1.0.2.0", "flags/1.0.2", "state/normal/1.0.2.0", "digest/1.2"}) {
-        flip(name);
+        stage.flip(name);
         const Outcome mended = stage.run({"check", "cache"});
         CHECK(mended.exit_code == 1);
         CHECK_THAT(mended.err, Contains("1 of 6 chunks were damaged and are written again, the first is 1.2: "));
         CHECK(stage.files() == filled);
     }
     for (const char* name : {"clip/wrist/0.0.0", "character/start/2", "chosen/1.0.2"}) {
-        flip(name);
+        stage.flip(name);
         for (const char* command : {"check", "replay"}) {
             const Outcome reported = stage.run({command, "cache"});
             CHECK(reported.exit_code == 1);
             CHECK_THAT(reported.err, Contains(std::string(name) + ": is damaged; goals cannot be computed again"));
         }
-        flip(name);
+        stage.flip(name);
     }
     CHECK(stage.files() == filled);
+}
+
+TEST_CASE("Limbs with different numbers of twist bones go on, are replayed and are proved by their digests")
+{
+    const std::string toml =
+        "[limb.left_arm]\ntwist_bones = 1\n[limb.right_arm]\ntwist_bones = 2\n"
+        "[limb.arms.swivel]\nmost_deg_per_frame = 3\n";
+    const CacheStage stage(toml), poses(toml, "poses");
+    require_done(stage.run({"fill", "cache"}));
+    const auto filled = stage.files();
+    fs::remove(stage.folder / "cache/digest/1.1");
+    require_done(stage.run({"fill", "cache", "--resume"}));
+    CHECK(stage.files() == filled);
+    require_done(stage.run({"replay", "cache", "--frames", "1:2"}));
+    require_done(poses.run({"fill", "cache"}));
+    require_done(poses.run({"check", "cache"}));
+    CHECK_THAT(poses.run({"check", "cache"}).out, Contains("6 chunks: their poses have their digests"));
+}
+
+TEST_CASE("State that is damaged is taken up by nobody")
+{
+    const CacheStage stage;
+    require_done(stage.run({"fill", "cache"}));
+    const auto filled = stage.files();
+    stage.flip("state/normal/0.0.1.0");
+    const std::string what = "the state after chunk 0.1 is missing or damaged; run swivel fill --verify";
+    stage.require_refused({"replay", "cache", "--frames", "1:2"}, what);
+    fs::remove(stage.folder / "cache/digest/1.1");
+    stage.require_refused({"fill", "cache", "--resume"}, what);
+    require_done(stage.run({"fill", "cache", "--verify"}));
+    CHECK(stage.files() == filled);
+}
+
+TEST_CASE("Goals that are gone are never taken for zeros")
+{
+    const CacheStage stage;
+    require_done(stage.run({"fill", "cache"}));
+    fs::remove(stage.folder / "cache/clip/wrist/0.0.0");
+    spill(stage.folder / "cache/goal_digest/clip/wrist/0.0.0", std::string(8, '\0'));
+    for (const char* command : {"check", "replay"})
+        stage.require_refused({command, "cache"}, "goal_digest: was changed: its digest is another");
+    fs::remove(stage.folder / "cache/goal_digest/clip/wrist/0.0.0");
+    stage.require_refused({"check", "cache"}, "goal_digest/clip/wrist/0.0.0: is missing or damaged");
+}
+
+TEST_CASE("A cache of poses keeps poses and characters, and what an interrupted end left is removed")
+{
+    const CacheStage stage(kLimited, "poses");
+    require_done(stage.run({"fill", "cache"}));
+    fs::copy(stage.folder / "cache", stage.folder / "goals", fs::copy_options::recursive);
+    require_done(stage.run({"check", "cache"}));
+    const auto closed = stage.files();
+    CHECK(std::ranges::none_of(closed, [](const auto& file) {
+        return file.first.starts_with("clip/") || file.first.starts_with("state/") || file.first.starts_with("chosen/");
+    }));
+    CHECK(closed.contains("character/size/2"));
+    fs::copy(stage.folder / "goals/clip", stage.folder / "cache/clip", fs::copy_options::recursive);
+    spill(stage.folder / "cache/shoulder/.swivel-1-0", "a writer was killed");
+    require_done(stage.run({"check", "cache"}));
+    CHECK(stage.files() == closed);
+    stage.flip("character/size/2");
+    stage.require_refused({"check", "cache"}, "character/size/2: is damaged");
+}
+
+TEST_CASE("A store that another left unfinished is not taken up")
+{
+    const CacheStage stage;
+    fs::create_directory(stage.folder / fmt::format(".swivel-{}-0", ::getpid()));
+    spill(stage.folder / fmt::format(".swivel-{}-0/junk", ::getpid()), "of another process");
+    require_done(stage.run(stage.with_crowd({"store", "clip.bvh", "second", "--chunk", "1,16"})));
+    CHECK(files_of(stage.folder / "second") == stage.files());
+    CHECK(fs::exists(stage.folder / fmt::format(".swivel-{}-0/junk", ::getpid())));
+    const std::string longest(255, 'n');
+    require_done(stage.run(stage.with_crowd({"store", "clip.bvh", longest})));
+}
+
+TEST_CASE("Metadata that no store writes is refused, whatever its digest")
+{
+    const CacheStage stage;
+    const fs::path path = stage.folder / "cache/.zattrs";
+    const CachedCrowd whole = Cache(stage.folder / "cache").crowd();
+    const std::pair<const char*, void (*)(CachedCrowd&)> changes[] = {
+        {"frames is 0", [](CachedCrowd& crowd) { crowd.frame_count = 0; }},
+        {"characters is 4294967295", [](CachedCrowd& crowd) { crowd.character_count = ~0u; }},
+        {"chunk_frames is 0", [](CachedCrowd& crowd) { crowd.chunk.frames = 0; }},
+        {"chunk_characters is 0", [](CachedCrowd& crowd) { crowd.chunk.characters = 0; }},
+        {"chunk_characters is no multiple of 16", [](CachedCrowd& crowd) { crowd.chunk.characters = 17; }},
+        {"clip_frames is 3", [](CachedCrowd& crowd) { crowd.limbs[0].sources.resize(3); }},
+        {"a joint comes before its parent", [](CachedCrowd& crowd) { crowd.joints[1].parent = 77; }},
+        {"a limb's joints are not three",
+         [](CachedCrowd& crowd) {
+             crowd.limbs[1].joints = {99, 1, 2};
+         }},
+        {"a limb's joints are not three", [](CachedCrowd& crowd) { crowd.limbs[1].joints.clear(); }}};
+    std::uint32_t clip_frames = 0;
+    CHECK_NOTHROW(crowd_of_attributes(attributes_of(whole), path, &clip_frames));
+    for (const auto& [what, change] : changes) {
+        CachedCrowd changed = whole;
+        change(changed);
+        CHECK_THROWS_WITH(crowd_of_attributes(attributes_of(changed), path, &clip_frames), Contains(what));
+    }
 }

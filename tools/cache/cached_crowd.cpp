@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "tools/formats/error.h"
@@ -20,6 +20,8 @@ constexpr int kFormat = 1;
 constexpr std::pair<Keep, const char*> kKeeps[] = {
     {Keep::goals, "goals"}, {Keep::poses, "poses"}, {Keep::both, "both"}};
 constexpr std::uint32_t kLimbsInChunk = 65'536;
+constexpr std::uint32_t kMost = 0x7fffffff;  // frames, characters
+constexpr std::size_t kMostLimbs = 4;        // of a character: formats::LimbName has no more
 
 // The rotations of a binding, by the names of swivel_binding.
 constexpr std::pair<const char*, float (swivel_binding::*)[4]> kBindingRotations[] = {
@@ -31,6 +33,18 @@ constexpr std::pair<const char*, float (swivel_binding::*)[4]> kBindingRotations
     {"shoulder_rest", &swivel_binding::shoulder_rest},
     {"elbow_rest", &swivel_binding::elbow_rest},
     {"wrist_rest", &swivel_binding::wrist_rest}};
+
+// A number within its range.
+std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
+{
+    const Json& value = json.at(name);
+    const bool is_whole =
+        value.is_number_unsigned() && value.get<std::uint64_t>() >= least && value.get<std::uint64_t>() <= most;
+    if (!is_whole)
+        throw std::invalid_argument(
+            fmt::format("{} is {}, not a number from {} to {}", name, value.dump(), least, most));
+    return value.get<std::uint32_t>();
+}
 
 Json json_of(const swivel_binding& binding)
 {
@@ -94,7 +108,7 @@ goal_plan goals_of(const Json& json)
     get(json.at("pole_fixed"), goals.pole_fixed);
     json.at("has_target_point").get_to(goals.has_target_point);
     json.at("has_pole_fixed").get_to(goals.has_pole_fixed);
-    json.at("pole").get_to(goals.pole);
+    goals.pole = static_cast<decltype(goals.pole)>(whole(json, "pole", 0, 2));
     json.at("hand_is_local").get_to(goals.hand_is_local);
     json.at("is_mirrored").get_to(goals.is_mirrored);
     return goals;
@@ -133,6 +147,28 @@ CachedLimb limb_of(const Json& json)
     for (const Json& each : json.at("fixed"))
         setup.fields.push_back({each.at("field").get<swivel_field>(), each.at("value").get<std::array<float, 12>>()});
     return limb;
+}
+
+Keep keep_of(const Json& json)
+{
+    for (const auto& [keep, word] : kKeeps)
+        if (json == word) return keep;
+    throw std::invalid_argument("keep is none of goals, poses and both");
+}
+
+// What the rest of the program relies on, beside the ranges of numbers.
+void require_sane(const CachedCrowd& crowd)
+{
+    if (crowd.limbs.empty() || crowd.limbs.size() > kMostLimbs)
+        throw std::invalid_argument("there are no limbs, or too many");
+    const auto joint_count = static_cast<int>(crowd.joints.size());
+    for (int n = 0; n < joint_count; ++n)
+        if (const int parent = crowd.joints[static_cast<std::size_t>(n)].parent; parent < -1 || parent >= n)
+            throw std::invalid_argument("a joint comes before its parent");
+    const auto is_joint = [&](int joint) { return joint >= 0 && joint < joint_count; };
+    for (const CachedLimb& limb : crowd.limbs)
+        if (limb.joints.size() != 3 || !std::ranges::all_of(limb.joints, is_joint))
+            throw std::invalid_argument("a limb's joints are not three of the joints");
 }
 
 std::string digest_text(const Json& attributes)
@@ -215,6 +251,7 @@ Json attributes_of(const CachedCrowd& crowd)
              {"clip", crowd.clip},
              {"clip_frames", crowd.clip_frame_count()},
              {"frame_seconds", crowd.frame_seconds},
+             {"goals_digest", fmt::format("{:016x}", crowd.goals_digest)},
              {"joints", std::move(joints)},
              {"limbs", std::move(limbs)}};
     out["digest"] = digest_text(out);
@@ -235,23 +272,26 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         refuse("was changed: its digest is another; take it from a copy, or make the cache anew");
     CachedCrowd crowd;
     try {
-        for (const auto& [keep, word] : kKeeps)
-            if (attributes.at("keep") == word) crowd.keep = keep;
+        crowd.keep = keep_of(attributes.at("keep"));
         attributes.at("closed").get_to(crowd.is_closed);
         attributes.at("compressed").get_to(crowd.is_compressed);
-        attributes.at("frames").get_to(crowd.frame_count);
-        attributes.at("characters").get_to(crowd.character_count);
-        attributes.at("chunk_frames").get_to(crowd.chunk.frames);
-        attributes.at("chunk_characters").get_to(crowd.chunk.characters);
-        attributes.at("budget_blocks").get_to(crowd.budget_blocks);
+        crowd.frame_count = whole(attributes, "frames", 1, kMost);
+        crowd.character_count = whole(attributes, "characters", 1, kMost);
+        crowd.chunk.frames = whole(attributes, "chunk_frames", 1, kMostFramesInChunk);
+        crowd.chunk.characters = whole(attributes, "chunk_characters", SWIVEL_LANES, kMostCharactersInChunk);
+        if (crowd.chunk.characters % SWIVEL_LANES != 0)
+            throw std::invalid_argument("chunk_characters is no multiple of 16");
+        crowd.budget_blocks = whole(attributes, "budget_blocks", 0, kMost);
         attributes.at("has_given").get_to(crowd.has_given);
         attributes.at("title").get_to(crowd.title);
         attributes.at("clip").get_to(crowd.clip);
-        attributes.at("clip_frames").get_to(*clip_frame_count);
+        *clip_frame_count = whole(attributes, "clip_frames", 1, crowd.frame_count);
         attributes.at("frame_seconds").get_to(crowd.frame_seconds);
+        crowd.goals_digest = std::stoull(attributes.at("goals_digest").get<std::string>(), nullptr, 16);
         for (const Json& joint : attributes.at("joints"))
             crowd.joints.push_back({joint.at("name").get<std::string>(), joint.at("parent").get<int>()});
         for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
+        require_sane(crowd);
     } catch (const std::exception& error) {  // the digest holds, so another program wrote it
         refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store", error.what()));
     }

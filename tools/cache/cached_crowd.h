@@ -4,6 +4,7 @@
 // cut. docs/cache.md has it for readers of the files.
 #pragma once
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct CachedLimb {
     std::vector<goal_source> sources;  // one for each frame of the clip
 };
 
+constexpr std::uint32_t kMostFramesInChunk = 65'536, kMostCharactersInChunk = 1'048'576;
 // Frames and characters that one file of an array holds. Characters: a multiple of SWIVEL_LANES.
 struct ChunkShape {
     std::uint32_t frames, characters;
@@ -48,6 +50,7 @@ struct CachedCrowd {
     Keep keep = Keep::both;
     bool is_closed = false, is_compressed = false;
     ChunkShape chunk{1, 16};
+    std::uint64_t goals_digest = 0;  // of all arrays that are written once
 
     std::uint32_t clip_frame_count() const { return static_cast<std::uint32_t>(limbs[0].sources.size()); }
     // Chunks along the frames and along the characters.
@@ -60,6 +63,11 @@ struct CachedCrowd {
     std::uint32_t characters_in(std::uint32_t column) const
     {
         return std::min(chunk.characters, character_count - column * chunk.characters);
+    }
+    // The place of a character's limb in arrays [frame][limb][character] of a chunk; all three counted within it.
+    std::size_t place(std::size_t frame, std::size_t limb, std::size_t character) const
+    {
+        return (frame * limbs.size() + limb) * chunk.characters + character;
     }
     // Whether a frame's results depend on the frame before.
     bool carries_state() const;

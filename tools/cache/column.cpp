@@ -10,20 +10,6 @@ namespace {
 
 constexpr std::uint32_t kNoNumber = 0x7fc00000;  // a float that is NaN
 
-std::vector<LimbSetup> setups_of(const CachedCrowd& crowd)
-{
-    std::vector<LimbSetup> setups;
-    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
-    return setups;
-}
-
-std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
-{
-    std::vector<std::span<const goal_source>> sources;
-    for (const CachedLimb& limb : crowd.limbs) sources.push_back(limb.sources);
-    return sources;
-}
-
 }  // namespace
 
 // Blocks are chosen when the cache is made, so the crowd itself has no budget.
@@ -56,7 +42,7 @@ void Column::read_frame(std::uint32_t frame, Results& results) const
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
             if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
             const std::size_t count = fields_[n].count();
-            const std::size_t at = (frame * cached_.limbs.size() + limb) * cached_.chunk.characters * count;
+            const std::size_t at = cached_.place(frame, limb, 0) * count;
             crowd_.crowds().read(limb, fields_[n].field, 0, crowd_.character_count(),
                                  {&results[n][at], count * sizeof(std::uint32_t)});
         }
@@ -68,9 +54,9 @@ void Column::restore_frame(std::uint32_t frame, const Results& results)
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
             if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
             const std::size_t count = fields_[n].count();
-            const std::size_t at = (frame * cached_.limbs.size() + limb) * cached_.chunk.characters * count;
+            const std::size_t at = cached_.place(frame, limb, 0) * count;
             crowd_.crowds().restore(limb, fields_[n].field,
-                                    std::span(results[n]).subspan(at, crowd_.character_count() * count));
+                                    std::span(results[n]).subspan(at, crowd_.character_count() * count), count);
         }
 }
 
@@ -102,11 +88,11 @@ void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t
                GoalCrowd& crowd, std::vector<GivenPlace>* places)
 {
     if (goals.target.empty()) return;
-    const std::size_t limb_count = cached.limbs.size(), wide = cached.chunk.characters;
+    const std::size_t limb_count = cached.limbs.size();
     const std::uint32_t count = std::min(cached.chunk.characters, crowd.character_count() - first);
     for (std::size_t limb = 0; limb < limb_count; ++limb)
         for (std::uint32_t n = 0; n < count; ++n) {
-            const std::size_t at = (frame * limb_count + limb) * wide + n;
+            const std::size_t at = cached.place(frame, limb, n);
             if (std::isnan(goals.target[3 * at])) continue;
             goal_input& input = crowd.input(limb, first + n);
             std::copy_n(&goals.target[3 * at], 3, input.target);
@@ -114,6 +100,20 @@ void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t
             std::copy_n(&goals.hand[4 * at], 4, input.hand);
             if (places) places->push_back({limb, first + n});
         }
+}
+
+std::vector<LimbSetup> setups_of(const CachedCrowd& crowd)
+{
+    std::vector<LimbSetup> setups;
+    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
+    return setups;
+}
+
+std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd)
+{
+    std::vector<std::span<const goal_source>> sources;
+    for (const CachedLimb& limb : crowd.limbs) sources.push_back(limb.sources);
+    return sources;
 }
 
 Results empty_results(const CachedCrowd& crowd)

@@ -3,7 +3,8 @@
 // Solves chunks of a cache: the characters of one column, frame by frame.
 #pragma once
 
-#include <memory>
+#include <filesystem>
+#include <vector>
 
 #include "tools/cache/cache.h"
 #include "tools/crowd/goal_crowd.h"
@@ -25,8 +26,6 @@ public:
     // The digest that a chunk with these results has.
     std::uint64_t digest(std::uint32_t time, const Results& results);
 
-    GoalCrowd& goal_crowd() { return crowd_; }
-
 private:
     void solve_frame(const ChunkGoals& goals, std::uint32_t frame);
     void read_frame(std::uint32_t frame, Results& results) const;
@@ -43,6 +42,10 @@ private:
 // first and on are the chunk's. places, unless null, gets the limbs that had some.
 void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t frame, std::uint32_t first,
                GoalCrowd& crowd, std::vector<GivenPlace>* places = nullptr);
+
+// The limbs of a crowd as GoalCrowd takes them.
+std::vector<LimbSetup> setups_of(const CachedCrowd& crowd);
+std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
 
 // Whole chunks' results, all of them NaN, and 0 where they are flags.
 Results empty_results(const CachedCrowd& crowd);

@@ -27,6 +27,8 @@ namespace {
 constexpr std::uint64_t kProgramBytes = std::uint64_t{48} << 20;  // of code, libraries and threads
 constexpr std::uint64_t kBytesOfLimb = 1024;                      // of a solver's limb with its inputs, at most
 constexpr std::size_t kMostInFlight = 16;                         // chunks
+
+#ifdef SWIVEL_WITH_TBB
 constexpr int kWaiting = 2;  // threads beside the solver's, which wait for the disk
 
 // Gives back its place among those that solve, however the solving ends.
@@ -34,6 +36,7 @@ struct Release {
     std::counting_semaphore<>& solvers;
     ~Release() { solvers.release(); }
 };
+#endif
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -122,6 +125,7 @@ std::unique_ptr<Work> Filling::read_next()
             const std::lock_guard lock(mutex_);
             ++report_.skipped;
             ++through_;
+            if (options_.progress) options_.progress(through_);
             continue;
         }
         auto work =
@@ -130,13 +134,8 @@ std::unique_ptr<Work> Filling::read_next()
             characters_ = std::make_shared<const std::vector<goal_character>>(cache_.characters(at.column));
         work->characters = characters_;
         const bool follows = read_last_ && *read_last_ == ChunkAt{at.time - 1, at.column};
-        if (cache_.crowd().carries_state() && at.time > 0 && !follows) {
-            work->state = cache_.state({at.time - 1, at.column});
-            if (!work->state)
-                throw formats::InputError(
-                    cache_.folder(), fmt::format("the state after chunk {}.{} is missing; run swivel fill --verify",
-                                                 at.time - 1, at.column));
-        }
+        if (cache_.crowd().carries_state() && at.time > 0 && !follows)
+            work->state = cache_.require_state({at.time - 1, at.column});
         read_last_ = at;
         ++next_;
         return work;
@@ -178,7 +177,7 @@ std::string Filling::difference(const Work& work) const
     const CachedCrowd& crowd = cache_.crowd();
     const auto compare = [](const std::optional<Results>& stored, const Results& wanted,
                             const std::vector<ZarrArray>& arrays) -> std::string {
-        if (!stored) return fmt::format("a file of {} is missing or cut", arrays[0].name);
+        if (!stored) return fmt::format("a file like those of {} is missing or damaged", arrays[0].name);
         for (std::size_t n = 0; n < wanted.size(); ++n)
             if ((*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
         return "";
@@ -216,11 +215,16 @@ std::size_t Filling::in_flight() const
     const CacheArrays& arrays = cache_.arrays();
     std::uint64_t of_chunk = 0;
     for (const ZarrArray& array : arrays.results) of_chunk += array.chunk_bytes();
-    if (options_.verifies) of_chunk *= 3;  // those that are stored, too, as a file and as numbers
+    for (const ZarrArray& array : arrays.state) of_chunk += array.chunk_bytes();
+    // Those that are stored, as a file and as numbers, or else files to be packed.
+    if (options_.verifies || crowd.is_compressed) of_chunk *= 3;
     for (const ZarrArray& array : arrays.given) of_chunk += 2 * array.chunk_bytes();
     const std::uint64_t limbs = std::uint64_t{crowd.chunk.characters} * crowd.limbs.size() * threads_;
-    const std::uint64_t clip = crowd.limbs.size() * crowd.clip_frame_count() * sizeof(goal_source);
-    const std::uint64_t least = kProgramBytes + 2 * clip + limbs * kBytesOfLimb + of_chunk;
+    std::uint64_t all_along = 2 * sizeof(ChunkAt) * chunks_.size();  // the lists of chunks, the clip, digests of goals
+    all_along += 2 * crowd.limbs.size() * crowd.clip_frame_count() * sizeof(goal_source);
+    all_along += 2 * crowd.positions.size() * sizeof(float);
+    for (const ZarrArray& array : arrays.made(crowd)) all_along += array.chunk_count() * sizeof(std::uint64_t);
+    const std::uint64_t least = kProgramBytes + all_along + limbs * kBytesOfLimb + of_chunk;
     if (options_.memory < least)
         throw formats::InputError(
             cache_.folder(), fmt::format("one chunk for each of {} threads takes {} MiB of memory, and --memory is {} "

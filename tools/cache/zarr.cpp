@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstring>
+#include <stdexcept>
 
 #ifdef SWIVEL_WITH_BLOSC
 #include <blosc.h>
@@ -41,10 +43,11 @@ Json read_json(const fs::path& path)
 void make_folder(const fs::path& path)
 {
     std::error_code reason;
-    fs::create_directories(path, reason);
+    const bool is_new = fs::create_directory(path, reason);
     if (reason)
         throw InputError(path,
                          fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
+    if (is_new) formats::sync_folder(path.parent_path());
 }
 
 #ifdef SWIVEL_WITH_BLOSC
@@ -53,7 +56,8 @@ std::vector<char> packed(std::span<const std::byte> bytes, std::size_t number_by
     std::vector<char> out(bytes.size() + BLOSC_MAX_OVERHEAD);
     const int size = blosc_compress_ctx(5, BLOSC_SHUFFLE, number_bytes, bytes.size(), bytes.data(), out.data(),
                                         out.size(), BLOSC_LZ4_COMPNAME, 0, 1);
-    out.resize(static_cast<std::size_t>(std::max(size, 0)));
+    if (size <= 0) throw std::runtime_error("Blosc cannot pack a chunk");  // write_array() refuses those too large
+    out.resize(static_cast<std::size_t>(size));
     return out;
 }
 bool unpack(std::string_view file, std::span<std::byte> to)
@@ -70,8 +74,31 @@ Json compressor() { return {{"id", "blosc"}, {"cname", "lz4"}, {"clevel", 5}, {"
 std::size_t ZarrArray::chunk_bytes() const
 {
     std::size_t bytes = number_bytes();
-    for (const std::uint64_t count : chunks) bytes *= count;
+    for (const std::uint64_t count : chunks) bytes *= static_cast<std::size_t>(count);
     return bytes;
+}
+
+std::vector<std::uint64_t> ZarrArray::chunk_counts() const
+{
+    std::vector<std::uint64_t> counts;
+    for (std::size_t n = 0; n < shape.size(); ++n) counts.push_back((shape[n] + chunks[n] - 1) / chunks[n]);
+    return counts;
+}
+
+std::size_t ZarrArray::chunk_count() const
+{
+    std::size_t count = 1;
+    for (const std::uint64_t along : chunk_counts()) count *= static_cast<std::size_t>(along);
+    return count;
+}
+
+std::size_t ZarrArray::chunk_index(const ChunkPlace& place) const
+{
+    const std::vector<std::uint64_t> counts = chunk_counts();
+    std::size_t index = 0;
+    for (std::size_t n = 0; n < counts.size(); ++n)
+        index = index * static_cast<std::size_t>(counts[n]) + static_cast<std::size_t>(n < place.size() ? place[n] : 0);
+    return index;
 }
 
 ZarrStore::ZarrStore(fs::path folder, bool is_compressed) : folder_(std::move(folder)), is_compressed_(is_compressed)
@@ -93,25 +120,26 @@ Json ZarrStore::description(const ZarrArray& array) const
     return out;
 }
 
-void ZarrStore::write_group(const std::string& name, const Json& attributes) const
+void ZarrStore::write_array(const ZarrArray& array) const
 {
-    const fs::path folder = folder_ / name;
-    make_folder(folder);
-    write_json(folder / ".zgroup", {{"zarr_format", 2}});
-    write_json(folder / ".zattrs", attributes);
-}
-
-void ZarrStore::write_array(const ZarrArray& array, Json attributes) const
-{
-    const fs::path folder = folder_ / array.name;
-    make_folder(folder);
-    attributes["_ARRAY_DIMENSIONS"] = array.dimensions;
-    attributes["long_name"] = array.meaning;
+#ifdef SWIVEL_WITH_BLOSC
+    if (is_compressed_ && array.chunk_bytes() > BLOSC_MAX_BUFFERSIZE)
+        throw InputError(folder_, fmt::format("chunks of {} have {} bytes, more than Blosc can pack; make them smaller",
+                                              array.name, array.chunk_bytes()));
+#endif
+    fs::path folder = folder_;
+    for (const fs::path& part : fs::path(array.name)) {
+        if (std::error_code ignored; !fs::exists(folder / ".zgroup", ignored))
+            write_json(folder / ".zgroup", {{"zarr_format", 2}});
+        make_folder(folder /= part);
+    }
     write_json(folder / ".zarray", description(array));
-    write_json(folder / ".zattrs", attributes);
+    write_json(folder / ".zattrs", {{"_ARRAY_DIMENSIONS", array.dimensions}, {"long_name", array.meaning}});
 }
 
-Json ZarrStore::attributes(const std::string& name) const { return read_json(folder_ / name / ".zattrs"); }
+void ZarrStore::write_attributes(const Json& attributes) const { write_json(folder_ / ".zattrs", attributes); }
+
+Json ZarrStore::attributes() const { return read_json(folder_ / ".zattrs"); }
 
 void ZarrStore::require(const ZarrArray& array) const
 {
@@ -151,8 +179,8 @@ std::size_t ZarrStore::write_chunk(const ZarrArray& array, const ChunkPlace& pla
 ChunkRead ZarrStore::read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const
 {
     const fs::path path = chunk_path(array, place);
-    std::error_code ignored;
-    if (!fs::exists(path, ignored)) return ChunkRead::missing;
+    std::error_code reason;
+    if (!fs::exists(path, reason) && !reason) return ChunkRead::missing;  // open_text() says any other reason
     const auto file = formats::open_text(path);
     std::string content;
     formats::append_bytes(path, file.get(), bytes.size() + 64, content);  // more than a chunk, if it is too long
@@ -164,6 +192,18 @@ ChunkRead ZarrStore::read_chunk(const ZarrArray& array, const ChunkPlace& place,
     return ChunkRead::whole;
 }
 
+std::size_t ZarrStore::write_number(const ZarrArray& array, const ChunkPlace& place, std::uint64_t number) const
+{
+    return write_chunk(array, place, std::as_bytes(std::span(&number, 1)));
+}
+
+std::optional<std::uint64_t> ZarrStore::read_number(const ZarrArray& array, const ChunkPlace& place) const
+{
+    std::uint64_t number = 0;
+    if (read_chunk(array, place, std::as_writable_bytes(std::span(&number, 1))) != ChunkRead::whole) return {};
+    return number;
+}
+
 std::uint64_t digest_of(std::span<const std::byte> bytes)
 {
     std::uint64_t digest = 0xcbf29ce484222325u;
@@ -172,7 +212,7 @@ std::uint64_t digest_of(std::span<const std::byte> bytes)
         std::memcpy(&word, &bytes[at], std::min<std::size_t>(8, bytes.size() - at));
         digest = (digest ^ word) * 0x100000001b3u;
     }
-    return digest;
+    return digest == 0 ? 1 : digest;
 }
 
 }  // namespace swivel::tools

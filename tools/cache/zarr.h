@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@
 namespace swivel::tools {
 
 static_assert(std::endian::native == std::endian::little, "chunks hold numbers as this machine has them");
+
+// Which chunk: its place along each dimension. Shorter than the dimensions: 0 along the rest.
+using ChunkPlace = std::vector<std::uint64_t>;
 
 struct ZarrArray {
     std::string name;                          // its folder within the store's, such as "clip/wrist"
@@ -26,38 +30,43 @@ struct ZarrArray {
 
     std::size_t number_bytes() const { return static_cast<std::size_t>(type.back() - '0'); }
     std::size_t chunk_bytes() const;
+    // Chunks along each dimension, and in all.
+    std::vector<std::uint64_t> chunk_counts() const;
+    std::size_t chunk_count() const;
+    // A chunk's number, the last dimension's counted first.
+    std::size_t chunk_index(const ChunkPlace& place) const;
 };
 
 // What became of a reading. damaged: the file has another size, or cannot be unpacked.
 enum class ChunkRead { missing, damaged, whole };
 
-// Which chunk: its place along each dimension. Shorter than the dimensions: 0 along the rest.
-using ChunkPlace = std::vector<std::uint64_t>;
-
 class ZarrStore {
 public:
-    // is_compressed: chunks are packed by Blosc (LZ4, level 5, bytes shuffled).
+    // folder: is there. is_compressed: chunks are packed by Blosc (LZ4, level 5, bytes shuffled).
     // Throws InputError if this build has no Blosc.
     ZarrStore(std::filesystem::path folder, bool is_compressed);
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    // Makes a group or an array with its attributes, or replaces the attributes of one. Throws InputError as OutputFile
-    // does.
-    void write_group(const std::string& name, const nlohmann::ordered_json& attributes) const;
-    void write_array(const ZarrArray& array,
-                     nlohmann::ordered_json attributes = nlohmann::ordered_json::object()) const;
-    // Throws InputError if the file is missing or is no JSON.
-    nlohmann::ordered_json attributes(const std::string& name) const;
+    // Describes an array and the groups that it is in. Throws InputError if that cannot be written, and if its chunks
+    // are more than Blosc can pack.
+    void write_array(const ZarrArray& array) const;
+    // The attributes of the whole store. Throws InputError if they cannot be written; are missing or no JSON.
+    void write_attributes(const nlohmann::ordered_json& attributes) const;
+    nlohmann::ordered_json attributes() const;
     // Throws InputError unless the store describes the array in this way.
     void require(const ZarrArray& array) const;
 
     // The file of a chunk.
     std::filesystem::path chunk_path(const ZarrArray& array, const ChunkPlace& place) const;
-    // Writes a whole chunk: under a name of its own, synced, renamed. Returns the bytes of the file.
+    // Writes a whole chunk: under a name of its own, synced, renamed. Returns the bytes of the file. Throws InputError
+    // as OutputFile does.
     std::size_t write_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes) const;
     // Reads a whole chunk. Throws InputError for a file that may not be read.
     ChunkRead read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
+    // The same of an array whose chunks are one number of type <u8. Nothing: there is no such file, or it is damaged.
+    std::size_t write_number(const ZarrArray& array, const ChunkPlace& place, std::uint64_t number) const;
+    std::optional<std::uint64_t> read_number(const ZarrArray& array, const ChunkPlace& place) const;
 
 private:
     nlohmann::ordered_json description(const ZarrArray& array) const;
@@ -68,12 +77,12 @@ private:
 
 // Numbers of a chunk as a store takes them.
 template <class Number>
-std::span<const std::byte> bytes_of(const std::vector<Number>& numbers)
+std::span<const std::byte> bytes_in(const std::vector<Number>& numbers)
 {
     return std::as_bytes(std::span(numbers));
 }
 
-// A digest of bytes: FNV-1a of 64 bits, by words of 8 bytes instead of by bytes; zeros fill the last word.
+// A digest of bytes, never 0: FNV-1a of 64 bits, by words of 8 bytes instead of by bytes; zeros fill the last word.
 std::uint64_t digest_of(std::span<const std::byte> bytes);
 
 }  // namespace swivel::tools

@@ -99,16 +99,18 @@ void LimbCrowds::read(std::size_t limb, swivel_field field, std::uint32_t first,
     check(swivel_read(crowd_of(limb).get(), field, places_[limb].group, first, count, to));
 }
 
-void LimbCrowds::restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers)
+void LimbCrowds::restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers,
+                         std::size_t stride)
 {
     swivel_crowd* const crowd = crowd_of(limb).get();
     const swivel_rows rows = swivel_result_rows(crowd);
     const std::uint32_t first_row = swivel_field_first_row(crowd, field), count = swivel_field_row_count(crowd, field);
     const std::uint32_t first = swivel_group_first_limb(crowd, places_[limb].group);
-    for (std::size_t n = 0; n < numbers.size(); ++n) {
-        const std::size_t i = first + n / count, row = i / SWIVEL_LANES * rows.row_count + first_row + n % count;
-        rows.base[row * SWIVEL_LANES + i % SWIVEL_LANES] = std::bit_cast<float>(numbers[n]);
-    }
+    for (std::size_t n = 0; n < numbers.size() / stride; ++n)
+        for (std::size_t part = 0; part < count; ++part) {
+            const std::size_t i = first + n, row = i / SWIVEL_LANES * rows.row_count + first_row + part;
+            rows.base[row * SWIVEL_LANES + i % SWIVEL_LANES] = std::bit_cast<float>(numbers[n * stride + part]);
+        }
 }
 
 void LimbCrowds::forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,

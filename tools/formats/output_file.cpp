@@ -70,15 +70,6 @@ void keep_rights(int descriptor, const struct stat& before)
     static_cast<void>(::fchmod(descriptor, mode));
 }
 
-// A loss of power leaves the new name only once the folder is on the disk, too. Some file systems cannot do that.
-void sync_folder(const fs::path& folder)
-{
-    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    static_cast<void>(::fsync(descriptor));
-    ::close(descriptor);
-}
-
 std::mutex list_mutex;
 OutputFile* all_files = nullptr;
 
@@ -189,6 +180,17 @@ void OutputFile::fail(std::string_view action)
     if (reason == std::errc::broken_pipe && target_.empty() && named_ == kStandardOutput)
         throw std::system_error(reason, kStandardOutput);
     throw InputError(named_, fmt::format("{}: {}; {}", action, reason.message(), advice(reason)));
+}
+
+void sync_folder(const fs::path& folder)
+{
+    const fs::path path = folder.empty() ? fs::path(".") : folder;
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;  // it may be written, and not read
+    const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+    const std::error_code reason(errno, std::generic_category());
+    ::close(descriptor);
+    if (!is_synced) throw InputError(path, fmt::format("cannot be written: {}; check the disk", reason.message()));
 }
 
 }  // namespace swivel::formats

@@ -53,4 +53,8 @@ private:
     OutputFile* next_;  // of all that live
 };
 
+// Waits until the disk has the names in a folder; "" is the working folder. Some file systems cannot do that, and then
+// nothing is waited for. Throws InputError if the disk fails.
+void sync_folder(const std::filesystem::path& folder);
+
 }  // namespace swivel::formats

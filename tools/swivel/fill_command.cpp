@@ -103,8 +103,7 @@ std::vector<ChunkAt> damaged_poses(const Cache& cache, std::span<const ChunkAt> 
         progress.show(n);
         const ChunkAt at = chunks[n];
         if (!column || column->index() != at.column) {
-            const std::vector<goal_character> anyone(crowd.characters_in(at.column), goal_character{1, {}, 0, 0});
-            column = std::make_unique<Column>(crowd, at.column, anyone, cache.folder());
+            column = std::make_unique<Column>(crowd, at.column, cache.characters(at.column), cache.folder());
         }
         const std::optional<Results> results = cache.results(at);
         if (!results || column->digest(at.time, *results) != cache.digest(at)) damaged.push_back(at);
@@ -158,6 +157,7 @@ void run_check(const CheckOptions& options)
                 fmt::format("{} of {} chunks are damaged, the first is {}; the cache keeps no goals, so "
                             "take their files from a copy",
                             damaged.size(), chunks.size(), chunk_name(damaged[0])));
+        cache.close();  // what an interrupted check left
         if (options.json)
             print_json({{"cache", options.folder}, {"chunks", chunks.size()}, {"proved_by", "digests"}});
         else if (!options.quiet)
@@ -176,7 +176,7 @@ void run_check(const CheckOptions& options)
                                         "swivel check once more",
                                         report.differences.size(), chunks.size(), chunk_name(first.at), first.what));
     }
-    if (!cache.crowd().is_closed) cache.close();  // a closed cache may be one that can only be read
+    cache.close();
     if (options.json)
         print_json({{"cache", options.folder},
                     {"chunks", chunks.size()},

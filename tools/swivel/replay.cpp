@@ -61,11 +61,7 @@ Slice solve_slice(const Cache& cache, ChunkAt at)
     if (stored == 0) throw not_done(at);
     Slice slice{cache.characters(at.column), empty_results(crowd)};
     Column column(crowd, at.column, slice.characters, cache.folder());
-    if (crowd.carries_state() && at.time > 0) {
-        const std::optional<Results> state = cache.state({at.time - 1, at.column});
-        if (!state) throw not_done({at.time - 1, at.column});
-        column.restore(*state);
-    }
+    if (crowd.carries_state() && at.time > 0) column.restore(cache.require_state({at.time - 1, at.column}));
     const std::uint64_t digest = column.solve(at.time, cache.goals(at), slice.results);
     if (digest != stored)
         throw InputError(cache.folder(), fmt::format("chunk {}.{} has digest {:016x}, and its goals give {:016x}; run "

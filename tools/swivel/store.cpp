@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tools/cache/cache.h"
+#include "tools/cache/cache_maker.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/signals.h"

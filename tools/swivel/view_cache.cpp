@@ -67,14 +67,9 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     if (crowd.budget_blocks > 0 && count < crowd.character_count)
         throw CommandError(2, "--characters: a budget couples the whole crowd; leave the option out");
     ViewPage page(options.view);
-    std::vector<LimbSetup> setups;
-    std::vector<std::span<const goal_source>> sources;
-    for (const CachedLimb& limb : crowd.limbs) {
-        setups.push_back(limb.setup);
-        sources.push_back(limb.sources);
-    }
+    const std::vector<LimbSetup> setups = setups_of(crowd);
     const ThreadLimit limit(options.threads);
-    GoalCrowd solved(setups, sources, first_characters(cache, count), crowd.budget_blocks, cache.folder());
+    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), crowd.budget_blocks, cache.folder());
     GivenGoals goals(cache);
     const StopSignals signals;
     const std::uint32_t frames = crowd.clip_frame_count();  // the page plays the clip round and round

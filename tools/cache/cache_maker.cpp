@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "tools/cache/cache_maker.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "tools/cache/members.h"
+#include "tools/formats/error.h"
+#include "tools/formats/output_file.h"
+
+namespace swivel::tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+using formats::InputError;
+
+void require_new(const fs::path& target)
+{
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(target, ignored)))
+        throw InputError(target, "is there already; remove it, or name another folder");
+}
+
+}  // namespace
+
+PartialFolder::PartialFolder(const fs::path& target) : target_(target)
+{
+    require_new(target_);
+    std::error_code reason;
+    const fs::path parent = target_.parent_path();
+    if (!parent.empty() && !fs::is_directory(parent, reason)) throw InputError(parent, "is no folder; make it first");
+    bool is_new = false;
+    for (int n = 0; !is_new; ++n) {
+        partial_ = parent / fmt::format(".swivel-{}-{}", ::getpid(), n);
+        is_new = fs::create_directory(partial_, reason);
+        if (reason && reason != std::errc::file_exists) {
+            partial_.clear();
+            throw InputError(
+                target_, fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
+        }
+    }
+}
+
+PartialFolder::~PartialFolder()
+{
+    std::error_code ignored;
+    if (!partial_.empty()) fs::remove_all(partial_, ignored);
+}
+
+void PartialFolder::commit()
+{
+    require_new(target_);
+    std::error_code reason;
+    fs::rename(partial_, target_, reason);
+    if (reason) throw InputError(target_, fmt::format("cannot be made: {}; name another folder", reason.message()));
+    partial_.clear();
+    formats::sync_folder(target_.parent_path());
+}
+
+CacheMaker::CacheMaker(const fs::path& folder, CachedCrowd crowd)
+    : partial_(folder_name(folder)),
+      crowd_(std::move(crowd)),
+      arrays_(crowd_),
+      store_(partial_.path(), crowd_.is_compressed)
+{
+    for (const auto& arrays : {arrays_.filled(crowd_), arrays_.made(crowd_)})
+        for (const ZarrArray& array : arrays) store_.write_array(array);
+    for (const ZarrArray& array : arrays_.made(crowd_)) digests_[array.name].resize(array.chunk_count());
+}
+
+void CacheMaker::write(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes)
+{
+    bytes_ += store_.write_chunk(array, place, bytes);
+    digests_[array.name][array.chunk_index(place)] = digest_of(bytes);
+}
+
+void CacheMaker::write_clip()
+{
+    const std::uint64_t frame_count = crowd_.clip_frame_count();
+    for (std::size_t n = 0; n < std::size(kSourceMembers); ++n) {
+        std::vector<std::byte> bytes;
+        for (const CachedLimb& limb : crowd_.limbs) {
+            const auto part = gathered(std::span(limb.sources), kSourceMembers[n], frame_count);
+            bytes.insert(bytes.end(), part.begin(), part.end());
+        }
+        write(arrays_.clip[n], {}, bytes);
+    }
+    write(arrays_.clip.back(), {}, bytes_in(crowd_.positions));
+}
+
+void CacheMaker::write_characters(std::uint32_t column, std::span<const goal_character> characters)
+{
+    for (std::size_t n = 0; n < std::size(kCharacterMembers); ++n)
+        write(arrays_.characters[n], {column}, gathered(characters, kCharacterMembers[n], crowd_.chunk.characters));
+}
+
+void CacheMaker::write_goals(ChunkAt at, const ChunkGoals& goals)
+{
+    const ChunkPlace place{at.time, 0, at.column};
+    if (!goals.target.empty()) {
+        write(arrays_.given[0], place, bytes_in(goals.target));
+        write(arrays_.given[1], place, bytes_in(goals.pole));
+        write(arrays_.given[2], place, bytes_in(goals.hand));
+    }
+    if (!goals.chosen.empty()) write(*arrays_.chosen, place, bytes_in(goals.chosen));
+}
+
+std::size_t CacheMaker::commit()
+{
+    write_clip();
+    for (const ZarrArray& array : arrays_.made(crowd_)) {
+        store_.write_array(digest_array(array));
+        store_.write_chunk(digest_array(array), {}, bytes_in(digests_[array.name]));
+    }
+    crowd_.goals_digest = digest_of(digests_);
+    store_.write_attributes(attributes_of(crowd_));
+    partial_.commit();
+    return bytes_;
+}
+
+}  // namespace swivel::tools

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// Makes a cache under another name beside it; it appears whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "tools/cache/cache.h"
+
+namespace swivel::tools {
+
+// A new folder beside the target, .swivel-PID-N, which is gone with the object unless it got the target's name.
+class PartialFolder {
+public:
+    // Throws InputError if there is something of the target's name, or the folder cannot be made.
+    explicit PartialFolder(const std::filesystem::path& target);
+    ~PartialFolder();
+    PartialFolder(const PartialFolder&) = delete;
+    PartialFolder& operator=(const PartialFolder&) = delete;
+
+    const std::filesystem::path& path() const { return partial_; }
+    // Throws InputError if something has got the target's name meanwhile, or it cannot be renamed.
+    void commit();
+
+private:
+    std::filesystem::path target_, partial_;
+};
+
+// All calls throw InputError where a file cannot be written. One object belongs to one thread.
+class CacheMaker {
+public:
+    // Throws InputError as PartialFolder does, and for chunks too large to be packed.
+    CacheMaker(const std::filesystem::path& folder, CachedCrowd crowd);
+
+    const CachedCrowd& crowd() const { return crowd_; }
+    // Columns, and chunks of goals, each once, in any order. Goals that are empty are left out.
+    void write_characters(std::uint32_t column, std::span<const goal_character> characters);
+    void write_goals(ChunkAt at, const ChunkGoals& goals);
+    // Writes all else and makes the cache appear; to be called once, last. Returns the bytes of what it has.
+    std::size_t commit();
+
+private:
+    void write(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes);
+    void write_clip();
+
+    PartialFolder partial_;
+    CachedCrowd crowd_;
+    CacheArrays arrays_;
+    ZarrStore store_;
+    GoalDigests digests_;
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace swivel::tools

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+//
+// Members of the structures of goals.h as arrays: a cache keeps each member by itself, side by side for all structures.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "tools/crowd/goals.h"
+
+namespace swivel::tools {
+
+// A member with count numbers of a Zarr type, such as <f8.
+struct Member {
+    const char* name;
+    const char* type;
+    std::size_t offset, count;
+    const char* meaning;
+
+    std::size_t bytes() const { return count * static_cast<std::size_t>(type[2] - '0'); }
+};
+
+constexpr Member kSourceMembers[] = {
+    {"elbow", "<f8", offsetof(goal_source, elbow), 3, "elbow from the shoulder, world axes, the clip's unit"},
+    {"wrist", "<f8", offsetof(goal_source, wrist), 3, "wrist from the shoulder, world axes, the clip's unit"},
+    {"hand", "<f8", offsetof(goal_source, hand), 4, "world rotation of the hand, x y z w"},
+    {"lengths", "<f8", offsetof(goal_source, lengths), 2, "upper arm and forearm, the clip's unit"},
+    {"origin", "<f8", offsetof(goal_source, origin), 3, "the shoulder in the world, the clip's unit"},
+    {"parent", "<f4", offsetof(goal_source, parent), 4, "world rotation of the shoulder's parent joint, x y z w"},
+    {"shoulder", "<f4", offsetof(goal_source, shoulder), 4, "the clip's own local rotation, x y z w"},
+    {"elbow_local", "<f4", offsetof(goal_source, elbow_local), 4, "the clip's own local rotation, x y z w"},
+    {"wrist_local", "<f4", offsetof(goal_source, wrist_local), 4, "the clip's own local rotation, x y z w"}};
+
+constexpr Member kCharacterMembers[] = {
+    {"size", "<f8", offsetof(goal_character, size), 1, "factor of limb lengths and of targets"},
+    {"place", "<f8", offsetof(goal_character, place), 3, "where it stands in the world, the clip's unit"},
+    {"start", "<u4", offsetof(goal_character, start), 1, "frame of the clip that it starts at"}};
+
+// The member of all structures, side by side, and zeros up to that many rows.
+template <class Struct>
+std::vector<std::byte> gathered(std::span<const Struct> from, const Member& member, std::size_t rows)
+{
+    std::vector<std::byte> out(rows * member.bytes());
+    for (std::size_t n = 0; n < from.size(); ++n)
+        std::memcpy(&out[n * member.bytes()], reinterpret_cast<const std::byte*>(&from[n]) + member.offset,
+                    member.bytes());
+    return out;
+}
+
+// The way back, for as many structures as there are.
+template <class Struct>
+void scatter(std::span<const std::byte> from, const Member& member, std::span<Struct> to)
+{
+    for (std::size_t n = 0; n < to.size(); ++n)
+        std::memcpy(reinterpret_cast<std::byte*>(&to[n]) + member.offset, &from[n * member.bytes()], member.bytes());
+}
+
+}  // namespace swivel::tools
