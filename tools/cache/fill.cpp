@@ -176,8 +176,8 @@ std::string Filling::difference(const Work& work) const
 {
     const CachedCrowd& crowd = cache_.crowd();
     const auto compare = [](const std::optional<Results>& stored, const Results& wanted,
-                            const std::vector<ZarrArray>& arrays) -> std::string {
-        if (!stored) return fmt::format("a file like those of {} is missing or damaged", arrays[0].name);
+                            const std::vector<ZarrArray>& arrays, const char* of_what) -> std::string {
+        if (!stored) return fmt::format("a file of its {} is missing or damaged", of_what);
         for (std::size_t n = 0; n < wanted.size(); ++n)
             if ((*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
         return "";
@@ -185,9 +185,10 @@ std::string Filling::difference(const Work& work) const
     std::string what;
     if (work.stored != work.digest) what = "digest differs";
     if (what.empty() && crowd.has_poses())
-        what = compare(cache_.results(work.at), work.results, cache_.arrays().results);
+        what = compare(cache_.results(work.at), work.results, cache_.arrays().results, "poses");
     if (what.empty() && crowd.carries_state())
-        what = compare(cache_.state(work.at), last_frame(work.results, crowd, work.at.time), cache_.arrays().state);
+        what = compare(cache_.state(work.at), last_frame(work.results, crowd, work.at.time), cache_.arrays().state,
+                       "state");
     return what;
 }
 
