@@ -146,7 +146,7 @@ class Damage(Stage):
     def test_what_is_not_done_is_named(self):
         cache = self.fill(self.store(), "--shard", "1/2")
         self.assert_refused(run("check", cache, "--quiet"), r"10 of 20 chunks are not done, the first is 1\.0; run swivel fill --resume")
-        self.assert_refused(run("replay", cache, "--quiet"), r"chunk 0\.1 is not done, so nothing proves it; run swivel fill --resume")
+        self.assert_refused(run("replay", cache, "--quiet"), r"chunk 1\.0 is not done, so nothing proves it; run swivel fill --resume")
         self.swivel("replay", cache, "--frames", "0:8", "--characters", "0:32", "--quiet")
 
     def test_goals_that_changed_are_reported(self):
