@@ -5,6 +5,7 @@ FULL_DISK: the library that full_disk.c makes."""
 import json
 import os
 import shutil
+import signal
 import subprocess
 import unittest
 
@@ -45,9 +46,11 @@ class Disk(Stage):
             shutil.rmtree(one)
 
     def test_a_store_that_does_not_fit_leaves_nothing(self):
-        done = run("store", CLIP, self.folder / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": "1000"})
-        self.assert_refused(done, "No space left on device; free some space")
-        self.assertEqual(list(self.folder.iterdir()), [])
+        for count in (0, 20, 100, 1000, 10_000):
+            with self.subTest(bytes=count):
+                done = run("store", CLIP, self.folder / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": str(count)})
+                self.assert_refused(done, "No space left on device; free some space")
+                self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_folder_that_may_only_be_read(self):
         cache = self.store()
@@ -76,19 +79,54 @@ class Disk(Stage):
 
 class Damage(Stage):
     def test_poses_that_changed_are_named_and_made_again(self):
-        for words in ((), ("--compress",)):
+        damaged = r"1 of 20 chunks were damaged and are written again, the first is 2\.1: "
+        cases = {"shoulder/2.0.1.0": ("shoulder differs", "a file of shoulder is missing or cut"),
+                 "flags/2.0.1": ("flags differs", "a file of shoulder is missing or cut"),
+                 "digest/2.1": ("digest differs", None),
+                 "state/elbow/2.0.1.0": ("state/elbow differs", "a file of state/shoulder is missing or cut")}
+        for packed, words in enumerate(((), ("--compress",))):
             cache = self.fill(self.store("cache", *words, toml=BUDGET))
             before = files_of(cache)
-            for name, what in (("shoulder/2.0.1.0", "shoulder differs"), ("flags/2.0.1", "flags differs"), ("digest/2.1", "digest differs"),
-                               ("state/elbow/2.0.1.0", "state/elbow differs")):
+            for name, what in cases.items():
                 with self.subTest(file=name, words=words):
-                    flip(cache / name)
+                    flip(cache / name, 0 if packed else -1)  # what is packed begins with the version of its format
                     done = run("check", cache, "--quiet")
-                    self.assert_refused(done, rf"1 of 20 chunks were damaged and are written again, the first is 2\.1: {what}|"
-                                              rf"the first is 2\.1: a file of .* is missing or cut|1 of 20 chunks are not done, the first is 2\.1")
-                    self.fill(cache, "--resume")
+                    if what[packed]:
+                        self.assert_refused(done, damaged + what[packed])
+                    else:
+                        self.assert_refused(done, r"1 of 20 chunks are not done, the first is 2\.1; run swivel fill --resume")
+                        self.fill(cache, "--resume")
                     self.assertEqual(files_of(cache), before)
             shutil.rmtree(cache)
+
+    def test_every_damaged_chunk_is_named(self):
+        cache = self.fill(self.store(toml=LIMITED))
+        before = files_of(cache)
+        files = ("elbow/0.0.1.0", "flags/2.0.3", "twist_bones/4.0.0.0.0")
+        differences = [{"chunk": "4.0", "what": "twist_bones differs"}, {"chunk": "0.1", "what": "elbow differs"}, {"chunk": "2.3", "what": "flags differs"}]
+        lines = "".join(f"again    chunk {each['chunk']} was not what its goals give: {each['what']}; it is written again\n" for each in differences)
+
+        def said(*words, code):
+            for name in files:
+                flip(cache / name)
+            done = run(*words)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual(files_of(cache), before)
+            return done
+
+        done = said("check", cache, code=1)
+        self.assertEqual(done.stdout, lines)
+        self.assert_refused(done, r"3 of 20 chunks were damaged and are written again, the first is 4\.0: twist_bones differs; run swivel check once more")
+        self.assertEqual(json.loads(said("check", cache, "--json", code=1).stdout)["written_again"], differences)
+        self.assertEqual(said("check", cache, "--quiet", code=1).stdout, "")
+        self.assertIn(lines, said("fill", cache, "--verify", code=0).stdout)
+        self.assertEqual(json.loads(said("fill", cache, "--verify", "--json", code=0).stdout)["written_again"], differences)
+        self.assertEqual(said("fill", cache, "--verify", "--quiet", code=0).stdout, "")
+
+    def test_a_rate_is_of_what_was_written(self):
+        cache = self.store()
+        self.assertRegex(self.swivel("fill", cache), r"; the disk [0-9.]+ s, \d+ MB/s\n")
+        self.assertRegex(self.swivel("fill", cache, "--verify"), r"; the disk [0-9.]+ s\n")
 
     def test_files_that_are_gone_or_cut_are_made_again(self):
         for toml in (LIMITED, BUDGET):
@@ -108,7 +146,7 @@ class Damage(Stage):
     def test_what_is_not_done_is_named(self):
         cache = self.fill(self.store(), "--shard", "1/2")
         self.assert_refused(run("check", cache, "--quiet"), r"10 of 20 chunks are not done, the first is 1\.0; run swivel fill --resume")
-        self.assert_refused(run("replay", cache, "--quiet"), r"chunk 0\.1 is not done, so nothing proves it; run swivel fill --resume")
+        self.assert_refused(run("replay", cache, "--quiet"), r"chunk 1\.0 is not done, so nothing proves it; run swivel fill --resume")
         self.swivel("replay", cache, "--frames", "0:8", "--characters", "0:32", "--quiet")
 
     def test_goals_that_changed_are_reported(self):
@@ -136,8 +174,11 @@ class Damage(Stage):
             self.assert_refused(run(command, cache, *words, cwd=self.folder), "keeps poses and no goals, so nothing can be solved again")
         flip(cache / "elbow/3.0.1.0")
         os.remove(cache / "flags/4.0.2")
-        self.assert_refused(run("check", cache, "--quiet"), r"2 of 20 chunks are damaged, the first is 3\.1; the cache keeps no goals, so "
-                                                            "take their files from a copy")
+        done = run("check", cache)
+        self.assert_refused(done, r"2 of 20 chunks are damaged, the first is 3\.1; the cache keeps no goals, so take their files from a copy")
+        self.assertEqual(done.stdout, "damaged  chunk 3.1\ndamaged  chunk 4.2\n")
+        self.assertEqual(json.loads(run("check", cache, "--json").stdout)["damaged"], ["3.1", "4.2"])
+        self.assertEqual(run("check", cache, "--quiet").stdout, "")
 
 
 class Metadata(Stage):
@@ -193,6 +234,22 @@ class Metadata(Stage):
 
 
 class Stops(Stage):
+    def test_a_signal_ends_a_store_and_leaves_nothing(self):
+        (self.folder / "crowd.toml").write_text(BUDGET)
+        crowd = ("--crowd", self.folder / "crowd.toml", "--characters", "200000", "--frames", "200")
+        # Many small files, so that the signal comes while they are written: of characters, of the budget's choice.
+        for name, words in (("character/size", ("--chunk", "200,16")), ("chosen", ("--chunk", "1,65536"))):
+            with self.subTest(writes=name):
+                place = self.folder / "cache"
+                process = subprocess.Popen([SWIVEL, "store", CLIP, place, *crowd, *words, "--quiet"], stderr=subprocess.PIPE, text=True)
+                part = self.folder / f".swivel-{process.pid}-cache" / name
+                while process.poll() is None and not any(part.glob("[0-9]*")):
+                    pass
+                process.send_signal(signal.SIGINT)
+                said = process.communicate()[1]
+                self.assertEqual((process.returncode, said), (-2, "swivel: interrupted; unfinished files are removed\n"))
+                self.assertEqual([path.name for path in self.folder.iterdir()], ["crowd.toml"])
+
     def test_a_signal_ends_a_fill_between_chunks(self):
         cache = self.store(characters=4000, frames=400)
         process = subprocess.Popen([SWIVEL, "fill", cache, "--quiet"], stderr=subprocess.PIPE, text=True)

@@ -104,6 +104,21 @@ class Engines(Stage):
             said = (self.folder / f"said-{task}").read_text()
             self.assertIn(f"shard    {task + 1}/4 of the cache, by SLURM_ARRAY_TASK_ID={task} SLURM_ARRAY_TASK_COUNT=4", said)
         self.assert_same(self.one, self.other)
+        self.steps_of_slurm(slurm)
+
+    def steps_of_slurm(self, slurm):
+        """A batch script is one process, which no part is meant for; srun starts one for each."""
+        shutil.rmtree(self.other)
+        shutil.copytree(self.empty, self.other)
+        fill = f"swivel fill {self.other} --shard auto --resume --threads 1"
+        command = f"{fill}; srun --overlap {fill}"
+        self.example("sbatch", "--wait", "--ntasks=2", "--cpus-per-task=1", f"--output={self.folder}/said-steps", f"--wrap={command}",
+                     SLURM_CONF=str(slurm.conf))
+        said = (self.folder / "said-steps").read_text()
+        self.assertIn("swivel: --shard auto: SLURM_PROCID=0 and no SLURM_STEP_NUM_TASKS: start it by srun or mpirun", said)
+        for task in range(2):
+            self.assertIn(f"shard    {task + 1}/2 of the cache, by SLURM_PROCID={task} SLURM_STEP_NUM_TASKS=2", said)
+        self.assert_same(self.one, self.other)
 
     def test_auto_needs_a_scheduler(self):
         done = run("fill", self.other, "--shard", "auto", env=environment())
@@ -111,6 +126,29 @@ class Engines(Stage):
         done = run("fill", self.other, "--shard", "auto", env=environment(OMPI_COMM_WORLD_RANK="4", OMPI_COMM_WORLD_SIZE="4"))
         self.assert_refused(done, "OMPI_COMM_WORLD_RANK=4 OMPI_COMM_WORLD_SIZE=4: the index is not among that many", code=2)
         self.assert_same(self.empty, self.other)
+
+    def test_auto_reads_the_tasks_of_slurm(self):
+        def array(index, count, least, most, step):
+            names = {"ID": index, "COUNT": count, "MIN": least, "MAX": most, "STEP": step}
+            return environment(**{f"SLURM_ARRAY_TASK_{name}": str(number) for name, number in names.items()})
+
+        for index, part in ((0, 1), (2, 2), (6, 4)):  # --array=0-6:2
+            done = run("fill", self.other, "--shard", "auto", "--resume", env=array(index, 4, 0, 6, 2))
+            self.assertIn(f"shard    {part}/4 of the cache, by SLURM_ARRAY_TASK_ID={index}", done.stdout)
+        shutil.rmtree(self.other)
+        shutil.copytree(self.empty, self.other)
+        for index in (1, 3, 7):  # --array=1,3,7
+            done = run("fill", self.other, "--shard", "auto", env=array(index, 3, 1, 7, 1))
+            self.assert_refused(done, "SLURM_ARRAY_TASK_STEP=1: the array's tasks have gaps; number them evenly, such as --array=0-7", code=2)
+        for index in (1, 3, 9):  # of --array=2-6:2
+            done = run("fill", self.other, "--shard", "auto", env=array(index, 3, 2, 6, 2))
+            self.assert_refused(done, "the index is not among that many", code=2)
+        batch = environment(SLURM_PROCID="0", SLURM_NTASKS="4", SLURM_JOB_ID="1")
+        done = run("fill", self.other, "--shard", "auto", env=batch)
+        self.assert_refused(done, "SLURM_PROCID=0 and no SLURM_STEP_NUM_TASKS: start it by srun or mpirun, or give --shard i/n", code=2)
+        self.assert_same(self.empty, self.other)
+        done = run("fill", self.other, "--shard", "auto", env=batch | {"SLURM_STEP_NUM_TASKS": "4", "SLURM_PROCID": "3"})
+        self.assertIn("shard    4/4 of the cache, by SLURM_PROCID=3 SLURM_STEP_NUM_TASKS=4: ", done.stdout)
 
     def test_a_scheduler_is_not_asked_unless_it_is_named(self):
         subprocess.run([SWIVEL, "fill", self.other, "--quiet"], check=True,

@@ -14,36 +14,51 @@ namespace swivel::tools {
 
 namespace {
 
-// The variables of one scheduler. least: of the first index; null: 0.
+// The variables of one scheduler. Arrays number their tasks from least to most, in steps; null: from 0 on.
 struct Scheduler {
-    const char *index, *count, *least;
+    const char *index, *count;
+    const char *least = nullptr, *most = nullptr, *step = nullptr;
 };
-constexpr Scheduler kSchedulers[] = {{"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN"},
-                                     {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", nullptr},
-                                     {"PMI_RANK", "PMI_SIZE", nullptr},
-                                     {"SLURM_PROCID", "SLURM_NTASKS", nullptr}};
+// The script of a batch job has SLURM_PROCID, too, and is alone; srun alone sets the tasks of a step.
+constexpr Scheduler kSchedulers[] = {{"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN",
+                                      "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_STEP"},
+                                     {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+                                     {"PMI_RANK", "PMI_SIZE"},
+                                     {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}};
 
-std::uint32_t number_of(const char* name)
+// source: gets the variable and its value.
+std::uint32_t number_of(const char* name, std::string& source)
 {
     const char* const text = std::getenv(name);
-    const std::optional<std::int64_t> number = text ? formats::parse_integer(text) : std::nullopt;
+    if (!text)
+        throw std::invalid_argument(
+            fmt::format("{} and no {}: start it by srun or mpirun, or give --shard i/n", source, name));
+    const std::optional<std::int64_t> number = formats::parse_integer(text);
     if (!number || *number < 0 || *number > UINT32_MAX)
-        throw std::invalid_argument(fmt::format("{} is {}, not a whole number; give --shard i/n", name,
-                                                text ? formats::printable(text) : "not set"));
+        throw std::invalid_argument(
+            fmt::format("{} is {}, not a whole number; give --shard i/n", name, formats::printable(text)));
+    source += fmt::format("{}{}={}", source.empty() ? "" : " ", name, *number);
     return static_cast<std::uint32_t>(*number);
 }
 
 Shard shard_of(const Scheduler& scheduler)
 {
     Shard shard;
-    const std::uint32_t index = number_of(scheduler.index), least = scheduler.least ? number_of(scheduler.least) : 0;
-    shard.count = number_of(scheduler.count);
-    shard.source = fmt::format("{}={} {}={}", scheduler.index, index, scheduler.count, shard.count);
-    if (scheduler.least) shard.source += fmt::format(" {}={}", scheduler.least, least);
-    if (index < least || index - least >= shard.count)
-        throw std::invalid_argument(
-            fmt::format("{}: the index is not among that many; give --shard i/n", shard.source));
-    shard.index = index - least;
+    shard.index = number_of(scheduler.index, shard.source);
+    shard.count = number_of(scheduler.count, shard.source);
+    const auto refuse = [&](const char* why) {
+        throw std::invalid_argument(fmt::format("{}: {}; give --shard i/n", shard.source, why));
+    };
+    if (scheduler.least) {
+        const std::uint64_t least = number_of(scheduler.least, shard.source);
+        const std::uint64_t most = number_of(scheduler.most, shard.source);
+        const std::uint64_t step = number_of(scheduler.step, shard.source);
+        if (shard.count == 0 || step == 0 || least + step * (shard.count - 1) != most)
+            refuse("the array's tasks have gaps; number them evenly, such as --array=0-7");
+        if (shard.index < least || (shard.index - least) % step != 0) refuse("the index is not among that many");
+        shard.index = static_cast<std::uint32_t>((shard.index - least) / step);
+    }
+    if (shard.index >= shard.count) refuse("the index is not among that many");
     return shard;
 }
 

@@ -16,8 +16,9 @@ struct Shard {
 };
 
 // text: "i/n" with 1 <= i <= n, or "auto". Auto reads the first of these that is set: an array job of Slurm
-// (SLURM_ARRAY_TASK_ID), Open MPI (OMPI_COMM_WORLD_RANK), other MPIs (PMI_RANK), tasks of Slurm (SLURM_PROCID).
-// Throws std::invalid_argument with what is wrong and what to do.
+// (SLURM_ARRAY_TASK_ID), Open MPI (OMPI_COMM_WORLD_RANK), other MPIs (PMI_RANK), tasks of Slurm's srun (SLURM_PROCID).
+// An array must number its tasks evenly, in steps of any size. In each task of an array, srun's tasks are not told
+// apart. Throws std::invalid_argument with what is wrong and what to do.
 Shard shard_of(const std::string& text);
 
 }  // namespace swivel::tools

@@ -42,11 +42,10 @@ CLI::Option* add_seed(CLI::App& command, Value& seed, const std::string& of)
     return takes(command.add_option("--seed", seed, "Seed of " + of)->default_str("1"), whole_number(0, UINT64_MAX));
 }
 
-CLI::Option* add_threads(CLI::App& command, unsigned& threads)
+CLI::Option* add_threads(CLI::App& command, unsigned& threads,
+                         const char* meaning = "Threads at most, up to 1024; 0 for all")
 {
-    return takes(
-        command.add_option("--threads", threads, "Threads at most, up to 1024; 0 for all")->capture_default_str(),
-        whole_number(0, 1024));
+    return takes(command.add_option("--threads", threads, meaning)->capture_default_str(), whole_number(0, 1024));
 }
 
 CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
@@ -235,6 +234,12 @@ void add_memory(CLI::App& command, std::string& memory)
           bytes());
 }
 
+// Of a cache that is filled.
+CLI::Option* add_solving_threads(CLI::App& command, unsigned& threads)
+{
+    return add_threads(command, threads, "Threads that solve, up to 1024; 0 for all. Two more wait for the disk");
+}
+
 // The positional CACHE.
 void add_cache(CLI::App& command, std::string& folder, const std::string& meaning)
 {
@@ -280,9 +285,10 @@ void add_fill(CLI::App& app)
         ->type_name("i/n|auto");
     command->add_flag("--resume", options->resumes, "Go on: leave chunks that are done");
     command->add_flag("--verify", options->verifies,
-                      "Go on: solve chunks that are done, too, and write those again that differ");
+                      "Go on: solve chunks that are done, too, and write those again that differ. They are named, "
+                      "unless it is quiet, and are no error");
     add_memory(*command, options->memory);
-    add_threads(*command, options->threads);
+    add_solving_threads(*command, options->threads);
     add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_fill(*options); });
@@ -294,7 +300,7 @@ void add_check(CLI::App& app)
     auto options = std::make_shared<CheckOptions>();
     add_cache(*command, options->folder, "The folder that swivel store made");
     add_memory(*command, options->memory);
-    add_threads(*command, options->threads);
+    add_solving_threads(*command, options->threads);
     add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->json);
     command->footer("All chunks are solved again and compared. A chunk that differs is named and written again.");
@@ -313,8 +319,9 @@ void add_replay(CLI::App& app)
         ->type_name("C:D")
         ->default_str("all");
     takes(command->add_option("-o,--out", options->out,
-                              "Write the poses to this CSV file, - for standard output. Without it they are proved "
-                              "alone"),
+                              "Write the poses to this CSV file, - for standard output. The table is that of swivel "
+                              "solve without its columns of clavicles; docs/cache.md says more. Without it the poses "
+                              "are proved alone"),
           file_name());
     add_threads(*command, options->threads);
     add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");

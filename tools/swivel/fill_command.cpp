@@ -45,6 +45,15 @@ std::vector<ChunkAt> missing_of(const Cache& cache, std::span<const ChunkAt> chu
     return missing;
 }
 
+void require_empty(const Cache& cache, std::span<const ChunkAt> chunks)
+{
+    const std::size_t done = chunks.size() - missing_of(cache, chunks).size();
+    if (done > 0)
+        throw formats::InputError(
+            cache.folder(),
+            fmt::format("{} of {} chunks are done already; add --resume to go on, or --verify", done, chunks.size()));
+}
+
 // Fills with progress on stderr, and stops for signals between chunks.
 FillReport fill_visibly(const Cache& cache, FillOptions options, std::size_t chunk_count, bool quiet)
 {
@@ -59,11 +68,22 @@ FillReport fill_visibly(const Cache& cache, FillOptions options, std::size_t chu
 
 double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
 
+Json json_of_differences(std::span<const Difference> differences)
+{
+    Json list = Json::array();
+    for (const Difference& each : differences) list.push_back({{"chunk", chunk_name(each.at)}, {"what", each.what}});
+    return list;
+}
+
+void print_differences(std::span<const Difference> differences)
+{
+    for (const Difference& each : differences)
+        say(stdout, "again    chunk {} was not what its goals give: {}; it is written again\n", chunk_name(each.at),
+            each.what);
+}
+
 Json json_of_fill(const FillReport& report)
 {
-    Json differences = Json::array();
-    for (const Difference& each : report.differences)
-        differences.push_back({{"chunk", chunk_name(each.at)}, {"what", each.what}});
     return {{"chunks_written", report.written},
             {"chunks_compared", report.compared},
             {"chunks_skipped", report.skipped},
@@ -73,20 +93,21 @@ Json json_of_fill(const FillReport& report)
             {"solver_seconds", report.solve_seconds},
             {"disk_seconds", report.disk_seconds},
             {"limit", report.solve_seconds < report.disk_seconds ? "disk" : "solver"},
-            {"written_again", std::move(differences)}};
+            {"written_again", json_of_differences(report.differences)}};
 }
 
 void print_fill(const FillReport& report)
 {
     say(stdout, "chunks   {} written, {} compared, {} were done\n", report.written, report.compared, report.skipped);
-    for (const Difference& each : report.differences)
-        say(stdout, "again    chunk {} was not what its goals give: {}; it is written again\n", chunk_name(each.at),
-            each.what);
+    print_differences(report.differences);
     if (report.limbs == 0) return;
     const bool is_disk = report.solve_seconds < report.disk_seconds;
-    say(stdout, "speed    {:.2f} s: the solver took {:.2f} s, {:.1f} million limbs/s; the disk {:.2f} s, {:.0f} MB/s\n",
+    say(stdout, "speed    {:.2f} s: the solver took {:.2f} s, {:.1f} million limbs/s; the disk {:.2f} s{}\n",
         report.seconds, report.solve_seconds, rate(static_cast<double>(report.limbs), report.solve_seconds) / 1e6,
-        report.disk_seconds, rate(static_cast<double>(report.bytes), report.disk_seconds) / 1e6);
+        report.disk_seconds,
+        report.bytes == 0
+            ? ""
+            : fmt::format(", {:.0f} MB/s", rate(static_cast<double>(report.bytes), report.disk_seconds) / 1e6));
     say(stdout, "limit    {}\n", is_disk ? "the disk" : "the solver");
 }
 
@@ -111,6 +132,62 @@ std::vector<ChunkAt> damaged_poses(const Cache& cache, std::span<const ChunkAt> 
     return damaged;
 }
 
+// Of a cache that keeps no goals.
+void check_poses(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptions& options)
+{
+    const ThreadLimit limit(options.threads);
+    const std::vector<ChunkAt> damaged = damaged_poses(cache, chunks, options.quiet);
+    if (damaged.empty()) cache.close();  // what an interrupted check left
+    if (options.json) {
+        Json list = Json::array();
+        for (const ChunkAt at : damaged) list.push_back(chunk_name(at));
+        print_json({{"cache", options.folder},
+                    {"chunks", chunks.size()},
+                    {"proved_by", "digests"},
+                    {"damaged", std::move(list)}});
+    } else if (!options.quiet) {
+        for (const ChunkAt at : damaged) say(stdout, "damaged  chunk {}\n", chunk_name(at));
+        if (damaged.empty()) say(stdout, "right    {} chunks: their poses have their digests\n", chunks.size());
+    }
+    if (!damaged.empty())
+        throw formats::InputError(cache.folder(),
+                                  fmt::format("{} of {} chunks are damaged, the first is {}; the cache keeps no goals, "
+                                              "so take their files from a copy",
+                                              damaged.size(), chunks.size(), chunk_name(damaged[0])));
+}
+
+void check_by_solving(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptions& options)
+{
+    FillOptions how;
+    how.verifies = true;
+    how.memory = bytes_of(options.memory);
+    how.threads = options.threads;
+    const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
+    const bool is_right = report.differences.empty();
+    if (is_right) cache.close();
+    if (options.json)
+        print_json({{"cache", options.folder},
+                    {"chunks", chunks.size()},
+                    {"proved_by", "solving"},
+                    {"limbs", report.limbs},
+                    {"seconds", report.seconds},
+                    {"written_again", json_of_differences(report.differences)}});
+    else if (!options.quiet)
+        print_differences(report.differences);
+    if (!is_right) {
+        const Difference& first = report.differences[0];
+        throw formats::InputError(
+            cache.folder(), fmt::format("{} of {} chunks were damaged and are written again, the first is {}: {}; run "
+                                        "swivel check once more",
+                                        report.differences.size(), chunks.size(), chunk_name(first.at), first.what));
+    }
+    if (options.json || options.quiet) return;
+    say(stdout, "right    {} chunks: solved again, and all bits are equal\n", chunks.size());
+    say(stdout, "speed    {:.2f} s, {:.1f} million limbs/s\n", report.seconds,
+        rate(static_cast<double>(report.limbs), report.seconds) / 1e6);
+    say(stdout, "closed   {}\n", options.folder);
+}
+
 }  // namespace
 
 void run_fill(const FillCommand& options)
@@ -122,11 +199,7 @@ void run_fill(const FillCommand& options)
     how.threads = options.threads;
     const Cache cache(options.folder);
     const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), how.shard);
-    const std::size_t done = chunks.size() - missing_of(cache, chunks).size();
-    if (done > 0 && !options.resumes && !options.verifies)
-        throw formats::InputError(
-            cache.folder(),
-            fmt::format("{} of {} chunks are done already; add --resume to go on, or --verify", done, chunks.size()));
+    if (!options.resumes && !options.verifies) require_empty(cache, chunks);
     if (!options.json && !options.quiet && !options.shard.empty())
         say(stdout, "shard    {} of the cache, by {}: {} chunks\n", how.shard.words(), how.shard.source, chunks.size());
     const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
@@ -148,46 +221,10 @@ void run_check(const CheckOptions& options)
         throw formats::InputError(cache.folder(), fmt::format("{} of {} chunks are not done, the first is {}; run "
                                                               "swivel fill --resume",
                                                               missing.size(), chunks.size(), chunk_name(missing[0])));
-    if (!cache.crowd().has_goals()) {
-        const ThreadLimit limit(options.threads);
-        const std::vector<ChunkAt> damaged = damaged_poses(cache, chunks, options.quiet);
-        if (!damaged.empty())
-            throw formats::InputError(
-                cache.folder(),
-                fmt::format("{} of {} chunks are damaged, the first is {}; the cache keeps no goals, so "
-                            "take their files from a copy",
-                            damaged.size(), chunks.size(), chunk_name(damaged[0])));
-        cache.close();  // what an interrupted check left
-        if (options.json)
-            print_json({{"cache", options.folder}, {"chunks", chunks.size()}, {"proved_by", "digests"}});
-        else if (!options.quiet)
-            say(stdout, "right    {} chunks: their poses have their digests\n", chunks.size());
-        return;
-    }
-    FillOptions how;
-    how.verifies = true;
-    how.memory = bytes_of(options.memory);
-    how.threads = options.threads;
-    const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
-    if (!report.differences.empty()) {
-        const Difference& first = report.differences[0];
-        throw formats::InputError(
-            cache.folder(), fmt::format("{} of {} chunks were damaged and are written again, the first is {}: {}; run "
-                                        "swivel check once more",
-                                        report.differences.size(), chunks.size(), chunk_name(first.at), first.what));
-    }
-    cache.close();
-    if (options.json)
-        print_json({{"cache", options.folder},
-                    {"chunks", chunks.size()},
-                    {"proved_by", "solving"},
-                    {"limbs", report.limbs},
-                    {"seconds", report.seconds}});
-    if (options.json || options.quiet) return;
-    say(stdout, "right    {} chunks: solved again, and all bits are equal\n", chunks.size());
-    say(stdout, "speed    {:.2f} s, {:.1f} million limbs/s\n", report.seconds,
-        rate(static_cast<double>(report.limbs), report.seconds) / 1e6);
-    say(stdout, "closed   {}\n", options.folder);
+    if (!cache.crowd().has_goals())
+        check_poses(cache, chunks, options);
+    else
+        check_by_solving(cache, chunks, options);
 }
 
 }  // namespace swivel::tools

@@ -3,6 +3,8 @@
 // `swivel replay`: computes a part of a cached crowd again from its goals, proves it by the digests, and writes it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -43,34 +45,52 @@ Range range_of(const char* option, const std::string& text, std::uint32_t count)
     return {static_cast<std::uint32_t>(*begin), static_cast<std::uint32_t>(*end)};
 }
 
-// One column of one time chunk, solved and proved.
-struct Slice {
-    std::vector<goal_character> characters;
-    Results results;
+// The characters of one column, chunk after chunk, solved and proved.
+class ColumnReplay {
+public:
+    ColumnReplay(const Cache& cache, std::uint32_t index)
+        : cache_(cache),
+          characters_(cache.characters(index)),
+          column_(cache.crowd(), index, characters_, cache.folder()),
+          results_(empty_results(cache.crowd()))
+    {
+    }
+
+    // Those of a column in order, from any on. Throws InputError if the chunk is not done, or has another digest.
+    const Results& solve(std::uint32_t time)
+    {
+        const ChunkAt at{time, column_.index()};
+        const std::uint64_t stored = cache_.digest(at);
+        if (stored == 0) throw not_done(at);
+        if (cache_.crowd().carries_state() && time > 0 && !has_begun_)
+            column_.restore(cache_.require_state({time - 1, at.column}));
+        has_begun_ = true;
+        const std::uint64_t digest = column_.solve(time, cache_.goals(at), results_);
+        if (digest != stored)
+            throw InputError(cache_.folder(),
+                             fmt::format("chunk {}.{} has digest {:016x}, and its goals give {:016x}; run swivel check",
+                                         time, at.column, stored, digest));
+        return results_;
+    }
+    std::span<const goal_character> characters() const { return characters_; }
+
+private:
+    InputError not_done(ChunkAt chunk) const
+    {
+        return InputError(cache_.folder(), fmt::format("chunk {}.{} is not done, so nothing proves it; run swivel fill "
+                                                       "--resume",
+                                                       chunk.time, chunk.column));
+    }
+
+    const Cache& cache_;
+    std::vector<goal_character> characters_;
+    Column column_;
+    Results results_;
+    bool has_begun_ = false;
 };
 
-Slice solve_slice(const Cache& cache, ChunkAt at)
-{
-    const CachedCrowd& crowd = cache.crowd();
-    const auto not_done = [&](ChunkAt chunk) {
-        return InputError(cache.folder(), fmt::format("chunk {}.{} is not done, so nothing proves it; run swivel fill "
-                                                      "--resume",
-                                                      chunk.time, chunk.column));
-    };
-    const std::uint64_t stored = cache.digest(at);
-    if (stored == 0) throw not_done(at);
-    Slice slice{cache.characters(at.column), empty_results(crowd)};
-    Column column(crowd, at.column, slice.characters, cache.folder());
-    if (crowd.carries_state() && at.time > 0) column.restore(cache.require_state({at.time - 1, at.column}));
-    const std::uint64_t digest = column.solve(at.time, cache.goals(at), slice.results);
-    if (digest != stored)
-        throw InputError(cache.folder(), fmt::format("chunk {}.{} has digest {:016x}, and its goals give {:016x}; run "
-                                                     "swivel check",
-                                                     at.time, at.column, stored, digest));
-    return slice;
-}
-
-// The columns of the table, from the fields that there are.
+// The columns of the table, from the fields that there are. Clavicles have none: a table has the local rotation of
+// their joint, and a cache has only the turn that the solver adds to it.
 formats::PoseColumns columns_of(const CachedCrowd& crowd)
 {
     formats::PoseColumns columns;
@@ -81,37 +101,48 @@ formats::PoseColumns columns_of(const CachedCrowd& crowd)
     return columns;
 }
 
-// A row of the table: the solver's own rotations.
-class RowMaker {
+// Writes rows of the table: the solver's own rotations.
+class TableWriter {
 public:
-    explicit RowMaker(const CachedCrowd& crowd) : crowd_(crowd), fields_(result_fields(crowd)) {}
-
-    void add(const Slice& slice, ChunkAt at, std::uint32_t frame_in_chunk, std::uint32_t n,
-             std::vector<formats::PoseRow>& rows, std::vector<formats::PoseExtra>& extras) const
+    TableWriter(const std::string& path, const CachedCrowd& crowd)
+        : crowd_(crowd),
+          fields_(result_fields(crowd)),
+          columns_(columns_of(crowd)),
+          has_extras_(columns_.stretch || columns_.twist_count > 0),
+          csv_(path, columns_)
     {
-        const goal_character& who = slice.characters[n];
-        for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb) {
-            formats::PoseRow row;
-            formats::PoseExtra extra;
-            row.character = at.column * crowd_.chunk.characters + n;
-            row.limb = crowd_.limbs[limb].name;
-            row.place = std::to_array(who.place);
-            row.size = who.size;
-            row.start = who.start;
-            const std::uint32_t frame = at.time * crowd_.chunk.frames + frame_in_chunk;
-            const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frame_count();
-            row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
-            extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
-            for (std::size_t f = 0; f < fields_.size(); ++f) {
-                const std::size_t count = fields_[f].count();
-                const std::size_t place =
-                    ((frame_in_chunk * crowd_.limbs.size() + limb) * crowd_.chunk.characters + n) * count;
-                put(fields_[f].field, std::span(slice.results[f]).subspan(place, count), row, extra);
-            }
-            rows.push_back(row);
-            extras.push_back(extra);
-        }
     }
+
+    // The rows of a frame in a chunk, of characters in its column.
+    void append(const Results& results, ChunkAt at, std::uint32_t frame_in_chunk,
+                std::span<const goal_character> characters, Range of_column)
+    {
+        rows_.clear();
+        extras_.clear();
+        const std::uint32_t frame = at.time * crowd_.chunk.frames + frame_in_chunk;
+        for (std::uint32_t n = of_column.begin; n < of_column.end; ++n)
+            for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb) {
+                const goal_character& who = characters[n];
+                formats::PoseRow& row = rows_.emplace_back();
+                formats::PoseExtra& extra = extras_.emplace_back();
+                row.character = at.column * crowd_.chunk.characters + n;
+                row.limb = crowd_.limbs[limb].name;
+                row.place = std::to_array(who.place);
+                row.size = who.size;
+                row.start = who.start;
+                const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frame_count();
+                row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
+                extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
+                for (std::size_t f = 0; f < fields_.size(); ++f) {
+                    const std::size_t count = fields_[f].count();
+                    const std::size_t place =
+                        ((frame_in_chunk * crowd_.limbs.size() + limb) * crowd_.chunk.characters + n) * count;
+                    put(fields_[f].field, std::span(results[f]).subspan(place, count), row, extra);
+                }
+            }
+        csv_.append(frame, rows_, has_extras_ ? extras_ : std::span<const formats::PoseExtra>());
+    }
+    void commit() { csv_.commit(); }
 
 private:
     static void put(swivel_field field, std::span<const std::uint32_t> from, formats::PoseRow& row,
@@ -131,7 +162,18 @@ private:
 
     const CachedCrowd& crowd_;
     std::vector<ResultField> fields_;
+    formats::PoseColumns columns_;
+    bool has_extras_;
+    formats::PosesCsv csv_;
+    std::vector<formats::PoseRow> rows_;
+    std::vector<formats::PoseExtra> extras_;
 };
+
+// What of [whole.begin, whole.end) is in the piece of that many from first on, counted from first.
+Range within(Range whole, std::uint32_t first, std::uint32_t count)
+{
+    return {std::max(whole.begin, first) - first, std::min(whole.end, first + count) - first};
+}
 
 }  // namespace
 
@@ -143,47 +185,37 @@ void run_replay(const ReplayOptions& options)
     const Range frames = range_of("--frames", options.frames, crowd.frame_count);
     const Range characters = range_of("--characters", options.characters, crowd.character_count);
     const ThreadLimit limit(options.threads);
-    const RowMaker make(crowd);
-    const formats::PoseColumns columns = columns_of(crowd);
-    const bool has_extras = columns.stretch || columns.twist_count > 0;
     const StopSignals signals;
-    std::optional<formats::PosesCsv> csv;
-    if (!options.out.empty()) csv.emplace(options.out, columns);
-    const auto first_column = characters.begin / crowd.chunk.characters;
-    const auto last_column = (characters.end - 1) / crowd.chunk.characters;
-    const auto first_time = frames.begin / crowd.chunk.frames, last_time = (frames.end - 1) / crowd.chunk.frames;
+    std::optional<TableWriter> table;
+    if (!options.out.empty()) table.emplace(options.out, crowd);
+    const ChunkShape chunk = crowd.chunk;
+    const auto first_column = characters.begin / chunk.characters,
+               columns_end = (characters.end - 1) / chunk.characters + 1;
+    const auto first_time = frames.begin / chunk.frames, times_end = (frames.end - 1) / chunk.frames + 1;
     std::uint64_t proved = 0;
     {
-        Progress progress("chunks", std::uint64_t{last_time - first_time + 1} * (last_column - first_column + 1),
+        Progress progress("chunks", std::uint64_t{times_end - first_time} * (columns_end - first_column),
                           options.quiet);
-        for (std::uint32_t time = first_time; time <= last_time; ++time) {
-            std::vector<Slice> slices;
-            for (std::uint32_t column = first_column; column <= last_column; ++column) {
+        for (std::uint32_t column = first_column; column < columns_end; ++column) {
+            ColumnReplay replay(cache, column);
+            const Range who = within(characters, column * chunk.characters, crowd.characters_in(column));
+            for (std::uint32_t time = first_time; time < times_end; ++time) {
                 signals.check();
                 progress.show(proved++);
-                slices.push_back(solve_slice(cache, {time, column}));
-            }
-            for (std::uint32_t n = 0; csv && n < crowd.frames_in(time); ++n) {
-                const std::uint32_t frame = time * crowd.chunk.frames + n;
-                if (frame < frames.begin || frame >= frames.end) continue;
-                std::vector<formats::PoseRow> rows;
-                std::vector<formats::PoseExtra> extras;
-                for (std::uint32_t who = characters.begin; who < characters.end; ++who) {
-                    const std::uint32_t column = who / crowd.chunk.characters;
-                    make.add(slices[column - first_column], {time, column}, n, who % crowd.chunk.characters, rows,
-                             extras);
-                }
-                csv->append(frame, rows, has_extras ? extras : std::vector<formats::PoseExtra>());
+                const Results& results = replay.solve(time);
+                const Range when = within(frames, time * chunk.frames, crowd.frames_in(time));
+                for (std::uint32_t n = when.begin; table && n < when.end; ++n)
+                    table->append(results, {time, column}, n, replay.characters(), who);
             }
         }
     }
     signals.check();
-    if (csv) csv->commit();
+    if (table) table->commit();
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
     if (options.json) print_json({{"cache", options.folder}, {"chunks_proved", proved}, {"out", options.out}}, to);
     if (options.json || options.quiet) return;
     say(to, "proved   {} chunks: their digests are those of the cache\n", proved);
-    if (csv && to == stdout) say(to, "written  {}\n", options.out);
+    if (table && to == stdout) say(to, "written  {}\n", options.out);
 }
 
 }  // namespace swivel::tools

@@ -113,11 +113,14 @@ private:
     std::map<std::uint32_t, ChunkGoals> columns_;
 };
 
-void write_characters(CacheMaker& maker, const CrowdJob& job)
+void write_characters(CacheMaker& maker, const CrowdJob& job, const StopSignals& signals, bool quiet)
 {
     const CachedCrowd& crowd = maker.crowd();
     CharacterStream stream(job.plan, job.limbs, crowd.clip_frame_count());
+    Progress progress("characters", crowd.character_count, quiet);
     for (std::uint32_t column = 0; column < crowd.column_count(); ++column) {
+        signals.check();
+        progress.show(std::uint64_t{column} * crowd.chunk.characters);
         std::vector<goal_character> characters(crowd.characters_in(column));
         for (goal_character& character : characters) character = stream.next();
         maker.write_characters(column, characters);
@@ -125,7 +128,8 @@ void write_characters(CacheMaker& maker, const CrowdJob& job)
 }
 
 // What the formula of goals does not give.
-void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFile& file, CrowdJob& job)
+void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFile& file, CrowdJob& job,
+                 const StopSignals& signals)
 {
     const CachedCrowd& crowd = maker.crowd();
     if (!crowd.has_given && crowd.budget_blocks == 0) return;
@@ -133,7 +137,6 @@ void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFil
     if (crowd.has_given) given.emplace(file.clip(), job.limbs, job.plan, options.crowd.crowd);
     std::optional<BlockChoice> choice;
     if (crowd.budget_blocks > 0) choice.emplace(crowd);
-    const StopSignals signals;
     Progress progress("frames", crowd.frame_count, options.crowd.quiet);
     for (std::uint32_t time = 0; time < crowd.time_count(); ++time) {
         GoalChunks chunks(crowd, time);
@@ -205,10 +208,13 @@ void run_store(const StoreOptions& options)
     const SolveFacts facts{options.crowd.file,  options.crowd.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed,       job.missing};
     if (!options.crowd.json && !options.crowd.quiet) print_clip(stdout, facts, file.clip(), job.limbs);
-    CacheMaker maker(options.folder, crowd_to_store(options, file, job));
+    CachedCrowd to_store = crowd_to_store(options, file, job);
+    const StopSignals signals;
+    CacheMaker maker(options.folder, std::move(to_store));
     const CachedCrowd& crowd = maker.crowd();
-    write_characters(maker, job);
-    write_goals(maker, options, file, job);
+    write_characters(maker, job, signals, options.crowd.quiet);
+    write_goals(maker, options, file, job, signals);
+    signals.check();
     const double goals = static_cast<double>(maker.commit()) / 1e6;
     const double poses = static_cast<double>(bytes_of_poses(crowd)) / 1e6;
     const std::uint64_t chunks = std::uint64_t{crowd.time_count()} * crowd.column_count();
