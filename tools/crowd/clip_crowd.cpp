@@ -6,6 +6,7 @@
 #include <chrono>
 #include <type_traits>
 
+#include "tools/crowd/limb_setups.h"
 #include "tools/crowd/parallel.h"
 
 namespace swivel::tools {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/crowd/crowd_plan.h"
-#include "tools/crowd/limb_setup.h"
+#include "tools/crowd/limb_setups.h"
 
 namespace swivel::tools {
 

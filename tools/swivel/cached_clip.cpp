@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tools/crowd/limb_setups.h"
+
 namespace swivel::tools {
 
 namespace {

@@ -14,6 +14,7 @@
 #include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/clip_crowd.h"
+#include "tools/crowd/limb_setups.h"
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/cached_clip.h"
