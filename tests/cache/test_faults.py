@@ -80,10 +80,10 @@ class Disk(Stage):
 class Damage(Stage):
     def test_poses_that_changed_are_named_and_made_again(self):
         damaged = r"1 of 20 chunks were damaged and are written again, the first is 2\.1: "
-        cases = {"shoulder/2.0.1.0": ("shoulder differs", "a file of shoulder is missing or cut"),
-                 "flags/2.0.1": ("flags differs", "a file of shoulder is missing or cut"),
+        cases = {"shoulder/2.0.1.0": ("shoulder differs", "a file of its poses is missing or damaged"),
+                 "flags/2.0.1": ("flags differs", "a file of its poses is missing or damaged"),
                  "digest/2.1": ("digest differs", None),
-                 "state/elbow/2.0.1.0": ("state/elbow differs", "a file of state/shoulder is missing or cut")}
+                 "state/elbow/2.0.1.0": ("a file of its state is missing or damaged",) * 2}
         for packed, words in enumerate(((), ("--compress",))):
             cache = self.fill(self.store("cache", *words, toml=BUDGET))
             before = files_of(cache)
@@ -198,7 +198,8 @@ class Metadata(Stage):
             ("flags/.zarray", lambda path: edit(path, lambda a: a.update(dtype="<f4")), 'dtype is "<f4" instead of "<u4"'),
             ("digest/.zarray", os.remove, "No such file or directory"),
             ("clip/wrist/.zarray", lambda path: os.truncate(path, 10), "is no JSON object"),
-            ("clip/wrist/.zattrs", lambda path: edit(path, lambda a: a.pop("digests")), "clip/wrist/0.0.0: nobody made it"),
+            ("goal_digest/clip/wrist/0.0.0", lambda path: path.write_bytes(bytes(8)), "goal_digest: was changed: its digest is another"),
+            ("goal_digest/character/size/0", os.remove, "goal_digest/character/size/0: is missing or damaged"),
         ]
         for name, change, what in changes:
             with self.subTest(what=what):
@@ -242,7 +243,7 @@ class Stops(Stage):
             with self.subTest(writes=name):
                 place = self.folder / "cache"
                 process = subprocess.Popen([SWIVEL, "store", CLIP, place, *crowd, *words, "--quiet"], stderr=subprocess.PIPE, text=True)
-                part = self.folder / f".swivel-{process.pid}-cache" / name
+                part = self.folder / f".swivel-{process.pid}-0" / name
                 while process.poll() is None and not any(part.glob("[0-9]*")):
                     pass
                 process.send_signal(signal.SIGINT)
