@@ -173,13 +173,13 @@ ChunkShape chunk_of(const std::string& text)
     return {static_cast<std::uint32_t>(*frames), static_cast<std::uint32_t>(*characters)};
 }
 
-// What the poses of all frames take, before they are packed.
-std::uint64_t bytes_of_poses(const CachedCrowd& crowd)
+// What all chunks of some arrays take, before they are packed, in MB.
+double megabytes_of(const std::vector<ZarrArray>& arrays)
 {
-    std::uint64_t bytes = 0;
-    for (const ZarrArray& array : CacheArrays(crowd).results)
-        bytes += array.chunk_bytes() * crowd.time_count() * crowd.column_count();
-    return bytes;
+    double bytes = 0;
+    for (const ZarrArray& array : arrays)
+        bytes += static_cast<double>(array.chunk_bytes()) * static_cast<double>(array.chunk_count());
+    return bytes / 1e6;
 }
 
 CachedCrowd crowd_to_store(const StoreOptions& options, const MotionFile& file, const CrowdJob& job)
@@ -217,7 +217,8 @@ void run_store(const StoreOptions& options)
     write_goals(maker, options, file, job, signals);
     signals.check();
     const double goals = static_cast<double>(maker.commit()) / 1e6;
-    const double poses = static_cast<double>(bytes_of_poses(crowd)) / 1e6;
+    const CacheArrays arrays(crowd);
+    const double poses = megabytes_of(arrays.results), state = megabytes_of(arrays.state);
     const std::uint64_t chunks = std::uint64_t{crowd.time_count()} * crowd.column_count();
     if (options.crowd.json) {
         print_json({{"cache", options.folder},
@@ -229,13 +230,14 @@ void run_store(const StoreOptions& options)
                     {"keep", options.keep},
                     {"carries_state", crowd.carries_state()},
                     {"goals_bytes", goals * 1e6},
-                    {"poses_bytes", poses * 1e6}});
+                    {"poses_bytes", poses * 1e6},
+                    {"state_bytes", state * 1e6}});
     } else if (!options.crowd.quiet) {
         say(stdout, "cache    {}: {} frames in {} chunks, each of {} frames and {} characters\n", options.folder,
             crowd.frame_count, chunks, crowd.chunk.frames, crowd.chunk.characters);
-        say(stdout, "bytes    goals {:.1f} MB, poses {:.1f} MB{}; --store {} keeps {:.1f} MB\n", goals, poses,
-            crowd.is_compressed ? " before they are packed" : "", options.keep,
-            (crowd.keep == Keep::poses ? 0 : goals) + (crowd.keep == Keep::goals ? 0 : poses));
+        say(stdout, "bytes    goals {:.1f} MB, state {:.1f} MB, poses {:.1f} MB{}; --store {} keeps {:.1f} MB\n", goals,
+            state, poses, crowd.is_compressed ? " before they are packed" : "", options.keep,
+            (crowd.keep == Keep::poses ? 0 : goals + state) + (crowd.keep == Keep::goals ? 0 : poses));
         say(stdout, "next     swivel fill {0}, then swivel check {0}\n", options.folder);
     }
 }
