@@ -7,8 +7,10 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import unittest
 
+import swivel
 from stage import BUDGET, CLIP, LIMITED, SWIVEL, Stage, files_of, run
 
 DISK = {"LD_PRELOAD": os.environ["FULL_DISK"]}
@@ -261,6 +263,41 @@ class Stops(Stage):
         self.assertEqual((process.returncode, said), (-15, "swivel: interrupted; unfinished files are removed\n"))
         self.assertEqual([path for path in cache.rglob(".swivel-*")], [])
         self.fill(cache, "--resume")
+
+    def test_a_signal_ends_a_fill_in_python(self):
+        cache = self.store(characters=4000, frames=2000)
+        program = f"import swivel; swivel.fill_cache({str(cache)!r}, threads=1)"
+        process = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not any((cache / "digest").glob("[0-9]*")):
+            pass
+        process.send_signal(signal.SIGINT)
+        said = process.communicate()[1]
+        self.assertEqual(process.returncode, -2, said)
+        self.assertRegex(said, r"KeyboardInterrupt\s*$")
+        self.assertLess(sum(1 for _ in (cache / "digest").glob("[0-9]*")), 31_250)
+        self.assertEqual([path for path in cache.rglob(".swivel-*")], [])
+
+
+class Python(Stage):
+    def test_a_message_names_any_folder(self):
+        for name in (b"none", "g\u00e9n\u00e9".encode(), b"\xff\xfe"):
+            folder = os.fsencode(self.folder) + b"/" + name
+            with self.assertRaises(RuntimeError) as refused:
+                swivel.fill_cache(folder)
+            self.assertEqual(str(refused.exception), f"{os.fsdecode(folder)}: is no cache of swivel; swivel store makes one")
+
+    def test_what_a_fill_did(self):
+        cache = self.store()
+        self.assertEqual(swivel.fill_cache(cache, 0, 2)["written"], 10)
+        done = swivel.fill_cache(cache)
+        self.assertEqual((done["written"], done["skipped"], done["compared"], done["written_again"]), (10, 10, 0, []))
+        flip(cache / "elbow/2.0.1.0")
+        self.assertEqual(swivel.fill_cache(cache, verify=True)["written_again"], ["2.1: elbow differs"])
+        flip(cache / "clip/wrist/0.0.0")
+        with self.assertRaisesRegex(RuntimeError, "clip/wrist/0.0.0: is damaged"):
+            swivel.fill_cache(cache, verify=True)
+        with self.assertRaisesRegex(ValueError, "index: it must be below count"):
+            swivel.fill_cache(cache, 2, 2)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
     test_large.py --full     ten million limbs, and a small disk that gets full; needs root and some 5 GB"""
 import json
 import os
-import resource
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +13,36 @@ import unittest
 
 from stage import CLIP, SWIVEL, Stage, files_of, run
 
+EVERYTHING = """
+[crowd]
+limbs = "all"
+[limb.all]
+hand = true
+twist_bones = 4
+effector = [0, -0.4, 0]
+[limb.all.weights]
+pole = 0.5
+[limb.all.reach]
+most_stretch = 1.1
+[limb.arms.clavicle]
+share = 0.2
+[limb.arms.limits]
+flexion_deg = [0, 150]
+humeral_twist_deg = [-90, 90]
+forearm_twist_deg = [-90, 90]
+[limb.arms.limits.shoulder_cone]
+axis = [0, 0.5, 1]
+opening_deg = 80
+[limb.arms.limits.hand_cone]
+axis = [0, 0.5, 1]
+opening_deg = 80
+"""
+STATE = """
+[limb.all.swivel]
+most_deg_per_second = 900
+[budget]
+blocks = 3000
+"""
 FULL = "--full" in sys.argv
 
 
@@ -41,10 +71,31 @@ class Large(Stage):
         self.assertLess(memory, 512)
         self.assertEqual(filled["limbs"], 2 * characters * frames)
         self.assertEqual(filled["chunks_written"], stored["chunks"])
-        self.swivel("replay", cache, "--frames", f"{frames - 1}:{frames}", "--characters", f"{characters - 10}:{characters}", "--quiet")
+        replayed, memory = self.measured("replay", cache, "--frames", f"{frames - 1}:{frames}", "--out", self.folder / "frame.csv", "--json", "--quiet")
+        print(f"replay: {replayed['chunks_proved']} chunks, {memory:.0f} MiB resident")
+        self.assertLess(memory, 128)  # of one chunk, whatever the crowd's size
         done = run("check", cache, "--memory", "512M")
         self.assertEqual(done.returncode, 0, done.stderr)
         print(done.stdout)
+
+    def test_the_least_memory_is_enough(self):
+        """Chunks so big that each one counts, with all features, state and goals of one's own, filled and compared."""
+        (self.folder / "crowd.toml").write_text(EVERYTHING)
+        self.swivel("solve", CLIP, "--crowd", "crowd.toml", "--export-targets", "targets.csv", "--quiet")
+        for name, toml in (("stateless", EVERYTHING), ("budget", EVERYTHING + STATE)):
+            with self.subTest(crowd=name):
+                (self.folder / "crowd.toml").write_text(toml)
+                cache = self.folder / name
+                self.swivel("store", CLIP, cache, "--crowd", "crowd.toml", "--targets", "targets.csv", "--characters", 32_768, "--frames", 32,
+                            "--chunk", "16,16384", "--quiet")
+                for times, words in ((1, ()), (1, ("--verify",)), (2, ("--verify",))):
+                    refused = run("fill", cache, "--threads", "2", "--memory", "1M", "--quiet", *words)
+                    least = int(re.search(r"takes (\d+) MiB of memory", refused.stderr)[1])
+                    filled, memory = self.measured("fill", cache, "--threads", "2", "--memory", f"{times * least}M", "--json", "--quiet", *words)
+                    print(f"fill {name} {' '.join(words)}: {memory:.0f} MiB resident of {times * least}")
+                    self.assertEqual(filled["chunks_compared" if words else "chunks_written"], 4)
+                    self.assertLessEqual(memory, times * least)
+                shutil.rmtree(cache)
 
     @unittest.skipUnless(FULL, "needs a disk of its own: tools/test --full cache")
     def test_a_small_disk(self):

@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <atomic>
+#include <chrono>
+#include <future>
+
 #include "tools/cache/fill.h"
+#include "tools/formats/error.h"
 #include "tools/python/helpers.h"
 
 namespace py = pybind11;
@@ -12,6 +17,34 @@ namespace py = pybind11;
 namespace swivel::python {
 
 namespace {
+
+// What ends a filling that Python interrupts.
+struct Stopped {};
+
+// Fills on a thread of its own, because Python looks at signals on its main thread alone, and chunks end on any.
+tools::FillReport fill_interruptibly(const std::filesystem::path& folder, tools::FillOptions options)
+{
+    std::atomic<bool> stops = false;
+    options.progress = [&](std::uint64_t) {
+        if (stops) throw Stopped();
+    };
+    std::future<tools::FillReport> filling =
+        std::async(std::launch::async, [&] { return tools::fill(tools::Cache(folder), options); });
+    for (;;) {
+        {
+            const py::gil_scoped_release released;
+            if (filling.wait_for(std::chrono::milliseconds(100)) == std::future_status::ready) break;
+        }
+        if (PyErr_CheckSignals() == 0) continue;
+        stops = true;
+        {
+            const py::gil_scoped_release released;
+            filling.wait();
+        }
+        throw py::error_already_set();
+    }
+    return filling.get();
+}
 
 py::dict fill_cache(const std::filesystem::path& folder, std::uint32_t index, std::uint32_t count, bool verify,
                     std::uint64_t memory, unsigned threads)
@@ -22,14 +55,14 @@ py::dict fill_cache(const std::filesystem::path& folder, std::uint32_t index, st
     options.verifies = verify;
     options.memory = memory;
     options.threads = threads;
-    options.progress = [](std::uint64_t) {
-        const py::gil_scoped_acquire held;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    };
-    const auto report = [&] {
-        const py::gil_scoped_release released;
-        return tools::fill(tools::Cache(folder), options);
-    }();
+    tools::FillReport report;
+    try {
+        report = fill_interruptibly(folder, options);
+    } catch (const formats::InputError& error) {  // its text names a file, which need not be UTF-8
+        const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(error.what()));
+        if (text) PyErr_SetObject(PyExc_RuntimeError, text.ptr());
+        throw py::error_already_set();
+    }
     py::list again;
     for (const tools::Difference& each : report.differences)
         again.append(fmt::format("{}.{}: {}", each.at.time, each.at.column, each.what));
