@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Preloaded, it is a disk that gets full: after SWIVEL_DISK_BYTES bytes, each write to a file fails with ENOSPC. What was
- * still on the disk is written, as a real disk does it. */
+ * Preloaded, it is a disk that gets full: after SWIVEL_DISK_BYTES bytes, each write to a file fails with ENOSPC. What
+ * was still on the disk is written, as a real disk does it. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
