@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// Reads the command line. Options that several subcommands have come first: one name, one wording and one range for
-// each.
 #include "tools/swivel/command_line.h"
 
 #include <fmt/format.h>
@@ -19,100 +16,13 @@
 #include "tools/cli/command_help.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
+#include "tools/swivel/cache_options.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/shared_options.h"
 
 namespace swivel::tools {
 
 namespace {
-
-// ---- options of several subcommands
-
-// Value: std::uint32_t, or an optional of it.
-template <class Value>
-CLI::Option* add_characters(CLI::App& command, Value& characters, const std::string& meaning)
-{
-    return takes(command.add_option("--characters", characters, "Characters, 1 to 10 million" + meaning),
-                 whole_number(1, 10'000'000));
-}
-
-// Value: std::uint64_t, or an optional of it; 1 where it is not given.
-template <class Value>
-CLI::Option* add_seed(CLI::App& command, Value& seed, const std::string& of)
-{
-    return takes(command.add_option("--seed", seed, "Seed of " + of)->default_str("1"), whole_number(0, UINT64_MAX));
-}
-
-CLI::Option* add_threads(CLI::App& command, unsigned& threads,
-                         const char* meaning = "Threads at most, up to 1024; 0 for all")
-{
-    return takes(command.add_option("--threads", threads, meaning)->capture_default_str(), whole_number(0, 1024));
-}
-
-CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
-
-CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meaning = "Show no progress")
-{
-    return command.add_flag("--quiet", quiet, meaning);
-}
-
-// The positional FILE.
-void add_file(CLI::App& command, std::string& file, const std::string& meaning)
-{
-    takes(command.add_option(
-              "FILE", file,
-              meaning + ": .bvh, .glb, .gltf or .vrm. - is standard input, BVH or glTF as its first bytes say"),
-          file_name())
-        ->required()
-        ->option_text(" ");
-}
-
-CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning)
-{
-    return takes(command.add_option("--limbs", kinds, meaning), one_of({"arms", "legs", "all"}));
-}
-
-// --clip and --fps; use: what the animation is there for.
-void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
-{
-    takes(command.add_option("--clip", motion.clip,
-                             "Which animation of a glTF FILE, by name or, counted from 0, by index. "
-                             "Without it the first. " +
-                                 use),
-          name("name an animation, or leave the option out for the first"));
-    takes(command.add_option("--fps", motion.rate,
-                             "Even frames a second of a glTF animation, 0.001 to 10000. Without it the limbs' own keys "
-                             "(docs/motion_files.md)"),
-          number(0.001, 10'000));
-}
-
-// --arm and --leg; other_side: what becomes of the one that is not named.
-void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,
-                     const std::string& other_side)
-{
-    command
-        .add_option("--arm", arms,
-                    "Joints of an arm, SHOULDER,ELBOW,WRIST, where their names do not tell. Each is a name, a path or "
-                    "a number (#12). left: or right: in front sets the side. May be given twice. " +
-                        other_side)
-        ->type_name("JOINTS")
-        ->allow_extra_args(false);
-    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
-        ->type_name("JOINTS")
-        ->allow_extra_args(false);
-}
-
-void add_view(CLI::App& command, std::string& view)
-{
-    takes(command.add_option("--view", view,
-                             "Also write a page that shows the crowd in a browser and solves it live: swivel help "
-                             "view. - is standard output"),
-          file_name());
-}
-
-void add_report(CLI::App& command, std::string& report, const std::string& what)
-{
-    takes(command.add_option("--report", report, "Also write a report as one HTML file: " + what), file_name());
-}
 
 // ---- the subcommands
 
@@ -129,39 +39,6 @@ void add_demo(CLI::App& app)
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_demo(*options); });
-}
-
-// The clip, its crowd and what is asked of it.
-void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
-{
-    add_file(command, options.file, "Motion file");
-    add_motion(command, options.motion, "A file without animations is solved in its rest pose");
-    takes(command
-              .add_option("--targets", options.targets,
-                          "Where wrists, elbows and hands (ankles, knees and feet) must be. 'clip' is the clip's own "
-                          "motion. A CSV file has the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z]"
-                          "[,qx,qy,qz,qw], in the world. limb is left_arm, right_arm, left_leg or right_leg. - is "
-                          "standard input. docs/tables.md says more")
-              ->default_str("clip"),
-          file_name());
-    takes(command.add_option("--between", options.between,
-                             "In frames between a limb's rows, hold the last row, or go on to the next in a linear "
-                             "way. Without it the limb follows the clip there"),
-          one_of({"hold", "linear"}));
-    takes(command.add_option("--crowd", options.crowd,
-                             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
-                             "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
-                             "it. - is standard input"),
-          file_name());
-    add_kinds(command, options.kinds,
-              "Which limbs to solve: arms, legs or all. Each is named by --arm or --leg, or found by the names in use. "
-              "Without it those named alone, or else the arms");
-    add_named_limbs(command, options.arms, options.legs, "With --limbs the side that is not named is looked for");
-    add_characters(command, options.characters,
-                   ", differing in arm lengths, place and start; the first is the clip's own")
-        ->default_str("1");
-    add_seed(command, options.seed, "the characters' differences");
-    add_threads(command, options.threads);
 }
 
 void add_solve(CLI::App& app)
@@ -225,108 +102,6 @@ void add_view_command(CLI::App& app)
     add_quiet(*command, options->quiet, "Print errors and nothing else");
     command->footer("FILE may also be a cache that swivel store made.");
     command->callback([options, command] { run_view(*options, option_about_clip(*command)); });
-}
-
-void add_memory(CLI::App& command, std::string& memory)
-{
-    takes(command.add_option("--memory", memory, "Memory at most, such as 512M or 4G, whatever the crowd's size")
-              ->capture_default_str(),
-          bytes());
-}
-
-// Of a cache that is filled.
-CLI::Option* add_solving_threads(CLI::App& command, unsigned& threads)
-{
-    return add_threads(command, threads, "Threads that solve, up to 1024; 0 for all. Two more wait for the disk");
-}
-
-// The positional CACHE.
-void add_cache(CLI::App& command, std::string& folder, const std::string& meaning)
-{
-    takes(command.add_option("CACHE", folder, meaning), name("name the cache's folder"))->required()->option_text(" ");
-}
-
-void add_store(CLI::App& app)
-{
-    CLI::App* command =
-        app.add_subcommand("store", "Make a cache of a clip's crowd: a Zarr folder that any number of machines fill");
-    auto options = std::make_shared<StoreOptions>();
-    add_crowd_of_clip(*command, options->crowd);
-    add_cache(*command, options->folder, "The folder to make");
-    takes(command->add_option("--frames", options->crowd.frames,
-                              "Frames of the crowd, 1 to 1 million. Without it those of the clip. More than the clip "
-                              "has play it again and again"),
-          whole_number(1, 1'000'000));
-    takes(command
-              ->add_option("--store", options->keep,
-                           "What the cache keeps once it is closed: goals, which give the same poses on any machine, "
-                           "poses, or both")
-              ->capture_default_str(),
-          one_of({"goals", "poses", "both"}));
-    takes(command->add_option("--chunk", options->chunk,
-                              "Frames and characters in a file, such as 8,4096. Without it by the crowd's size"),
-          name("write FRAMES,CHARACTERS"));
-    command->add_flag("--compress", options->compressed, "Pack chunks by Blosc");
-    add_quiet(*command, options->crowd.quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->crowd.json);
-    command->footer("Then swivel fill CACHE solves it, here or on many machines, and swivel check CACHE proves it.");
-    command->callback([options] { run_store(*options); });
-}
-
-void add_fill(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("fill", "Solve the chunks of a cache, or a shard of them");
-    auto options = std::make_shared<FillCommand>();
-    add_cache(*command, options->folder, "The folder that swivel store made");
-    command
-        ->add_option("--shard", options->shard,
-                     "Which part this process fills: i/n for the i-th of n, or auto, which reads the variables that "
-                     "Slurm and MPI set. Without it all")
-        ->type_name("i/n|auto");
-    command->add_flag("--resume", options->resumes, "Go on: leave chunks that are done");
-    command->add_flag("--verify", options->verifies,
-                      "Go on: solve chunks that are done, too, and write those again that differ. They are named, "
-                      "unless it is quiet, and are no error");
-    add_memory(*command, options->memory);
-    add_solving_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->callback([options] { run_fill(*options); });
-}
-
-void add_check(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("check", "Prove that every chunk of a cache is right, and close it");
-    auto options = std::make_shared<CheckOptions>();
-    add_cache(*command, options->folder, "The folder that swivel store made");
-    add_memory(*command, options->memory);
-    add_solving_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->footer("All chunks are solved again and compared. A chunk that differs is named and written again.");
-    command->callback([options] { run_check(*options); });
-}
-
-void add_replay(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("replay", "Compute a part of a cached crowd again, and prove it by digests");
-    auto options = std::make_shared<ReplayOptions>();
-    add_cache(*command, options->folder, "The cache");
-    command->add_option("--frames", options->frames, "Frames A:B, from A on, up to B without it")
-        ->type_name("A:B")
-        ->default_str("all");
-    command->add_option("--characters", options->characters, "Characters C:D, in the same way")
-        ->type_name("C:D")
-        ->default_str("all");
-    takes(command->add_option("-o,--out", options->out,
-                              "Write the poses to this CSV file, - for standard output. The table is that of swivel "
-                              "solve without its columns of clavicles; docs/cache.md says more. Without it the poses "
-                              "are proved alone"),
-          file_name());
-    add_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->callback([options] { run_replay(*options); });
 }
 
 void add_rig(CLI::App& app)
@@ -480,10 +255,7 @@ void run(int argc, const char* const* argv)
     add_demo(app);
     add_solve(app);
     add_view_command(app);
-    add_store(app);
-    add_fill(app);
-    add_check(app);
-    add_replay(app);
+    add_cache_commands(app);
     add_rig(app);
     add_steps(app);
     add_verify(app);

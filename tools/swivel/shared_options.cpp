@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "tools/swivel/shared_options.h"
+
+namespace swivel::tools {
+
+CLI::Option* add_threads(CLI::App& command, unsigned& threads, const char* meaning)
+{
+    return takes(command.add_option("--threads", threads, meaning)->capture_default_str(), whole_number(0, 1024));
+}
+
+CLI::Option* add_json(CLI::App& command, bool& json) { return command.add_flag("--json", json, "Print JSON"); }
+
+CLI::Option* add_quiet(CLI::App& command, bool& quiet, const std::string& meaning)
+{
+    return command.add_flag("--quiet", quiet, meaning);
+}
+
+void add_file(CLI::App& command, std::string& file, const std::string& meaning)
+{
+    takes(command.add_option(
+              "FILE", file,
+              meaning + ": .bvh, .glb, .gltf or .vrm. - is standard input, BVH or glTF as its first bytes say"),
+          file_name())
+        ->required()
+        ->option_text(" ");
+}
+
+CLI::Option* add_kinds(CLI::App& command, std::string& kinds, const std::string& meaning)
+{
+    return takes(command.add_option("--limbs", kinds, meaning), one_of({"arms", "legs", "all"}));
+}
+
+void add_motion(CLI::App& command, MotionChoice& motion, const std::string& use)
+{
+    takes(command.add_option("--clip", motion.clip,
+                             "Which animation of a glTF FILE, by name or, counted from 0, by index. "
+                             "Without it the first. " +
+                                 use),
+          name("name an animation, or leave the option out for the first"));
+    takes(command.add_option("--fps", motion.rate,
+                             "Even frames a second of a glTF animation, 0.001 to 10000. Without it the limbs' own keys "
+                             "(docs/motion_files.md)"),
+          number(0.001, 10'000));
+}
+
+void add_named_limbs(CLI::App& command, std::vector<std::string>& arms, std::vector<std::string>& legs,
+                     const std::string& other_side)
+{
+    command
+        .add_option("--arm", arms,
+                    "Joints of an arm, SHOULDER,ELBOW,WRIST, where their names do not tell. Each is a name, a path or "
+                    "a number (#12). left: or right: in front sets the side. May be given twice. " +
+                        other_side)
+        ->type_name("JOINTS")
+        ->allow_extra_args(false);
+    command.add_option("--leg", legs, "Joints of a leg, HIP,KNEE,ANKLE, in the same way")
+        ->type_name("JOINTS")
+        ->allow_extra_args(false);
+}
+
+void add_view(CLI::App& command, std::string& view)
+{
+    takes(command.add_option("--view", view,
+                             "Also write a page that shows the crowd in a browser and solves it live: swivel help "
+                             "view. - is standard output"),
+          file_name());
+}
+
+void add_report(CLI::App& command, std::string& report, const std::string& what)
+{
+    takes(command.add_option("--report", report, "Also write a report as one HTML file: " + what), file_name());
+}
+
+void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
+{
+    add_file(command, options.file, "Motion file");
+    add_motion(command, options.motion, "A file without animations is solved in its rest pose");
+    takes(command
+              .add_option("--targets", options.targets,
+                          "Where wrists, elbows and hands (ankles, knees and feet) must be. 'clip' is the clip's own "
+                          "motion. A CSV file has the columns\nframe,character,limb,x,y,z[,pole_x,pole_y,pole_z]"
+                          "[,qx,qy,qz,qw], in the world. limb is left_arm, right_arm, left_leg or right_leg. - is "
+                          "standard input. docs/tables.md says more")
+              ->default_str("clip"),
+          file_name());
+    takes(command.add_option("--between", options.between,
+                             "In frames between a limb's rows, hold the last row, or go on to the next in a linear "
+                             "way. Without it the limb follows the clip there"),
+          one_of({"hold", "linear"}));
+    takes(command.add_option("--crowd", options.crowd,
+                             "TOML file that says what the crowd is and what is asked of its limbs: goals, weights, "
+                             "reach, limits, budget. docs/crowd_file.md has every key. Options given here override "
+                             "it. - is standard input"),
+          file_name());
+    add_kinds(command, options.kinds,
+              "Which limbs to solve: arms, legs or all. Each is named by --arm or --leg, or found by the names in use. "
+              "Without it those named alone, or else the arms");
+    add_named_limbs(command, options.arms, options.legs, "With --limbs the side that is not named is looked for");
+    add_characters(command, options.characters,
+                   ", differing in arm lengths, place and start; the first is the clip's own")
+        ->default_str("1");
+    add_seed(command, options.seed, "the characters' differences");
+    add_threads(command, options.threads);
+}
+
+}  // namespace swivel::tools
