@@ -51,9 +51,11 @@ class Disk(Stage):
     def test_a_store_that_does_not_fit_leaves_nothing(self):
         for count in (0, 20, 100, 1000, 10_000):
             with self.subTest(bytes=count):
-                done = run("store", CLIP, self.folder / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": str(count)})
+                place = self.folder / str(count)
+                place.mkdir()
+                done = run("store", CLIP, place / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": str(count)})
                 self.assert_refused(done, "No space left on device; free some space")
-                self.assertEqual(list(self.folder.iterdir()), [])
+                self.assertEqual(list(place.iterdir()), [])
 
     def test_a_folder_that_may_only_be_read(self):
         cache = self.store()
