@@ -4,6 +4,7 @@
 FULL_DISK: the library that full_disk.c makes."""
 import json
 import os
+import pty
 import shutil
 import signal
 import subprocess
@@ -50,9 +51,11 @@ class Disk(Stage):
     def test_a_store_that_does_not_fit_leaves_nothing(self):
         for count in (0, 20, 100, 1000, 10_000):
             with self.subTest(bytes=count):
-                done = run("store", CLIP, self.folder / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": str(count)})
+                place = self.folder / str(count)
+                place.mkdir()
+                done = run("store", CLIP, place / "cache", "--quiet", env=os.environ | DISK | {"SWIVEL_DISK_BYTES": str(count)})
                 self.assert_refused(done, "No space left on device; free some space")
-                self.assertEqual(list(self.folder.iterdir()), [])
+                self.assertEqual(list(place.iterdir()), [])
 
     def test_a_folder_that_may_only_be_read(self):
         cache = self.store()
@@ -252,6 +255,25 @@ class Stops(Stage):
                 said = process.communicate()[1]
                 self.assertEqual((process.returncode, said), (-2, "swivel: interrupted; unfinished files are removed\n"))
                 self.assertEqual([path.name for path in self.folder.iterdir()], ["crowd.toml"])
+
+    def test_a_terminal_shows_how_far_a_store_is(self):
+        terminal, end = pty.openpty()
+        process = subprocess.Popen([SWIVEL, "store", CLIP, self.folder / "cache", "--characters", "200000", "--chunk", "1,16"], stdout=subprocess.DEVNULL,
+                                   stderr=end, env=os.environ | {"TERM": "xterm"})
+        os.close(end)
+        said = ""
+        while "of 200000 characters" not in said:
+            said += os.read(terminal, 1000).decode()
+        process.send_signal(signal.SIGINT)
+        try:
+            while more := os.read(terminal, 1000).decode():
+                said += more
+        except OSError:  # nobody writes any more
+            pass
+        os.close(terminal)
+        self.assertEqual(process.wait(), -2)
+        self.assertRegex(said, r"\x1b\[Kswivel: interrupted; unfinished files are removed\s*$")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_signal_ends_a_fill_between_chunks(self):
         cache = self.store(characters=4000, frames=400)

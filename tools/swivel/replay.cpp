@@ -56,7 +56,8 @@ public:
     {
     }
 
-    // Those of a column in order, from any on. Throws InputError if the chunk is not done, or has another digest.
+    std::uint32_t index() const { return column_.index(); }
+    // Chunks of the column in order, from any on. Throws InputError if the chunk is not done, or has another digest.
     const Results& solve(std::uint32_t time)
     {
         const ChunkAt at{time, column_.index()};
@@ -101,7 +102,7 @@ formats::PoseColumns columns_of(const CachedCrowd& crowd)
     return columns;
 }
 
-// Writes rows of the table: the solver's own rotations.
+// Writes the table: the solver's own rotations. It has frames in order, so it holds its part of the chunks of one time.
 class TableWriter {
 public:
     TableWriter(const std::string& path, const CachedCrowd& crowd)
@@ -113,19 +114,52 @@ public:
     {
     }
 
-    // The rows of a frame in a chunk, of characters in its column.
-    void append(const Results& results, ChunkAt at, std::uint32_t frame_in_chunk,
-                std::span<const goal_character> characters, Range of_column)
+    // Keeps these frames and characters of a chunk, counted within it.
+    void add(const ColumnReplay& column, const Results& results, Range frames, Range characters)
+    {
+        const auto all = column.characters();
+        Piece& piece = pieces_.emplace_back();
+        piece.first = column.index() * crowd_.chunk.characters + characters.begin;
+        piece.characters.assign(all.begin() + characters.begin, all.begin() + characters.end);
+        for (std::size_t f = 0; f < fields_.size(); ++f) {
+            const std::size_t count = fields_[f].count();
+            std::vector<std::uint32_t>& numbers = piece.results.emplace_back();
+            numbers.reserve((frames.end - frames.begin) * crowd_.limbs.size() * piece.characters.size() * count);
+            for (std::size_t row = frames.begin * crowd_.limbs.size(); row < frames.end * crowd_.limbs.size(); ++row) {
+                const std::size_t place = (row * crowd_.chunk.characters + characters.begin) * count;
+                const auto part = std::span(results[f]).subspan(place, piece.characters.size() * count);
+                numbers.insert(numbers.end(), part.begin(), part.end());
+            }
+        }
+    }
+
+    // Writes these frames of all that was added, and lets go of it.
+    void write(Range frames)
+    {
+        for (std::uint32_t frame = frames.begin; frame < frames.end; ++frame)
+            for (const Piece& piece : pieces_) append(frame, frame - frames.begin, piece);
+        pieces_.clear();
+    }
+    void commit() { csv_.commit(); }
+
+private:
+    // Some characters of a column, in some frames of a chunk. Results are as wide as these characters.
+    struct Piece {
+        std::uint32_t first;
+        std::vector<goal_character> characters;
+        Results results;
+    };
+
+    void append(std::uint32_t frame, std::size_t frame_in_piece, const Piece& piece)
     {
         rows_.clear();
         extras_.clear();
-        const std::uint32_t frame = at.time * crowd_.chunk.frames + frame_in_chunk;
-        for (std::uint32_t n = of_column.begin; n < of_column.end; ++n)
+        for (std::size_t n = 0; n < piece.characters.size(); ++n)
             for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb) {
-                const goal_character& who = characters[n];
+                const goal_character& who = piece.characters[n];
                 formats::PoseRow& row = rows_.emplace_back();
                 formats::PoseExtra& extra = extras_.emplace_back();
-                row.character = at.column * crowd_.chunk.characters + n;
+                row.character = piece.first + static_cast<std::uint32_t>(n);
                 row.limb = crowd_.limbs[limb].name;
                 row.place = std::to_array(who.place);
                 row.size = who.size;
@@ -133,18 +167,15 @@ public:
                 const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frame_count();
                 row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
                 extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
+                const std::size_t at = (frame_in_piece * crowd_.limbs.size() + limb) * piece.characters.size() + n;
                 for (std::size_t f = 0; f < fields_.size(); ++f) {
                     const std::size_t count = fields_[f].count();
-                    const std::size_t place =
-                        ((frame_in_chunk * crowd_.limbs.size() + limb) * crowd_.chunk.characters + n) * count;
-                    put(fields_[f].field, std::span(results[f]).subspan(place, count), row, extra);
+                    put(fields_[f].field, std::span(piece.results[f]).subspan(at * count, count), row, extra);
                 }
             }
         csv_.append(frame, rows_, has_extras_ ? extras_ : std::span<const formats::PoseExtra>());
     }
-    void commit() { csv_.commit(); }
 
-private:
     static void put(swivel_field field, std::span<const std::uint32_t> from, formats::PoseRow& row,
                     formats::PoseExtra& extra)
     {
@@ -165,6 +196,7 @@ private:
     formats::PoseColumns columns_;
     bool has_extras_;
     formats::PosesCsv csv_;
+    std::vector<Piece> pieces_;
     std::vector<formats::PoseRow> rows_;
     std::vector<formats::PoseExtra> extras_;
 };
@@ -173,6 +205,16 @@ private:
 Range within(Range whole, std::uint32_t first, std::uint32_t count)
 {
     return {std::max(whole.begin, first) - first, std::min(whole.end, first + count) - first};
+}
+
+// A table needs the columns of one time together. Without one, each column is gone through at once.
+std::vector<ChunkAt> order_of(Range times, Range columns, bool is_by_time)
+{
+    std::vector<ChunkAt> order;
+    for (std::uint32_t time = times.begin; time < times.end; ++time)
+        for (std::uint32_t column = columns.begin; column < columns.end; ++column) order.push_back({time, column});
+    if (!is_by_time) std::ranges::stable_sort(order, {}, &ChunkAt::column);
+    return order;
 }
 
 }  // namespace
@@ -189,32 +231,33 @@ void run_replay(const ReplayOptions& options)
     std::optional<TableWriter> table;
     if (!options.out.empty()) table.emplace(options.out, crowd);
     const ChunkShape chunk = crowd.chunk;
-    const auto first_column = characters.begin / chunk.characters,
-               columns_end = (characters.end - 1) / chunk.characters + 1;
-    const auto first_time = frames.begin / chunk.frames, times_end = (frames.end - 1) / chunk.frames + 1;
-    std::uint64_t proved = 0;
+    const Range times{frames.begin / chunk.frames, (frames.end - 1) / chunk.frames + 1};
+    const Range columns{characters.begin / chunk.characters, (characters.end - 1) / chunk.characters + 1};
+    const std::vector<ChunkAt> order = order_of(times, columns, table.has_value());
     {
-        Progress progress("chunks", std::uint64_t{times_end - first_time} * (columns_end - first_column),
-                          options.quiet);
-        for (std::uint32_t column = first_column; column < columns_end; ++column) {
-            ColumnReplay replay(cache, column);
-            const Range who = within(characters, column * chunk.characters, crowd.characters_in(column));
-            for (std::uint32_t time = first_time; time < times_end; ++time) {
-                signals.check();
-                progress.show(proved++);
-                const Results& results = replay.solve(time);
-                const Range when = within(frames, time * chunk.frames, crowd.frames_in(time));
-                for (std::uint32_t n = when.begin; table && n < when.end; ++n)
-                    table->append(results, {time, column}, n, replay.characters(), who);
-            }
+        Progress progress("chunks", order.size(), options.quiet);
+        std::optional<ColumnReplay> column;
+        for (std::size_t n = 0; n < order.size(); ++n) {
+            signals.check();
+            progress.show(n);
+            const ChunkAt at = order[n];
+            if (!column || column->index() != at.column) column.emplace(cache, at.column);
+            const Results& results = column->solve(at.time);
+            if (!table) continue;
+            const Range when = within(frames, at.time * chunk.frames, crowd.frames_in(at.time));
+            table->add(*column, results, when,
+                       within(characters, at.column * chunk.characters, crowd.characters_in(at.column)));
+            const std::uint32_t first = at.time * chunk.frames;
+            if (at.column + 1 == columns.end) table->write({first + when.begin, first + when.end});
         }
     }
     signals.check();
     if (table) table->commit();
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
-    if (options.json) print_json({{"cache", options.folder}, {"chunks_proved", proved}, {"out", options.out}}, to);
+    if (options.json)
+        print_json({{"cache", options.folder}, {"chunks_proved", order.size()}, {"out", options.out}}, to);
     if (options.json || options.quiet) return;
-    say(to, "proved   {} chunks: their digests are those of the cache\n", proved);
+    say(to, "proved   {} chunks: their digests are those of the cache\n", order.size());
     if (table && to == stdout) say(to, "written  {}\n", options.out);
 }
 
