@@ -146,3 +146,13 @@ test('goals that were moved can all be let go when nothing is chosen', async () 
     assert.deepEqual([await state(), await all.isVisible()], ['equal', false]);
   }, { hash: '#character=3&limb=left_arm&drawn=5' });
 });
+
+test('handles have colours of their own, and a rim that is seen on any ground', async () => {
+  await visit(crowd, async (page) => {
+    const colours = await page.evaluate(() => Object.values(swivelPage.picker.handles).map((mesh) => [mesh, ...mesh.children].map(({ material }) => material.color.getHexString('srgb-linear'))));
+    assert.equal(new Set(colours.map(([own]) => own)).size, 3, `${colours}`);
+    for (const [own, rim] of colours) assert.ok(rim !== undefined && parseInt(rim.slice(2, 4), 16) < 64, `${own}: ${rim}`);
+    const { share } = await difference(page, () => page.evaluate(() => { swivelPage.picker.handles.pole.children[0].visible = false; }));
+    assert.ok(share > 0.0001, `${share}`);
+  }, { hash: '#character=3&limb=left_arm&drawn=5' });
+});

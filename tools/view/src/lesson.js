@@ -60,8 +60,8 @@ function makeWords(swivel) {
             element("dd", {}, ...typeset(textOf(swivel, entity)), element("small", {}, ...typeset(saidOf(limb, entity.meaning)))),
         ];
         list.replaceChildren(...made.entities.filter((entity) => entity.step === step + 1).flatMap(rowOf));
-        closing.textContent = saidOf(limb, `Both rotations put the wrist ${number(made.closingError)} arm lengths from the target.` +
-            (off > OFF ? ` The lecture knows no limits: limits, weights, reach or a step hold the arm that you see ${number(off)} arm lengths from this one.` : ""));
+        closing.textContent = saidOf(limb, `Both rotations put the wrist ${number(made.closingError)} arm lengths from the target.` + (off <= OFF ? "" :
+            ` The lecture knows no limits: limits, weights, reach or a step hold the arm that you see ${number(off)} arm lengths from this one.`));
     };
     const refuse = (step, { why }, limb) => {
         tellStep(step, limb);

@@ -142,7 +142,8 @@ class Page {
     resize() {
         const { clientWidth: width, clientHeight: height } = this.canvas, panel = document.querySelector("aside").getBoundingClientRect();
         const isBelow = panel.width > width / 2;
-        const top = document.querySelector("header").getBoundingClientRect().bottom, bottom = height - document.querySelector("footer").getBoundingClientRect().top;
+        const top = document.querySelector("header").getBoundingClientRect().bottom;
+        const bottom = height - document.querySelector("footer").getBoundingClientRect().top;
         this.view.resize(width, height, isBelow ? 0 : panel.width, top, isBelow ? height - panel.top : bottom);
         this.redraw();
     }

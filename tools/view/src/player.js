@@ -23,7 +23,8 @@ export class Player {
             ...SPEEDS.map((speed) => element("option", { value: speed }, `${speed} ×`)));
         this.speeds.value = "1";
         this.speeds.addEventListener("change", () => { this.speed = Number(this.speeds.value); });
-        const follow = checkbox("Follow", false, (isOn) => page.follow(isOn), { title: "The camera goes along with the chosen character, or with the middle one (F)" });
+        const follow = checkbox("Follow", false, (isOn) => page.follow(isOn),
+            { title: "The camera goes along with the chosen character, or with the middle one (F)" });
         bar.append(this.play, button("◂", () => this.step(-1), { title: "Frame before (←)", "aria-label": "Frame before" }),
             button("▸", () => this.step(1), { title: "Next frame (→)", "aria-label": "Next frame" }), this.scrub, this.place, this.speeds, follow);
         page.on("frame", () => this.show());
