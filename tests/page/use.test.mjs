@@ -133,10 +133,11 @@ test('the lesson shows the library\'s entities, step by step, while the arm is d
       await page.locator('.labels span').first().waitFor();
     });
     assert.ok(open.share > 0.003, `${open.share}`);
-    const wanted = [['p_w', 'π_swivel', 'S₁', 'S₂', 'PP', 'p_e'], ['l_se', 'l_ew', 'c₄', 'q_e'], ['p_ze', 'π_M', 'π_e', 'l_M'], ['q₁₂'], ['c₃', 'q₃', 'q_s']];
+    const wanted = [['pw', 'πswivel', 'S1', 'S2', 'PP', 'pe'], ['lse', 'lew', 'c4', 'qe'], ['pze', 'πM', 'πe', 'lM'], ['q12'], ['c3', 'q3', 'qs']];
     for (const [step, names] of wanted.entries()) {
       assert.deepEqual(await page.locator('.entities dt').allTextContents(), names);
       assert.ok((await page.textContent('.lesson h3')).startsWith(`${step + 1}. `));
+      assert.doesNotMatch(await page.textContent('.lesson'), /[a-z]_|\bpi|\^/, 'names are typeset');
       assert.ok(await page.locator('.labels span:visible').count() > 0);
       const text = await page.locator('.entities dd').last().textContent(), from = await pixel(page, 'target');
       await drag(page, from, { x: from.x + 6, y: from.y - 6 });
@@ -188,7 +189,7 @@ test('play, pause and play within one picture play at one speed', async () => {
   });
 });
 
-test('links: characters drawn or why not, frames and limbs that there are', async () => {
+test('links: the first characters and the chosen one are drawn; frames and limbs that there are', async () => {
   await visit(demo, async (page) => {
     const go = async (hash) => {
       await page.evaluate((to) => new Promise((resolve) => {
@@ -198,16 +199,26 @@ test('links: characters drawn or why not, frames and limbs that there are', asyn
       return page.textContent('.notice');
     };
     const drawn = () => page.evaluate(() => [swivelPage.drawnCount, Number(document.querySelector('[aria-label=Drawn]').value)]);
+    const shown = () => page.evaluate(() => {
+      const { meshes, extra } = swivelPage.view.bodies, [count, ...others] = new Set(meshes.map((mesh) => mesh.geometry.instanceCount));
+      return [others.length ? others : count, extra, swivelPage.selection?.character];
+    });
     assert.equal(await go('#drawn=4'), '');
     assert.deepEqual(await drawn(), [4, 4]);
     assert.equal(await go('#character=9&limb=left_arm'), '');
-    assert.deepEqual(await drawn(), [10, 10]);
-    assert.equal(await page.evaluate(() => swivelPage.selection.character), 9);
-    assert.match(await go('#character=12&limb=left_arm'), /asks for character 12.* 0 to 11/);
-    assert.match(await go('#frame=240'), /asks for frame 240.* 0 to 239/);
-    assert.match(await go('#character=2&limb=left_wing'), /limb left_wing.*left_arm, right_arm/);
-    await page.evaluate(() => { swivelPage.mostDrawn = 8; });
-    assert.match(await go('#frame=3&character=10&limb=left_arm'), /Character 10 is solved but cannot be shown: .*first 8/);
+    assert.deepEqual(await drawn(), [4, 4]);
+    assert.deepEqual(await shown(), [5, 9, 9]);
+    await page.evaluate(() => swivelPage.select(null));
+    assert.deepEqual(await shown(), [5, 9, undefined], 'who was chosen last stays');
+    assert.equal(await go('#character=6'), '');
+    assert.deepEqual(await shown(), [5, 6, 6]);
+    assert.equal(await go('#drawn=8'), '');
+    assert.deepEqual(await shown(), [8, null, 6]);
+    assert.match(await go('#character=12&limb=left_arm'), /^No character 12 here \(0 to 11\)\.$/);
+    assert.match(await go('#frame=240'), /^No frame 240 here \(0 to 239\)\.$/);
+    assert.match(await go('#character=2&limb=left_wing'), /^No limb left_wing here \(left_arm, right_arm\)\.$/);
+    assert.match(await go('#frame=240&character=-1&limb=tail&drawn=0'), /^0 characters cannot .*1 to 12.* No frame 240 .* No character -1 .* No limb tail /);
+    assert.equal(await go('#frame=3&character=10&limb=left_arm'), '');
     assert.equal(await page.evaluate(() => swivelPage.stage.frame), 3);
   });
 });

@@ -3,7 +3,7 @@
 // The crowd's bodies: capsules, an instance for each character. Bodies follow the clip. Limbs follow the solver:
 // their vertices find elbow and wrist from its rows.
 import {
-    CapsuleGeometry, Float32BufferAttribute, GLSL3, InstancedBufferGeometry, LessDepth, Mesh, ShaderMaterial, Vector3, Vector4,
+    CapsuleGeometry, Float32BufferAttribute, GLSL3, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector3, Vector4,
 } from "three";
 
 import bodyFragment from "./body.frag.glsl";
@@ -62,6 +62,7 @@ export class Bodies {
         this.mostTexels = mostTexels;
         this.meshes = [];
         this.drawnCount = 1;  // until show() says it
+        this.extra = null;  // the character that is drawn beside the first ones, or null
         const { characters } = stage, jointCount = figure.jointCount;
         const positions = new Float32Array(figure.positions.length / 3 * 4);
         for (let n = 0; n < figure.positions.length / 3; ++n) positions.set(figure.positions.subarray(3 * n, 3 * n + 3), 4 * n);
@@ -69,7 +70,7 @@ export class Bodies {
             uCharacters: floatTexture("the characters", characters.flatMap(({ size, place, start }) => [...place, size, start, 0, 0, 0]), mostTexels),
             uPositions: floatTexture("the clip's positions", positions, mostTexels),
             uFrame: 0, uFrameCount: figure.frameCount, uJointCount: jointCount,
-            uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
+            uDrawn: 1, uExtra: 0, uScale: scale, uGround: figure.ground, uSun: SUN, uFar: 60,
             uSky: rgb("#ffffff"), uEarth: rgb("#888888"), uBackground: rgb("#ffffff"), uShade: rgb("#cccccc"),
         };
         for (const name of Object.keys(this.shared)) this.shared[name] = { value: this.shared[name] };
@@ -103,23 +104,24 @@ export class Bodies {
     /** The rows of those that are drawn. The limb's crowd is made again when its features change. */
     takeRows(drawn) {
         const crowd = this.stage.crowdOf(drawn.limb), blocks = Math.ceil(this.drawnCount / 16);
-        if (drawn.crowd === crowd && drawn.rows.blocks === blocks) return drawn.rows.update();
+        const extra = this.extra === null ? null : Math.floor(this.extra / 16);
+        if (drawn.crowd === crowd && drawn.rows.blocks === blocks && drawn.rows.extra === extra) return drawn.rows.update();
         drawn.rows?.dispose();
         drawn.crowd = crowd;
-        drawn.rows = new LimbRows(crowd, drawn.limb, blocks, this.mostTexels);
+        drawn.rows = new LimbRows(crowd, drawn.limb, blocks, extra, this.mostTexels);
         for (const [name, value] of Object.entries(drawn.rows.uniforms)) {
             drawn.uniforms[name] ??= { value };
             drawn.uniforms[name].value = value;
         }
     }
-    /** A mesh, and its shadow on the ground: no place of the ground is darkened twice. */
+    /** A mesh, and its shadow. Ground and shadows are drawn before all bodies and have no depth, because they lie in one plane. */
     add(partCount, own, vertex, fragment) {
         const uniforms = { ...this.shared, ...own };
         for (const shadow of [false, true]) {
             const material = new ShaderMaterial({
                 uniforms, glslVersion: GLSL3, defines: shadow ? { ...DEFINES, SHADOW: "" } : DEFINES,
                 vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
-                ...(shadow ? { depthFunc: LessDepth } : {}),
+                depthWrite: !shadow,
             });
             const mesh = new Mesh(capsules(partCount, shadow), material);
             mesh.frustumCulled = false;
@@ -128,12 +130,14 @@ export class Bodies {
         }
     }
 
-    /** Draws the first characters, as the stage has them now. */
-    show(drawnCount) {
-        this.drawnCount = drawnCount;
+    /** Draws the first characters and perhaps one more, as the stage has them now. */
+    show(drawnCount, wanted) {
+        this.drawnCount = this.shared.uDrawn.value = drawnCount;
+        this.extra = wanted >= drawnCount ? wanted : null;
+        this.shared.uExtra.value = this.extra ?? 0;
         this.shared.uFrame.value = this.stage.frame;
         for (const drawn of this.limbs) this.takeRows(drawn);
-        for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount;
+        for (const mesh of this.meshes) mesh.geometry.instanceCount = drawnCount + (this.extra === null ? 0 : 1);
     }
     choose(limb, character) {
         for (const drawn of this.limbs) drawn.uniforms.uChosen.value = drawn.limb === limb ? character : -1;

@@ -3,6 +3,7 @@ uniform highp sampler2D uBones;  // a texel each: the joints at both ends, the r
 
 void main() {
     vec4 bone = texel(uBones, int(part));
-    vec3 place = placeOf(gl_InstanceID).xyz;
-    putCapsule(place + jointOf(gl_InstanceID, int(bone.x)), place + jointOf(gl_InstanceID, int(bone.y)), bone.z, bone.w);
+    int character = characterOf(gl_InstanceID);
+    vec3 place = placeOf(character).xyz;
+    putCapsule(place + jointOf(character, int(bone.x)), place + jointOf(character, int(bone.y)), bone.z, bone.w);
 }

@@ -9,6 +9,7 @@ export const THEMES = {
 };
 export const LIMB_COLOURS = ["#f08a3c", "#3f97e8", "#e2588f", "#2eb39a"];  // of the limbs, in their order
 export const CHOSEN = "#ffd34d";
+export const CONE = "#ff5fa8";  // of the shoulder's limit and of the ball on its rim
 
 const RAMP = ["#2c7fb8", "#41b6a6", "#d9e26a", "#f6a03c", "#d7301f"];
 const FLAGS = [["reached", "#58a968"], ["softened or stretched", "#9fd356"], ["out of reach", "#e8a33d"], ["limited", "#a877d8"],
@@ -17,7 +18,7 @@ const FLAGS = [["reached", "#58a968"], ["softened or stretched", "#9fd356"], ["o
 /** What a limb's colour says: the legend's entries, from the least on. */
 export const COLOUR_BY = [
     { name: "Limb", legend: [] },
-    { name: "Error", unit: "arm lengths from target", legend: RAMP.map((colour, n) => [colour, `1e${2 * n - 8}`]) },
+    { name: "Error", unit: "from the target, in lengths of the limb", legend: RAMP.map((colour, n) => [colour, `1e${2 * n - 8}`]) },
     { name: "Flag", legend: FLAGS.map(([name, colour]) => [colour, name]) },
     { name: "Flexion", unit: "degrees", legend: RAMP.map((colour, n) => [colour, `${Math.round(37.5 * n)}`]) },
 ];

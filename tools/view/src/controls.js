@@ -4,6 +4,7 @@
 // away, the crowd file's, too.
 import { checkbox, element, section, slider } from "./dom.js";
 import { Feature, SwivelError } from "./stage.js";
+import { kindOf, saidOf, saidOfAll } from "./words.js";
 
 const RADIANS = Math.PI / 180;
 const degreesOfHalf = (cos) => 2 * Math.acos(cos) / RADIANS;
@@ -39,30 +40,51 @@ const cone = (opening) => ({
 });
 
 /**
- * Each field: what its sliders are, its value from their numbers, their numbers from its value. Both get what of the limb matters: isOther,
- * whether its twists turn the other way, the order of its boxes, and the value that the crowd file gives.
+ * Each field: a hint for people, what its sliders are, its value from their numbers, their numbers from its value. Both get what of the
+ * limb matters: isOther, whether its twists turn the other way, the order of its boxes, and the value that the crowd file gives.
  */
 const FIELDS = [
-    { name: "FLEXION_LIMIT", title: "Flexion", sliders: [angle("Least", 0, 180, 10), angle("Most", 0, 180, 140)],
+    { name: "FLEXION_LIMIT", title: "Flexion",
+        hint: "How far the elbow may bend, from straight on",
+        sliders: [angle("Least", 0, 180, 10), angle("Most", 0, 180, 140)],
         value: (swivel, [least, most]) => swivel.flexion(Math.min(least, most) * RADIANS, Math.max(least, most) * RADIANS),
         numbers: (value) => [degreesOfHalf(value[0]), degreesOfHalf(value[1])] },
-    { name: "SHOULDER_CONE", title: "Shoulder cone", ...cone(80) },
-    { name: "HUMERAL_TWIST", title: "Humeral twist", sliders: [angle("Least", -180, 180, -60), angle("Most", -180, 180, 60)],
+    { name: "SHOULDER_CONE", title: "Shoulder cone",
+        hint: "How far the upper arm may turn from the cone's axis",
+        ...cone(80) },
+    { name: "HUMERAL_TWIST", title: "Humeral twist",
+        hint: "How far the upper arm may turn about itself",
+        sliders: [angle("Least", -180, 180, -60), angle("Most", -180, 180, 60)],
         value: range, numbers: rangeEnds },
-    { name: "SHOULDER_BOX", title: "Shoulder box", order: "shoulder_order", sliders: boxSliders, value: box, numbers: boxEnds },
-    { name: "HAND_CONE", title: "Hand cone", needs: "WITH_HAND", ...cone(60) },
-    { name: "FOREARM_TWIST", title: "Forearm twist", needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
+    { name: "SHOULDER_BOX", title: "Shoulder box",
+        hint: "Ranges of the shoulder's three Euler angles",
+        order: "shoulder_order", sliders: boxSliders, value: box, numbers: boxEnds },
+    { name: "HAND_CONE", title: "Hand cone",
+        hint: "How far the hand may bend away from the forearm",
+        needs: "WITH_HAND", ...cone(60) },
+    { name: "FOREARM_TWIST", title: "Forearm twist",
+        hint: "How far the hand may turn about the forearm",
+        needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
         value: range, numbers: rangeEnds },
-    { name: "HAND_TWIST", title: "Hand twist", needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
+    { name: "HAND_TWIST", title: "Hand twist",
+        hint: "How far the hand may turn about its own axis",
+        needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
         value: (swivel, ends, limb) => [...axisOf(limb), ...range(swivel, ends, limb)], numbers: (value, limb) => rangeEnds(value.slice(3), limb) },
-    { name: "WRIST_BOX", title: "Wrist box", needs: "WITH_HAND", order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
-    { name: "WEIGHTS", title: "Weights", sliders: [share("Position", 1), share("Hand", 1), share("Pole", 1)],
+    { name: "WRIST_BOX", title: "Wrist box",
+        hint: "Ranges of the wrist's three Euler angles",
+        needs: "WITH_HAND", order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
+    { name: "WEIGHTS", title: "Weights",
+        hint: "How much each goal counts: 0 keeps the clip's pose, 1 takes the goal",
+        sliders: [share("Position", 1), share("Hand", 1), share("Pole", 1)],
         value: (swivel, weights) => weights, numbers: (value) => value },
     { name: "REACH", title: "Reach",
+        hint: "Soft zones near the ends of the reach, how far bones may stretch, and the least distance to the target",
         sliders: [share("Soft, far", 0.05, 0.5), share("Soft, near", 0, 0.5), { text: "Stretch", min: 1, max: 2, step: 0.01, value: 1 },
             share("Least distance", 0)],
         value: (swivel, numbers) => numbers, numbers: (value) => value },
-    { name: "MOST_SWIVEL", title: "Step", sliders: [angle("Most, a frame", 0, 90, 5)],
+    { name: "MOST_SWIVEL", title: "Step",
+        hint: "How far the elbow may swing about the line from shoulder to wrist, in one frame",
+        sliders: [angle("Most, a frame", 0, 90, 5)],
         value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
 ];
 const NOT_WITH_AIM = ["WEIGHTS", "REACH", "FLEXION_LIMIT", "HAND_CONE", "FOREARM_TWIST", "HAND_TWIST", "WRIST_BOX"];
@@ -94,7 +116,7 @@ function makeField(page, field, limbsOf) {
             show();
         } catch (error) {
             if (!(error instanceof SwivelError)) throw error;
-            page.say(`${field.title} stays as it was: ${error.message}.`);
+            page.say(`${saidOfAll(limbsOf(), field.title)} stays as it was: ${error.message}.`);
             follow();
         }
         page.changed();
@@ -111,8 +133,10 @@ function makeField(page, field, limbsOf) {
     const having = () => limbsOf().filter((limb) => stage.field(limb, field.name) !== undefined);
     const show = () => {
         const limbs = limbsOf(), count = having().length;
-        on.title = limbs.map((limb) => obstacle(stage, limb, field)).find((text) => text !== "") ?? "";
-        Object.assign(on.box, { checked: count > 0, indeterminate: count > 0 && count < limbs.length, disabled: on.title !== "" });
+        const why = limbs.map((limb) => obstacle(stage, limb, field)).find((text) => text !== "");
+        on.words.textContent = saidOfAll(limbs, field.title);
+        on.title = saidOf(limbs[0], why ?? field.hint);
+        Object.assign(on.box, { checked: count > 0, indeterminate: count > 0 && count < limbs.length, disabled: why !== undefined });
         bars.forEach((bar) => { bar.hidden = count === 0; });
     };
     /** Takes over what the limbs have; the first that has the field gives the numbers. */
@@ -132,7 +156,7 @@ function makeField(page, field, limbsOf) {
 }
 
 export function makeControls(page) {
-    const { stage } = page, kindOf = (limb) => limb.name.split("_")[1];
+    const { stage } = page;
     const limbsOf = () => stage.limbs.filter((limb) => !page.selection || kindOf(limb) === kindOf(page.selection.limb));
     const whose = element("p", { class: "hint" });
     const tell = () => {

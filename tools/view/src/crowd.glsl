@@ -2,11 +2,13 @@
 // the clip's joints lie one after the other, frame by frame.
 uniform highp sampler2D uCharacters, uPositions;
 uniform int uFrame, uFrameCount, uJointCount;
+uniform int uDrawn, uExtra;  // so many characters from the first on are drawn, and one more
 
 vec4 texel(highp sampler2D from, int at) {
     int width = textureSize(from, 0).x;
     return texelFetch(from, ivec2(at % width, at / width), 0);
 }
+int characterOf(int instance) { return instance < uDrawn ? instance : uExtra; }
 vec4 placeOf(int character) { return texel(uCharacters, 2 * character); }
 vec3 jointOf(int character, int joint) {
     int frame = (uFrame + int(texel(uCharacters, 2 * character + 1).x)) % uFrameCount;

@@ -26,7 +26,8 @@ export function checkbox(text, isOn, act, attributes = {}) {
     const box = element("input", { type: "checkbox", ...attributes });
     box.checked = isOn;
     box.addEventListener("change", () => act(box.checked));
-    return Object.assign(element("label", { class: "check" }, box, text), { box });
+    const words = element("span", {}, text);
+    return Object.assign(element("label", { class: "check" }, box, words), { box, words });
 }
 
 /** A number with its slider. act gets the number. */

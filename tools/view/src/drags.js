@@ -56,3 +56,7 @@ export function dropDrags(stage, limb, character) {
     stage.pins.delete(keyOf(limb, character));
     limb.shift = NO_SHIFT;
 }
+export function dropAllDrags(stage) {
+    stage.pins.clear();
+    for (const limb of stage.limbs) limb.shift = NO_SHIFT;
+}

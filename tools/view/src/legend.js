@@ -3,7 +3,7 @@
 // What limbs are coloured by, and the legend of it.
 import { COLOUR_BY, LIMB_COLOURS } from "./colours.js";
 import { element, section } from "./dom.js";
-import { limbName } from "./inspect.js";
+import { limbName } from "./words.js";
 
 export function makeLegend(page) {
     const select = element("select", { "aria-label": "Colour limbs by", class: "colour" },

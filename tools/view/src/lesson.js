@@ -6,10 +6,11 @@ import { Group, Quaternion, Vector3 } from "three";
 
 import { button, element, section } from "./dom.js";
 import { DRAW, vectorOf } from "./lesson_draw.js";
-import { COLOURS, SHOWN, STEPS, textOf } from "./lesson_text.js";
+import { COLOURS, STEPS, textOf } from "./lesson_text.js";
 import { clear } from "./marks.js";
 import { geometryOf, wishOf } from "./overlays.js";
 import { Feature, SwivelError } from "./stage.js";
+import { number, saidOf, typeset } from "./words.js";
 
 const OFF = 1e-4;  // arm lengths between solver and steps that are worth a word: a hundred times what floats leave
 
@@ -46,24 +47,29 @@ function stepsOf(stage, selection) {
 /** The page's words for a step. */
 function makeWords(swivel) {
     const title = element("h3"), text = element("p"), list = element("dl", { class: "entities" }), closing = element("p", { class: "hint" });
-    const explain = (step, { made, off }) => {
-        [title.textContent, text.textContent] = STEPS[step];
+    const tellStep = (step, limb) => {
+        const [name, words] = STEPS[step].map((each) => typeset(saidOf(limb, each)));
+        title.replaceChildren(...name);
+        return words;
+    };
+    const explain = (step, { made, off }, limb) => {
+        text.replaceChildren(...tellStep(step, limb));
         const rowOf = (entity) => [
             element("dt", { title: entity.meaning },
-                element("i", { class: "swatch", style: `--swatch: ${COLOURS[entity.name] ?? "transparent"}` }), SHOWN[entity.name]),
-            element("dd", {}, textOf(swivel, entity), element("small", {}, entity.meaning)),
+                element("i", { class: "swatch", style: `--swatch: ${COLOURS[entity.name] ?? "transparent"}` }), element("span", {}, ...typeset(entity.name))),
+            element("dd", {}, ...typeset(textOf(swivel, entity)), element("small", {}, ...typeset(saidOf(limb, entity.meaning)))),
         ];
         list.replaceChildren(...made.entities.filter((entity) => entity.step === step + 1).flatMap(rowOf));
-        closing.textContent = `Both rotations put the wrist ${made.closingError.toExponential(1)} arm lengths from the target.` +
-            (off > OFF ? ` The solver's arm is another: limits, weights, reach or a step keep it ${off.toPrecision(2)} arm lengths away.` : "");
+        closing.textContent = saidOf(limb, `Both rotations put the wrist ${number(made.closingError)} arm lengths from the target.` + (off <= OFF ? "" :
+            ` The lecture knows no limits: limits, weights, reach or a step hold the arm that you see ${number(off)} arm lengths from this one.`));
     };
-    const refuse = (step, { why }) => {
-        [title.textContent] = STEPS[step];
-        text.textContent = `The lecture's formulas have no answer here. ${why}.`;
+    const refuse = (step, { why }, limb) => {
+        tellStep(step, limb);
+        text.replaceChildren(...typeset(saidOf(limb, `The lecture's formulas have no answer here. ${why}.`)));
         list.replaceChildren();
         closing.textContent = "The solver takes other forms of them, which hold for every arm.";
     };
-    return { parts: [title, text, list, closing], tell: (step, steps) => (steps.made ? explain : refuse)(step, steps) };
+    return { parts: [title, text, list, closing], tell: (step, steps, limb) => (steps.made ? explain : refuse)(step, steps, limb) };
 }
 
 /** The drawn entities and their labels. */
@@ -74,7 +80,7 @@ function makeDrawing(view) {
     document.body.append(labels);
     const add = (shape, name, at) => {
         if (shape) frame.add(shape);
-        if (name) places.push({ at, label: element("span", { style: `--swatch: ${COLOURS[name] ?? "#8d99a8"}` }, SHOWN[name]) });
+        if (name) places.push({ at, label: element("span", { style: `--swatch: ${COLOURS[name] ?? "#8d99a8"}` }, ...typeset(name)) });
     };
     const empty = () => {
         clear(frame);
@@ -117,7 +123,7 @@ export function makeLesson(page) {
         const selection = page.selection ?? { limb: stage.limbs[0], character: 0 }, { limb, character } = selection;
         const steps = stepsOf(stage, selection);
         drawing.show(step, steps, stage.shoulder(limb, character), limb.mirrored);
-        words.tell(step, steps);
+        words.tell(step, steps, limb);
     };
     box.addEventListener("toggle", () => {
         page.overlays.hide(box.open);

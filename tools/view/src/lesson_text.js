@@ -19,10 +19,6 @@ export const COLOURS = {
     line_se: "#4aa3ff", line_ew: "#38c6c0", q_e: "#e2588f",
     p_ze: "#8d99a8", pi_M: "#58a968", pi_e: "#98a2b0", l_M: "#ff8a5c", q12: "#ff8a5c", q3: "#b48bff", q_s: "#e0433b",
 };
-export const SHOWN = {
-    p_w: "p_w", pi_swivel: "π_swivel", S1: "S₁", S2: "S₂", PP: "PP", p_e: "p_e", line_se: "l_se", line_ew: "l_ew", c4: "c₄", q_e: "q_e",
-    p_ze: "p_ze", pi_M: "π_M", pi_e: "π_e", l_M: "l_M", q12: "q₁₂", c3: "c₃", q3: "q₃", q_s: "q_s",
-};
 // Vectors before the units i, j and k; einf and e0 last.
 const BLADES = [0, 8, 16, 24].flatMap((nulls) => [0, 1, 2, 4, 6, 5, 3, 7].map((euclidean) => nulls | euclidean));
 
@@ -31,7 +27,7 @@ export function textOf(swivel, { coefficients }) {
     const most = Math.max(...coefficients.map(Math.abs));
     const terms = BLADES.filter((blade) => Math.abs(coefficients[blade]) > 1e-12 * most).map((blade, n) => {
         const number = coefficients[blade], sign = number < 0 ? "−" : n > 0 ? "+" : "";
-        const unit = swivel.bladeName(blade).replaceAll("^", "∧").replaceAll("einf", "e∞");
+        const unit = swivel.bladeName(blade);
         return `${n > 0 ? ` ${sign} ` : sign}${Math.abs(number).toPrecision(5)}${blade === 0 ? "" : ` ${unit}`}`;
     });
     return terms.join("") || "0";

@@ -1,12 +1,15 @@
 // Forward kinematics of a limb, from the rows that the solver reads and writes: row r of limb i is texel
-// (16 r + i % 16, i / 16). All is relative to the limb's shoulder.
+// (16 r + i % 16, i / 16). All is relative to the limb's shoulder. The extra character's block is the last line.
 uniform highp usampler2D uInputs, uResults;
 uniform int uRotationRow, uLengthsRow, uTargetRow, uClavicleRow, uEffectorRow, uAimRow;  // of inputs; -1: there are none
 uniform int uShoulderRow, uElbowRow, uWristRow, uFlagsRow, uStretchRow, uTurnRow;        // of results
 uniform vec4 uUpperFromArm, uElbowParentFromArm, uForeFromArm, uWristParentFromArm, uWristRest;
+uniform int uBlocks;    // of the rows before the extra one
 uniform float uMirror;  // -1 where the limb is solved in the mirror image, else 1
 uniform vec3 uTip;      // the hand's end, in the wrist joint's frame
 
+// Which limb of the rows is an instance's.
+int limbOfInstance(int instance) { return instance < uDrawn ? instance : 16 * uBlocks + uExtra % 16; }
 uint word(highp usampler2D rows, int row, int limb) {
     return texelFetch(rows, ivec2(16 * row + limb % 16, limb / 16), 0).r;
 }

@@ -5,9 +5,9 @@ flat out uint vFlags;
 flat out float vFlexion, vMissed, vChosen;
 
 void main() {
-    int character = gl_InstanceID, n = int(part);
+    int character = characterOf(gl_InstanceID), n = int(part);
     vec4 place = placeOf(character);
-    Limb limb = limbOf(character, place.w);
+    Limb limb = limbOf(limbOfInstance(gl_InstanceID), place.w);
     vec3 at = place.xyz + jointOf(character, uUpperJoint);
     vec3 a = n == 0 ? limb.shoulder : n == 1 ? limb.elbow : limb.wrist;
     vec3 b = n == 0 ? limb.elbow : n == 1 ? limb.wrist : limb.tip;

@@ -46,6 +46,7 @@ class Page {
         this.stage = stage;
         this.canvas = canvas;
         this.selection = null;
+        this.chosen = 0;  // the character that was chosen last
         this.dragsEveryone = false;
         this.view = new View(canvas, stage, new Figure(data, floatsOf(data.positions), stage.limbs));
         this.mostDrawn = Math.min(stage.characterCount, MOST_DRAWN, mostDrawn(this.view.bodies.mostTexels));
@@ -65,10 +66,13 @@ class Page {
     }
     /** After a solve. */
     changed() {
-        this.view.bodies.show(this.drawnCount);
+        this.view.moveAlong();
+        this.show();
         this.tell("frame");
         this.redraw();
     }
+    /** Draws the first characters, and the one that was chosen last. */
+    show() { this.view.bodies.show(this.drawnCount, this.chosen); }
     /** Draws before the browser's next picture, once. */
     redraw() {
         if (this.isDue) return;
@@ -87,15 +91,20 @@ class Page {
 
     select(selection) {
         this.selection = selection;
+        if (selection) this.chosen = selection.character;
+        if (selection && this.view.followed !== null) this.view.follow(selection.character);
         this.view.bodies.choose(selection?.limb, selection?.character);
+        this.show();
         this.tell("select");
         this.redraw();
     }
     selectNext() {
-        const { limbs } = this.stage, { limb, character } = this.selection ?? { limb: limbs.at(-1), character: -1 };
+        const { limbs } = this.stage, { limb, character } = this.selection ?? { limb: limbs.at(-1), character: this.view.middle - 1 };
         const next = limbs[(limb.index + 1) % limbs.length];
         const who = (next.index === 0 ? character + 1 : character) % this.stage.characterCount;
-        this.select({ limb: next, character: Math.max(0, who) });
+        this.select({ limb: next, character: who });
+        const { shoulder, elbow, wrist } = this.stage.pose(next, who);
+        if (![shoulder, elbow, wrist].every((joint) => this.view.isSeen(joint))) this.view.lookAt(who, true);
     }
     drag(part, world) {
         if (!this.selection) return;
@@ -107,10 +116,14 @@ class Page {
         this.stage.letGo(this.selection.limb, this.selection.character);
         this.changed();
     }
+    letAllGo() {
+        this.stage.letAllGo();
+        this.changed();
+    }
+    /** Follows the chosen character, or the one that the camera looks at from the start. */
     follow(isOn) {
-        this.view.follow(isOn && this.selection ? this.selection.character : null);
+        this.view.follow(isOn ? this.selection?.character ?? this.view.middle : null);
         this.tell("select");
-        this.redraw();
     }
     home() {
         this.view.home(this.drawnCount);
@@ -129,7 +142,9 @@ class Page {
     resize() {
         const { clientWidth: width, clientHeight: height } = this.canvas, panel = document.querySelector("aside").getBoundingClientRect();
         const isBelow = panel.width > width / 2;
-        this.view.resize(width, height, isBelow ? 0 : panel.width, isBelow ? panel.height : 0);
+        const top = document.querySelector("header").getBoundingClientRect().bottom;
+        const bottom = height - document.querySelector("footer").getBoundingClientRect().top;
+        this.view.resize(width, height, isBelow ? 0 : panel.width, top, isBelow ? height - panel.top : bottom);
         this.redraw();
     }
 
@@ -162,7 +177,7 @@ function build(page, data) {
 async function open(data, canvas) {
     const stage = await openStage(data), page = new Page(stage, data, canvas);
     stage.setFrame(0);
-    page.view.bodies.show(page.drawnCount);
+    page.show();
     build(page, data);
     page.setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     page.changed();
@@ -170,6 +185,7 @@ async function open(data, canvas) {
     addEventListener("resize", () => page.resize());
     addEventListener("hashchange", () => followLink(page));
     page.home();
+    page.follow(stage.characterCount === 1);  // a clip's figure may walk out of the picture
     followLink(page);
     page.draw();
     return page;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Shapes that are drawn over the scene: surfaces one can see through, tubes in place of lines, which are a pixel wide.
-import { CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, Vector3 } from "three";
+import { BackSide, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry, SphereGeometry, Vector3 } from "three";
 
 import { rgb } from "./colours.js";
 
@@ -18,6 +18,13 @@ function onTop(mesh) {
 
 export { surface };
 
+/** A ball that one may drag, with a dark rim that parts it from any background. */
+export function handle(radius, colour) {
+    const made = ball(new Vector3(), radius, colour);
+    const rim = new Mesh(new SphereGeometry(1.2 * radius, 20, 14), new MeshBasicMaterial({ color: rgb("#1d2733"), side: BackSide, ...TOP }));
+    rim.renderOrder = 14;
+    return made.add(rim);
+}
 /** A ball that is never hidden. */
 export function ball(at, radius, colour) {
     const made = new Mesh(new SphereGeometry(radius, 20, 14), new MeshBasicMaterial({ color: rgb(colour), ...TOP, opacity: 0.95 }));

@@ -4,20 +4,23 @@
 // that limits allow, and cones of limits. All is drawn as the limb is solved, relative to its shoulder.
 import { ConeGeometry, Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 
+import { CONE } from "./colours.js";
 import { checkbox, element, section } from "./dom.js";
-import { ball, clear, dashes, disc, sphere, surface, tube } from "./marks.js";
+import { clear, dashes, disc, handle, sphere, surface, tube } from "./marks.js";
 import { Feature, rotationOf } from "./stage.js";
+import { saidOf } from "./words.js";
 
-/** name: of the switch and of the group that is drawn. */
+const FORBIDDEN = "#e0433b", HAND_CONE = "#ffb3da";
+
+/** name: of the switch and of the group that is drawn. colours: as they are drawn. */
 const OVERLAYS = [
-    { name: "spheres", text: "Spheres of both bones", colour: "#4aa3ff", isOn: true },
-    { name: "circle", text: "Circle of elbows; allowed arcs", colour: "#43c463", isOn: true },
-    { name: "plane", text: "Swivel plane", colour: "#b48bff", isOn: true },
-    { name: "middle", text: "Middle line", colour: "#ff8a5c", isOn: false },
-    { name: "pole", text: "Pole", colour: "#98a2b0", isOn: true },
-    { name: "cones", text: "Limit cones", colour: "#ffd34d", isOn: true },
+    { name: "spheres", text: "Spheres of both bones", colours: ["#4aa3ff", "#38c6c0"], isOn: true },
+    { name: "circle", text: "Circle of the elbow: allowed, forbidden", colours: ["#43c463", FORBIDDEN], isOn: true },
+    { name: "plane", text: "Swivel plane", colours: ["#b48bff"], isOn: true },
+    { name: "middle", text: "Middle line", colours: ["#ff8a5c"], isOn: false },
+    { name: "pole", text: "Lines to the pole, the white ball", colours: ["#98a2b0"], isOn: true },
+    { name: "cones", text: "Limit cones: shoulder, hand", colours: [CONE, HAND_CONE], isOn: true },
 ];
-const FORBIDDEN = "#e0433b";
 
 /** The chosen limb as its solve has it: vectors relative to the shoulder as the clavicle moves it, and the arm frame's axes. */
 export function geometryOf(stage, { limb, character }) {
@@ -74,9 +77,9 @@ const draw = {
     },
     cones(group, geometry, { stage, selection, length }) {
         const cone = stage.field(selection.limb, "SHOULDER_CONE"), hand = stage.field(selection.limb, "HAND_CONE");
-        if (cone) group.add(coneMesh(new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes), cone[3], 0.6 * length, "#ffd34d"));
+        if (cone) group.add(coneMesh(new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes), cone[3], 0.6 * length, CONE));
         if (!hand) return;
-        const mesh = coneMesh(geometry.wrist.clone().sub(geometry.elbow).normalize(), hand[3], 0.25 * length, "#ff9fd0");
+        const mesh = coneMesh(geometry.wrist.clone().sub(geometry.elbow).normalize(), hand[3], 0.25 * length, HAND_CONE);
         mesh.position.copy(geometry.wrist);
         group.add(mesh);
     },
@@ -115,7 +118,7 @@ function place(anchor, stage, { limb, character }) {
 
 /** The ball on the rim of the shoulder cone: a drag opens or shuts the cone, so that its rim is at a point of the scene. */
 function makeRim(page) {
-    const { stage, view } = page, rim = ball(new Vector3(), 0.016 * view.figure.height, "#ffd34d");
+    const { stage, view } = page, rim = handle(0.016 * view.figure.height, CONE);
     page.picker.addHandle("cone", rim, (world) => {
         const { limb, character } = page.selection, geometry = geometryOf(stage, page.selection);
         const at = new Vector3().fromArray(stage.toSolved(limb, character, world)).sub(stage.clavicle(limb, character).shift).normalize();
@@ -127,13 +130,13 @@ function makeRim(page) {
 
 /** A switch for each overlay. */
 function makeSwitches(wanted, change) {
-    return OVERLAYS.map(({ name, text, colour, isOn }) => {
+    return OVERLAYS.map(({ name, text, colours, isOn }) => {
         wanted[name] = isOn;
         const row = checkbox(text, isOn, (now) => {
             wanted[name] = now;
             change();
         }, { "data-overlay": name });
-        row.prepend(element("i", { class: "swatch", style: `--swatch: ${colour}` }));
+        row.append(...colours.map((colour) => element("i", { class: "swatch", style: `--swatch: ${colour}` })));
         return row;
     });
 }
@@ -159,6 +162,10 @@ export function makeOverlays(page) {
     };
     page.on("frame", update);
     page.on("select", update);
+    page.on("select", () => {
+        const limb = page.selection?.limb ?? stage.limbs[0];
+        rows.forEach((row, n) => { row.words.textContent = saidOf(limb, OVERLAYS[n].text); });
+    });
     const rows = makeSwitches(wanted, () => {
         update();
         page.redraw();

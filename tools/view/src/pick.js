@@ -4,7 +4,7 @@
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
 
 import { CHOSEN } from "./colours.js";
-import { ball } from "./marks.js";
+import { handle } from "./marks.js";
 
 const SLACK = 6;  // pixels that a click may move
 const HANDLE_PIXELS = 22;
@@ -33,7 +33,7 @@ export class Picker {
     }
 
     handle(colour, size) {
-        const mesh = ball(new Vector3(), 0.021 * size * this.page.view.figure.height, colour);
+        const mesh = handle(0.021 * size * this.page.view.figure.height, colour);
         mesh.visible = false;
         return mesh;
     }
@@ -70,7 +70,7 @@ export class Picker {
     }
     /** The limb under the pointer: the nearest one whose bones the ray meets. */
     limbAt(event) {
-        const { stage, view, drawnCount } = this.page, ray = this.aim(event), near = new Vector3(), on = new Vector3();
+        const { stage, view } = this.page, { drawnCount, extra } = view.bodies, ray = this.aim(event), near = new Vector3(), on = new Vector3();
         const reach = 0.04 * view.figure.height * view.metres;
         let best = Infinity, found = null;
         const meet = (limb, character, a, b) => {
@@ -78,13 +78,17 @@ export class Picker {
             const depth = ray.origin.distanceTo(near);
             if (distance < reach + 0.004 * depth && depth < best) [best, found] = [depth, { limb, character }];
         };
-        for (const limb of stage.limbs) {
-            const { elbows, wrists } = stage.joints(limb, 0, drawnCount);
-            for (let n = 0; n < drawnCount; ++n) {
-                const elbow = stage.toWorld(limb, n, elbows.subarray(3 * n, 3 * n + 3));
-                meet(limb, n, stage.shoulder(limb, n), elbow);
-                meet(limb, n, elbow, stage.toWorld(limb, n, wrists.subarray(3 * n, 3 * n + 3)));
+        const meetThose = (limb, first, count) => {
+            const { elbows, wrists } = stage.joints(limb, first, count);
+            for (let n = 0; n < count; ++n) {
+                const who = first + n, elbow = stage.toWorld(limb, who, elbows.subarray(3 * n, 3 * n + 3));
+                meet(limb, who, stage.shoulder(limb, who), elbow);
+                meet(limb, who, elbow, stage.toWorld(limb, who, wrists.subarray(3 * n, 3 * n + 3)));
             }
+        };
+        for (const limb of stage.limbs) {
+            meetThose(limb, 0, drawnCount);
+            if (extra !== null) meetThose(limb, extra, 1);
         }
         return found;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Play, pause, scrub and speed.
-import { button, element } from "./dom.js";
+// Play, pause, scrub, speed, and whether the camera follows.
+import { button, checkbox, element } from "./dom.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
@@ -23,9 +23,12 @@ export class Player {
             ...SPEEDS.map((speed) => element("option", { value: speed }, `${speed} ×`)));
         this.speeds.value = "1";
         this.speeds.addEventListener("change", () => { this.speed = Number(this.speeds.value); });
+        const follow = checkbox("Follow", false, (isOn) => page.follow(isOn),
+            { title: "The camera goes along with the chosen character, or with the middle one (F)" });
         bar.append(this.play, button("◂", () => this.step(-1), { title: "Frame before (←)", "aria-label": "Frame before" }),
-            button("▸", () => this.step(1), { title: "Next frame (→)", "aria-label": "Next frame" }), this.scrub, this.place, this.speeds);
+            button("▸", () => this.step(1), { title: "Next frame (→)", "aria-label": "Next frame" }), this.scrub, this.place, this.speeds, follow);
         page.on("frame", () => this.show());
+        page.on("select", () => { follow.box.checked = page.view.followed !== null; });
     }
 
     show() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the shader makes of a limb, read back for tests: elbow and wrist of the first characters, relative to the
+// What the shader makes of a limb, read back for tests: elbow and wrist of those that are drawn, relative to the
 // character's place, and how far the limb misses, by the vertex shader's own function.
 import { BufferGeometry, FloatType, GLSL3, NearestFilter, Points, RGBAFormat, Scene, ShaderMaterial, WebGLRenderTarget } from "three";
 
@@ -11,8 +11,8 @@ const vertex = `
 uniform int uUpperJoint, uCount;
 flat out vec4 vJoint;
 void main() {
-    int character = gl_VertexID / 2;
-    Limb limb = limbOf(character, placeOf(character).w);
+    int character = characterOf(gl_VertexID / 2);
+    Limb limb = limbOf(limbOfInstance(gl_VertexID / 2), placeOf(character).w);
     vJoint = vec4(jointOf(character, uUpperJoint) + (gl_VertexID % 2 == 0 ? limb.elbow : limb.wrist), limb.missed);
     gl_Position = vec4((float(gl_VertexID) + 0.5) / float(2 * uCount) * 2.0 - 1.0, 0.0, 0.0, 1.0);
     gl_PointSize = 1.0;

@@ -14,8 +14,8 @@ function checkSides(what, width, height, most) {
     const why = `a texture has ${most} texels a side, and they take ${side}`;
     throw new Error(`this browser's graphics cannot hold ${what}: ${why}. Take fewer --frames or --characters`);
 }
-/** How many characters fit: a texture has a line for a block of 16. */
-export const mostDrawn = (most) => 16 * most;
+/** How many characters fit: a texture has a line for a block of 16, and one for the block of an extra character. */
+export const mostDrawn = (most) => 16 * (most - 1);
 
 /** A texture of four floats a texel, one after the other. */
 export function floatTexture(what, texels, most) {
@@ -37,11 +37,13 @@ function blockTexture(words, rowCount) {
     return texture;
 }
 
-/** The rows of one limb's group, its first blocks of 16 characters. */
+/** The rows of one limb's group: its first blocks of 16 characters, and one more block unless extra is null. */
 export class LimbRows {
-    constructor(crowd, limb, blocks, most) {
+    constructor(crowd, limb, blocks, extra, most) {
         this.most = most;
         this.blocks = blocks;
+        this.extra = extra;
+        this.copies = [];  // of rows, into textures that are no part of the solver's memory
         this.firstBlock = crowd.firstLimb(limb.group) / 16;
         this.inputs = this.texture(crowd, crowd.inputRows());
         this.results = this.texture(crowd, crowd.resultRows());
@@ -51,13 +53,21 @@ export class LimbRows {
             uRotationRow: row("PARENT_ROTATION"), uLengthsRow: row("LENGTHS"), uTargetRow: row("TARGET"), uClavicleRow: row("CLAVICLE"),
             uEffectorRow: row("EFFECTOR"), uAimRow: row("AIM"),
             uShoulderRow: row("SHOULDER"), uElbowRow: row("ELBOW"), uWristRow: row("WRIST"), uFlagsRow: row("FLAGS"),
-            uStretchRow: row("STRETCH"), uTurnRow: row("CLAVICLE_TURN"),
+            uStretchRow: row("STRETCH"), uTurnRow: row("CLAVICLE_TURN"), uBlocks: blocks,
         };
     }
     texture(crowd, rows) {
         const blockCount = this.blockCountOf(crowd), perBlock = rows.length / blockCount;
-        const words = new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * this.firstBlock, perBlock * this.blocks);
-        checkSides("the limbs' numbers", perBlock, this.blocks, this.most);
+        const from = (block, count) => new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * (this.firstBlock + block), perBlock * count);
+        const lines = this.blocks + (this.extra === null ? 0 : 1), first = from(0, this.blocks);
+        checkSides("the limbs' numbers", perBlock, lines, this.most);
+        if (this.extra === null) return blockTexture(first, perBlock / 16);
+        const words = new Uint32Array(perBlock * lines), extra = from(this.extra, 1);
+        this.copies.push(() => {
+            words.set(first);
+            words.set(extra, first.length);
+        });
+        this.copies.at(-1)();
         return blockTexture(words, perBlock / 16);
     }
     blockCountOf(crowd) {
@@ -66,7 +76,10 @@ export class LimbRows {
         return count;
     }
     /** After a solve. */
-    update() { this.inputs.needsUpdate = this.results.needsUpdate = true; }
+    update() {
+        this.copies.forEach((copy) => copy());
+        this.inputs.needsUpdate = this.results.needsUpdate = true;
+    }
     dispose() {
         this.inputs.dispose();
         this.results.dispose();

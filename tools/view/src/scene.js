@@ -17,6 +17,9 @@ export class View {
         this.stage = stage;
         this.figure = figure;
         this.metres = HEIGHT / figure.height;  // of the scene for a unit of the clip
+        this.middle = 0;  // the character that home() looked at
+        this.followed = null;  // a character, or null
+        this.covered = { right: 0, top: 0, bottom: 0 };  // pixels at the picture's sides that the page's parts cover
         this.renderer = new WebGLRenderer({ canvas, antialias: true });
         this.renderer.outputColorSpace = LinearSRGBColorSpace;  // the shaders' colours are the screen's own
         this.scene = new Scene();
@@ -38,7 +41,7 @@ export class View {
         const [vertexShader, fragmentShader] = groundGlsl.split("// ---- fragment");
         const { uFar, uBackground } = this.bodies.shared;
         const uniforms = { uGroundColour: { value: rgb("#ffffff") }, uLine: { value: rgb("#ffffff") }, uFar, uBackground };
-        const material = new ShaderMaterial({ uniforms, glslVersion: GLSL3, vertexShader, fragmentShader });
+        const material = new ShaderMaterial({ uniforms, glslVersion: GLSL3, vertexShader, fragmentShader, depthWrite: false });
         this.ground = new Mesh(new PlaneGeometry(4000, 4000).rotateX(-Math.PI / 2), material);
         this.ground.renderOrder = 0;
         this.scene.add(this.ground);
@@ -48,10 +51,16 @@ export class View {
     home(drawnCount) {
         const { characters } = this.stage, drawn = characters.slice(0, drawnCount);
         const front = Math.max(...drawn.map(({ place }) => place[2])), row = drawn.filter(({ place }) => place[2] === front);
-        const middle = characters.indexOf(row[row.length >> 1]), at = this.placeOf(middle);
-        this.controls.target.set(at.x, 0.55 * HEIGHT, at.z);
-        this.camera.position.set(at.x - 1.7, 1.3 * HEIGHT, at.z + (drawnCount > 1 ? 4.4 : 3.6));
+        this.middle = characters.indexOf(row[row.length >> 1]);
+        const at = this.placeOf(this.middle), offset = new Vector3(-1.7, 0.75 * HEIGHT, drawnCount > 1 ? 4.4 : 3.6);
+        this.controls.target.copy(at).setY(0.55 * HEIGHT);
+        this.camera.position.copy(this.controls.target).addScaledVector(offset, this.farther());
         this.controls.update();
+    }
+    /** How much farther the camera must be for a figure to fit into what the page's parts leave free. */
+    farther() {
+        const { width, height } = this.size, { right, top, bottom } = this.covered;
+        return Math.min(2, Math.max(1, 0.85 * height / (height - top - bottom), 0.68 * height / (width - right)));
     }
     /** Where a character's first joint is on the ground. */
     placeOf(character) {
@@ -65,18 +74,24 @@ export class View {
     /** Looks at a character from where the camera is, at the same distance, or close by. */
     lookAt(character, isClose) {
         const to = this.placeOf(character).setY(0.6 * HEIGHT), offset = this.camera.position.clone().sub(this.controls.target);
-        if (isClose) offset.setLength(Math.min(offset.length(), 3.2));
+        if (isClose) offset.setLength(Math.min(offset.length(), 3.2 * this.farther()));
         this.controls.target.copy(to);
         this.camera.position.copy(to).add(offset);
         this.controls.update();
     }
+    /** Whether a point of the clip's world is in the part of the picture that is free. */
+    isSeen(world) {
+        const at = this.project(world), box = this.renderer.domElement.getBoundingClientRect(), { right, top, bottom } = this.covered;
+        return at !== null && at.x > box.left && at.x < box.right - right && at.y > box.top + top && at.y < box.bottom - bottom;
+    }
+    /** Follows a character, or nobody if it is null. */
     follow(character) {
         this.followed = character;
         this.followedAt = character === null ? null : this.placeOf(character);
     }
-    /** Goes along with whom it follows. */
+    /** After a change of the frame: goes along with whom it follows. */
     moveAlong() {
-        if (this.followed === null || this.followed === undefined) return;
+        if (this.followed === null) return;
         const at = this.placeOf(this.followed), step = at.clone().sub(this.followedAt);
         this.camera.position.add(step);
         this.controls.target.add(step);
@@ -90,15 +105,16 @@ export class View {
         this.ground.material.uniforms.uGroundColour.value = rgb(theme.ground);
         this.ground.material.uniforms.uLine.value = rgb(theme.line);
     }
-    /** right, below: of the picture, covered by the panel; what is looked at stays clear of it. */
-    resize(width, height, right, below) {
+    /** right, top, bottom: pixels that the page's parts cover there; what is looked at is in the middle of the rest. */
+    resize(width, height, right, top, bottom) {
+        this.size = { width, height };
+        this.covered = { right, top, bottom };
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / height;
-        this.camera.setViewOffset(width, height, right / 2, below / 2, width, height);
+        this.camera.setViewOffset(width, height, right / 2, (bottom - top) / 2, width, height);
     }
     draw() {
-        this.moveAlong();
         const distance = this.camera.position.distanceTo(this.controls.target);
         this.bodies.shared.uFar.value = Math.max(45, 6 * distance);
         this.renderer.render(this.scene, this.camera);

@@ -9,7 +9,7 @@ import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
 import { bytesOf, charactersOf, givenOf, INPUT, Sources } from "./bytes.js";
-import { dragEveryone, dragOne, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
+import { dragEveryone, dragOne, dropAllDrags, dropDrags, isPinned, isShifted, moveGoals, NO_SHIFT, unit } from "./drags.js";
 import { fieldOf, fixedOf, makeCrowds, setOwn, writeFields } from "./fields.js";
 
 /** The names of a flag word's flags. */
@@ -48,7 +48,6 @@ export class Stage {
 
     get characterCount() { return this.characters.length; }
     get limbCount() { return this.limbs.length * this.characterCount; }
-    get armsPerSecond() { return this.limbCount / Math.max(this.seconds, 1e-9); }
 
     /** Bytes that stay in the module's memory. */
     keep(bytes) {
@@ -168,8 +167,14 @@ export class Stage {
         this.noteChanges();
         this.solve();
     }
+    letAllGo() {
+        dropAllDrags(this);
+        this.noteChanges();
+        this.solve();
+    }
+    isAnyDragged() { return this.pins.size > 0 || this.limbs.some(isShifted); }
     isDragged(limb, character) { return isPinned(this, limb, character) || isShifted(limb); }
-    noteChanges() { this.changed = this.pins.size > 0 || this.limbs.some((limb) => limb.own.size > 0 || isShifted(limb)); }
+    noteChanges() { this.changed = this.isAnyDragged() || this.limbs.some((limb) => limb.own.size > 0); }
 
     /** Sets a field, by its name in Field, for all characters of some limbs; null takes it away. Solves the crowd. Changes nothing if it fails. */
     setField(limbs, name, valueOf) {

@@ -12,11 +12,28 @@ const DIGEST_WORDS = {
     none: () => "the command solved no such frame",
 };
 
+const MOST_SOLVES = 60;  // that a rate is the mean of
+const LEAST_SECONDS = 1e-3;  // of all of them: browsers' clocks go by a tenth of that
+
+/** So many a second, by the unit that suits. */
+function rateText(rate) {
+    const [name, unit] = [[" million", 1e6], [" thousand", 1e3]].find(([, size]) => rate >= size) ?? ["", 1];
+    return `${Number((rate / unit).toPrecision(2))}${name} a second`;
+}
+/** How long a solve takes. all: seconds of the last ones. The page's first solve is slow, so a rate waits for others. */
+export function speedText(limbCount, all) {
+    const [first, ...others] = all, sum = others.reduce((total, seconds) => total + seconds, 0);
+    const mean = others.length > 0 ? sum / others.length : first, milliseconds = mean >= 1e-4 ? `${(1000 * mean).toFixed(1)} ms` : "less than 0.1 ms";
+    const rate = sum >= LEAST_SECONDS ? `: ${rateText(limbCount / mean)}` : "";
+    return `${limbCount.toLocaleString("en")} limbs solved in ${milliseconds}${rate}`;
+}
+
 export function makeStatus(page) {
     const { stage } = page, speed = element("p", { class: "speed", "aria-live": "off" }), digest = element("p", { class: "digest" });
+    const all = [];
     page.on("frame", () => {
-        const count = stage.limbCount.toLocaleString("en"), rate = stage.armsPerSecond / 1e6;
-        speed.textContent = `${count} limbs solved in ${(stage.seconds * 1000).toFixed(1)} ms: ${rate.toFixed(1)} million a second`;
+        if (all.push(stage.seconds) > MOST_SOLVES + 1) all.splice(1, 1);
+        speed.textContent = speedText(stage.limbCount, all);
         const state = stage.digestState();
         digest.dataset.state = state;
         digest.textContent = `digest ${stage.digests().join(" ")}, ${DIGEST_WORDS[state](stage.data.digests[stage.frame]?.join(" "))}`;
