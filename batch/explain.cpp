@@ -81,6 +81,7 @@ public:
         return count == 0 ? 0 : outside_limit(arm, limit, values, order) * 180 / std::numbers::pi;
     }
     double missed() const { return distance_missed(*crowd_, crowd_->groups[0], 0); }
+    double missed_share() const { return residual(*crowd_, crowd_->groups[0], 0); }
     bool is(Field field, std::initializer_list<float> wanted) const
     {
         std::uint32_t c = 0;
@@ -226,7 +227,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     if (aims && flags & SWIVEL_CLAMPED_NEAR)
         text.add("The target is too near to aim at with this flexion: the hand's ray passes it by %.4g.", missed);
     else if (aims)
-        text.add("The hand aims at the target, to within %.2g.", missed);
+        text.add("The hand aims at the target, to within %.2g of the limb's length.", solved.missed_share());
     else if (flags & SWIVEL_CLAMPED_FAR)
         text.add("The target is %.4g out of reach: the wrist is %.4g from the shoulder, as far as %s let it.", missed,
                  reached, by);
@@ -236,7 +237,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     else if (flags & SWIVEL_SOFTENED)
         text.add("A soft zone of reach keeps the wrist %.4g from its target.", missed);
     else
-        text.add("The target is reached, to within %.2g.", missed);
+        text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
     if (flags & SWIVEL_SWIVEL_UNDEFINED)
         text.add(" The pole does not say where the elbow goes: it is of no length or on the target's line.");

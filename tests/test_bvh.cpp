@@ -191,7 +191,8 @@ TEST_CASE("bvh: malformed files are refused with line and cause")
     };
     const std::string last = "10 20 30 0 0 0 90 0 90\n";
     const std::vector<Damage> damages = {
-        {"HIERARCHY", "HIRARCHY", "t.bvh:1: 'HIRARCHY' where HIERARCHY should be"},
+        {"HIERARCHY", "HIRARCHY",
+         "t.bvh:1: 'HIRARCHY' where HIERARCHY should be; correct it, or export the clip as BVH again"},
         {"ROOT Hips", "JOINT Hips", "t.bvh:2: 'JOINT' where ROOT should be"},
         {"ROOT Hips", "ROOT", "t.bvh:2: a joint without a name"},
         {"Hips\n{", "Hips\nOFFSET", "t.bvh:3: 'OFFSET' where { should be"},

@@ -122,6 +122,8 @@ TEST_CASE("help: a slip in a command or an option is told")
         return outcome.err;
     };
     CHECK(said({"slove", "x"}) == "swivel: there is no command 'slove'; did you mean solve?\n");
+    CHECK(said({"veiw", "x"}) == "swivel: there is no command 'veiw'; did you mean view?\n");
+    CHECK(said({"stpes"}) == "swivel: there is no command 'stpes'; did you mean steps?\n");
     CHECK_THAT(said({"dance"}),
                Contains("there is no command 'dance'; known are demo, solve, view, store, fill, check, replay, rig"));
     CHECK(said({"--verison"}) == "swivel: there is no option --verison; did you mean --version?\n");

@@ -225,7 +225,9 @@ TEST_CASE("input: clips that are not there or not text")
     require_clip_refused("\x89PNG\r\n\x1a\n", {"clip.bvh:1: ", "HIERARCHY"});
     require_clip_refused(kTwoArms + std::string(5, '\0'), {"clip.bvh: ", "binary"});
     spill(folder / "box.obj", "# box\nv 0 0 0\n");
-    require_refused(folder, {"box.obj"}, {"box.obj:1: '#' where HIERARCHY should be (read as BVH: names of other"});
+    require_refused(
+        folder, {"box.obj"},
+        {"box.obj:1: '#' where HIERARCHY should be; correct it, or export", "(read as BVH: names of other"});
     spill(folder / "walk.txt", kTwoArms);  // any name will do for a BVH
     CHECK(run_command(folder.path, {"solve", "walk.txt", "--out", "walk.csv"}).exit_code == 0);
 }
@@ -436,4 +438,16 @@ TEST_CASE("input: a file name with a line end stays in its line")
 {
     const TempFolder folder;
     require_refused(folder, {"two\nlines.bvh"}, {"two", "lines.bvh: ", "No such file"});
+}
+
+TEST_CASE("input: a file's name is one line, on standard output too")
+{
+    const TempFolder folder;
+    spill(folder / "a\nb.bvh", kTwoArms);
+    spill(folder / "t\n.csv", "frame,character,limb,x,y,z\n0,0,left_arm,1,2,3\n");
+    const Outcome outcome = run_command(folder.path, {"solve", "a\nb.bvh", "--targets", "t\n.csv", "--out", "o\n.csv"});
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, StartsWith("clip     a\\x0ab.bvh: BVH") && Contains("targets from t\\x0a.csv\n") &&
+                                Contains("written  o\\x0a.csv\n"));
 }

@@ -187,7 +187,11 @@ TEST_CASE("steps: what gives no steps is refused, with what to do")
     stage.require_refused({"clip.bvh", "--frame", "2"}, 1, "frame 2 does not exist; the clip has frames 0 to 1");
     stage.require_refused({"clip.bvh", "--limb", "left_leg"}, 1, "left leg");
     stage.require_refused({"none.bvh"}, 1, "none.bvh");
-    stage.require_refused({"--target", "9,0,0"}, 1, "too far");
+    stage.require_refused({"--target", "9,0,0"}, 1, "the target is too far by 6.3; change --target");
+    stage.require_refused({"--lengths", "1e30,1"}, 2, "--lengths 1e30,1: each number must be a bone's length, 1e-15");
+    stage.require_refused({"--lengths", "1,1e-30"}, 2, "--lengths 1,1e-30: each number");
+    stage.require_refused({"--target", "1,-1e30,0"}, 2, "--target 1,-1e30,0: each number must be a coordinate");
+    stage.require_refused({"--pole", "1e16,0,0"}, 2, "--pole 1e16,0,0: each number");
     stage.require_refused({"--target", "1,0"}, 2, "'1,0' is not 3 numbers");
     stage.require_refused({"--lengths", "0,1"}, 2, "above 0");
     stage.require_refused({"clip.bvh", "--target", "1,0,0"}, 2, "--target");
@@ -203,4 +207,20 @@ TEST_CASE("steps: what gives no steps is refused, with what to do")
     stage.require_refused({"clip.bvh", "--leg", "#1,#2,#3"}, 2, "--leg names a leg, but --limb left_arm is an arm");
     stage.require_refused({"clip.bvh", "--limb", "left_leg", "--arm", "#1,#2,#3"}, 2,
                           "--arm names an arm, but --limb left_leg is a leg");
+}
+
+TEST_CASE("steps: of a limb without steps it names file, frame, limb and reason, and no function")
+{
+    const StepsStage stage;
+    const std::string straight = edited(kTwoArms, "1 2 3 0 10 0 0 20 0 0 -30 0 5 0 0 0 20 0 0 30 0 5 0 0\n",
+                                        "1 2 3 0 10 0 0 20 0 0 0 0 5 0 0 0 20 0 0 30 0 5 0 0\n");
+    spill(stage.folder / "straight.bvh", straight);
+    const Outcome left = stage.run({"straight.bvh"});
+    INFO(left.err);
+    CHECK(left.exit_code == 1);
+    CHECK_THAT(left.err, StartsWith("swivel: straight.bvh: frame 0, left_arm: ") &&
+                             Contains("; take another --frame or --limb\n") && !Contains("swivel_steps"));
+    CHECK(stage.run({"straight.bvh", "--limb", "right_arm"}).exit_code == 0);
+    CHECK_THAT(stage.run({"--pole", "2.2,2.2,2.2"}).err,
+               !Contains("swivel_steps") && Contains("change --target, --pole"));
 }

@@ -125,6 +125,36 @@ TEST_CASE("explain measures how far a target is out of reach")
     }
 }
 
+TEST_CASE("explain says how exactly a target is reached in lengths of the limb, as residuals do, whatever the unit")
+{
+    Random random{7};
+    for (const swivel_features features : {SWIVEL_WORLD, SWIVEL_WORLD | SWIVEL_WITH_AIM}) {
+        Crowd crowd = crowd_of(features, 40);
+        crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
+        crowd.write_all(SWIVEL_LENGTHS, 0, Float2{300, 200});
+        float aim[5];
+        const double axis[3] = {0, 0, 1};
+        REQUIRE(swivel_aim(axis, 0.3, aim) == SWIVEL_OK);
+        if (features & SWIVEL_WITH_AIM) crowd.write_all(SWIVEL_AIM, 0, aim);
+        for (std::uint32_t n = 0; n < 40; ++n)
+            crowd.write(SWIVEL_TARGET, 0, std::vector{floats(Vector3d(random.between(200, 490) * random.direction()))},
+                        n);
+        crowd.solve();
+        std::vector<double> off(40);
+        crowd.residuals(0, off);
+        const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+        int reached = 0;
+        for (std::uint32_t n = 0; n < 40; ++n) {
+            if (!(flags[n] & SWIVEL_REACHED)) continue;
+            const std::string text = crowd.explain(0, n);
+            CHECK(number_after(text, ", to within ") == Approx(off[n]).epsilon(0.06));  // of two digits
+            CHECK(text.find(" of the limb's length.") != std::string::npos);
+            ++reached;
+        }
+        CHECK(reached > 10);
+    }
+}
+
 TEST_CASE("explain measures from the shoulder as the clavicle has turned it")
 {
     Random random{5};

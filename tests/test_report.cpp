@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -170,6 +171,30 @@ TEST_CASE("a point without neighbours is a dot, however many points there are")
     CHECK(matches(svg_of({"plot", "x", "y", false, true, {series}}), "<circle ").size() == 3);
 }
 
+TEST_CASE("a bound is below the frame's upper edge, and the key shows lines, dashes and dots in colours of their own")
+{
+    for (const bool log : {false, true}) {
+        const std::string svg = svg_of(
+            {"plot", "x", "y", false, log, {{"limit", {{0, 100}, {1, 100}}, true, true}, {"of", {{0, 1}, {1, 2}}}}});
+        const auto edges = matches(svg, "<path class=\"grid\" d=\"M[0-9.]+ ([0-9.]+)H");
+        const auto bound = matches(svg, "bound\"><path d=\"M[0-9.]+ ([0-9.]+)L");
+        REQUIRE(bound.size() == 1);
+        CHECK(std::stod(bound[0][1]) > std::stod(edges.back()[1]) + 1);
+    }
+    const TempFolder folder;
+    Report report(folder / "a.html", "colours");
+    Plot plot{"plot", "x", "y", false, false, {{"limit", {{0, 1}, {1, 1}}, true, true}, {"points", {{0, 1}}, false}}};
+    for (int n = 0; n < 10; ++n) plot.series.push_back({"line", {{0, n}, {1, n}}});
+    report.plot(plot);
+    report.commit();
+    const std::string text = slurp(folder / "a.html");
+    CHECK_THAT(text, Contains("<li class=\"s0 bound\">") && Contains("<li class=\"s1 dots\">"));
+    std::set<std::string> colours;
+    for (const std::smatch& m : matches(text, "\\.s\\d+ \\{ --c: (#[0-9a-f]{6})")) colours.insert(m[1]);
+    CHECK(colours.size() == 12);
+    CHECK(matches(text, "<li class=\"s11\">").size() == 1);
+}
+
 TEST_CASE("addresses are relative to the report, and hold no sign that ends them")
 {
     const TempFolder folder;
@@ -242,6 +267,100 @@ TEST_CASE("the worst limbs of a report are those of its tables, each in its wors
     }
 }
 
+TEST_CASE("limbs with bad input come first among the worst, with a dash for their distance and what is bad")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "crowd.toml", "[limb.all]\ntarget.offset = [4, 4, 4]\n");  // all others are clamped far
+    spill(folder / "far.csv", "frame,character,limb,x,y,z\n1,7,left_arm,1e30,0,0\n");
+    const Outcome outcome = run_command(folder.path, {"solve", "clip.bvh", "--characters", "30", "--crowd",
+                                                      "crowd.toml", "--targets", "far.csv", "--report", "r.html"});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    const std::string text = slurp(folder / "r.html");
+    const std::vector<std::smatch> rows = matches(text.substr(text.find("The worst limbs")), kLimbRow);
+    REQUIRE(rows.size() == 10);
+    CHECK(rows[0][1] == "1");
+    CHECK(rows[0][2] == "7");
+    CHECK(rows[0][3] == "left_arm");
+    CHECK(rows[0][4] == "–");
+    CHECK(rows[0][5] == "bad input");
+    for (std::size_t n = 1; n < rows.size(); ++n) CHECK(rows[n][5] == "clamped far");
+    CHECK_THAT(text, Contains("Bad input: target (1e+30, "));
+    CHECK_THAT(text, !Contains("nan"));
+}
+
+TEST_CASE("a solve's report starts with what came out, in plain words, and says no key of --json")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "far.csv", "frame,character,limb,x,y,z\n0,3,left_arm,70,0,0\n1,7,left_arm,1e30,0,0\n");
+    spill(folder / "crowd.toml", "[limb.all]\ntarget.offset = [4, 4, 4]\n");
+    const auto report = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"solve", "clip.bvh", "--report", "r.html"});
+        REQUIRE(run_command(folder.path, words).exit_code == 0);
+        const std::string text = slurp(folder / "r.html");
+        for (const char* key :
+             {"isa", "went wrong", "solve seconds", "bend source", "frame time", "upper arm swing</td>"})
+            CHECK_THAT(text, !Contains(">" + std::string(key)));
+        CHECK(matches(text, "<td[^>]*>[^<]*[1-9]\\d*\\.\\d{6,}").empty());  // of a table's cell: four digits
+        CHECK(matches(text, "<td[^>]*>\\[").empty());
+        return text.substr(text.find("</h1>"), 300);
+    };
+    CHECK_THAT(report({}), Contains("</h1>\n<p>All 4 arms reached their targets.</p>"));
+    CHECK_THAT(report({"--targets", "far.csv", "--characters", "300"}),
+               Contains("</h1>\n<p>All 1,200 arms reached their targets but for 2. The furthest is ") &&
+                   Contains(" times its length away from its target. 1 has bad input.</p>"));
+    CHECK_THAT(report({"--crowd", "crowd.toml"}), Contains("</h1>\n<p>None of the 4 arms reached its target. ") &&
+                                                      Contains("Are the targets in the right place and unit?</p>"));
+}
+
+TEST_CASE("a solve's flags are plotted without those that reached their targets, and its errors say of what")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "far.csv", "frame,character,limb,x,y,z\n0,3,left_arm,70,0,0\n");
+    REQUIRE(run_command(folder.path,
+                        {"solve", "clip.bvh", "--report", "r.html", "--targets", "far.csv", "--characters", "30"})
+                .exit_code == 0);
+    const std::string text = slurp(folder / "r.html");
+    CHECK_THAT(text, Contains(">distance from target, in limb lengths</text>"));
+    const std::string flags = text.substr(text.find(">Flags<"));
+    CHECK_THAT(flags, Contains("</i>clamped far</li>") && !Contains("</i>reached</li>"));
+    CHECK_THAT(flags, Contains("<title>clamped far: 0, 0.0166667</title>"));  // one of 60
+    CHECK(matches(flags, "class=\"y\"[^>]*>1</text>").empty());               // on a scale of its own
+}
+
+// Texts of 11.5 pixels, of which a sign takes about 6, on one line of a plot.
+void check_names_are_apart(const std::string& svg)
+{
+    double end = 0;
+    for (const std::smatch& m : matches(svg, "<text class=\"x\" x=\"([0-9.]+)\"[^>]*>([^<]+)<")) {
+        const double half = 3 * static_cast<double>(m[2].length());
+        INFO(m[2]);
+        CHECK(std::stod(m[1]) - half > end);
+        end = std::stod(m[1]) + half;
+    }
+}
+
+TEST_CASE("a verification's report names every column once, and its bands of reach lie beside each other")
+{
+    const TempFolder folder;
+    REQUIRE(run_command(folder.path, {"verify", "--arms", "500", "--report", "v.html"}).exit_code == 0);
+    const std::string text = slurp(folder / "v.html");
+    for (const std::smatch& table : matches(text, "<thead>.*?</thead>")) {
+        std::set<std::string> heads;
+        const std::vector<std::smatch> all = matches(table.str(), "<th[^>]*>([^<]*)</th>");
+        for (const std::smatch& head : all) {
+            CHECK(head[1].length() > 0);
+            heads.insert(head[1]);
+        }
+        CHECK(heads.size() == all.size());
+    }
+    for (const std::smatch& svg : matches(text, "<svg.*?</svg>")) check_names_are_apart(svg.str());
+    CHECK_THAT(text, Contains("production is the formula") && Contains("pipeline is the lecture"));
+}
+
 TEST_CASE("a verification's report has the figures of --json")
 {
     const TempFolder folder;
@@ -271,4 +390,27 @@ TEST_CASE("a report that cannot be written fails before the work, and replaces n
     CHECK(run_command(folder.path, {"solve", "clip.bvh", "--report", "clip.bvh"}).exit_code == 2);
     CHECK(run_command(folder.path, {"verify", "--report", "-"}).exit_code == 2);
     CHECK(slurp(folder / "clip.bvh") == kTwoArms);
+}
+
+TEST_CASE("pages and reports take no name of a clip, a table or a crowd file, and replace none")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    for (const char* name : {"a.csv", "b.bvh", "c.GLB", "d.gltf", "e.vrm", "f.toml"}) {
+        spill(folder / name, "of someone");
+        for (std::vector<std::string> words : {std::vector<std::string>{"solve", "clip.bvh", "--report"},
+                                               {"solve", "clip.bvh", "--view"},
+                                               {"view", "clip.bvh", "--out"},
+                                               {"demo", "--frames", "1", "--characters", "1", "--view"},
+                                               {"verify", "--arms", "1", "--report"},
+                                               {"bench", "--seconds", "1", "--report"}}) {
+            const std::string option = words.back();
+            words.push_back(name);
+            const Outcome outcome = run_command(folder.path, words);
+            INFO(words[0] << " " << outcome.err);
+            CHECK(outcome.exit_code == 2);
+            CHECK_THAT(outcome.err, Contains(option + " " + name + ": writes HTML") && Contains("name a .html"));
+            CHECK(slurp(folder / name) == "of someone");
+        }
+    }
 }

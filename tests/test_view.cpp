@@ -170,7 +170,7 @@ TEST_CASE("targets of one's own are in the page as the solver takes them, up to 
     const Outcome outcome =
         stage.run({"solve", "clip.bvh", "--characters", "2", "--targets", "t.csv", "--view", "a.html"});
     REQUIRE(outcome.exit_code == 0);
-    CHECK_THAT(outcome.out, Contains("your 2 targets take 0.0 MB of it"));
+    CHECK_THAT(outcome.out, Contains("your 2 targets take 1 kB of it"));
     struct Given {
         std::uint32_t frame, character, limb, reserved;
         float target[3], pole[3], hand[4];

@@ -62,7 +62,8 @@ struct WorstLimb {
     double error = 0;
 };
 
-// The limbs with the largest errors, each in its worst frame: the largest first, no limb of a character twice.
+// The limbs with the largest errors, each in its worst frame: the largest first, no limb of a character twice. Those
+// with bad input come before all others: their error is NaN.
 class WorstLimbs {
 public:
     static constexpr std::size_t kMost = 10;
@@ -119,7 +120,7 @@ struct LimbStatistics {
     ErrorStat missed;       // the same, of the others
     ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim and hit it
     ErrorStat aim_missed;   // the same, of limbs that aim and do not
-    WorstLimbs worst;       // by these four
+    WorstLimbs worst;       // by these four; bad input is NaN
     ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
     // Differences from the clip, of elbow or knee in limb lengths:
     ErrorStat given;  // of limbs that were given another goal, pole or aim than the clip's; all others follow it

@@ -53,7 +53,8 @@ void fail(const Scanner& scan, std::string_view cause) { throw InputError(scan.p
 void fail_expected(const Scanner& scan, std::string_view wanted, std::string_view found)
 {
     if (found.empty()) fail(scan, fmt::format("the file ends where {} should be; is it cut short?", wanted));
-    fail(scan, fmt::format("'{}' where {} should be", printable(found), wanted));
+    fail(scan,
+         fmt::format("'{}' where {} should be; correct it, or export the clip as BVH again", printable(found), wanted));
 }
 
 }  // namespace swivel::formats

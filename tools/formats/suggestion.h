@@ -10,7 +10,8 @@
 namespace swivel::formats {
 
 // The word nearest to the wrong one, if it is near enough to be meant. It may have one wrong letter for every three of
-// its own, and a word of 3 n - 1 letters may have n. A letter too many, one missing and one changed count 1 each.
+// its own, and a word of 3 n - 1 letters may have n. A letter too many, one missing, one changed and two neighbours
+// exchanged count 1 each.
 std::optional<std::string> nearest_word(std::string_view wrong, std::span<const std::string> words);
 
 // "did you mean WORD?", or, where no word is near enough, "known are WORD, WORD".

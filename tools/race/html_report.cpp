@@ -22,10 +22,25 @@ void put_machine(Report& report, const Measured& measured)
     report.table({"what", "value"}, rows);
 }
 
+void put_words(Report& report, const std::vector<std::vector<Cell>>& rows) { report.table({"word", "meaning"}, rows); }
+
 void put_pairs(Report& report, const Measured& measured)
 {
     report.heading("Beside others");
-    report.paragraph("Nanoseconds an arm: medians, measured in turns, on one thread unless said.");
+    report.paragraph(
+        "Nanoseconds an arm: medians, measured in turns, on one thread unless said. The ratio is the other's time by "
+        "swivel's.");
+    put_words(
+        report,
+        {{"P",
+          "the plain problem: targets, poles and lengths of bones in, rotations of shoulder and elbow out, all "
+          "in the arm's own frame"},
+         {"resident", "the same with targets in the world and parent frames in, a skeleton's local rotations out"},
+         {"whole frame", "the same from and to an engine's own structures, 16,384 arms"},
+         {"loop_trig", "the textbook formula as a loop over arrays, with arc cosines and cosines"},
+         {"loop_light", "the same with one angle instead of two"},
+         {"loop_roots", "the same with half-angle formulas and no angle"},
+         {"single_glm, frame_glm", "the textbook formula with glm, one arm at a time"}});
     std::vector<std::vector<Cell>> rows;
     for (const Pair& pair : measured.pairs)
         rows.push_back({pair.work, pair.isa, two_digits(pair.own_ns), pair.other, two_digits(pair.other_ns),
@@ -69,8 +84,10 @@ void put_roofline(Report& report, const Measured& measured)
     for (const Bound& bound : measured.bounds)
         rows.push_back({bound.isa, two_digits(bound.bound.divider_ns), two_digits(bound.bound.arithmetic_ns),
                         two_digits(bound.measured_ns), two_digits(bound.measured_ns / bound.bound.ns())});
-    report.paragraph("The ports of this CPU need at least this time for the operations of an ordinary arm.");
-    report.table({"instruction set", "divider", "arithmetic", "swivel", "by bound"}, rows);
+    report.paragraph(
+        "Nanoseconds an arm of problem P. The divider needs at least the first time for the roots and divisions of an "
+        "ordinary arm, and the other ports of this CPU the second for all else. The longer one is the bound.");
+    report.table({"instruction set", "divider", "arithmetic", "swivel", "swivel by the bound"}, rows);
     const double flops = measured.ops.flops(), intensity = flops / static_cast<double>(measured.row_bytes);
     const double peak = limits_of(measured.machine, measured.isa).flops_per_ns;
     Plot plot{"Roofline of problem P, " + measured.isa + "; without fused operations",
@@ -86,6 +103,10 @@ void put_roofline(Report& report, const Measured& measured)
     for (const Bound& bound : measured.bounds)
         plot.series.push_back({"P in cache, " + bound.isa, {{intensity, flops / bound.measured_ns}}, false});
     plot.series.push_back({"P out of cache", {{intensity, flops / measured.memory_ns}}, false});
+    report.paragraph(
+        "Roofline: a dashed line is the most that a memory as fast as that copy allows, up to the peak of the "
+        "arithmetic. "
+        "A dot is what swivel does with the operations and bytes of an arm of P.");
     report.plot(plot);
 }
 

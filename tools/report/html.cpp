@@ -16,15 +16,19 @@ body { margin: 2em auto; max-width: 920px; padding: 0 20px; background: var(--pa
 h1 { font-size: 24px; overflow-wrap: anywhere; } h2 { font-size: 18px; margin-top: 2em; }
 a { color: var(--link); } p { max-width: 46em; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; margin: 1em 0; }
-th, td { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid var(--edge); vertical-align: top; overflow-wrap: break-word; }
+th, td { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid var(--edge); vertical-align: top; }
+td { overflow-wrap: anywhere; }
 th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; } .bad { color: var(--bad); font-weight: 600; }
 figure { margin: 1.2em 0; } figcaption { color: var(--soft); font-size: 13.5px; } svg { width: 100%; height: auto; font-size: 11.5px; }
 svg text { fill: var(--soft); } svg .x { text-anchor: middle; } svg .y { text-anchor: end; } svg .label { font-size: 12.5px; }
 .grid { stroke: var(--edge); fill: none; } .series path { stroke: var(--c); fill: none; stroke-width: 2; } .series circle { fill: var(--c); }
 .bound path { stroke-dasharray: 6 5; stroke-width: 1.5; }
-.s0 { --c: #1f77d0; } .s1 { --c: #e07b1f; } .s2 { --c: #2d9a57; } .s3 { --c: #c8508f; } .s4 { --c: #8a63d2; } .s5 { --c: #b3531f; } .s6 { --c: #169b9b; } .s7 { --c: #8a8f98; }
+.s0 { --c: #1f77d0; } .s1 { --c: #e07b1f; } .s2 { --c: #2d9a57; } .s3 { --c: #c8508f; } .s4 { --c: #8a63d2; } .s5 { --c: #d0342c; } .s6 { --c: #169b9b; } .s7 { --c: #8a8f98; }
+.s8 { --c: #a88a00; } .s9 { --c: #7d5230; } .s10 { --c: #5c66d6; } .s11 { --c: #6f8f1f; }
 .key { display: flex; flex-wrap: wrap; gap: 4px 18px; list-style: none; padding: 0; margin: 4px 0; font-size: 13.5px; }
 .key i { display: inline-block; width: 14px; height: 4px; border-radius: 2px; background: var(--c); margin-right: 7px; vertical-align: middle; }
+.key .bound i { background: repeating-linear-gradient(90deg, var(--c) 0 5px, transparent 5px 8px); border-radius: 0; }
+.key .dots i { width: 8px; height: 8px; border-radius: 50%; }
 @media print { body { margin: 0; max-width: none; } figure, tr { break-inside: avoid; } }
 )";
 
@@ -48,7 +52,7 @@ std::size_t character_length(std::string_view text)
 
 bool is_number(const std::string& text)
 {
-    return !text.empty() && text.find_first_not_of("0123456789.,e+-×% ") == std::string::npos;
+    return text == kNoNumber || (!text.empty() && text.find_first_not_of("0123456789.,e+-×% ") == std::string::npos);
 }
 
 }  // namespace
@@ -121,8 +125,14 @@ void Report::plot(const Plot& plot)
     const std::string svg = svg_of(plot);
     if (svg.empty()) return;
     html_ += fmt::format("<figure>{}<ul class=\"key\">", svg);
-    for (std::size_t n = 0; n < plot.series.size(); ++n)
-        html_ += fmt::format("<li class=\"s{}\"><i></i>{}</li>", n % 8, escaped(plot.series[n].name));
+    for (std::size_t n = 0; n < plot.series.size(); ++n) {
+        const Series& series = plot.series[n];
+        html_ += fmt::format("<li class=\"s{}{}\"><i></i>{}</li>", n % kColourCount,
+                             series.is_bound  ? " bound"
+                             : series.is_line ? ""
+                                              : " dots",
+                             escaped(series.name));
+    }
     html_ += fmt::format("</ul><figcaption>{}</figcaption></figure>\n", escaped(plot.title));
 }
 

@@ -18,6 +18,9 @@ namespace swivel::tools {
 // As HTML and XML hold it. Bytes that are no UTF-8, and control characters, become U+FFFD.
 std::string escaped(std::string_view text);
 
+// In place of a number that does not exist.
+inline constexpr const char* kNoNumber = "–";
+
 struct Cell {
     Cell(std::string shown) : text(std::move(shown)) {}
     Cell(const char* shown) : text(shown) {}

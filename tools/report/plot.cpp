@@ -71,13 +71,17 @@ Axis axis_of(const Plot& plot, bool is_x)
 {
     Axis axis{is_x ? plot.log_x : plot.log_y, is_x ? kLeft : kHeight - kBottom, is_x ? kWidth - kRight : kTop,
               std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    double bound = -std::numeric_limits<double>::infinity();
     for (const Series& series : plot.series)
         for (const auto& point : series.points) {
             const double value = is_x ? point.first : point.second;
             if (!axis.shows(value)) continue;
             axis.least = std::min(axis.least, axis.scaled(value));
             axis.most = std::max(axis.most, axis.scaled(value));
+            if (series.is_bound) bound = std::max(bound, axis.scaled(value));
         }
+    // A bound on the frame's edge could not be told from it.
+    if (!is_x) axis.most = std::max(axis.most, bound + 0.02 * (axis.log ? 1 : axis.most - axis.least));
     if (!is_x && !axis.log) axis.least = std::min(axis.least, 0.0);
     return axis;
 }
@@ -129,7 +133,7 @@ std::string svg_of(const Series& series, std::size_t number, const Axis& x, cons
                     x.place(at_x), y.place(at_y), escaped(series.name), at_x, at_y);
         }
     }
-    return fmt::format("<g class=\"series s{}{}\">{}{}</g>", number % 8, series.is_bound ? " bound" : "",
+    return fmt::format("<g class=\"series s{}{}\">{}{}</g>", number % kColourCount, series.is_bound ? " bound" : "",
                        path.empty() ? "" : fmt::format("<path d=\"{}\"/>", path), dots);
 }
 

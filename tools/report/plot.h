@@ -3,6 +3,7 @@
 // A plot of a few series, as SVG inside a page. Knows numbers and names; no solver.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,9 @@ struct Plot {
     std::vector<Series> series;
     std::vector<std::string> x_names{};  // of x = 0, 1, 2 and so on, in place of numbers
 };
+
+// The page's style has so many colours, .s0 and so on. A plot of more series uses some twice.
+inline constexpr std::size_t kColourCount = 12;
 
 // An <svg> element. Colours come from the page's style. No text of the plot is taken for markup.
 std::string svg_of(const Plot& plot);

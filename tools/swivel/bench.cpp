@@ -12,11 +12,13 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/report_file.h"
 
 namespace swivel::tools {
 
 void run_bench(const BenchOptions& options)
 {
+    require_html_name("--report", options.report);
     const std::filesystem::path race = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "swivel-race";
     const std::string seconds = fmt::format("{}", options.seconds);
     std::vector<const char*> words = {"swivel-race", seconds.c_str()};

@@ -19,6 +19,7 @@
 #include "tools/swivel/cached_clip.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/report_file.h"
 #include "tools/swivel/view_page.h"
 
 namespace swivel::tools {
@@ -76,6 +77,7 @@ Statistics solve_demo(const DemoOptions& options)
 
 void run_demo(const DemoOptions& options)
 {
+    require_html_name("--view", options.view);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const ThreadLimit limit(options.threads);
     std::FILE* const reports = formats::is_standard_stream(options.view) ? stderr : stdout;

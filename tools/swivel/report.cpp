@@ -157,11 +157,9 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
     out["isa"] = swivel_isa_name();
     out["threads"] = thread_count();
     for (const Distance& d : distances_of(statistics))
-        out[d.meaning.key][d.key] = {{"worst", d.stat.max},
-                                     {"worst_pose", json_of(d.stat.worst_pose)},
-                                     {"rms", d.stat.rms()},
-                                     {"count", d.stat.count},
-                                     {"unit", d.unit}};
+        out[d.meaning.key][d.key] = {
+            {"what", d.text},      {"worst", d.stat.max},   {"worst_pose", json_of(d.stat.worst_pose)},
+            {"rms", d.stat.rms()}, {"count", d.stat.count}, {"unit", d.unit}};
     for (const auto& [flag, name] : kFlagNames) {
         const FlagStat stat = flag_of(statistics, flag);
         out["flags"][name] = stat.count;

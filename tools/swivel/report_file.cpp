@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tools/swivel/report_file.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
 #include "tools/cli/command_error.h"
 #include "tools/cli/signals.h"
 #include "tools/formats/output_file.h"
@@ -8,9 +13,19 @@
 
 namespace swivel::tools {
 
+void require_html_name(std::string_view option, const std::string& file)
+{
+    constexpr std::string_view kOthers[] = {".csv", ".bvh", ".glb", ".gltf", ".vrm", ".toml"};
+    const std::string suffix = formats::lower_suffix(file);
+    if (std::ranges::find(kOthers, suffix) != std::end(kOthers))
+        throw CommandError(
+            2, fmt::format("{} {}: writes HTML, and {} is for other files; name a .html", option, file, suffix));
+}
+
 void require_report_file(const std::string& file)
 {
     if (file.empty()) return;
+    require_html_name("--report", file);
     if (formats::is_standard_stream(file))
         throw CommandError(2, "--report -: standard output has the figures; name a file");
     const StopSignals signals;

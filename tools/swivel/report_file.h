@@ -6,12 +6,17 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "tools/report/html.h"
 
 namespace swivel::tools {
 
-// Throws CommandError for -, and InputError for a file that cannot be written. file: empty for no report.
+// A page or a report would replace a clip, a table or a crowd file of that name. Throws CommandError (bad usage).
+void require_html_name(std::string_view option, const std::string& file);
+
+// Throws CommandError for - and for a name of other files, and InputError for a file that cannot be written. file:
+// empty for no report.
 void require_report_file(const std::string& file);
 
 // Makes the file appear. put: fills the report. Throws InputError as OutputFile does, and CommandError for a signal.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -29,6 +30,7 @@
 #include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_keys.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/report_file.h"
 #include "tools/swivel/solve_files.h"
 #include "tools/swivel/solve_html.h"
 #include "tools/swivel/solve_report.h"
@@ -42,8 +44,11 @@ namespace {
 void print_page_size(const SolveOptions& options, std::uint64_t goal_count)
 {
     if (options.view.empty() || options.quiet || options.json || goal_count == 0) return;
-    say(report_stream(options), "page     your {} targets take {:.1f} MB of it{}\n", goal_count,
-        static_cast<double>(goal_count) * kPageBytesPerGoal / 1e6,
+    const double kilobytes = static_cast<double>(goal_count) * kPageBytesPerGoal / 1e3;
+    const std::string size =
+        kilobytes < 1000 ? fmt::format("{:.0f} kB", std::ceil(kilobytes)) : fmt::format("{:.1f} MB", kilobytes / 1e3);
+    say(report_stream(options), "page     your {} target{} of it{}\n", goal_count,
+        goal_count == 1 ? " takes " + size : "s take " + size,
         goal_count > 100'000 ? "; swivel view --frames takes fewer" : "");
 }
 
@@ -108,7 +113,8 @@ void print_report(std::FILE* to, const SolveOptions& options, const Statistics& 
     print_statistics(to, statistics);
     say(to, "time     {:.2f} s in all, {:.3f} s of it solving\n", seconds, statistics.solve_seconds);
     for (const std::string& name : {options.out, options.export_targets, options.view, options.report})
-        if (!name.empty()) say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : name);
+        if (!name.empty())
+            say(to, "written  {}\n", formats::is_standard_stream(name) ? "to standard output" : shown_file(name));
 }
 
 nlohmann::ordered_json json_of_run(const SolveOptions& options, const SolveFacts& facts, const MotionFile& file,
@@ -139,6 +145,8 @@ void run_solve(const SolveOptions& options)
     if (out_kind(options, 1) == OutKind::motion) file.require_can_write(out_place(options));
     CrowdJob job = make_job(options, choice, file);
     require_own_files(options, file, job.targets);
+    require_html_name(options.view_option, options.view);
+    require_html_name("--report", options.report);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
                            job.plan.characters, job.plan.seed, job.missing};
     if (!options.json && !options.quiet) print_clip(reports, facts, file.clip(), job.limbs);
@@ -167,6 +175,7 @@ void run_view(SolveOptions options, const std::string& about_clip)
     const bool is_cache = std::filesystem::is_directory(options.file, ignored);
     const std::filesystem::path named = is_cache ? folder_name(options.file) : std::filesystem::path(options.file);
     if (options.view.empty()) options.view = title_of(named.string()) + ".html";
+    if (is_cache) require_html_name(options.view_option, options.view);
     is_cache ? view_cache(options, about_clip) : run_solve(options);
 }
 

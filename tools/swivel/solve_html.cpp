@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "swivel/swivel.h"
 #include "tools/swivel/report.h"
+#include "tools/swivel/solve_words.h"
 
 namespace swivel::tools {
 
@@ -14,17 +17,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string words_of_key(std::string key)
+std::string text_of(const Json& string) { return string.get<std::string>(); }
+
+// Numbers with that between them. Components of a direction are so near to 0 that they are rounding, or they are not.
+std::string joined(const Json& numbers, const char* between)
 {
-    std::ranges::replace(key, '_', ' ');
-    return key;
+    std::string text;
+    for (const double x : numbers.get<std::vector<double>>())
+        text += fmt::format("{}{:.4g}", text.empty() ? "" : between, std::fabs(x) < 5e-5 ? 0 : x);
+    return text;
 }
-std::string text_of(const Json& value)
-{
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+
+// A distance or an angle of a limb; NaN: bad input.
+std::string error_text(double error) { return std::isnan(error) ? kNoNumber : fmt::format("{:.3e}", error); }
+
 PoseName pose_of(const Json& json)
 {
     return {json.at("frame").get<std::uint64_t>(), json.at("character").get<std::uint32_t>(),
@@ -78,29 +84,37 @@ Cell SolveHtml::place_of(const PoseName& pose) const
                        fmt::format("frame={}&character={}&limb={}", pose.frame, pose.character, limb_word(pose.limb)))};
 }
 
-void SolveHtml::put_facts(const Json& run)
-{
-    std::vector<std::vector<Cell>> rows;
-    for (const auto& [key, value] : run.items())
-        if (!value.is_structured()) rows.push_back({words_of_key(key), text_of(value)});
-    report_.table({"what", "value"}, rows);
-}
-
-// A table for each kind, whose columns are what --json says of the first.
+// A table for each kind. Its first columns are what --json calls side and joints.
 void SolveHtml::put_limbs(const Json& run)
 {
     report_.heading("Limbs");
     for (const char* kind : {"arms_bound", "legs_bound"}) {
         if (!run.contains(kind)) continue;
         std::vector<std::string> heads;
-        for (const auto& [key, value] : run.at(kind).at(0).items()) heads.push_back(words_of_key(key));
+        for (const auto& [key, value] : run.at(kind).at(0).items())
+            if (heads.size() < 4) heads.push_back(key);
+        const std::vector<std::string> joints = heads;
+        heads.insert(heads.end(), {"lengths", "bends towards", "which is from"});
         std::vector<std::vector<Cell>> rows;
         for (const Json& limb : run.at(kind)) {
-            rows.emplace_back();
-            for (const auto& [key, value] : limb.items()) rows.back().push_back(text_of(value));
+            std::vector<Cell>& row = rows.emplace_back();
+            for (const std::string& key : joints) row.push_back(text_of(limb.at(key)));
+            row.push_back(joined(limb.at("lengths"), " + "));
+            row.push_back(joined(limb.at("bend"), ", "));
+            row.push_back(text_of(limb.at("bend_source")));
         }
         report_.table(heads, rows);
+        for (const Json& limb : run.at(kind)) put_notes(limb, std::string_view(kind) == "arms_bound" ? "arm" : "leg");
     }
+}
+
+void SolveHtml::put_notes(const Json& limb, const char* kind)
+{
+    const std::string name = fmt::format("The {} {}", text_of(limb.at("side")), kind);
+    for (const Json& note : limb.at("notes")) report_.paragraph(fmt::format("{}: {}.", name, text_of(note)));
+    if (const auto share = limb.at("unevenness").get<double>(); share > 0)
+        report_.paragraph(
+            fmt::format("{}: uneven scales put its end off by at most {:.4g} of its length.", name, share));
 }
 
 void SolveHtml::put_missing(const Json& run)
@@ -119,12 +133,11 @@ void SolveHtml::put_errors(const Json& run)
     for (const char* meaning : {"errors", "missed", "differences_from_clip"}) {
         if (!run.contains(meaning)) continue;
         for (const auto& [key, stat] : run.at(meaning).items())
-            rows.push_back({words_of_key(meaning), words_of_key(key),
-                            fmt::format("{:.3e}", stat.at("worst").get<double>()),
-                            fmt::format("{:.3e}", stat.at("rms").get<double>()), text_of(stat.at("count")),
-                            text_of(stat.at("unit")), place_of(pose_of(stat.at("worst_pose")))});
+            rows.push_back({text_of(stat.at("what")), error_text(stat.at("worst").get<double>()),
+                            error_text(stat.at("rms").get<double>()), text_of(stat.at("unit")),
+                            count_of(stat.at("count")), place_of(pose_of(stat.at("worst_pose")))});
     }
-    report_.table({"kind", "of", "worst", "rms", "count", "unit", "worst in"}, rows);
+    report_.table({"from where to where", "worst", "root mean square", "unit", "limbs", "worst in"}, rows);
     report_.plot(errors_over_time());
 }
 
@@ -134,7 +147,7 @@ void SolveHtml::put_flags(const Json& run)
     std::vector<std::vector<Cell>> rows;
     for (const auto& [name, count] : run.at("flags").items())
         if (count.get<std::uint64_t>() > 0)
-            rows.push_back({name, text_of(count), place_of(pose_of(run.at("first_flagged").at(name)))});
+            rows.push_back({name, count_of(count), place_of(pose_of(run.at("first_flagged").at(name)))});
     report_.table({"flag", "limbs", "first in"}, rows);
     report_.plot(flags_over_time());
 }
@@ -142,18 +155,26 @@ void SolveHtml::put_flags(const Json& run)
 void SolveHtml::put_worst()
 {
     report_.heading("The worst limbs");
-    report_.paragraph("Those whose wrist or ankle is furthest from its target, each in its worst frame.");
+    report_.paragraph(
+        "Those whose wrist or ankle is furthest from its target, each in its worst frame. Limbs with bad input come "
+        "first. Sentences give distances in the clip's unit, unless they say otherwise, and from targets as the solver "
+        "has them, rounded to single precision.");
     std::vector<std::vector<Cell>> rows;
     for (const auto& [pose, error] : worst_.limbs())
-        rows.push_back(
-            {place_of(pose), fmt::format("{:.3e}", error), flag_names(why_.at(pose).flags), why_.at(pose).sentence});
+        rows.push_back({place_of(pose), error_text(error), flag_names(why_.at(pose).flags), why_.at(pose).sentence});
     report_.table({"limb", "limb lengths off", "flags", "why"}, rows);
 }
 
 Plot SolveHtml::flags_over_time() const
 {
-    Plot plot{"Flags over time: the share of limbs in each frame", "frame", "share of limbs", false, false, {}};
+    Plot plot{"Flags over time: the share of limbs in each frame, without the flag of those that reached their targets",
+              "frame",
+              "share of limbs",
+              false,
+              false,
+              {}};
     for (std::uint32_t bit = 0; bit < 32; ++bit) {
+        if (1u << bit == SWIVEL_REACHED) continue;  // most limbs: beside it all others would lie on 0
         Series series{flag_names(1u << bit), {}};
         for (std::size_t frame = 0; frame < frames_.size(); ++frame)
             if (frames_[frame].limb_count > 0)
@@ -167,7 +188,12 @@ Plot SolveHtml::flags_over_time() const
 
 Plot SolveHtml::errors_over_time() const
 {
-    Plot plot{"Errors over time: from target to wrist or ankle", "frame", "limb lengths", false, true, {}};
+    Plot plot{"Errors over time: from target to wrist or ankle",
+              "frame",
+              "distance from target, in limb lengths",
+              false,
+              true,
+              {}};
     plot.series = {{"reached, worst", {}}, {"reached, rms", {}}, {"not reached, worst", {}}};
     for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
         plot.series[0].points.emplace_back(frame, frames_[frame].reached_worst);
@@ -179,7 +205,8 @@ Plot SolveHtml::errors_over_time() const
 
 void SolveHtml::commit(const Json& run)
 {
-    put_facts(run);
+    report_.paragraph(result_of(run));
+    report_.table({"what", "value"}, facts_of(run));
     put_limbs(run);
     put_missing(run);
     put_errors(run);

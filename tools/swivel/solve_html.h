@@ -40,8 +40,8 @@ private:
     };
     void keep_worst(const WorstLimbs& of_frame, const ClipCrowd& crowd);
     Cell place_of(const PoseName& pose) const;
-    void put_facts(const nlohmann::ordered_json& run);
     void put_limbs(const nlohmann::ordered_json& run);
+    void put_notes(const nlohmann::ordered_json& limb, const char* kind);
     void put_missing(const nlohmann::ordered_json& run);
     void put_errors(const nlohmann::ordered_json& run);
     void put_flags(const nlohmann::ordered_json& run);

@@ -7,15 +7,18 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/streams.h"
+#include "tools/formats/text.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
+std::string shown_file(const std::string& name) { return formats::printable(name, std::string::npos); }
+
 void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
 {
-    say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", facts.clip, facts.motion, clip.joints.size(),
+    say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(facts.clip), facts.motion, clip.joints.size(),
         clip.frame_count, clip.frame_count == 1 ? "" : "s",
         clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
@@ -37,8 +40,8 @@ void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& cli
                                   count * facts.characters == 1 ? "" : "s");
     }
     say(to, "crowd    {} character{}{}, targets from {}{}\n", facts.characters, facts.characters == 1 ? "" : "s",
-        counts, facts.targets == "clip" ? "the clip" : facts.targets,
-        facts.crowd.empty() ? "" : fmt::format(", all else from {}", facts.crowd));
+        counts, facts.targets == "clip" ? "the clip" : shown_file(facts.targets),
+        facts.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(facts.crowd)));
 }
 
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)

@@ -21,6 +21,9 @@ struct SolveFacts {
     std::span<const LimbFinding> missing{};  // limbs that were asked for and do not bind
 };
 
+// A file's name as one line shows it.
+std::string shown_file(const std::string& name);
+
 // Lines for people, on stdout or stderr.
 void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);
 nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
@@ -48,8 +49,19 @@ struct StepsArm {
 
 std::array<double, 3> array3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+// Throws CommandError for a value that swivel_steps() does not take, and names its option.
 StepsArm given_arm(const StepsOptions& options)
 {
+    constexpr double kShortest = 1e-15, kLongest = 1e15;  // as swivel.h has them
+    const auto require_all = [](const char* option, const std::string& text, auto fits, const char* range) {
+        if (!std::ranges::all_of(numbers_of(text), fits))
+            throw CommandError(2, fmt::format("{} {}: each number must be {}", option, text, range));
+    };
+    const auto is_length = [](double x) { return x >= kShortest && x <= kLongest; };
+    const auto is_place = [](double x) { return std::fabs(x) <= kLongest; };
+    require_all("--lengths", options.lengths, is_length, "a bone's length, 1e-15 to 1e15");
+    require_all("--target", options.target, is_place, "a coordinate, -1e15 to 1e15");
+    require_all("--pole", options.pole, is_place, "a coordinate, -1e15 to 1e15");
     const auto vector = [](const std::string& text) {
         const std::vector<double> v = numbers_of(text);
         return std::array{v[0], v[1], v[2]};
@@ -144,12 +156,28 @@ void print_steps(const StepsArm& arm, const Steps& made)
     say(stdout, "\nclosing  q_s and q_e put the wrist {:.1e} arm lengths from the target\n", made.closing_error);
 }
 
+// The library says what is undefined; this says of which arm, and what to do.
+Steps steps_of(const StepsArm& arm, const StepsOptions& options)
+{
+    try {
+        return steps(arm.target, arm.pole, arm.upper, arm.fore);
+    } catch (const Error& error) {
+        std::string why = error.what();
+        constexpr std::string_view kFunction = "swivel_steps: ";
+        if (why.starts_with(kFunction)) why.erase(0, kFunction.size());
+        if (!options.file.empty())
+            throw formats::InputError(options.file, fmt::format("frame {}, {}: {}; take another --frame or --limb",
+                                                                options.frame, options.limb, why));
+        throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
+    }
+}
+
 }  // namespace
 
 void run_steps(const StepsOptions& options)
 {
     const StepsArm arm = options.file.empty() ? given_arm(options) : arm_of_clip(options);
-    const Steps made = steps(arm.target, arm.pole, arm.upper, arm.fore);
+    const Steps made = steps_of(arm, options);
     options.json ? print_json(json_of(arm, made)) : print_steps(arm, made);
 }
 

@@ -12,11 +12,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view kReach = "reach ";  // starts the names of bands
+
 std::string error_text(const Json& number) { return fmt::format("{:.3e}", number.get<double>()); }
 
 void put_checks(Report& report, const Json& checks)
 {
     report.heading("Checks");
+    report.paragraph(
+        "Three programs solve the same arms. The oracle is plain algebra on dense multivectors. pipeline is the "
+        "lecture's "
+        "five steps, line by line. production is the formula that swivel solves with, in double and in float, the "
+        "precision of every solve. How far wrists are from targets is in lengths of the arm.");
     std::vector<std::vector<Cell>> rows;
     for (const Json& check : checks) {
         const bool has_rms_limit = check.at("rms_limit").get<double>() > 0;
@@ -26,7 +33,9 @@ void put_checks(Report& report, const Json& checks)
                         check.at("arms").dump(), error_text(check.at("max")), error_text(check.at("max_limit")),
                         error_text(check.at("rms")), has_rms_limit ? error_text(check.at("rms_limit")) : "", passed});
     }
-    report.table({"what is compared", "arms", "count", "largest", "limit", "rms", "limit", ""}, rows);
+    report.table({"what is compared", "arms", "count", "largest error", "its limit", "root mean square",
+                  "limit of that", "result"},
+                 rows);
 }
 
 // A plot for each check that is made in several bands of reach.
@@ -37,7 +46,7 @@ void put_bands(Report& report, const Json& checks)
         if (std::ranges::count(names, check.at("name").get<std::string>()) == 0) names.push_back(check.at("name"));
     for (const std::string& name : names) {
         Plot plot{name + ", by band of reach",
-                  "",
+                  "where the target is, from the nearest to the furthest place that a wrist can reach",
                   "error",
                   false,
                   true,
@@ -45,7 +54,8 @@ void put_bands(Report& report, const Json& checks)
         for (const Json& check : checks) {
             if (check.at("name") != name) continue;
             const auto at = static_cast<double>(plot.x_names.size());
-            plot.x_names.push_back(check.at("set"));
+            const auto band = check.at("set").get<std::string>();
+            plot.x_names.push_back(band.starts_with(kReach) ? band.substr(kReach.size()) : band);
             plot.series[0].points.emplace_back(at, check.at("max").get<double>());
             plot.series[1].points.emplace_back(at, check.at("rms").get<double>());
             plot.series[2].points.emplace_back(at, check.at("max_limit").get<double>());
@@ -68,7 +78,7 @@ void put_digests(Report& report, const Json& digests)
         row.push_back(passed);
         rows.push_back(row);
     }
-    report.table({"instruction set", "solved", "ordinary arms", "hard arms", "limbs", ""}, rows);
+    report.table({"instruction set", "solved", "ordinary arms", "hard arms", "limbs", "result"}, rows);
 }
 
 }  // namespace
