@@ -136,9 +136,11 @@ TEST_CASE("explain says how exactly a target is reached in lengths of the limb, 
         const double axis[3] = {0, 0, 1};
         REQUIRE(swivel_aim(axis, 0.3, aim) == SWIVEL_OK);
         if (features & SWIVEL_WITH_AIM) crowd.write_all(SWIVEL_AIM, 0, aim);
-        for (std::uint32_t n = 0; n < 40; ++n)
-            crowd.write(SWIVEL_TARGET, 0, std::vector{floats(Vector3d(random.between(200, 490) * random.direction()))},
-                        n);
+        const double near = features & SWIVEL_WITH_AIM ? 600 : 200;  // an aim reaches beyond the arm
+        for (std::uint32_t n = 0; n < 40; ++n) {
+            const double distance = random.between(near, near + 290);
+            crowd.write(SWIVEL_TARGET, 0, std::vector{floats(Vector3d(distance * random.direction()))}, n);
+        }
         crowd.solve();
         std::vector<double> off(40);
         crowd.residuals(0, off);
