@@ -34,9 +34,7 @@ void put_checks(Report& report, const Json& checks)
                         check.at("arms").dump(), error_text(check.at("max")), error_text(check.at("max_limit")),
                         error_text(check.at("rms")), has_rms_limit ? error_text(check.at("rms_limit")) : "", passed});
     }
-    report.table({"what is compared", "arms", "count", "largest error", "its limit", "root mean square",
-                  "limit of that", "result"},
-                 rows);
+    report.table({"what is compared", "arms", "count", "largest", "its limit", "rms", "limit of rms", "result"}, rows);
 }
 
 // A plot for each check that is made in several bands of reach.
