@@ -195,6 +195,18 @@ TEST_CASE("a bound is below the frame's upper edge, and the key shows lines, das
     CHECK(matches(text, "<li class=\"s11\">").size() == 1);
 }
 
+TEST_CASE("a table breaks long words alone, so that it is no wider than the page and short words stay whole")
+{
+    const TempFolder folder;
+    Report report(folder / "a.html", "words");
+    report.table({"what", "value"}, {{"passed", std::string(200, 'x')}, {"as recorded", "1,234"}});
+    report.commit();
+    const std::string text = slurp(folder / "a.html");
+    CHECK_THAT(text, Contains("td.long { overflow-wrap: anywhere; }"));
+    CHECK(matches(text, "<td class=\"[a-z ]*long\">x{200}</td>").size() == 1);
+    CHECK(matches(text, "<td class=\"[a-z ]*long\">").size() == 1);
+}
+
 TEST_CASE("addresses are relative to the report, and hold no sign that ends them")
 {
     const TempFolder folder;

@@ -17,7 +17,7 @@ h1 { font-size: 24px; overflow-wrap: anywhere; } h2 { font-size: 18px; margin-to
 a { color: var(--link); } p { max-width: 46em; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; margin: 1em 0; }
 th, td { text-align: left; padding: 3px 14px 3px 0; border-bottom: 1px solid var(--edge); vertical-align: top; }
-td { overflow-wrap: anywhere; }
+td.long { overflow-wrap: anywhere; }
 th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; } .bad { color: var(--bad); font-weight: 600; }
 figure { margin: 1.2em 0; } figcaption { color: var(--soft); font-size: 13.5px; } svg { width: 100%; height: auto; font-size: 11.5px; }
 svg text { fill: var(--soft); } svg .x { text-anchor: middle; } svg .y { text-anchor: end; } svg .label { font-size: 12.5px; }
@@ -48,6 +48,18 @@ std::size_t character_length(std::string_view text)
     const bool is_too_long = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xf0 && byte(1) < 0x90);
     const bool is_none = (byte(0) == 0xed && byte(1) > 0x9f) || (byte(0) == 0xf4 && byte(1) > 0x8f);
     return is_too_long || is_none ? 0 : length;
+}
+
+// Whether a word is so long that a cell had better break it than be as wide. 32: a joint's name, a digest and a path of
+// two folders stay whole.
+bool has_long_word(std::string_view text)
+{
+    std::size_t length = 0;
+    for (const char c : text) {
+        length = c == ' ' ? 0 : length + 1;
+        if (length > 32) return true;
+    }
+    return false;
 }
 
 bool is_number(const std::string& text)
@@ -113,7 +125,8 @@ void Report::table(const std::vector<std::string>& heads, const std::vector<std:
             const std::string text = escaped(row[n].text);
             const std::string shown =
                 row[n].link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escaped(row[n].link), text);
-            html_ += fmt::format("<td class=\"{}{}\">{}</td>", classes[n], row[n].is_bad ? " bad" : "", shown);
+            html_ += fmt::format("<td class=\"{}{}{}\">{}</td>", classes[n], row[n].is_bad ? " bad" : "",
+                                 has_long_word(row[n].text) ? " long" : "", shown);
         }
         html_ += "</tr>\n";
     }

@@ -23,7 +23,8 @@ void put_checks(Report& report, const Json& checks)
         "Three programs solve the same arms. The oracle is plain algebra on dense multivectors. pipeline is the "
         "lecture's "
         "five steps, line by line. production is the formula that swivel solves with, in double and in float, the "
-        "precision of every solve. How far wrists are from targets is in lengths of the arm.");
+        "precision of every solve. How far wrists are from targets is in lengths of the arm; rms is the "
+        "root mean square.");
     std::vector<std::vector<Cell>> rows;
     for (const Json& check : checks) {
         const bool has_rms_limit = check.at("rms_limit").get<double>() > 0;
@@ -33,9 +34,7 @@ void put_checks(Report& report, const Json& checks)
                         check.at("arms").dump(), error_text(check.at("max")), error_text(check.at("max_limit")),
                         error_text(check.at("rms")), has_rms_limit ? error_text(check.at("rms_limit")) : "", passed});
     }
-    report.table({"what is compared", "arms", "count", "largest error", "its limit", "root mean square",
-                  "limit of that", "result"},
-                 rows);
+    report.table({"what is compared", "arms", "count", "largest", "its limit", "rms", "limit of rms", "result"}, rows);
 }
 
 // A plot for each check that is made in several bands of reach.
