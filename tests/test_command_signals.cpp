@@ -95,6 +95,7 @@ struct FullPipe {
         REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
         reading = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
         REQUIRE(reading >= 0);
+        ::fcntl(reading, F_SETPIPE_SZ, 4096);  // the least, so that short files fill it, too
     }
     FullPipe(const FullPipe&) = delete;
     FullPipe& operator=(const FullPipe&) = delete;

@@ -69,7 +69,8 @@ Statistics solve_demo(const DemoOptions& options)
     }
     signals.check();
     if (page)
-        page->commit(cached_clip({"swivel demo", "a made-up crowd"}, clip, limbs, plan, crowd.motion()), crowd.goal_crowd());
+        page->commit(cached_clip({"swivel demo", "a made-up crowd"}, clip, limbs, plan, crowd.motion()),
+                     crowd.goal_crowd());
     return statistics;
 }
 
