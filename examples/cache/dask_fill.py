@@ -25,4 +25,6 @@ def main(folder, parts=64, scheduler=None):
 
 
 if __name__ == "__main__":
+    if not 2 <= len(sys.argv) <= 4:
+        sys.exit("usage: dask_fill.py CACHE [PARTS [SCHEDULER]]")
     main(*sys.argv[1:])

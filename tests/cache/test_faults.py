@@ -191,7 +191,7 @@ class Metadata(Stage):
         whole = self.fill(self.store(toml=LIMITED))
         changes = [
             (".zattrs", lambda path: os.truncate(path, 100), "is no JSON object: it was changed or cut"),
-            (".zattrs", os.remove, "is no cache of swivel; swivel store makes one"),
+            (".zattrs", os.remove, r"\.zattrs: is missing; take it from a copy, or make the cache anew in another folder"),
             (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=2)),
              "the cache has format 2, this swivel reads format 1; use the swivel that made it"),
             (".zattrs", lambda path: edit(path, lambda a: a.update(characters=101)), "was changed: its digest is another"),
@@ -201,7 +201,7 @@ class Metadata(Stage):
              r"shape is \[40,4,101,4\] instead of \[40,4,100,4\]: it was changed"),
             ("elbow/.zarray", lambda path: edit(path, lambda a: a.update(zarr_format=3)), "zarr_format is 3 instead of 2"),
             ("flags/.zarray", lambda path: edit(path, lambda a: a.update(dtype="<f4")), 'dtype is "<f4" instead of "<u4"'),
-            ("digest/.zarray", os.remove, "No such file or directory"),
+            ("digest/.zarray", os.remove, "digest/.zarray: is missing; take it from a copy, or make the cache anew"),
             ("clip/wrist/.zarray", lambda path: os.truncate(path, 10), "is no JSON object"),
             ("goal_digest/clip/wrist/0.0.0", lambda path: path.write_bytes(bytes(8)), "goal_digest: was changed: its digest is another"),
             ("goal_digest/character/size/0", os.remove, "goal_digest/character/size/0: is missing or damaged"),
@@ -228,7 +228,7 @@ class Metadata(Stage):
                             (("--shard", "x"), "write i/n"), (("--memory", "1K"), "is not an amount of memory from 1M on"),
                             (("--memory", "much"), "is not an amount of memory"), (("--threads", "-1"), "--threads")):
             self.assert_refused(run("fill", cache, *words), what, code=2)
-        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk for each of \d+ threads takes \d+ MiB of memory, and --memory is 1 MiB; give more, or fewer threads")
+        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk for each of \d+ threads takes \d+ MiB of memory, and --memory is 1 MiB; give more, or store the crowd in smaller chunks")
         for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
                             (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B")):
             self.assert_refused(run("replay", cache, *words), what, code=2)

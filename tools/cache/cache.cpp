@@ -20,6 +20,8 @@ CachedCrowd read_crowd(const fs::path& folder)
 {
     const fs::path path = folder / ".zattrs";
     std::error_code ignored;
+    if (!fs::exists(path, ignored) && fs::exists(folder / "goal_digest", ignored))
+        throw InputError(path, "is missing; take it from a copy, or make the cache anew in another folder");
     if (!fs::exists(path, ignored)) throw InputError(folder, "is no cache of swivel; swivel store makes one");
     const ZarrStore store(folder, false);
     std::uint32_t clip_frames = 0;

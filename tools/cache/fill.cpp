@@ -229,7 +229,7 @@ std::size_t Filling::in_flight() const
     if (options_.memory < least)
         throw formats::InputError(
             cache_.folder(), fmt::format("one chunk for each of {} threads takes {} MiB of memory, and --memory is {} "
-                                         "MiB; give more, or fewer threads",
+                                         "MiB; give more, or store the crowd in smaller chunks",
                                          threads_, (least >> 20) + 1, options_.memory >> 20));
     return std::clamp<std::size_t>((options_.memory - least) / of_chunk + 1, 1, kMostInFlight);
 }

@@ -35,6 +35,9 @@ void write_json(const fs::path& path, const Json& json)
 
 Json read_json(const fs::path& path)
 {
+    std::error_code reason;
+    if (!fs::exists(path, reason) && !reason)
+        throw InputError(path, "is missing; take it from a copy, or make the cache anew");
     const Json json = Json::parse(formats::read_text(path), nullptr, false);
     if (!json.is_object()) throw InputError(path, fmt::format("is no JSON object: it {}", kChanged));
     return json;

@@ -95,10 +95,12 @@ void add_replay(CLI::App& app)
     CLI::App* command = app.add_subcommand("replay", "Compute a part of a cached crowd again, and prove it by digests");
     auto options = std::make_shared<ReplayOptions>();
     add_cache(*command, options->folder, "The cache");
-    command->add_option("--frames", options->frames, "Frames A:B, from A on, up to B without it")
+    command
+        ->add_option("--frames", options->frames,
+                     "Frames A to B - 1, as A:B; A: and :B go to the ends, A alone is one frame")
         ->type_name("A:B")
         ->default_str("all");
-    command->add_option("--characters", options->characters, "Characters C:D, in the same way")
+    command->add_option("--characters", options->characters, "Characters C to D - 1, in the same way")
         ->type_name("C:D")
         ->default_str("all");
     takes(command->add_option("-o,--out", options->out,

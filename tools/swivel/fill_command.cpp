@@ -218,9 +218,11 @@ void run_check(const CheckOptions& options)
     const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), {});
     const std::vector<ChunkAt> missing = missing_of(cache, chunks);
     if (!missing.empty())
-        throw formats::InputError(cache.folder(), fmt::format("{} of {} chunks are not done, the first is {}; run "
-                                                              "swivel fill --resume",
-                                                              missing.size(), chunks.size(), chunk_name(missing[0])));
+        throw formats::InputError(cache.folder(),
+                                  fmt::format("{} of {} chunks are not done, the first is {}; {}", missing.size(),
+                                              chunks.size(), chunk_name(missing[0]),
+                                              cache.crowd().has_goals() ? "run swivel fill --resume"
+                                                                        : "take the files in digest/ from a copy"));
     if (!cache.crowd().has_goals())
         check_poses(cache, chunks, options);
     else

@@ -9,7 +9,9 @@
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/signals.h"
+#include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
+#include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/view_page.h"
 
@@ -85,6 +87,7 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     }
     signals.check();
     page.commit(crowd, solved);
+    if (!options.quiet && !formats::is_standard_stream(options.view)) say(stdout, "written  {}\n", options.view);
 }
 
 }  // namespace swivel::tools
