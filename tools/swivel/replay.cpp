@@ -248,7 +248,9 @@ void run_replay(const ReplayOptions& options)
             table->add(*column, results, when,
                        within(characters, at.column * chunk.characters, crowd.characters_in(at.column)));
             const std::uint32_t first = at.time * chunk.frames;
-            if (at.column + 1 == columns.end) table->write({first + when.begin, first + when.end});
+            if (at.column + 1 < columns.end) continue;
+            column.reset();  // the rows take its memory
+            table->write({first + when.begin, first + when.end});
         }
     }
     signals.check();
