@@ -330,7 +330,7 @@ void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, 
     if (flags & SWIVEL_JUMPED)
         text.add(" Joint limits turn the swivel further than a step may.");
     else if (flags & SWIVEL_LIMITED_STEP)
-        text.add(" The wish is more than a step from the swivel that is carried now; the one before cannot be seen.");
+        text.add(" The wish is further than one step from where the elbow is: the next solve turns it a part of the way.");
 }
 
 }  // namespace swivel

@@ -102,78 +102,70 @@ formats::PoseColumns columns_of(const CachedCrowd& crowd)
     return columns;
 }
 
-// Writes the table: the solver's own rotations. It has frames in order, so it holds its part of the chunks of one time.
+// Writes the table: the solver's own rotations. It has frames in order, so it holds the chunks of one time together.
 class TableWriter {
 public:
-    TableWriter(const std::string& path, const CachedCrowd& crowd)
+    // For these characters of the cache, and for so many frames at once. Its memory is taken here and kept.
+    TableWriter(const std::string& path, const CachedCrowd& crowd, std::uint32_t frame_count, Range characters)
         : crowd_(crowd),
           fields_(result_fields(crowd)),
           columns_(columns_of(crowd)),
           has_extras_(columns_.stretch || columns_.twist_count > 0),
+          first_(characters.begin),
+          characters_(characters.end - characters.begin),
           csv_(path, columns_)
     {
+        for (const ResultField& field : fields_)
+            results_.emplace_back(frame_count * crowd.limbs.size() * characters_.size() * field.count());
     }
 
     // Keeps these frames and characters of a chunk, counted within it.
     void add(const ColumnReplay& column, const Results& results, Range frames, Range characters)
     {
-        const auto all = column.characters();
-        Piece& piece = pieces_.emplace_back();
-        piece.first = column.index() * crowd_.chunk.characters + characters.begin;
-        piece.characters.assign(all.begin() + characters.begin, all.begin() + characters.end);
+        const std::size_t width = characters_.size(), count = characters.end - characters.begin;
+        const std::size_t to = column.index() * crowd_.chunk.characters + characters.begin - first_;
+        std::ranges::copy(column.characters().subspan(characters.begin, count), characters_.begin() + to);
+        const std::size_t limbs = crowd_.limbs.size(), first_row = frames.begin * limbs, end_row = frames.end * limbs;
         for (std::size_t f = 0; f < fields_.size(); ++f) {
-            const std::size_t count = fields_[f].count();
-            std::vector<std::uint32_t>& numbers = piece.results.emplace_back();
-            numbers.reserve((frames.end - frames.begin) * crowd_.limbs.size() * piece.characters.size() * count);
-            for (std::size_t row = frames.begin * crowd_.limbs.size(); row < frames.end * crowd_.limbs.size(); ++row) {
-                const std::size_t place = (row * crowd_.chunk.characters + characters.begin) * count;
-                const auto part = std::span(results[f]).subspan(place, piece.characters.size() * count);
-                numbers.insert(numbers.end(), part.begin(), part.end());
+            const std::size_t parts = fields_[f].count();
+            for (std::size_t row = first_row; row < end_row; ++row) {
+                const std::size_t from = row * crowd_.chunk.characters + characters.begin;
+                std::ranges::copy(std::span(results[f]).subspan(from * parts, count * parts),
+                                  results_[f].begin() + ((row - first_row) * width + to) * parts);
             }
         }
     }
 
-    // Writes these frames of all that was added, and lets go of it.
+    // Writes these frames, once all their chunks were added.
     void write(Range frames)
     {
         for (std::uint32_t frame = frames.begin; frame < frames.end; ++frame)
-            for (const Piece& piece : pieces_) append(frame, frame - frames.begin, piece);
-        pieces_.clear();
+            for (std::uint32_t n = 0; n < characters_.size(); ++n)
+                for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb)
+                    write_row(frame, frame - frames.begin, limb, n);
     }
     void commit() { csv_.commit(); }
 
 private:
-    // Some characters of a column, in some frames of a chunk. Results are as wide as these characters.
-    struct Piece {
-        std::uint32_t first;
-        std::vector<goal_character> characters;
-        Results results;
-    };
-
-    void append(std::uint32_t frame, std::size_t frame_in_piece, const Piece& piece)
+    void write_row(std::uint32_t frame, std::size_t held_frame, std::size_t limb, std::uint32_t n)
     {
-        rows_.clear();
-        extras_.clear();
-        for (std::size_t n = 0; n < piece.characters.size(); ++n)
-            for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb) {
-                const goal_character& who = piece.characters[n];
-                formats::PoseRow& row = rows_.emplace_back();
-                formats::PoseExtra& extra = extras_.emplace_back();
-                row.character = piece.first + static_cast<std::uint32_t>(n);
-                row.limb = crowd_.limbs[limb].name;
-                row.place = std::to_array(who.place);
-                row.size = who.size;
-                row.start = who.start;
-                const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frame_count();
-                row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
-                extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
-                const std::size_t at = (frame_in_piece * crowd_.limbs.size() + limb) * piece.characters.size() + n;
-                for (std::size_t f = 0; f < fields_.size(); ++f) {
-                    const std::size_t count = fields_[f].count();
-                    put(fields_[f].field, std::span(piece.results[f]).subspan(at * count, count), row, extra);
-                }
-            }
-        csv_.append(frame, rows_, has_extras_ ? extras_ : std::span<const formats::PoseExtra>());
+        const goal_character& who = characters_[n];
+        formats::PoseRow row;
+        formats::PoseExtra extra;
+        row.character = first_ + n;
+        row.limb = crowd_.limbs[limb].name;
+        row.place = std::to_array(who.place);
+        row.size = who.size;
+        row.start = who.start;
+        const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frame_count();
+        row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
+        extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
+        const std::size_t at = (held_frame * crowd_.limbs.size() + limb) * characters_.size() + n;
+        for (std::size_t f = 0; f < fields_.size(); ++f) {
+            const std::size_t parts = fields_[f].count();
+            put(fields_[f].field, std::span(results_[f]).subspan(at * parts, parts), row, extra);
+        }
+        csv_.append(frame, {&row, 1}, {&extra, has_extras_ ? 1u : 0u});
     }
 
     static void put(swivel_field field, std::span<const std::uint32_t> from, formats::PoseRow& row,
@@ -195,10 +187,10 @@ private:
     std::vector<ResultField> fields_;
     formats::PoseColumns columns_;
     bool has_extras_;
+    std::uint32_t first_;
+    std::vector<goal_character> characters_;
+    Results results_;  // frame by frame, limb by limb; each row as wide as characters_
     formats::PosesCsv csv_;
-    std::vector<Piece> pieces_;
-    std::vector<formats::PoseRow> rows_;
-    std::vector<formats::PoseExtra> extras_;
 };
 
 // What of [whole.begin, whole.end) is in the piece of that many from first on, counted from first.
@@ -229,8 +221,9 @@ void run_replay(const ReplayOptions& options)
     const ThreadLimit limit(options.threads);
     const StopSignals signals;
     std::optional<TableWriter> table;
-    if (!options.out.empty()) table.emplace(options.out, crowd);
     const ChunkShape chunk = crowd.chunk;
+    if (!options.out.empty())
+        table.emplace(options.out, crowd, std::min(chunk.frames, frames.end - frames.begin), characters);
     const Range times{frames.begin / chunk.frames, (frames.end - 1) / chunk.frames + 1};
     const Range columns{characters.begin / chunk.characters, (characters.end - 1) / chunk.characters + 1};
     const std::vector<ChunkAt> order = order_of(times, columns, table.has_value());
@@ -248,9 +241,7 @@ void run_replay(const ReplayOptions& options)
             table->add(*column, results, when,
                        within(characters, at.column * chunk.characters, crowd.characters_in(at.column)));
             const std::uint32_t first = at.time * chunk.frames;
-            if (at.column + 1 < columns.end) continue;
-            column.reset();  // the rows take its memory
-            table->write({first + when.begin, first + when.end});
+            if (at.column + 1 == columns.end) table->write({first + when.begin, first + when.end});
         }
     }
     signals.check();
