@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 using formats::InputError;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kMeaning = "long_name";  // words for people, in which no two versions must agree
 constexpr const char* kChanged = "was changed or cut; take it from a copy, or make the cache anew";
 
 void write_json(const fs::path& path, const Json& json)
@@ -123,6 +124,20 @@ Json ZarrStore::description(const ZarrArray& array) const
     return out;
 }
 
+// The files that describe an array, those of the groups that it is in first.
+std::vector<std::pair<fs::path, Json>> ZarrStore::metadata(const ZarrArray& array) const
+{
+    std::vector<std::pair<fs::path, Json>> files;
+    fs::path folder = folder_;
+    for (const fs::path& part : fs::path(array.name)) {
+        files.emplace_back(folder / ".zgroup", Json{{"zarr_format", 2}});
+        folder /= part;
+    }
+    files.emplace_back(folder / ".zarray", description(array));
+    files.emplace_back(folder / ".zattrs", Json{{"_ARRAY_DIMENSIONS", array.dimensions}, {kMeaning, array.meaning}});
+    return files;
+}
+
 void ZarrStore::write_array(const ZarrArray& array) const
 {
 #ifdef SWIVEL_WITH_BLOSC
@@ -130,14 +145,10 @@ void ZarrStore::write_array(const ZarrArray& array) const
         throw InputError(folder_, fmt::format("chunks of {} have {} bytes, more than Blosc can pack; make them smaller",
                                               array.name, array.chunk_bytes()));
 #endif
-    fs::path folder = folder_;
-    for (const fs::path& part : fs::path(array.name)) {
-        if (std::error_code ignored; !fs::exists(folder / ".zgroup", ignored))
-            write_json(folder / ".zgroup", {{"zarr_format", 2}});
-        make_folder(folder /= part);
+    for (const auto& [path, json] : metadata(array)) {
+        make_folder(path.parent_path());
+        if (std::error_code ignored; !fs::exists(path, ignored)) write_json(path, json);
     }
-    write_json(folder / ".zarray", description(array));
-    write_json(folder / ".zattrs", {{"_ARRAY_DIMENSIONS", array.dimensions}, {"long_name", array.meaning}});
 }
 
 void ZarrStore::write_attributes(const Json& attributes) const { write_json(folder_ / ".zattrs", attributes); }
@@ -146,13 +157,14 @@ Json ZarrStore::attributes() const { return read_json(folder_ / ".zattrs"); }
 
 void ZarrStore::require(const ZarrArray& array) const
 {
-    const fs::path path = folder_ / array.name / ".zarray";
-    const Json found = read_json(path), wanted = description(array);
-    for (const auto& [key, value] : wanted.items())
-        if (!found.contains(key) || found[key] != value)
-            throw InputError(path,
-                             fmt::format("{} is {} instead of {}: it {}", key,
-                                         found.contains(key) ? found[key].dump() : "missing", value.dump(), kChanged));
+    for (const auto& [path, wanted] : metadata(array)) {
+        const Json found = read_json(path);
+        for (const auto& [key, value] : wanted.items())
+            if (key != kMeaning && (!found.contains(key) || found[key] != value))
+                throw InputError(
+                    path, fmt::format("{} is {} instead of {}: it {}", key,
+                                      found.contains(key) ? found[key].dump() : "missing", value.dump(), kChanged));
+    }
 }
 
 fs::path ZarrStore::chunk_path(const ZarrArray& array, const ChunkPlace& place) const

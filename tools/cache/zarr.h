@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace swivel::tools {
@@ -54,7 +55,7 @@ public:
     // The attributes of the whole store. Throws InputError if they cannot be written; are missing or no JSON.
     void write_attributes(const nlohmann::ordered_json& attributes) const;
     nlohmann::ordered_json attributes() const;
-    // Throws InputError unless the store describes the array in this way.
+    // Throws InputError unless the store describes the array and its groups in this way.
     void require(const ZarrArray& array) const;
 
     // The file of a chunk.
@@ -70,6 +71,7 @@ public:
 
 private:
     nlohmann::ordered_json description(const ZarrArray& array) const;
+    std::vector<std::pair<std::filesystem::path, nlohmann::ordered_json>> metadata(const ZarrArray& array) const;
 
     std::filesystem::path folder_;
     bool is_compressed_;
