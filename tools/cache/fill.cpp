@@ -10,8 +10,9 @@
 #include <mutex>
 #include <semaphore>
 
+#include "tools/cache/busy_clock.h"
 #include "tools/cache/column.h"
-#include "tools/formats/error.h"
+#include "tools/cache/fill_memory.h"
 
 #ifdef SWIVEL_WITH_TBB
 #include <oneapi/tbb/global_control.h>
@@ -24,52 +25,26 @@ namespace swivel::tools {
 
 namespace {
 
-constexpr std::uint64_t kProgramBytes = std::uint64_t{48} << 20;  // of code, libraries and threads
-constexpr std::uint64_t kBytesOfLimb = 1024;                      // of a solver's limb with its inputs, at most
-constexpr std::size_t kMostInFlight = 16;                         // chunks
-
 #ifdef SWIVEL_WITH_TBB
+
 constexpr int kWaiting = 2;  // threads beside the solver's, which wait for the disk
+
+unsigned solver_count(const FillOptions& options)
+{
+    return options.threads > 0 ? options.threads : static_cast<unsigned>(oneapi::tbb::info::default_concurrency());
+}
 
 // Gives back its place among those that solve, however the solving ends.
 struct Release {
     std::counting_semaphore<>& solvers;
     ~Release() { solvers.release(); }
 };
+
+#else
+
+unsigned solver_count(const FillOptions&) { return 1; }
+
 #endif
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-// The time during which at least one thread was at it.
-class BusyClock {
-public:
-    class Turn {
-    public:
-        explicit Turn(BusyClock& clock) : clock_(clock)
-        {
-            const std::lock_guard lock(clock_.mutex_);
-            if (clock_.count_++ == 0) clock_.begin_ = Clock::now();
-        }
-        ~Turn()
-        {
-            const std::lock_guard lock(clock_.mutex_);
-            if (--clock_.count_ == 0) clock_.seconds_ += seconds_since(clock_.begin_);
-        }
-        Turn(const Turn&) = delete;
-        Turn& operator=(const Turn&) = delete;
-
-    private:
-        BusyClock& clock_;
-    };
-    double seconds() const { return seconds_; }
-
-private:
-    std::mutex mutex_;
-    int count_ = 0;
-    Clock::time_point begin_;
-    double seconds_ = 0;
-};
 
 using Characters = std::shared_ptr<const std::vector<goal_character>>;
 
@@ -86,7 +61,10 @@ struct Work {
 class Filling {
 public:
     Filling(const Cache& cache, const FillOptions& options)
-        : cache_(cache), options_(options), chunks_(chunks_of(cache.crowd(), options.shard))
+        : cache_(cache),
+          options_(options),
+          threads_(solver_count(options)),
+          chunks_(chunks_of(cache.crowd(), options.shard))
     {
     }
 
@@ -98,11 +76,11 @@ private:
     void solve(Work& work);
     void write(Work& work);
     std::string difference(const Work& work) const;
-    std::size_t in_flight() const;
+    void run_chunks(std::size_t most);
 
     const Cache& cache_;
     const FillOptions& options_;
-    unsigned threads_ = 1;  // that solve
+    unsigned threads_;  // that solve
     std::vector<ChunkAt> chunks_;
     std::size_t next_ = 0;
     std::optional<ChunkAt> read_last_;  // by read_next(), and so the last that was solved before the next
@@ -209,39 +187,14 @@ void Filling::write(Work& work)
     if (options_.progress) options_.progress(through_);
 }
 
-// How many chunks may be on their way, by the memory that is left beside the clip and the solver.
-std::size_t Filling::in_flight() const
-{
-    const CachedCrowd& crowd = cache_.crowd();
-    const CacheArrays& arrays = cache_.arrays();
-    std::uint64_t of_chunk = 0;
-    for (const ZarrArray& array : arrays.results) of_chunk += array.chunk_bytes();
-    for (const ZarrArray& array : arrays.state) of_chunk += array.chunk_bytes();
-    // Those that are stored, as a file and as numbers, or else files to be packed.
-    if (options_.verifies || crowd.is_compressed) of_chunk *= 3;
-    for (const ZarrArray& array : arrays.given) of_chunk += 2 * array.chunk_bytes();
-    const std::uint64_t limbs = std::uint64_t{crowd.chunk.characters} * crowd.limbs.size() * threads_;
-    std::uint64_t all_along = 2 * sizeof(ChunkAt) * chunks_.size();  // the lists of chunks, the clip, digests of goals
-    all_along += 2 * crowd.limbs.size() * crowd.clip_frame_count() * sizeof(goal_source);
-    all_along += 2 * crowd.positions.size() * sizeof(float);
-    for (const ZarrArray& array : arrays.made(crowd)) all_along += array.chunk_count() * sizeof(std::uint64_t);
-    const std::uint64_t least = kProgramBytes + all_along + limbs * kBytesOfLimb + of_chunk;
-    if (options_.memory < least)
-        throw formats::InputError(
-            cache_.folder(), fmt::format("one chunk for each of {} threads takes {} MiB of memory, and --memory is {} "
-                                         "MiB; give more, or store the crowd in smaller chunks",
-                                         threads_, (least >> 20) + 1, options_.memory >> 20));
-    return std::clamp<std::size_t>((options_.memory - least) / of_chunk + 1, 1, kMostInFlight);
-}
-
-FillReport Filling::run()
-{
-    const Clock::time_point begin = Clock::now();
 #ifdef SWIVEL_WITH_TBB
+
+// Reads, solves and writes chunks at once, at most so many of them.
+void Filling::run_chunks(std::size_t most)
+{
     using namespace oneapi::tbb;
     using Item = std::shared_ptr<Work>;
-    const int threads = options_.threads > 0 ? static_cast<int>(options_.threads) : info::default_concurrency();
-    threads_ = static_cast<unsigned>(threads);
+    const int threads = static_cast<int>(threads_);
     const global_control more(global_control::max_allowed_parallelism, threads_ + kWaiting);
     // Chunks that carry state follow each other, each on all threads. Others are solved side by side.
     const bool in_order = cache_.crowd().carries_state();
@@ -261,16 +214,27 @@ FillReport Filling::run()
             return work;
         });
         const auto written = make_filter<Item, void>(filter_mode::parallel, [&](const Item& work) { write(*work); });
-        parallel_pipeline(in_flight(), read & solved & written);
+        parallel_pipeline(most, read & solved & written);
     });
+}
+
 #else
-    in_flight();  // the check of --memory
+
+void Filling::run_chunks(std::size_t)
+{
     while (const std::unique_ptr<Work> work = read_next()) {
         solve(*work);
         write(*work);
     }
+}
+
 #endif
-    report_.seconds = seconds_since(begin);
+
+FillReport Filling::run()
+{
+    const auto begin = std::chrono::steady_clock::now();
+    run_chunks(chunks_in_flight(cache_, options_, threads_, chunks_.size()));
+    report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report_.solve_seconds = solving_.seconds();
     report_.disk_seconds = disk_.seconds();
     std::ranges::sort(report_.differences, {}, [](const Difference& d) { return std::pair(d.at.column, d.at.time); });

@@ -147,7 +147,7 @@ void ZarrStore::write_array(const ZarrArray& array) const
 #endif
     for (const auto& [path, json] : metadata(array)) {
         make_folder(path.parent_path());
-        if (std::error_code ignored; !fs::exists(path, ignored)) write_json(path, json);
+        if (std::error_code ignored; !fs::exists(path, ignored) || read_json(path) != json) write_json(path, json);
     }
 }
 
