@@ -330,7 +330,8 @@ void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, 
     if (flags & SWIVEL_JUMPED)
         text.add(" Joint limits turn the swivel further than a step may.");
     else if (flags & SWIVEL_LIMITED_STEP)
-        text.add(" The wish is further than one step from where the elbow is: the next solve turns it a part of the way.");
+        text.add(
+            " The wish is further than one step from where the elbow is: the next solve turns it a part of the way.");
 }
 
 }  // namespace swivel
