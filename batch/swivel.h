@@ -705,12 +705,13 @@ SWIVEL_API swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t
 SWIVEL_API swivel_status swivel_range(double least, double most, float range[4]);
 // An axis of any length but zero and the largest angle to it, 0 to pi.
 SWIVEL_API swivel_status swivel_cone(const double axis[3], double most, float cone[4]);
-// Converts a direction of the character into the arm frame, which the axes of limits are in: "forwards and down"
-// becomes the axis of a cone. direction: in the world of the rest pose, 1e-15..1e15 long. parent_rotation: of the
-// shoulder's parent joint in that world, x, y, z, w. axis becomes unit, and may be direction itself. Fails if the
-// binding is not valid. The limit then turns with the parent joint. To fix the limit to the character instead, call
-// this in every frame, with the parent's rotation relative to the character. A cone of 80 degrees about forwards and
-// down, for a character that faces +z with +y up:
+// Converts a direction of the character into the arm frame, which the axes of limits are in.
+// parent_rotation: of the shoulder's parent joint in the world of the rest pose, x, y, z, w.
+// direction: in that world, 1e-15..1e15 long.
+// axis: becomes unit; may be direction itself.
+// Fails if the binding is not valid. The limit then turns with the parent joint. To fix the limit to the character
+// instead, call this in every frame, with the parent's rotation relative to the character. A cone of 80 degrees about
+// forwards and down, for a character that faces +z with +y up:
 //     const double down_ahead[3] = {0, -1, 1};
 //     double axis[3];
 //     float cone[4];
@@ -770,9 +771,9 @@ typedef struct swivel_entity {
 //     are stored, in the order of the steps, as many as fit.
 // entity_count: becomes how many entities there are, whatever the capacity; or null.
 // closing_error: becomes the distance from the target to the wrist that the rotors give, in arm lengths; or null.
-// It fails for values outside these ranges, and for an arm whose formulas divide by zero: out of reach, straight or
-// folded, its pole on the line to the target, its upper arm along e3 or -e3. The message names the entity, and nothing
-// is written. Any thread; no allocation.
+// It fails for values outside these ranges, and for an arm whose formulas divide by zero. Such an arm is out of reach,
+// straight or folded, has its pole on the line to the target, or its upper arm along e3 or -e3. The message names the
+// entity, and nothing is written. Any thread; no allocation.
 SWIVEL_API swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
                                       swivel_entity* entities, uint32_t capacity, uint32_t* entity_count,
                                       double* closing_error);

@@ -94,8 +94,9 @@ SWIVEL_INLINE constexpr PipelineSteps<T> solve_pipeline(const Vector<T>& wrist, 
     // Step 4, rotate to the elbow by pi about the middle line: q12 = l_M / |l_M|.
     m.q12 = normalise(m.l_m);
 
-    // Step 5, rotate to the wrist about k: pi_yz2 = q12 pi_yz ~q12. c3 is the cosine of the angle from it to pi_swivel,
-    // measured here before the turn by q12. q3 = sqrt((1+c3)/2) + s sqrt((1-c3)/2) k, where s is the sign of the angle.
+    // Step 5, rotate to the wrist about k: pi_yz2 = q12 pi_yz ~q12.
+    // c3 is the cosine of the angle from it to pi_swivel, measured here before the turn by q12.
+    // q3 = sqrt((1+c3)/2) + s sqrt((1-c3)/2) k. Here s is the sign of the angle.
     // Rounding may carry c3 past 1 or -1, where a root has no value.
     const Vector<T> n = grade_part<1>(~m.q12 * m.pi_swivel * m.q12);
     const T s3 = n.template at<kE2>();
