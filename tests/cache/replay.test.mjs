@@ -172,23 +172,9 @@ class Column {
 }
 
 const results = { shoulder: 'SHOULDER', elbow: 'ELBOW', wrist: 'WRIST', flags: 'FLAGS', stretch: 'STRETCH', normal: 'NORMAL', clavicle_turn: 'CLAVICLE_TURN' };
-const LIMITED = `
-[crowd]
-limbs = "all"
-[limb.all]
-hand = true
-twist_bones = 2
+const LIMITED = `${readFileSync(new URL('limited.toml', import.meta.url), 'utf8')}
 [limb.arms]
 effector = [0, -0.4, 0]
-[limb.arms.reach]
-most_stretch = 1.1
-[limb.arms.clavicle]
-share = 0.2
-[limb.arms.limits]
-flexion_deg = [0, 150]
-[limb.arms.limits.shoulder_cone]
-axis = [0, 0.5, 1]
-opening_deg = 80
 `;
 // Three crowds: legs without hands, arms with boxes of two orders.
 const BOXES = `

@@ -15,22 +15,7 @@ SWIVEL = os.environ["SWIVEL"]
 PLACES = (Path("/usr/share/assimp/models/BVH/01_01.bvh"), Path(os.environ.get("SWIVEL_TEST_DATA", "")) / "bvh/cmu_01_01_forward_jump.bvh")
 CLIP = next(str(place) for place in PLACES if place.is_file())
 
-LIMITED = """
-[crowd]
-limbs = "all"
-[limb.all]
-hand = true
-twist_bones = 2
-[limb.arms.reach]
-most_stretch = 1.1
-[limb.arms.clavicle]
-share = 0.2
-[limb.arms.limits]
-flexion_deg = [0, 150]
-[limb.arms.limits.shoulder_cone]
-axis = [0, 0.5, 1]
-opening_deg = 80
-"""
+LIMITED = (ROOT / "tests/cache/limited.toml").read_text()
 BUDGET = LIMITED + """
 [limb.all.swivel]
 most_deg_per_second = 900
