@@ -42,11 +42,16 @@ void require_well_formed(const TempFolder& folder, const std::string& name)
     for (const char* word : {"<img", "<script", "http://", "https://"}) CHECK_THAT(text, !Contains(word));
 }
 
-// They point into the text.
-std::vector<std::smatch> matches(const std::string& text, const std::string& pattern)
+// What a pattern found: the whole, and then its groups.
+using Found = std::vector<std::string>;
+
+std::vector<Found> matches(const std::string& text, const std::string& pattern)
 {
     const std::regex regex(pattern);
-    return {std::sregex_iterator(text.begin(), text.end(), regex), std::sregex_iterator()};
+    std::vector<Found> all;
+    for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at)
+        all.emplace_back(at->begin(), at->end());
+    return all;
 }
 
 // What an axis's ticks say of a place in pixels.
@@ -63,12 +68,12 @@ void check_plot(bool log_x, bool log_y, const std::vector<std::pair<double, doub
 {
     const std::string svg = svg_of({"plot", "x", "y", log_x, log_y, {{"series", points}}});
     std::map<double, double> x_ticks, y_ticks;
-    for (const std::smatch& m : matches(svg, "class=\"x\" x=\"([^\"]+)\"[^>]*>([^<]+)<"))
+    for (const Found& m : matches(svg, "class=\"x\" x=\"([^\"]+)\"[^>]*>([^<]+)<"))
         x_ticks[std::stod(m[1])] = std::stod(m[2]);
-    for (const std::smatch& m :
+    for (const Found& m :
          matches(svg, "<path class=\"grid\" d=\"M[0-9.]+ ([0-9.]+)H[^/]*/><text class=\"y\"[^>]*>([^<]+)<"))
         y_ticks[std::stod(m[1])] = std::stod(m[2]);
-    const std::vector<std::smatch> circles = matches(svg, "<circle cx=\"([^\"]+)\" cy=\"([^\"]+)\"");
+    const std::vector<Found> circles = matches(svg, "<circle cx=\"([^\"]+)\" cy=\"([^\"]+)\"");
     REQUIRE(circles.size() == points.size());
     for (std::size_t n = 0; n < points.size(); ++n) {
         const double x = value_at(x_ticks, std::stod(circles[n][1]), log_x);
@@ -157,7 +162,7 @@ TEST_CASE("a point without neighbours is a dot, however many points there are")
     Series series{"series", {}};
     for (int n = 0; n < 100; ++n) series.points.emplace_back(n, n == 50 ? 3 : n < 98 ? 0 : 5);
     const std::string svg = svg_of({"plot", "x", "y", false, true, {series}});  // 0 has no logarithm
-    const std::vector<std::smatch> circles = matches(svg, "<circle [^>]*><title>([^<]+)<");
+    const std::vector<Found> circles = matches(svg, "<circle [^>]*><title>([^<]+)<");
     REQUIRE(circles.size() == 1);
     CHECK(circles[0][1] == "series: 50, 3");
     CHECK(matches(svg, "class=\"series[^>]*><path d=\"M[0-9. ]+L[0-9. ]+\"/>").size() == 1);  // the last two
@@ -190,7 +195,7 @@ TEST_CASE("a bound is below the frame's upper edge, and the key shows lines, das
     const std::string text = slurp(folder / "a.html");
     CHECK_THAT(text, Contains("<li class=\"s0 bound\">") && Contains("<li class=\"s1 dots\">"));
     std::set<std::string> colours;
-    for (const std::smatch& m : matches(text, "\\.s\\d+ \\{ --c: (#[0-9a-f]{6})")) colours.insert(m[1]);
+    for (const Found& m : matches(text, "\\.s\\d+ \\{ --c: (#[0-9a-f]{6})")) colours.insert(m[1]);
     CHECK(colours.size() == 12);
     CHECK(matches(text, "<li class=\"s11\">").size() == 1);
 }
@@ -266,7 +271,7 @@ TEST_CASE("the worst limbs of a report are those of its tables, each in its wors
 
     const std::string text = slurp(folder / "r.html");
     const std::string worst = text.substr(text.find("The worst limbs"));
-    const std::vector<std::smatch> rows = matches(worst, kLimbRow);
+    const std::vector<Found> rows = matches(worst, kLimbRow);
     REQUIRE(rows.size() == 10);
     for (std::size_t n = 0; n < rows.size(); ++n) {
         const LimbPlace place{std::stoul(rows[n][1]), std::stoul(rows[n][2]), rows[n][3]};
@@ -290,7 +295,7 @@ TEST_CASE("limbs with bad input come first among the worst, with a dash for thei
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     const std::string text = slurp(folder / "r.html");
-    const std::vector<std::smatch> rows = matches(text.substr(text.find("The worst limbs")), kLimbRow);
+    const std::vector<Found> rows = matches(text.substr(text.find("The worst limbs")), kLimbRow);
     REQUIRE(rows.size() == 10);
     CHECK(rows[0][1] == "1");
     CHECK(rows[0][2] == "7");
@@ -347,7 +352,7 @@ TEST_CASE("a solve's flags are plotted without those that reached their targets,
 void check_names_are_apart(const std::string& svg)
 {
     double end = 0;
-    for (const std::smatch& m : matches(svg, "<text class=\"x\" x=\"([0-9.]+)\"[^>]*>([^<]+)<")) {
+    for (const Found& m : matches(svg, "<text class=\"x\" x=\"([0-9.]+)\"[^>]*>([^<]+)<")) {
         const double half = 3 * static_cast<double>(m[2].length());
         INFO(m[2]);
         CHECK(std::stod(m[1]) - half > end);
@@ -360,16 +365,16 @@ TEST_CASE("a verification's report names every column once, and its bands of rea
     const TempFolder folder;
     REQUIRE(run_command(folder.path, {"verify", "--arms", "500", "--report", "v.html"}).exit_code == 0);
     const std::string text = slurp(folder / "v.html");
-    for (const std::smatch& table : matches(text, "<thead>.*?</thead>")) {
+    for (const Found& table : matches(text, "<thead>.*?</thead>")) {
         std::set<std::string> heads;
-        const std::vector<std::smatch> all = matches(table.str(), "<th[^>]*>([^<]*)</th>");
-        for (const std::smatch& head : all) {
+        const std::vector<Found> all = matches(table[0], "<th[^>]*>([^<]*)</th>");
+        for (const Found& head : all) {
             CHECK(head[1].length() > 0);
             heads.insert(head[1]);
         }
         CHECK(heads.size() == all.size());
     }
-    for (const std::smatch& svg : matches(text, "<svg.*?</svg>")) check_names_are_apart(svg.str());
+    for (const Found& svg : matches(text, "<svg.*?</svg>")) check_names_are_apart(svg[0]);
     CHECK_THAT(text, Contains("production is the formula") && Contains("pipeline is the lecture"));
 }
 

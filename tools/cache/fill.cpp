@@ -71,7 +71,7 @@ public:
     FillReport run();
 
 private:
-    std::unique_ptr<Work> read_next();
+    Work* read_next();
     std::unique_ptr<Column> take_column(const Work& work);
     void solve(Work& work);
     void write(Work& work);
@@ -86,14 +86,17 @@ private:
     std::optional<ChunkAt> read_last_;  // by read_next(), and so the last that was solved before the next
     Characters characters_;             // of that chunk's column
     BusyClock solving_, disk_;
-    std::mutex mutex_;                              // of all below
+    std::mutex mutex_;  // of all below
+    // Chunks that were read and not yet written. They are not the pipeline's, which loses what it holds if a stage
+    // throws.
+    std::vector<std::unique_ptr<Work>> under_way_;
     std::vector<std::unique_ptr<Column>> columns_;  // that nobody solves with now
     std::uint64_t through_ = 0;
     FillReport report_;
 };
 
-// Null: there is no more.
-std::unique_ptr<Work> Filling::read_next()
+// Null: there is no more. write() ends what this began.
+Work* Filling::read_next()
 {
     const BusyClock::Turn turn(disk_);
     for (; next_ < chunks_.size(); ++next_) {
@@ -116,7 +119,8 @@ std::unique_ptr<Work> Filling::read_next()
             work->state = cache_.require_state({at.time - 1, at.column});
         read_last_ = at;
         ++next_;
-        return work;
+        const std::lock_guard lock(mutex_);
+        return under_way_.emplace_back(std::move(work)).get();
     }
     return nullptr;
 }
@@ -183,6 +187,7 @@ void Filling::write(Work& work)
     report_.bytes += bytes;
     report_.limbs +=
         std::uint64_t{crowd.frames_in(work.at.time)} * crowd.characters_in(work.at.column) * crowd.limbs.size();
+    std::erase_if(under_way_, [&](const auto& each) { return each.get() == &work; });
     ++through_;
     if (options_.progress) options_.progress(through_);
 }
@@ -193,7 +198,6 @@ void Filling::write(Work& work)
 void Filling::run_chunks(std::size_t most)
 {
     using namespace oneapi::tbb;
-    using Item = std::shared_ptr<Work>;
     const int threads = static_cast<int>(threads_);
     const global_control more(global_control::max_allowed_parallelism, threads_ + kWaiting);
     // Chunks that carry state follow each other, each on all threads. Others are solved side by side.
@@ -202,18 +206,18 @@ void Filling::run_chunks(std::size_t most)
     std::counting_semaphore<> solvers(threads);
     task_arena arena(threads + kWaiting);
     arena.execute([&] {
-        const auto read = make_filter<void, Item>(filter_mode::serial_in_order, [&](flow_control& control) -> Item {
-            Item work = read_next();
+        const auto read = make_filter<void, Work*>(filter_mode::serial_in_order, [&](flow_control& control) -> Work* {
+            Work* const work = read_next();
             if (!work) control.stop();
             return work;
         });
-        const auto solved = make_filter<Item, Item>(mode, [&](Item work) {
+        const auto solved = make_filter<Work*, Work*>(mode, [&](Work* work) {
             solvers.acquire();
             const Release release{solvers};
             task_arena(in_order ? threads : 1).execute([&] { solve(*work); });
             return work;
         });
-        const auto written = make_filter<Item, void>(filter_mode::parallel, [&](const Item& work) { write(*work); });
+        const auto written = make_filter<Work*, void>(filter_mode::parallel, [&](Work* work) { write(*work); });
         parallel_pipeline(most, read & solved & written);
     });
 }
@@ -222,7 +226,7 @@ void Filling::run_chunks(std::size_t most)
 
 void Filling::run_chunks(std::size_t)
 {
-    while (const std::unique_ptr<Work> work = read_next()) {
+    while (Work* const work = read_next()) {
         solve(*work);
         write(*work);
     }

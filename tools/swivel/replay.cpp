@@ -124,14 +124,14 @@ public:
     {
         const std::size_t width = characters_.size(), count = characters.end - characters.begin;
         const std::size_t to = column.index() * crowd_.chunk.characters + characters.begin - first_;
-        std::ranges::copy(column.characters().subspan(characters.begin, count), characters_.begin() + to);
+        std::ranges::copy(column.characters().subspan(characters.begin, count), &characters_[to]);
         const std::size_t limbs = crowd_.limbs.size(), first_row = frames.begin * limbs, end_row = frames.end * limbs;
         for (std::size_t f = 0; f < fields_.size(); ++f) {
             const std::size_t parts = fields_[f].count();
             for (std::size_t row = first_row; row < end_row; ++row) {
                 const std::size_t from = row * crowd_.chunk.characters + characters.begin;
                 std::ranges::copy(std::span(results[f]).subspan(from * parts, count * parts),
-                                  results_[f].begin() + ((row - first_row) * width + to) * parts);
+                                  &results_[f][((row - first_row) * width + to) * parts]);
             }
         }
     }
