@@ -77,6 +77,7 @@ class Disk(Stage):
         cache = self.fill(self.store())
         before = files_of(cache)
         self.assert_refused(run("store", CLIP, cache, "--quiet"), "is there already; remove it, or name another folder")
+        self.assert_refused(run("store", "missing.bvh", cache, "--quiet"), "is there already")  # before the clip is read
         self.assert_refused(run("store", CLIP, self.folder / "none/cache", "--quiet"), "is no folder; make it first")
         self.assert_refused(run("fill", cache, "--quiet"), "20 of 20 chunks are done already; add --resume to go on, or --verify")
         self.assertEqual(files_of(cache), before)

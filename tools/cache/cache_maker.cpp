@@ -15,21 +15,22 @@ namespace {
 namespace fs = std::filesystem;
 using formats::InputError;
 
-void require_new(const fs::path& target)
+}  // namespace
+
+void require_new(const fs::path& folder)
 {
     std::error_code ignored;
+    const fs::path target = folder_name(folder), parent = target.parent_path();
     if (fs::exists(fs::symlink_status(target, ignored)))
         throw InputError(target, "is there already; remove it, or name another folder");
+    if (!parent.empty() && !fs::is_directory(parent, ignored)) throw InputError(parent, "is no folder; make it first");
 }
-
-}  // namespace
 
 PartialFolder::PartialFolder(const fs::path& target) : target_(target)
 {
     require_new(target_);
     std::error_code reason;
     const fs::path parent = target_.parent_path();
-    if (!parent.empty() && !fs::is_directory(parent, reason)) throw InputError(parent, "is no folder; make it first");
     bool is_new = false;
     for (int n = 0; !is_new; ++n) {
         partial_ = parent / fmt::format(".swivel-{}-{}", ::getpid(), n);

@@ -10,10 +10,13 @@
 
 namespace swivel::tools {
 
+// Throws InputError if there is something of that name, or no folder for it to be in.
+void require_new(const std::filesystem::path& folder);
+
 // A new folder beside the target, .swivel-PID-N, which is gone with the object unless it got the target's name.
 class PartialFolder {
 public:
-    // Throws InputError if there is something of the target's name, or the folder cannot be made.
+    // Throws InputError as require_new() does, and if the folder cannot be made.
     explicit PartialFolder(const std::filesystem::path& target);
     ~PartialFolder();
     PartialFolder(const PartialFolder&) = delete;

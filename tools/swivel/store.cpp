@@ -204,6 +204,7 @@ void run_store(const StoreOptions& options)
     require_one_reader(options.crowd, options.crowd.targets.value_or("clip"));
     if (!options.chunk.empty()) chunk_of(options.chunk);  // usage errors first
     if (formats::is_standard_stream(options.folder)) throw CommandError(2, "CACHE: a cache is a folder; name one");
+    require_new(options.folder);  // before long files are read
     const LimbChoice choice = choice_of(options.crowd);
     MotionFile file(options.crowd.file, options.crowd.motion);
     CrowdJob job = make_job(options.crowd, choice, file);
