@@ -221,6 +221,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     const LimbPose pose = solved.pose();
     const double reached = std::sqrt(len2(pose.wrist - pose.shoulder));
     const bool aims = solved.component_count(Field::aim) > 0, has_length = !solved.is(Field::lengths, {0, 0});
+    const bool has_effector = solved.component_count(Field::effector) > 0 && !solved.is(Field::effector, {0, 0, 0});
     const char* const by = !has_length                      ? "bones of no length"
                            : flags & SWIVEL_LIMITED_FLEXION ? "its bones and its flexion limit"
                                                             : "its bones";
@@ -235,7 +236,8 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         text.add("The target is %.4g too near: the wrist is %.4g from the shoulder, as near as %s let it.", missed,
                  reached, by);
     else if (flags & SWIVEL_SOFTENED)
-        text.add("A soft zone of reach keeps the wrist %.4g from its target.", missed);
+        text.add("A soft zone of reach keeps the %s %.4g from its target.", has_effector ? "effector" : "wrist",
+                 missed);
     else
         text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
@@ -331,7 +333,8 @@ void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, 
         text.add(" Joint limits turn the swivel further than a step may.");
     else if (flags & SWIVEL_LIMITED_STEP)
         text.add(
-            " The wish is further than one step from where the elbow is: the next solve turns it a part of the way.");
+            " The wish is further than one step from where the elbow is: the next solve goes as far as step and limits "
+            "allow.");
 }
 
 }  // namespace swivel

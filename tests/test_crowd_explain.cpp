@@ -354,7 +354,7 @@ TEST_CASE("explain writes no further than it may, changes nothing and refuses wh
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, 5, -3});
     crowd.solve();
     const auto before = all_words(crowd);
-    CHECK(says(crowd, 0, "the next solve turns it a part of the way"));
+    CHECK(says(crowd, 0, "the next solve goes as far as step and limits allow"));
     const std::string whole = crowd.explain(0, 0);
     for (const std::size_t size : {std::size_t{1}, std::size_t{2}, std::size_t{30}, whole.size(), whole.size() + 1}) {
         std::vector<char> text(size + 8, '?');

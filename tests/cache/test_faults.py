@@ -182,7 +182,8 @@ class Damage(Stage):
         os.remove(cache / "flags/4.0.2")
         done = run("check", cache)
         self.assert_refused(done, r"2 of 20 chunks are damaged, the first is 3\.1; the cache keeps no goals, so take their files from a copy")
-        self.assertEqual(done.stdout, "damaged  chunk 3.1\ndamaged  chunk 4.2\n")
+        files = lambda time, column: " ".join(f"{name}/{time}.0.{column}{'' if name == 'flags' else '.0'}" for name in ("shoulder", "elbow", "wrist", "flags"))
+        self.assertEqual(done.stdout, f"damaged  chunk 3.1: {files(3, 1)}\ndamaged  chunk 4.2: {files(4, 2)}\n")
         self.assertEqual(json.loads(run("check", cache, "--json").stdout)["damaged"], ["3.1", "4.2"])
         self.assertEqual(run("check", cache, "--quiet").stdout, "")
 

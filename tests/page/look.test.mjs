@@ -49,6 +49,13 @@ test('the camera looks at those that are drawn, and goes to a limb that N choose
   }, { hash: '#drawn=20' });
 });
 
+test('of a lone row, many are seen', async () => {
+  await visit(crowd, async (page) => {
+    const seen = await Promise.all(Array.from({ length: 10 }, (_, who) => isSeen(page, who)));
+    assert.ok(seen.filter((each) => each).length >= 5, `${seen}`);
+  }, { hash: '#drawn=10' });
+});
+
 test('a late character is drawn alone beside the first ones, as it is solved', async () => {
   await visit(crowd, async (page) => {
     for (const change of [() => {}, () => swivelPage.setFrame(20), () => swivelPage.drawFirst(5)]) {
@@ -152,6 +159,8 @@ test('handles have colours of their own, and a rim that is seen on any ground', 
     const colours = await page.evaluate(() => Object.values(swivelPage.picker.handles).map((mesh) => [mesh, ...mesh.children].map(({ material }) => material.color.getHexString('srgb-linear'))));
     assert.equal(new Set(colours.map(([own]) => own)).size, 3, `${colours}`);
     for (const [own, rim] of colours) assert.ok(rim !== undefined && parseInt(rim.slice(2, 4), 16) < 64, `${own}: ${rim}`);
+    const pole = await pixel(page, 'pole');
+    await drag(page, pole, { x: pole.x - 100, y: pole.y });  // away from the target's
     const { share } = await difference(page, () => page.evaluate(() => { swivelPage.picker.handles.pole.children[0].visible = false; }));
     assert.ok(share > 0.0001, `${share}`);
   }, { hash: '#character=3&limb=left_arm&drawn=5' });

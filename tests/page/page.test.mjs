@@ -120,6 +120,7 @@ test('the lesson says where the solver goes another way', async () => {
     assert.match(await page.textContent('.lesson'), expected);
   });
   await open('aims.html', '[limb.all]\naim = { axis = [0, 1, 0], flexion_deg = 60 }\n', /This limb aims/);
+  await open('angle.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\npole.angle_deg = 40\n', /pole is 40\.0° off this plane: limits, an angle, weights or a step turn the elbow/);
   await open('weights.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\nweights.position = 0.3\n', /The lecture knows no limits: .* hold the arm that you see 0\.\d+ arm lengths from this one/);
 });
 

@@ -101,6 +101,8 @@ test('limits: switches add them, sliders and the rim of the cone move them, flag
 test('overlays, colours, light and dark, drawn characters change the picture', async () => {
   await visit(demo, async (page) => {
     await page.evaluate(() => swivelPage.fields.SHOULDER_CONE.set([50]));
+    const pole = await pixel(page, 'pole');
+    await drag(page, pole, { x: pole.x - 100, y: pole.y });
     await page.getByText('Limits and weights').click();
     await page.locator('[data-field=SHOULDER_CONE]').check();
     await page.getByText('Overlays', { exact: true }).click();

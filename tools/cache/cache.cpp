@@ -187,6 +187,14 @@ std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const C
 
 std::optional<Results> Cache::results(ChunkAt at) const { return read(arrays_.results, {at.time, 0, at.column}); }
 
+std::vector<std::string> Cache::pose_files(ChunkAt at) const
+{
+    std::vector<std::string> files;
+    for (const ZarrArray& array : arrays_.results)
+        files.push_back(store_.chunk_path(array, {at.time, 0, at.column}).lexically_relative(folder()).string());
+    return files;
+}
+
 std::optional<Results> Cache::state(ChunkAt at) const
 {
     std::optional<Results> state = read(arrays_.state, {at.time, 0, at.column});

@@ -52,6 +52,8 @@ public:
     std::uint64_t digest(ChunkAt at) const;
     // The stored poses of a chunk; nothing if a file of them is missing or cut.
     std::optional<Results> results(ChunkAt at) const;
+    // The files that they are in, by their names within the folder.
+    std::vector<std::string> pose_files(ChunkAt at) const;
     // What the chunk after this one starts from; nothing if it is missing or damaged.
     std::optional<Results> state(ChunkAt at) const;
     // The same; throws InputError that says what to do.

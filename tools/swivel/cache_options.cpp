@@ -86,7 +86,10 @@ void add_check(CLI::App& app)
     add_solving_threads(*command, options->threads);
     add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->json);
-    command->footer("All chunks are solved again and compared. A chunk that differs is named and written again.");
+    command->footer(
+        "All chunks are solved again and compared. A chunk that differs is named and written again; the exit code is "
+        "then "
+        "1, and another check closes the cache.");
     command->callback([options] { run_check(*options); });
 }
 

@@ -2,6 +2,7 @@
 //
 // `swivel fill`: solves the chunks of a cache. `swivel check`: proves that all of them are right, and ends the filling.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -98,7 +99,10 @@ Json json_of_fill(const FillReport& report)
 
 void print_fill(const FillReport& report)
 {
-    say(stdout, "chunks   {} written, {} compared, {} were done\n", report.written, report.compared, report.skipped);
+    const std::string again =
+        report.differences.empty() ? "" : fmt::format(" and {} of them written again", report.differences.size());
+    say(stdout, "chunks   {} written, {} compared{}, {} were done\n", report.written, report.compared, again,
+        report.skipped);
     print_differences(report.differences);
     if (report.limbs == 0) return;
     const bool is_disk = report.solve_seconds < report.disk_seconds;
@@ -146,7 +150,8 @@ void check_poses(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptio
                     {"proved_by", "digests"},
                     {"damaged", std::move(list)}});
     } else if (!options.quiet) {
-        for (const ChunkAt at : damaged) say(stdout, "damaged  chunk {}\n", chunk_name(at));
+        for (const ChunkAt at : damaged)
+            say(stdout, "damaged  chunk {}: {}\n", chunk_name(at), fmt::join(cache.pose_files(at), " "));
         if (damaged.empty()) say(stdout, "right    {} chunks: their poses have their digests\n", chunks.size());
     }
     if (!damaged.empty())
@@ -201,7 +206,8 @@ void run_fill(const FillCommand& options)
     const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), how.shard);
     if (!options.resumes && !options.verifies) require_empty(cache, chunks);
     if (!options.json && !options.quiet && !options.shard.empty())
-        say(stdout, "shard    {} of the cache, by {}: {} chunks\n", how.shard.words(), how.shard.source, chunks.size());
+        say(stdout, "shard    {} of the cache, by {}: {} chunks{}\n", how.shard.words(), how.shard.source,
+            chunks.size(), chunks.empty() ? "; there are fewer pieces of work than shards" : "");
     const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
     if (options.json) {
         Json out{{"cache", options.folder}, {"shard", how.shard.words()}};

@@ -250,7 +250,7 @@ void run_replay(const ReplayOptions& options)
     if (options.json)
         print_json({{"cache", options.folder}, {"chunks_proved", order.size()}, {"out", options.out}}, to);
     if (options.json || options.quiet) return;
-    say(to, "proved   {} chunks: their digests are those of the cache\n", order.size());
+    say(to, "chunks   {} proved: their digests are those of the cache\n", order.size());
     if (table && to == stdout) say(to, "written  {}\n", options.out);
 }
 

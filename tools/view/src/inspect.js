@@ -6,15 +6,16 @@ import { flagNames } from "./stage.js";
 import { coordinate, limbName, number, saidOf } from "./words.js";
 
 const wordsOf = (flag) => flag.toLowerCase().replaceAll("_", " ");
-const degrees = (radians) => `${(radians * 180 / Math.PI).toFixed(1)}°`;
+const degrees = (radians) => `${(Math.round(radians * 1800 / Math.PI) / 10 + 0).toFixed(1)}°`;  // no -0
 
 function rowsOf(stage, limb, character) {
     const pose = stage.pose(limb, character), goal = stage.goal(limb, character, "target"), who = stage.characters[character];
     const length = stage.armLength(limb, character), place = (vector) => vector.map((value) => coordinate(value, length > 0 ? length : 1)).join(", ");
     const off = number(stage.residual(limb, character));
+    const hasEffector = stage.has(limb, "EFFECTOR") && stage.read(limb, character, "EFFECTOR").some((part) => part !== 0);
     const rows = [
         ["Character", `${character}, size ${who.size.toFixed(3)}`], ["Clip frame", `${stage.clipFrame(character)}`],
-        ["Target", place(goal)], ["Wrist", place(pose.wrist)], ["Elbow", place(pose.elbow)],
+        [hasEffector ? "Effector's target" : "Target", place(goal)], ["Wrist", place(pose.wrist)], ["Elbow", place(pose.elbow)],
         ["Off by", off === "–" ? off : `${off} arm lengths`], ["Flexion", degrees(stage.flexion(limb, character))],
     ];
     if (stage.has(limb, "STRETCH")) rows.push(["Stretch", stage.read(limb, character, "STRETCH")[0].toFixed(4)]);

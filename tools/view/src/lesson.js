@@ -25,6 +25,12 @@ function poleFor(stage, selection, geometry) {
     const { elbow, along, upper } = geometry, off = elbow.clone().addScaledVector(along, -elbow.dot(along));
     return off.length() > 1e-3 * upper ? elbow : wishOf(stage, selection, geometry);
 }
+/** How far the elbow is turned from where the limb's own pole wishes it, in degrees. */
+function turnedBy(stage, selection, geometry) {
+    const { elbow, along, upper } = geometry, off = elbow.clone().addScaledVector(along, -elbow.dot(along));
+    const wish = wishOf(stage, selection, geometry), isNone = off.length() <= 1e-3 * upper || wish.lengthSq() === 0;
+    return isNone ? 0 : off.angleTo(wish) * 180 / Math.PI;
+}
 
 /** The steps of the chosen limb: what they start from and what the library makes of it, or why it makes nothing. */
 function stepsOf(stage, selection) {
@@ -37,7 +43,7 @@ function stepsOf(stage, selection) {
         const made = stage.swivel.steps(wrist.toArray(), pole.toArray(), upper, fore);
         const entities = Object.fromEntries(made.entities.map((entity) => [entity.name, entity]));
         const off = Math.max(wrist.distanceTo(inArm(geometry.wrist)), vectorOf(entities.p_e).distanceTo(inArm(geometry.elbow))) / (upper + fore);
-        return { geometry, made, entities, off };
+        return { geometry, made, entities, off, turned: turnedBy(stage, selection, geometry) };
     } catch (error) {
         if (!(error instanceof SwivelError)) throw error;
         return { geometry, why: error.message.replace("swivel_steps: ", "") };
@@ -52,7 +58,7 @@ function makeWords(swivel) {
         title.replaceChildren(...name);
         return words;
     };
-    const explain = (step, { made, off }, limb) => {
+    const explain = (step, { made, off, turned }, limb) => {
         text.replaceChildren(...tellStep(step, limb));
         const rowOf = (entity) => [
             element("dt", { title: entity.meaning },
@@ -61,7 +67,9 @@ function makeWords(swivel) {
         ];
         list.replaceChildren(...made.entities.filter((entity) => entity.step === step + 1).flatMap(rowOf));
         closing.textContent = saidOf(limb, `Both rotations put the wrist ${number(made.closingError)} arm lengths from the target.` + (off <= OFF ? "" :
-            ` The lecture knows no limits: limits, weights, reach or a step hold the arm that you see ${number(off)} arm lengths from this one.`));
+            ` The lecture knows no limits: limits, weights, reach or a step hold the arm that you see ${number(off)} arm lengths from this one.`) +
+            (turned < 0.1 ? "" :
+                ` The limb's own pole is ${turned.toFixed(1)}° off this plane: limits, an angle, weights or a step turn the elbow. So the lesson takes a pole in the plane of the arm that you see.`));
     };
     const refuse = (step, { why }, limb) => {
         tellStep(step, limb);

@@ -102,12 +102,13 @@ function coneMesh(axis, cos, length, colour) {
     made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), axis.clone().normalize());
     return made;
 }
-/** Where the handle on the shoulder cone's rim is: towards the elbow. */
+/** Where the handle on the shoulder cone's rim is: a quarter of the rim from the elbow, where no other handle is. */
 function rimOf(geometry, cone, length) {
     const axis = new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes).normalize(), angle = Math.acos(cone[3]);
     const across = geometry.elbow.clone().addScaledVector(axis, -geometry.elbow.dot(axis));
     if (across.lengthSq() === 0) across.set(1, 0, 0).cross(axis);
-    return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(across.normalize(), 0.6 * length * Math.sin(angle));
+    const aside = across.cross(axis).normalize();
+    return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(aside, 0.6 * length * Math.sin(angle));
 }
 
 /** The anchor that overlays hang on: at the limb's shoulder, mirrored where the limb is solved so. */

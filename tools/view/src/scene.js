@@ -11,6 +11,7 @@ import { rgb, THEMES } from "./colours.js";
 import groundGlsl from "./ground.glsl";
 
 const HEIGHT = 1.75;  // of a figure in the scene, metres
+const NEARBY = 20;  // metres of the ground that the first picture is of
 
 export class View {
     constructor(canvas, stage, figure) {
@@ -47,13 +48,21 @@ export class View {
         this.scene.add(this.ground);
     }
 
-    /** The crowd from in front of its foremost row, of those that are drawn. Figures mostly face +z. */
+    /**
+     * Those that are drawn, from before their foremost row. Figures mostly face +z. The camera looks along the diagonal of
+     * ground that they stand on nearby, turned to the front: a block is seen from in front, a lone row along itself.
+     */
     home(drawnCount) {
         const { characters } = this.stage, drawn = characters.slice(0, drawnCount);
         const front = Math.max(...drawn.map(({ place }) => place[2])), row = drawn.filter(({ place }) => place[2] === front);
         this.middle = characters.indexOf(row[row.length >> 1]);
-        const at = this.placeOf(this.middle), offset = new Vector3(-1.7, 0.75 * HEIGHT, drawnCount > 1 ? 4.4 : 3.6);
-        this.controls.target.copy(at).setY(0.55 * HEIGHT);
+        const [width, , depth] = [0, 1, 2].map((axis) => {
+            const along = drawn.map(({ place }) => place[axis]);
+            return Math.min(NEARBY, this.metres * (Math.max(...along) - Math.min(...along)));
+        });
+        const angle = Math.atan2(width + 1, depth + 1) - 0.42, distance = drawnCount > 1 ? 4.7 : 4;
+        const offset = new Vector3(-distance * Math.sin(angle), 0.75 * HEIGHT, distance * Math.cos(angle));
+        this.controls.target.copy(this.placeOf(this.middle)).setY(0.55 * HEIGHT);
         this.camera.position.copy(this.controls.target).addScaledVector(offset, this.farther());
         this.controls.update();
     }
@@ -71,9 +80,10 @@ export class View {
     toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }
     toClip({ x, y, z }) { return [x / this.metres, y / this.metres + this.figure.ground, z / this.metres]; }
 
-    /** Looks at a character from where the camera is, at the same distance, or close by. */
+    /** Looks at a character, who may be up in a jump, from where the camera is: at the same distance, or close by. */
     lookAt(character, isClose) {
-        const to = this.placeOf(character).setY(0.6 * HEIGHT), offset = this.camera.position.clone().sub(this.controls.target);
+        const rise = this.figure.at(0, this.stage.clipFrame(character)).y - this.figure.at(0).y;
+        const to = this.placeOf(character).setY(0.6 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);
         if (isClose) offset.setLength(Math.min(offset.length(), 3.2 * this.farther()));
         this.controls.target.copy(to);
         this.camera.position.copy(to).add(offset);
