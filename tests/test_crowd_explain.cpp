@@ -345,6 +345,24 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
     CHECK(named > 500);
 }
 
+TEST_CASE("explain says which point a soft zone keeps from the target, and how far")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_REACH, 2);
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.1f, 1.9f});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, 5, 1});
+    crowd.write_all(SWIVEL_REACH, 0, Float4{0.3f, 0, 1, 0});
+    crowd.write(SWIVEL_EFFECTOR, 0, std::vector<Float3>{{0, 0, 0}, {0, 0.05f, 0}});
+    crowd.solve();
+    std::array<double, 2> missed;  // in arm lengths
+    crowd.residuals(0, missed);
+    for (const auto& [limb, point] : {std::pair(0u, "wrist"), std::pair(1u, "effector")}) {
+        const std::string words = std::string("A soft zone of reach keeps the ") + point + " ";
+        CHECK(missed[limb] > 1e-3);
+        CHECK(number_after(crowd.explain(0, limb), words) == Approx(2 * missed[limb]).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("explain writes no further than it may, changes nothing and refuses what is not there")
 {
     Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE, 20);

@@ -125,7 +125,7 @@ class Damage(Stage):
         self.assert_refused(done, r"3 of 20 chunks were damaged and are written again, the first is 4\.0: twist_bones differs; run swivel check once more")
         self.assertEqual(json.loads(said("check", cache, "--json", code=1).stdout)["written_again"], differences)
         self.assertEqual(said("check", cache, "--quiet", code=1).stdout, "")
-        self.assertIn(lines, said("fill", cache, "--verify", code=0).stdout)
+        self.assertIn("chunks   0 written, 20 compared and 3 of them written again, 0 were done\n" + lines, said("fill", cache, "--verify", code=0).stdout)
         self.assertEqual(json.loads(said("fill", cache, "--verify", "--json", code=0).stdout)["written_again"], differences)
         self.assertEqual(said("fill", cache, "--verify", "--quiet", code=0).stdout, "")
 
@@ -182,7 +182,7 @@ class Damage(Stage):
         os.remove(cache / "flags/4.0.2")
         done = run("check", cache)
         self.assert_refused(done, r"2 of 20 chunks are damaged, the first is 3\.1; the cache keeps no goals, so take their files from a copy")
-        files = lambda time, column: " ".join(f"{name}/{time}.0.{column}{'' if name == 'flags' else '.0'}" for name in ("shoulder", "elbow", "wrist", "flags"))
+        files = lambda time, column: " ".join(f"{name}/{time}.0.{column}{'' if name == 'flags' else '.0'}" for name in ("shoulder", "elbow", "wrist", "flags")) + f" digest/{time}.{column}"
         self.assertEqual(done.stdout, f"damaged  chunk 3.1: {files(3, 1)}\ndamaged  chunk 4.2: {files(4, 2)}\n")
         self.assertEqual(json.loads(run("check", cache, "--json").stdout)["damaged"], ["3.1", "4.2"])
         self.assertEqual(run("check", cache, "--quiet").stdout, "")
@@ -234,7 +234,7 @@ class Metadata(Stage):
                             (("--shard", "x"), "write i/n"), (("--memory", "1K"), "is not an amount of memory from 1M on"),
                             (("--memory", "much"), "is not an amount of memory"), (("--threads", "-1"), "--threads")):
             self.assert_refused(run("fill", cache, *words), what, code=2)
-        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk for each of \d+ threads takes \d+ MiB of memory, and --memory is 1 MiB; give more, or store the crowd in smaller chunks")
+        self.assert_refused(run("fill", cache, "--memory", "1M", "--quiet"), r"one chunk takes \d+ MiB of memory with \d+ threads that solve, and --memory is 1 MiB; give more, use fewer threads, or store the crowd in smaller chunks")
         for words, what in ((("--frames", "8:8"), "write A:B with 0 <= A < B <= 40"), (("--characters", "0:101"), "write A:B"),
                             (("--frames", "a"), "write A:B"), (("--frames", "1:2:3"), "write A:B")):
             self.assert_refused(run("replay", cache, *words), what, code=2)

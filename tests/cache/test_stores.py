@@ -150,6 +150,10 @@ class Engines(Stage):
         done = run("fill", self.other, "--shard", "auto", env=batch | {"SLURM_STEP_NUM_TASKS": "4", "SLURM_PROCID": "3"})
         self.assertIn("shard    4/4 of the cache, by SLURM_PROCID=3 SLURM_STEP_NUM_TASKS=4: ", done.stdout)
 
+    def test_a_shard_without_work_says_so(self):
+        said = self.swivel("fill", self.other, "--shard", "99/99")
+        self.assertIn("shard    99/99 of the cache, by --shard: 0 chunks; there are fewer pieces of work than shards\n", said)
+
     def test_a_scheduler_is_not_asked_unless_it_is_named(self):
         subprocess.run([SWIVEL, "fill", self.other, "--quiet"], check=True,
                        env=environment(OMPI_COMM_WORLD_RANK="1", OMPI_COMM_WORLD_SIZE="4"))

@@ -71,20 +71,26 @@ export const pixel = (page, part) => page.evaluate((which) => {
 
 /** How much of the picture differs between two moments, as a share of its pixels. */
 export async function difference(page, act) {
-  const take = () => page.evaluate(() => {
+  const take = () => page.evaluateHandle(() => {  // its pixels stay in the page
     swivelPage.draw();
     const from = document.querySelector('canvas'), small = document.createElement('canvas'), context = small.getContext('2d');
     [small.width, small.height] = [320, 200];
     context.drawImage(from, 0, 0, 320, 200);
-    return Array.from(context.getImageData(0, 0, 320, 200).data);
+    return context.getImageData(0, 0, 320, 200).data;
   });
   const before = await take();
   await act();
   await page.evaluate(() => new Promise(requestAnimationFrame));  // details tell of their opening later
   const after = await take();
-  let count = 0;
-  for (let n = 0; n < before.length; n += 4) count += [0, 1, 2].some((c) => Math.abs(before[n + c] - after[n + c]) > 12);
-  return { share: count / (before.length / 4), colours: new Set(before.map((_, n) => (n % 4 === 0 ? `${before.slice(n, n + 3)}` : ''))).size };
+  return page.evaluate(([a, b]) => {
+    const colours = new Set();
+    let count = 0;
+    for (let n = 0; n < a.length; n += 4) {
+      count += [0, 1, 2].some((c) => Math.abs(a[n + c] - b[n + c]) > 12);
+      colours.add(`${a.slice(n, n + 3)}`);
+    }
+    return { share: count / (a.length / 4), colours: colours.size };
+  }, [before, after]);
 }
 
 /** Waits until a value that the page gives is one that is wanted. */

@@ -49,6 +49,17 @@ test('the camera looks at those that are drawn, and goes to a limb that N choose
   }, { hash: '#drawn=20' });
 });
 
+test('a link into a jump shows the figure\'s head', async () => {
+  await visit(write('jump.html', 'view', clip), async (page) => {
+    const at = await page.evaluate(() => {
+      const { stage, view } = swivelPage, { figure } = view, frame = stage.clipFrame(0);
+      const joints = Array.from({ length: figure.jointCount }, (_, joint) => figure.at(joint, frame)).sort((a, b) => b.y - a.y);
+      return view.project(joints[0].toArray()).y - document.querySelector('header').getBoundingClientRect().bottom;
+    });
+    assert.ok(at > 0, `${at} pixels below the header`);
+  }, { hash: '#frame=600&character=0&limb=left_arm' });
+});
+
 test('of a lone row, many are seen', async () => {
   await visit(crowd, async (page) => {
     const seen = await Promise.all(Array.from({ length: 10 }, (_, who) => isSeen(page, who)));
@@ -160,7 +171,7 @@ test('handles have colours of their own, and a rim that is seen on any ground', 
     assert.equal(new Set(colours.map(([own]) => own)).size, 3, `${colours}`);
     for (const [own, rim] of colours) assert.ok(rim !== undefined && parseInt(rim.slice(2, 4), 16) < 64, `${own}: ${rim}`);
     const pole = await pixel(page, 'pole');
-    await drag(page, pole, { x: pole.x - 100, y: pole.y });  // away from the target's
+    await drag(page, pole, { x: pole.x - 100, y: pole.y });  // else the target's ball hides a part of it
     const { share } = await difference(page, () => page.evaluate(() => { swivelPage.picker.handles.pole.children[0].visible = false; }));
     assert.ok(share > 0.0001, `${share}`);
   }, { hash: '#character=3&limb=left_arm&drawn=5' });

@@ -100,10 +100,11 @@ test('panel, overlays and lesson show the limb that is solved, with clavicle, ef
           const apart = (text, at) => Math.hypot(label(text)[0] - 8 - view.project(at).x, label(text)[1] + 22 - view.project(at).y);
           const facts = [...document.querySelectorAll('aside dt')], flexion = parseFloat(facts.find((each) => each.textContent === 'Flexion').nextSibling.textContent);
           return { sides: [off(pose.shoulder, pose.elbow), off(pose.elbow, pose.wrist), off(pose.shoulder, pose.wrist)], lengths: Array.from(stage.input(limb, 2, 'lengths')),
-            moved: off(pose.shoulder, stage.origin(limb, 2)), flexion, labels: [apart('pe', pose.elbow), apart('pw', pose.wrist)], closing: document.querySelector('.lesson .hint').textContent };
+            moved: off(pose.shoulder, stage.origin(limb, 2)), flexion, labels: [apart('pe', pose.elbow), apart('pw', pose.wrist)], names: facts.map(({ textContent }) => textContent), closing: document.querySelector('.lesson .hint').textContent };
         }, name);
         const [upper, fore, whole] = seen.sides, flexion = 180 - Math.acos((upper ** 2 + fore ** 2 - whole ** 2) / (2 * upper * fore)) * 180 / Math.PI;
         assert.ok(seen.moved > 0.01 * upper, 'the clavicle turns');
+        assert.ok(seen.names.includes('Effector\'s target') && !seen.names.includes('Target'), `${seen.names}`);
         seen.lengths.forEach((length, bone) => assert.ok(Math.abs(length / seen.sides[bone] - 1) < 1e-5, `${pole}: ${seen.sides} ${seen.lengths}`));
         assert.ok(Math.abs(seen.flexion - flexion) < 0.11, `${pole}: ${seen.flexion} ${flexion}`);
         assert.ok(Math.max(...seen.labels) < 0.5, `${pole}, ${name}: labels are ${seen.labels} pixels from elbow and wrist`);
@@ -120,7 +121,7 @@ test('the lesson says where the solver goes another way', async () => {
     assert.match(await page.textContent('.lesson'), expected);
   });
   await open('aims.html', '[limb.all]\naim = { axis = [0, 1, 0], flexion_deg = 60 }\n', /This limb aims/);
-  await open('angle.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\npole.angle_deg = 40\n', /pole is 40\.0° off this plane: limits, an angle, weights or a step turn the elbow/);
+  await open('angle.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\npole.angle_deg = 40\n', /The elbow is 40\.0° from where the limb's own pole wishes it: limits, an angle, weights or a step turn it/);
   await open('weights.html', '[limb.all]\ntarget.offset = [-3, 0, 0]\nweights.position = 0.3\n', /The lecture knows no limits: .* hold the arm that you see 0\.\d+ arm lengths from this one/);
 });
 
@@ -131,7 +132,7 @@ test('a crowd that carries state has the command\'s digests if it is played in o
     assert.deepEqual(await state(page, [...Array(40).keys()]), Array(40).fill('equal'));
     assert.deepEqual(await state(page, [20, 21, 0, 1, 2]), ['out of order', 'out of order', 'equal', 'equal', 'equal']);
     await page.evaluate(() => swivelPage.setFrame(20));
-    assert.ok((await page.textContent('.digest')).includes('if you play from the first frame'));
+    assert.ok((await page.textContent('.digest')).includes('not compared: this crowd carries state, so play it from the first frame'));
   });
 });
 

@@ -190,8 +190,11 @@ std::optional<Results> Cache::results(ChunkAt at) const { return read(arrays_.re
 std::vector<std::string> Cache::pose_files(ChunkAt at) const
 {
     std::vector<std::string> files;
-    for (const ZarrArray& array : arrays_.results)
-        files.push_back(store_.chunk_path(array, {at.time, 0, at.column}).lexically_relative(folder()).string());
+    const auto add = [&](const ZarrArray& array, const ChunkPlace& place) {
+        files.push_back(store_.chunk_path(array, place).lexically_relative(folder()).string());
+    };
+    for (const ZarrArray& array : arrays_.results) add(array, {at.time, 0, at.column});
+    add(arrays_.digest, {at.time, at.column});
     return files;
 }
 

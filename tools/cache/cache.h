@@ -52,7 +52,7 @@ public:
     std::uint64_t digest(ChunkAt at) const;
     // The stored poses of a chunk; nothing if a file of them is missing or cut.
     std::optional<Results> results(ChunkAt at) const;
-    // The files that they are in, by their names within the folder.
+    // The files that hold a chunk's poses and their digest, by their names within the folder.
     std::vector<std::string> pose_files(ChunkAt at) const;
     // What the chunk after this one starts from; nothing if it is missing or damaged.
     std::optional<Results> state(ChunkAt at) const;

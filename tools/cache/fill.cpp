@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -95,7 +94,7 @@ private:
     FillReport report_;
 };
 
-// Null: there is no more. write() ends what this began.
+// Null: there is no more. The chunk lives until write() has stored it.
 Work* Filling::read_next()
 {
     const BusyClock::Turn turn(disk_);
@@ -181,13 +180,16 @@ void Filling::write(Work& work)
     const bool is_written = work.stored == 0 || !what.empty();
     const std::size_t bytes = is_written ? cache_.write(work.at, work.results, work.digest) : 0;
     const CachedCrowd& crowd = cache_.crowd();
+    std::unique_ptr<Work> done;  // is freed after the lock
     const std::lock_guard lock(mutex_);
+    const auto at = std::ranges::find(under_way_, &work, [](const auto& each) { return each.get(); });
+    done = std::move(*at);
+    under_way_.erase(at);
     if (!what.empty()) report_.differences.push_back({work.at, what});
     ++(work.stored == 0 ? report_.written : report_.compared);
     report_.bytes += bytes;
     report_.limbs +=
         std::uint64_t{crowd.frames_in(work.at.time)} * crowd.characters_in(work.at.column) * crowd.limbs.size();
-    std::erase_if(under_way_, [&](const auto& each) { return each.get() == &work; });
     ++through_;
     if (options_.progress) options_.progress(through_);
 }

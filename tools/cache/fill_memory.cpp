@@ -49,9 +49,10 @@ std::size_t chunks_in_flight(const Cache& cache, const FillOptions& options, uns
     const std::uint64_t least = kProgramBytes + bytes_all_along(cache, chunk_count) + solvers + of_chunk;
     if (options.memory < least)
         throw formats::InputError(
-            cache.folder(), fmt::format("one chunk for each of {} threads takes {} MiB of memory, and --memory is {} "
-                                        "MiB; give more, or store the crowd in smaller chunks",
-                                        threads, (least >> 20) + 1, options.memory >> 20));
+            cache.folder(),
+            fmt::format("one chunk takes {} MiB of memory with {} threads that solve, and --memory is {} "
+                        "MiB; give more, use fewer threads, or store the crowd in smaller chunks",
+                        (least >> 20) + 1, threads, options.memory >> 20));
     return std::clamp<std::size_t>((options.memory - least) / of_chunk + 1, 1, kMostInFlight);
 }
 

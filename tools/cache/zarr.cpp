@@ -147,7 +147,8 @@ void ZarrStore::write_array(const ZarrArray& array) const
 #endif
     for (const auto& [path, json] : metadata(array)) {
         make_folder(path.parent_path());
-        if (std::error_code ignored; !fs::exists(path, ignored) || read_json(path) != json) write_json(path, json);
+        const bool is_group = path.filename() == ".zgroup";  // of other arrays, too
+        if (std::error_code ignored; !is_group || !fs::exists(path, ignored)) write_json(path, json);
     }
 }
 

@@ -87,9 +87,8 @@ void add_check(CLI::App& app)
     add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->json);
     command->footer(
-        "All chunks are solved again and compared. A chunk that differs is named and written again; the exit code is "
-        "then "
-        "1, and another check closes the cache.");
+        "All chunks are solved again and compared. Those that differ are named and written again, with exit code 1; "
+        "run check again then. A closed cache of poses is compared with its digests.");
     command->callback([options] { run_check(*options); });
 }
 

@@ -82,7 +82,7 @@ std::vector<std::vector<Cell>> facts_of(const Json& run)
     add("targets from", targets == "clip" ? "the clip" : targets);
     if (run.contains("crowd")) add("all else from", string_of(run.at("crowd")));
     add(limbs + " solved, in all frames", count_of(run.at(limbs)));
-    add("too far or too near, by more than 1e-4 of their length", count_of(run.at("out_of_reach")));
+    add("out of reach: too far or too near, by more than 1e-4 of their length", count_of(run.at("out_of_reach")));
     add("with bad input", count_of(run.at("bad_input")));
     add("seconds to solve", digits_of(run.at("solve_seconds")));
     add("million " + limbs + " a second", digits_of(run.at(limbs + "_per_second").get<double>() / 1e6));

@@ -13,6 +13,7 @@ import { Feature, SwivelError } from "./stage.js";
 import { number, saidOf, typeset } from "./words.js";
 
 const OFF = 1e-4;  // arm lengths between solver and steps that are worth a word: a hundred times what floats leave
+const TURNED = 0.1;  // degrees from the pole's own elbow that are worth a word
 
 /** Where the wrist goes, relative to the shoulder: the target less the effector, as the hand's goal turns it. */
 function wristGoal(stage, { limb, character }, { target }) {
@@ -68,8 +69,8 @@ function makeWords(swivel) {
         list.replaceChildren(...made.entities.filter((entity) => entity.step === step + 1).flatMap(rowOf));
         closing.textContent = saidOf(limb, `Both rotations put the wrist ${number(made.closingError)} arm lengths from the target.` + (off <= OFF ? "" :
             ` The lecture knows no limits: limits, weights, reach or a step hold the arm that you see ${number(off)} arm lengths from this one.`) +
-            (turned < 0.1 ? "" :
-                ` The limb's own pole is ${turned.toFixed(1)}° off this plane: limits, an angle, weights or a step turn the elbow. So the lesson takes a pole in the plane of the arm that you see.`));
+            (turned < TURNED ? "" :
+                ` The elbow is ${turned.toFixed(1)}° from where the limb's own pole wishes it: limits, an angle, weights or a step turn it. The lesson takes a pole that gives the elbow you see.`));
     };
     const refuse = (step, { why }, limb) => {
         tellStep(step, limb);

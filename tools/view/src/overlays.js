@@ -102,11 +102,11 @@ function coneMesh(axis, cos, length, colour) {
     made.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), axis.clone().normalize());
     return made;
 }
-/** Where the handle on the shoulder cone's rim is: a quarter of the rim from the elbow, where no other handle is. */
+/** Where the handle on the shoulder cone's rim is: a quarter of the rim from the elbow, mostly away from other handles. */
 function rimOf(geometry, cone, length) {
     const axis = new Vector3().fromArray(cone).applyQuaternion(geometry.armAxes).normalize(), angle = Math.acos(cone[3]);
     const across = geometry.elbow.clone().addScaledVector(axis, -geometry.elbow.dot(axis));
-    if (across.lengthSq() === 0) across.set(1, 0, 0).cross(axis);
+    if (across.lengthSq() === 0) across.set(...(Math.abs(axis.x) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
     const aside = across.cross(axis).normalize();
     return axis.multiplyScalar(0.6 * length * Math.cos(angle)).addScaledVector(aside, 0.6 * length * Math.sin(angle));
 }

@@ -74,7 +74,7 @@ export class Picker {
         const reach = 0.04 * view.figure.height * view.metres;
         let best = Infinity, found = null;
         const meet = (limb, character, a, b) => {
-            const square = ray.distanceSqToSegment(view.toScene(a), view.toScene(b), near, on), distance = Math.sqrt(Math.max(0, square));  // rounding makes it negative
+            const square = ray.distanceSqToSegment(view.toScene(a), view.toScene(b), near, on), distance = Math.sqrt(Math.max(0, square));  // rounding may make it negative
             const depth = ray.origin.distanceTo(near);
             if (distance < reach + 0.004 * depth && depth < best) [best, found] = [depth, { limb, character }];
         };

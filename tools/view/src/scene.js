@@ -12,6 +12,7 @@ import groundGlsl from "./ground.glsl";
 
 const HEIGHT = 1.75;  // of a figure in the scene, metres
 const NEARBY = 20;  // metres of the ground that the first picture is of
+const FRONTAL = 0.42;  // radians: a square block is seen 21 degrees from the front
 
 export class View {
     constructor(canvas, stage, figure) {
@@ -49,8 +50,8 @@ export class View {
     }
 
     /**
-     * Those that are drawn, from before their foremost row. Figures mostly face +z. The camera looks along the diagonal of
-     * ground that they stand on nearby, turned to the front: a block is seen from in front, a lone row along itself.
+     * Looks at the middle of the foremost row of those that are drawn. Figures mostly face +z. The camera looks along the
+     * diagonal of the ground that they stand on nearby, less FRONTAL: at a block from in front, at a lone row along itself.
      */
     home(drawnCount) {
         const { characters } = this.stage, drawn = characters.slice(0, drawnCount);
@@ -60,7 +61,7 @@ export class View {
             const along = drawn.map(({ place }) => place[axis]);
             return Math.min(NEARBY, this.metres * (Math.max(...along) - Math.min(...along)));
         });
-        const angle = Math.atan2(width + 1, depth + 1) - 0.42, distance = drawnCount > 1 ? 4.7 : 4;
+        const angle = Math.atan2(width + 1, depth + 1) - FRONTAL, distance = drawnCount > 1 ? 4.7 : 4;
         const offset = new Vector3(-distance * Math.sin(angle), 0.75 * HEIGHT, distance * Math.cos(angle));
         this.controls.target.copy(this.placeOf(this.middle)).setY(0.55 * HEIGHT);
         this.camera.position.copy(this.controls.target).addScaledVector(offset, this.farther());
@@ -80,7 +81,7 @@ export class View {
     toScene([x, y, z]) { return new Vector3(x, y - this.figure.ground, z).multiplyScalar(this.metres); }
     toClip({ x, y, z }) { return [x / this.metres, y / this.metres + this.figure.ground, z / this.metres]; }
 
-    /** Looks at a character, who may be up in a jump, from where the camera is: at the same distance, or close by. */
+    /** Looks at a character from where the camera is, at the same distance, or close by; in a jump, higher by as much. */
     lookAt(character, isClose) {
         const rise = this.figure.at(0, this.stage.clipFrame(character)).y - this.figure.at(0).y;
         const to = this.placeOf(character).setY(0.6 * HEIGHT + this.metres * rise), offset = this.camera.position.clone().sub(this.controls.target);

@@ -8,7 +8,7 @@ const DIGEST_WORDS = {
     equal: () => "equal to the command's",
     different: (native) => `not the command's ${native}: these bits differ`,
     changed: (native) => `changed by you from the command's ${native}`,
-    "out of order": () => "not compared: it carries state, which is the command's if you play from the first frame",
+    "out of order": () => "not compared: this crowd carries state, so play it from the first frame",
     none: () => "the command solved no such frame",
 };
 
