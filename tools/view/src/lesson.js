@@ -21,16 +21,19 @@ function wristGoal(stage, { limb, character }, { target }) {
     const hand = new Quaternion().fromArray(stage.input(limb, character, "hand")).normalize();
     return target.clone().sub(new Vector3().fromArray(stage.read(limb, character, "EFFECTOR")).applyQuaternion(hand));
 }
+/** From the line between shoulder and wrist to the elbow; null if the arm is straight. */
+function offLine({ elbow, along, upper }) {
+    const off = elbow.clone().addScaledVector(along, -elbow.dot(along));
+    return off.length() > 1e-3 * upper ? off : null;
+}
 /** The pole that gives the solver's elbow: that elbow, or where it would go if the arm is straight. */
 function poleFor(stage, selection, geometry) {
-    const { elbow, along, upper } = geometry, off = elbow.clone().addScaledVector(along, -elbow.dot(along));
-    return off.length() > 1e-3 * upper ? elbow : wishOf(stage, selection, geometry);
+    return offLine(geometry) ? geometry.elbow : wishOf(stage, selection, geometry);
 }
 /** How far the elbow is turned from where the limb's own pole wishes it, in degrees. */
 function turnedBy(stage, selection, geometry) {
-    const { elbow, along, upper } = geometry, off = elbow.clone().addScaledVector(along, -elbow.dot(along));
-    const wish = wishOf(stage, selection, geometry), isNone = off.length() <= 1e-3 * upper || wish.lengthSq() === 0;
-    return isNone ? 0 : off.angleTo(wish) * 180 / Math.PI;
+    const off = offLine(geometry), wish = wishOf(stage, selection, geometry);
+    return off && wish.lengthSq() > 0 ? off.angleTo(wish) * 180 / Math.PI : 0;
 }
 
 /** The steps of the chosen limb: what they start from and what the library makes of it, or why it makes nothing. */
