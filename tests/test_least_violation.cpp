@@ -90,11 +90,12 @@ TEST_CASE("of two least violations within 1e-6, the one nearer to the wish is ta
 TEST_CASE("of two as near, the lower line's is taken")
 {
     // The first line falls towards the wish. The others fall away from it, on either side. `less`: the third line falls
-    // a little sooner, so its peak is nearer by as much.
+    // a little sooner, so its peak is nearer by as much. Below a turn of 0.95, one of the others
+    // can peak just where the first line meets its twin. That place is then its own peak, too.
     rc::prop("whichever rounding prefers", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < 100; ++n) {
-            const double slope = random.between(0.05, 0.2), turn = random.between(0.9, 1.2);
+            const double slope = random.between(0.05, 0.2), turn = random.between(0.95, 1.2);
             const double less = random.between(-2e-7, 2e-7), c = 0.5 * std::cos(turn), s = 0.5 * std::sin(turn);
             Limits<float> limits = both(line(-slope, 0, -0.5), line(c, -s, -0.5));
             limits.line[2] = line(c, s, -0.5 - less), limits.line_count = 3;
