@@ -312,8 +312,9 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
         return;
     }
     wished.solve();
-    text.add(" Where the elbow was wished it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
-             room[0], swivel_between(solved.pose(), wished.pose()));
+    text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
+             flags & SWIVEL_LIMITED_STEP ? "the step ends" : "the elbow was wished", room[0],
+             swivel_between(solved.pose(), wished.pose()));
 }
 
 }  // namespace

@@ -345,6 +345,28 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
     CHECK(named > 500);
 }
 
+TEST_CASE("with a step limit, explain measures the nearest place from where the step ends")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE, 1);
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{1, 5, 3});
+    crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.3));
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone({0, 0, 1}, 3.14));
+    crowd.solve();
+    std::vector<std::array<double, 3>> elbow(1);
+    crowd.elbows(0, elbow);
+    crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone(elbow[0], 0.1));
+    crowd.write_all(SWIVEL_POLE, 0, Float3{1, -5, -3});
+    const std::string text = crowd.explain(0, 0);
+    CHECK(text.find("Where the step ends it breaks shoulder_cone") != std::string::npos);
+    const Vector3d before = vec(read<Float3>(crowd, SWIVEL_NORMAL)[0]);
+    crowd.solve();
+    const double made = std::acos(before.dot(vec(read<Float3>(crowd, SWIVEL_NORMAL)[0])));
+    CHECK(made > 0.05);
+    CHECK(number_after(text, "keeps all limits is ") == Approx((0.3 - made) * 180 / kPi).margin(0.06));
+}
+
 TEST_CASE("explain says which point a soft zone keeps from the target, and how far")
 {
     Crowd crowd = crowd_of(SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_REACH, 2);
