@@ -66,6 +66,9 @@ class Disk(Stage):
         before = files_of(cache)
         self.assert_refused(run("fill", cache, "--quiet", **nobody), "Permission denied; check the folder and its permissions")
         self.assert_refused(run("store", CLIP, cache / "other", "--quiet", **nobody), "Permission denied; check the folder and its permissions")
+        cache.chmod(0o444)  # nobody may search it
+        self.assert_refused(run("store", CLIP, cache / "clip/other", "--quiet", **nobody), "clip: cannot be read: Permission denied; check its permissions")
+        cache.chmod(0o555)
         self.assertEqual(files_of(cache), before)
         for path in [cache, *cache.rglob("*")]:
             path.chmod(0o755)
@@ -184,7 +187,8 @@ class Damage(Stage):
         self.assert_refused(done, r"2 of 20 chunks are damaged, the first is 3\.1; the cache keeps no goals, so take their files from a copy")
         files = lambda time, column: " ".join(f"{name}/{time}.0.{column}{'' if name == 'flags' else '.0'}" for name in ("shoulder", "elbow", "wrist", "flags")) + f" digest/{time}.{column}"
         self.assertEqual(done.stdout, f"damaged  chunk 3.1: {files(3, 1)}\ndamaged  chunk 4.2: {files(4, 2)}\n")
-        self.assertEqual(json.loads(run("check", cache, "--json").stdout)["damaged"], ["3.1", "4.2"])
+        self.assertEqual(json.loads(run("check", cache, "--json").stdout)["damaged"],
+                         [{"chunk": chunk, "files": files(*map(int, chunk.split("."))).split()} for chunk in ("3.1", "4.2")])
         self.assertEqual(run("check", cache, "--quiet").stdout, "")
 
 
@@ -240,6 +244,7 @@ class Metadata(Stage):
             self.assert_refused(run("replay", cache, *words), what, code=2)
         for words in (("--limbs", "all"), ("--frames", "3"), ("--crowd", "crowd.toml"), ("--seed", "1")):
             self.assert_refused(run("view", cache, *words), f"{words[0]}: the cache has its crowd already; leave the option out", code=2)
+        self.assert_refused(run("view", cache, "--characters", "101"), "--characters 101: the cache has 100$", code=2)
         for chunk in ("8", "8,17", "0,16", "8,16,1"):
             done = run("store", CLIP, self.folder / "other", "--chunk", chunk)
             self.assert_refused(done, "write FRAMES,CHARACTERS, such as 8,4096", code=2)

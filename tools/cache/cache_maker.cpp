@@ -19,11 +19,15 @@ using formats::InputError;
 
 void require_new(const fs::path& folder)
 {
-    std::error_code ignored;
+    std::error_code reason;
     const fs::path target = folder_name(folder), parent = target.parent_path();
-    if (fs::exists(fs::symlink_status(target, ignored)))
+    if (fs::exists(fs::symlink_status(target, reason)))
         throw InputError(target, "is there already; remove it, or name another folder");
-    if (!parent.empty() && !fs::is_directory(parent, ignored)) throw InputError(parent, "is no folder; make it first");
+    if (parent.empty()) return;
+    const fs::file_status there = fs::status(parent, reason);
+    if (there.type() == fs::file_type::none)
+        throw InputError(parent, fmt::format("cannot be read: {}; check its permissions", reason.message()));
+    if (!fs::is_directory(there)) throw InputError(parent, "is no folder; make it first");
 }
 
 PartialFolder::PartialFolder(const fs::path& target) : target_(target)

@@ -144,7 +144,7 @@ void check_poses(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptio
     if (damaged.empty()) cache.close();  // what an interrupted check left
     if (options.json) {
         Json list = Json::array();
-        for (const ChunkAt at : damaged) list.push_back(chunk_name(at));
+        for (const ChunkAt at : damaged) list.push_back({{"chunk", chunk_name(at)}, {"files", cache.pose_files(at)}});
         print_json({{"cache", options.folder},
                     {"chunks", chunks.size()},
                     {"proved_by", "digests"},

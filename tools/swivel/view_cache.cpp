@@ -3,8 +3,6 @@
 // `swivel view` of a cache: the page of its crowd.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
@@ -65,7 +63,9 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     const Cache cache(options.file);
     cache.require_goals();
     const CachedCrowd& crowd = cache.crowd();
-    const std::uint32_t count = std::min(options.characters.value_or(crowd.character_count), crowd.character_count);
+    const std::uint32_t count = options.characters.value_or(crowd.character_count);
+    if (count > crowd.character_count)
+        throw CommandError(2, fmt::format("--characters {}: the cache has {}", count, crowd.character_count));
     if (crowd.budget_blocks > 0 && count < crowd.character_count)
         throw CommandError(2, "--characters: a budget couples the whole crowd; leave the option out");
     ViewPage page(options.view);
