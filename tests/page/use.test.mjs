@@ -128,6 +128,43 @@ test('overlays, colours, light and dark, drawn characters change the picture', a
   assert.deepEqual([await background('light'), await background('dark')], ['light', 'dark']);
 });
 
+test('a limb has the legend\'s colour of its gravest flag', async () => {
+  await visit(demo, async (page) => {
+    await page.getByLabel('Colour limbs by').selectOption('Flag');
+    /** The legend's name for the colour in the middle of character 3's left upper arm, whatever light falls on it. */
+    const seen = () => page.evaluate(() => {
+      const { stage, view } = swivelPage, limb = stage.limbs.find(({ name }) => name === 'left_arm'), pose = stage.pose(limb, 3);
+      swivelPage.select(null);
+      swivelPage.draw();
+      const from = document.querySelector('canvas'), copy = document.createElement('canvas'), context = copy.getContext('2d');
+      [copy.width, copy.height] = [from.width, from.height];
+      context.drawImage(from, 0, 0);
+      const at = view.project(pose.shoulder.map((x, axis) => (x + pose.elbow[axis]) / 2)), scale = from.width / from.clientWidth;
+      const light = context.getImageData(at.x * scale, at.y * scale, 1, 1).data.slice(0, 3);
+      const alike = (colour) => colour.reduce((sum, c, n) => sum + c * light[n], 0) / Math.hypot(...colour);
+      const entries = [...document.querySelectorAll('.legend li')].map((entry) =>
+        [alike(getComputedStyle(entry.firstChild).backgroundColor.match(/\d+/g).map(Number)), entry.textContent]);
+      return entries.reduce((best, entry) => (entry[0] > best[0] ? entry : best))[1];
+    });
+    const cone = (degrees) => page.evaluate((value) => {
+      swivelPage.fields.SHOULDER_CONE.set([value]);
+      const box = document.querySelector('[data-field=SHOULDER_CONE]');
+      if (!box.checked) box.click();
+    }, degrees);
+    assert.equal(await seen(), 'reached');
+    await cone(5);
+    assert.equal(await seen(), 'infeasible');
+    await cone(80);
+    assert.equal(await seen(), 'limited');
+    await cone(170);
+    await page.evaluate(() => {
+      swivelPage.select({ limb: swivelPage.stage.limbs.find(({ name }) => name === 'left_arm'), character: 3 });
+      swivelPage.drag('target', swivelPage.stage.pose(swivelPage.selection.limb, 3).shoulder.map((x, axis) => x + (axis === 1 ? -5 : 0)));
+    });
+    assert.equal(await seen(), 'out of reach');
+  }, link);
+});
+
 test('the lesson shows the library\'s entities, step by step, while the arm is dragged', async () => {
   await visit(demo, async (page) => {
     const open = await difference(page, async () => {
@@ -263,5 +300,8 @@ test('a phone sees the panel below, and a touch chooses', async () => {
     assert.equal(await page.evaluate(() => swivelPage.selection?.character), 3);
     const box = await page.locator('aside').boundingBox();
     assert.ok(box.width < 400 && box.y > 300);
+    for (const part of [page.getByText('equal to the command\'s'), page.getByRole('button', { name: 'Light or dark' })]) assert.ok(await part.isVisible());
+    const head = await page.locator('header').boundingBox(), shoulder = await pixel(page, 'shoulder');
+    assert.ok(shoulder.y > head.y + head.height && shoulder.y < box.y, `${shoulder.y}`);
   }, { ...link, viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true });
 });

@@ -9,14 +9,14 @@ import {
 import bodyFragment from "./body.frag.glsl";
 import bodyVertex from "./body.vert.glsl";
 import capsule from "./capsule.glsl";
-import { CHOSEN, flagColours, LIMB_COLOURS, rampColours, rgb } from "./colours.js";
+import { CHOSEN, flagColours, flagMasks, LIMB_COLOURS, rampColours, rgb } from "./colours.js";
 import crowdGlsl from "./crowd.glsl";
 import light from "./light.frag.glsl";
 import limbFragment from "./limb.frag.glsl";
 import limbGlsl from "./limb.glsl";
 import limbVertex from "./limb.vert.glsl";
 import { floatTexture, LimbRows } from "./rows.js";
-import { Flag, rotationOf } from "./stage.js";
+import { rotationOf } from "./stage.js";
 
 const SUN = new Vector3(0.45, 1, 0.35);
 
@@ -45,14 +45,6 @@ function capsules(partCount, isShadow) {
 }
 
 const quaternionOf = (binding, member) => new Vector4().fromArray(rotationOf(binding, member));
-
-/** The flags of each colour, as limb.frag.glsl asks for them. */
-const LIMITS = Object.keys(Flag).filter((name) => name.startsWith("LIMITED_"));
-const flagsOf = (...names) => `${names.reduce((word, name) => word | Flag[name], 0)}u`;
-const DEFINES = {
-    BAD: flagsOf("BAD_INPUT"), UNDEFINED: flagsOf("SWIVEL_UNDEFINED"), LIMITED: flagsOf(...LIMITS, "INFEASIBLE", "JUMPED"),
-    CLAMPED: flagsOf("CLAMPED_FAR", "CLAMPED_NEAR"), EASED: flagsOf("SOFTENED", "STRETCHED"),
-};
 
 export class Bodies {
     /** scale: metres of the scene for a unit of the clip. mostTexels: of a side of a texture. */
@@ -93,7 +85,7 @@ export class Bodies {
             uWristRest: quaternionOf(binding, "wrist_rest"), uMirror: limb.mirrored ? -1 : 1, uTip: tip,
             uRadii: new Vector4(1.05 * radii[0], 0.85 * radii[0], 0.8 * radii[1], 0.75 * radii[2]), uUpperJoint: limb.joints[0], uChosen: -1,
             uColour: rgb(LIMB_COLOURS[limb.index % LIMB_COLOURS.length]), uChosenColour: rgb(CHOSEN), uColourBy: 0,
-            uRamp: rampColours(), uFlagColours: flagColours(),
+            uRamp: rampColours(), uFlagColours: flagColours(), uFlagMasks: flagMasks(),
         };
         for (const name of Object.keys(uniforms)) uniforms[name] = { value: uniforms[name] };
         const drawn = { limb, uniforms, rows: null, crowd: null };
@@ -119,7 +111,7 @@ export class Bodies {
         const uniforms = { ...this.shared, ...own };
         for (const shadow of [false, true]) {
             const material = new ShaderMaterial({
-                uniforms, glslVersion: GLSL3, defines: shadow ? { ...DEFINES, SHADOW: "" } : DEFINES,
+                uniforms, glslVersion: GLSL3, defines: { FLAG_COLOURS: flagMasks().length, ...(shadow && { SHADOW: "" }) },
                 vertexShader: vertex.join("\n"), fragmentShader: `uniform vec3 uSun;\n${light}\n${fragment}`,
                 depthWrite: !shadow,
             });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The page's colours, light and dark, and what a limb's colour may say. limb.frag.glsl has the same rules.
+import { Flag } from "swivel-wasm/layout.js";
 import { Color } from "three";
 
 export const THEMES = {
@@ -12,8 +13,11 @@ export const CHOSEN = "#ffd34d";
 export const CONE = "#ff5fa8";  // of the shoulder's limit and of the ball on its rim
 
 const RAMP = ["#2c7fb8", "#41b6a6", "#d9e26a", "#f6a03c", "#d7301f"];
-const FLAGS = [["reached", "#58a968"], ["softened or stretched", "#9fd356"], ["out of reach", "#e8a33d"], ["limited", "#a877d8"],
-    ["swivel undefined", "#6f7f92"], ["bad input", "#e0433b"]];
+const LIMITED = Object.keys(Flag).filter((name) => name.startsWith("LIMITED_"));
+/** Names, colours and flags. A limb takes the last whose flags it has, the first if it has none. */
+const FLAGS = [["reached", "#58a968"], ["softened or stretched", "#9fd356", "SOFTENED", "STRETCHED"],
+    ["out of reach", "#e8a33d", "CLAMPED_FAR", "CLAMPED_NEAR"], ["limited", "#a877d8", ...LIMITED, "JUMPED"], ["infeasible", "#d6409f", "INFEASIBLE"],
+    ["swivel undefined", "#6f7f92", "SWIVEL_UNDEFINED"], ["bad input", "#e0433b", "BAD_INPUT"]];
 
 /** What a limb's colour says: the legend's entries, from the least on. */
 export const COLOUR_BY = [
@@ -29,3 +33,4 @@ export function rgb(css) {
 }
 export const rampColours = () => RAMP.map(rgb);
 export const flagColours = () => FLAGS.map(([, colour]) => rgb(colour));
+export const flagMasks = () => FLAGS.map(([, , ...flags]) => flags.reduce((word, name) => word | Flag[name], 0));

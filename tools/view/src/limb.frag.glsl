@@ -1,7 +1,8 @@
 // A limb in its own colour, or by what the solver says of it (colours.js has the same numbers for the legend).
-uniform int uColourBy;         // 0: its own, 1: error, 2: flag, 3: flexion
-uniform vec3 uRamp[5];         // of error and flexion
-uniform vec3 uFlagColours[6];  // reached, softened or stretched, out of reach, limited, undefined swivel, bad input
+uniform int uColourBy;  // 0: its own, 1: error, 2: flag, 3: flexion
+uniform vec3 uRamp[5];  // of error and flexion
+uniform vec3 uFlagColours[FLAG_COLOURS];
+uniform uint uFlagMasks[FLAG_COLOURS];  // the flags that have that colour
 uniform vec3 uChosenColour;
 flat in uint vFlags;
 flat in float vFlexion, vMissed, vChosen;
@@ -12,12 +13,10 @@ vec3 ramp(float share) {
     return mix(uRamp[n], uRamp[n + 1], at - float(n));
 }
 vec3 ofFlags() {
-    if ((vFlags & BAD) != 0u) return uFlagColours[5];
-    if ((vFlags & UNDEFINED) != 0u) return uFlagColours[4];
-    if ((vFlags & LIMITED) != 0u) return uFlagColours[3];
-    if ((vFlags & CLAMPED) != 0u) return uFlagColours[2];
-    if ((vFlags & EASED) != 0u) return uFlagColours[1];
-    return uFlagColours[0];
+    vec3 seen = uFlagColours[0];
+    for (int n = 1; n < FLAG_COLOURS; ++n)
+        if ((vFlags & uFlagMasks[n]) != 0u) seen = uFlagColours[n];
+    return seen;
 }
 void main() {
 #ifdef SHADOW

@@ -70,7 +70,7 @@ export class View {
     /** How much farther the camera must be for a figure to fit into what the page's parts leave free. */
     farther() {
         const { width, height } = this.size, { right, top, bottom } = this.covered;
-        return Math.min(2, Math.max(1, 0.85 * height / (height - top - bottom), 0.68 * height / (width - right)));
+        return Math.min(3, Math.max(1, 0.85 * height / (height - top - bottom), 0.68 * height / (width - right)));
     }
     /** Where a character's first joint is on the ground. */
     placeOf(character) {
