@@ -41,14 +41,6 @@ CachedCrowd some_crowd()
 // Where a chunk is, as a number that orders work.
 std::pair<std::uint32_t, std::uint32_t> in_order(ChunkAt at) { return {at.column, at.time}; }
 
-std::map<std::string, std::string> files_of(const fs::path& folder)
-{
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder)] = slurp(entry.path());
-    return files;
-}
-
 // A replay goes through the characters in another order.
 std::multiset<std::string> sorted_lines(const fs::path& path)
 {
@@ -165,7 +157,7 @@ struct CacheStage {
         words.insert(words.end(), crowd.begin(), crowd.end());
         return words;
     }
-    std::map<std::string, std::string> files() const { return files_of(folder / "cache"); }
+    std::map<std::string, std::string> files() const { return contents(folder / "cache"); }
     // Turns a bit of a file over.
     void flip(const std::string& name) const
     {
@@ -303,7 +295,7 @@ TEST_CASE("A store that another left unfinished is not taken up")
     fs::create_directory(stage.folder / fmt::format(".swivel-{}-0", ::getpid()));
     spill(stage.folder / fmt::format(".swivel-{}-0/junk", ::getpid()), "of another process");
     require_done(stage.run(stage.with_crowd({"store", "clip.bvh", "second", "--chunk", "1,16"})));
-    CHECK(files_of(stage.folder / "second") == stage.files());
+    CHECK(contents(stage.folder / "second") == stage.files());
     CHECK(fs::exists(stage.folder / fmt::format(".swivel-{}-0/junk", ::getpid())));
     const std::string longest(255, 'n');
     require_done(stage.run(stage.with_crowd({"store", "clip.bvh", longest})));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The command as people and scripts meet it: help, usage errors, reports for both, the progress bar, the exit code.
-// Bad files are in test_command_input.cpp, solved crowds in test_command_crowd.cpp.
-#include <rapidcheck/catch.h>
+// The command as people and scripts meet it: help, usage errors, reports for both, the exit code. Bad files are in
+// test_command_input.cpp, solved crowds in test_command_crowd.cpp.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -13,13 +12,11 @@
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
 #include "tests/test_data.h"
-#include "tools/cli/progress.h"
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
-using swivel::tools::progress_line;
 using Json = nlohmann::json;
 
 namespace {
@@ -103,10 +100,6 @@ double number_after(const std::string& text, const std::string& label)
     REQUIRE(at != std::string::npos);
     return std::strtod(text.c_str() + at + label.size(), nullptr);
 }
-
-const Surroundings kTerminal{{"TERM=xterm"}, true};
-// Long enough for bars, 0.1 s apart, on a machine ten times faster than today's.
-const Words kLongRun = {"demo", "--characters", "20000", "--frames", "100"};
 
 }  // namespace
 
@@ -381,7 +374,7 @@ TEST_CASE("command: bench has a row for everyone on every instruction set")
         CHECK_THAT(slurp(folder / "r.html"), Contains(">" + size.at("arms").dump() + "<"));
     }
 
-    const Outcome text = spawn_command(folder.path, {"bench", "--seconds", "0.2", "--quiet"}, kTerminal);
+    const Outcome text = spawn_command(folder.path, {"bench", "--seconds", "0.2", "--quiet"}, {{"TERM=xterm"}, true});
     CHECK(text.exit_code == 0);
     CHECK(text.err.empty());
     CHECK_THAT(text.out, Contains(info.at("cpu").get<std::string>()) &&
@@ -407,65 +400,6 @@ TEST_CASE("command: an instruction set that does not exist")
     }
     const TempFolder folder;
     CHECK(spawn_command(folder.path, {"--help"}, forced).exit_code == 0);
-}
-
-TEST_CASE("command: the progress bar is for terminals alone, and wiped")
-{
-    const TempFolder folder;
-    const Outcome piped = spawn_command(folder.path, kLongRun, {{"TERM=xterm"}});
-    CHECK(piped.exit_code == 0);
-    CHECK(piped.err.empty());
-    Surroundings dumb = kTerminal;
-    dumb.environment = {"TERM=dumb"};
-    CHECK(spawn_command(folder.path, kLongRun, dumb).err.empty());
-    const Outcome watched = spawn_command(folder.path, kLongRun, kTerminal);
-    CHECK(watched.exit_code == 0);
-    CHECK_THAT(watched.err, StartsWith("\r[") && Contains(" of 100 frames") && EndsWith("\r\x1b[K"));
-    CHECK_THAT(watched.err, !Contains("\n"));
-    CHECK_THAT(watched.out, Contains("million arms/s") && !Contains("\x1b"));
-    Words quiet = kLongRun;
-    quiet.push_back("--quiet");
-    const Outcome silent = spawn_command(folder.path, quiet, kTerminal);
-    CHECK(silent.err.empty());
-    CHECK_THAT(silent.out, Contains("million arms/s"));
-}
-
-TEST_CASE("command: the progress bar is narrower than the terminal, whoever says how wide that is")
-{
-    const TempFolder folder;
-    for (const Surroundings& narrow :
-         {Surroundings{{"TERM=xterm", "COLUMNS=200"}, true, 24}, Surroundings{{"TERM=xterm", "COLUMNS=24"}, true}}) {
-        const Outcome outcome = spawn_command(folder.path, kLongRun, narrow);
-        CHECK_THAT(outcome.err, Contains(" %"));
-        std::size_t widest = 0;
-        for (std::size_t at = 0; at < outcome.err.size();) {
-            const std::size_t end = outcome.err.find("\x1b[K", at);
-            REQUIRE(end != std::string::npos);
-            CHECK(outcome.err[at] == '\r');
-            widest = std::max(widest, end - at - 1);
-            at = end + 3;
-        }
-        CHECK(widest > 0);
-        CHECK(widest < 24);
-    }
-}
-
-TEST_CASE("command: a progress line fits, and says as much as fits")
-{
-    rc::prop("narrower than the terminal, with all figures where there is room", [] {
-        const auto total = *rc::gen::inRange<std::uint64_t>(2, 1'000'000'000'000);
-        const auto done = *rc::gen::inRange<std::uint64_t>(0, total + 1);
-        const auto columns = *rc::gen::inRange<std::size_t>(0, 200);
-        const double seconds = *rc::gen::inRange(0, 1'000'000);
-        const std::string line = progress_line(done, total, "frames", seconds, columns);
-        RC_ASSERT(line.size() < std::max<std::size_t>(columns, 1));
-        RC_ASSERT(line.find_first_of("\r\n") == std::string::npos);
-        if (columns > 5) RC_ASSERT(line.find(std::to_string(100 * done / total) + " %") != std::string::npos);
-        const std::string wide = progress_line(done, total, "frames", seconds, 200);
-        RC_ASSERT(wide.find(std::to_string(done) + " of " + std::to_string(total) + " frames, ") != std::string::npos);
-        RC_ASSERT(std::count(wide.begin(), wide.end(), '#') == static_cast<long>(30 * done / total));
-        if (wide.size() < columns) RC_ASSERT(line == wide);
-    });
 }
 
 TEST_CASE("command: a report that cannot be written is a failure")

@@ -1,14 +1,15 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Files for tests: real motion where a machine keeps it, a folder of its own for what a test writes, and text mutated
-// at random. Real files are looked for in $SWIVEL_TEST_DATA, in Debian's assimp-testmodels, and in ../shared/data
-// beside the repository.
+// Files for tests: real motion where a machine keeps it, a folder of its own for what a test writes, what a folder
+// holds, and text mutated at random. Real files are looked for in $SWIVEL_TEST_DATA, in Debian's assimp-testmodels, and
+// in ../shared/data beside the repository.
 
 #include <catch2/catch.hpp>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <random>
 #include <string>
 #include <string_view>
@@ -47,6 +48,9 @@ struct TempFolder {
     fs::path operator/(std::string_view name) const { return path / name; }
     auto file_count() const { return std::distance(fs::directory_iterator(path), fs::directory_iterator()); }
 };
+
+// Everything below a folder: names within it, and for files their bytes.
+std::map<std::string, std::string> contents(const fs::path& folder);
 
 // `text` with the first `from` replaced by `to`; fails the test if there is none.
 std::string edited(std::string text, std::string_view from, std::string_view to);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: no output of `solve` replaces a file that it reads: exit code 2, one line, and every file keeps its
+// bytes.
+#include <fcntl.h>
+#include <unistd.h>
+#include <catch2/catch.hpp>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/plain_motion.h"
+#include "tests/random_figure.h"
+#include "tests/run_command.h"
+#include "tests/test_data.h"
+
+using namespace swivel::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+const std::string kTargets = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n0,0,left,6,8,3,4,8,9\n";
+
+}  // namespace
+
+TEST_CASE("overwrite: what is read is never written over")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "t.csv", kTargets);
+    spill(folder / "c.toml", "[crowd]\n");
+    fs::create_hard_link(folder / "t.csv", folder / "same.csv");
+    const auto before = contents(folder.path);
+    for (const auto& [out, what] : {std::pair("clip.bvh", "is the clip itself"),
+                                    {"./clip.bvh", "is the clip itself"},
+                                    {"t.csv", "is the table of targets itself"},
+                                    {"same.csv", "is the table of targets itself"}}) {
+        const Outcome outcome =
+            run_command(folder.path, {"solve", "clip.bvh", "--targets", "t.csv", "--crowd", "c.toml", "--out", out});
+        INFO(outcome.err);
+        CHECK(outcome.exit_code == 2);
+        CHECK_THAT(outcome.err, Contains(what) && Contains(out));
+        CHECK(contents(folder.path) == before);
+    }
+    for (const std::string read : {"clip.bvh", "t.csv", "same.csv"}) {
+        const Words words = {"solve", "clip.bvh", "--targets", "t.csv", "--export-targets", read};
+        CHECK(run_command(folder.path, words).exit_code == 2);
+        CHECK(contents(folder.path) == before);
+    }
+    fs::rename(folder / "c.toml", folder / "c.csv");
+    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.csv", "--out", "c.csv"}).exit_code == 2);
+    CHECK(slurp(folder / "c.csv") == "[crowd]\n");
+}
+
+TEST_CASE("overwrite: a file that stands on standard input is never written over")
+{
+    const TempFolder folder;
+    spill(folder / "clip.bvh", kTwoArms);
+    spill(folder / "t.csv", kTargets);
+    spill(folder / "c.csv", "[crowd]\n");
+    spill(folder / "reads.toml", "[crowd]\ntargets = \"-\"\n");
+    fs::create_hard_link(folder / "t.csv", folder / "same.csv");
+    const auto before = contents(folder.path);
+    const auto run = [&](const char* input, Words words) {
+        Surroundings piped;
+        piped.before = [input] { ::dup2(::open(input, O_RDONLY | O_CLOEXEC), STDIN_FILENO); };
+        words.insert(words.begin(), {"solve", "--quiet"});
+        return spawn_command(folder.path, words, piped);
+    };
+    const auto refused = [&](const char* input, const Words& words, const std::string& said) {
+        const Outcome outcome = run(input, words);
+        INFO(said << ": " << outcome.err);
+        CHECK(outcome.exit_code == 2);
+        CHECK(outcome.err == "swivel: " + said + " itself; name another file\n");
+        CHECK(contents(folder.path) == before);
+    };
+    refused("clip.bvh", {"-", "--out", "clip.bvh"}, "--out clip.bvh: is the clip");
+    refused("clip.bvh", {"-", "--export-targets", "clip.bvh"}, "--export-targets clip.bvh: is the clip");
+    refused("t.csv", {"clip.bvh", "--targets", "-", "--out", "same.csv"}, "--out same.csv: is the table of targets");
+    refused("t.csv", {"clip.bvh", "--targets", "-", "--export-targets", "./t.csv"},
+            "--export-targets ./t.csv: is the table of targets");
+    refused("t.csv", {"clip.bvh", "--crowd", "reads.toml", "--out", "t.csv"}, "--out t.csv: is the table of targets");
+    refused("c.csv", {"clip.bvh", "--crowd", "-", "--out", "c.csv"}, "--out c.csv: is the crowd file");
+    // What is not read, and another file, may be written.
+    CHECK(run("clip.bvh", {"-", "--out", "-", "--export-targets", "new.csv"}).exit_code == 0);
+    CHECK(run("c.csv", {"clip.bvh", "--out", "c.csv"}).exit_code == 0);
+    CHECK(run("/dev/null", {"clip.bvh", "--out", "/dev/null", "--format", "csv"}).exit_code == 0);
+}
+
+TEST_CASE("overwrite: the buffers and images that a clip uses are never written over")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "art");
+    std::mt19937 random(7);
+    Figure figure = random_figure(random, {}, figure_names()[0]);
+    figure.rig.json["images"] = {{{"uri", "art/s%20kin.png"}}, {{"uri", "gone.csv"}}};
+    figure.rig.write(folder / "f.gltf");
+    spill(folder / "art/s kin.png", "a picture");
+    const std::string buffer = nlohmann::json::parse(slurp(folder / "f.gltf")).at("buffers")[0].at("uri");
+    fs::create_symlink(buffer, folder / "link");
+    const auto before = contents(folder.path);
+    for (const std::string& file : Words{buffer, "./link", "art/../art/s kin.png", "gone.csv"})
+        for (const char* const option : {"--out", "--export-targets"}) {
+            Words words = {"solve", "f.gltf", option, file};
+            if (option == std::string("--out")) words.insert(words.end(), {"--format", "csv"});
+            const Outcome outcome = run_command(folder.path, words);
+            INFO(option << " " << file << ": " << outcome.err);
+            CHECK(outcome.exit_code == 2);
+            CHECK_THAT(outcome.err, Contains(file + ": is a buffer or image of the clip itself; name another file"));
+            CHECK(contents(folder.path) == before);
+        }
+    CHECK(run_command(folder.path, {"solve", "f.gltf", "--out", "art/out.csv"}).exit_code == 0);
+}
