@@ -17,8 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& string) { return string.get<std::string>(); }
-
 // Numbers with that between them. Components of a direction are so near to 0 that they are rounding, or they are not.
 std::string joined(const Json& numbers, const char* between)
 {

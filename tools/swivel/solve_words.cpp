@@ -12,7 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string string_of(const Json& string) { return string.get<std::string>(); }
 std::string digits_of(const Json& number) { return fmt::format("{:.4g}", number.get<double>()); }
 
 // What was solved: "arms", "legs" or "limbs", as json_of() has it.
@@ -35,6 +34,7 @@ double furthest_of(const Json& run)
 
 }  // namespace
 
+std::string text_of(const Json& string) { return string.get<std::string>(); }
 std::string count_of(const Json& number)
 {
     std::string digits = std::to_string(number.get<std::uint64_t>());
@@ -67,12 +67,12 @@ std::string result_of(const Json& run)
 
 std::vector<std::vector<Cell>> facts_of(const Json& run)
 {
-    const std::string limbs = limbs_of(run), targets = string_of(run.at("targets"));
+    const std::string limbs = limbs_of(run), targets = text_of(run.at("targets"));
     const Json& frame_time = run.at("frame_time");
     std::vector<std::vector<Cell>> rows;
     const auto add = [&](const std::string& what, const std::string& value) { rows.push_back({what, value}); };
-    add("clip", string_of(run.at("clip")));
-    add("motion", string_of(run.at("motion")));
+    add("clip", text_of(run.at("clip")));
+    add("motion", text_of(run.at("motion")));
     add("joints", count_of(run.at("joints")));
     add("frames", count_of(run.at("frames")));
     add("frames a second",
@@ -80,18 +80,18 @@ std::vector<std::vector<Cell>> facts_of(const Json& run)
     add("characters", count_of(run.at("characters")));
     if (run.at("characters").get<std::uint32_t>() > 1) add("seed of the crowd", count_of(run.at("seed")));
     add("targets from", targets == "clip" ? "the clip" : targets);
-    if (run.contains("crowd")) add("all else from", string_of(run.at("crowd")));
+    if (run.contains("crowd")) add("all else from", text_of(run.at("crowd")));
     add(limbs + " solved, in all frames", count_of(run.at(limbs)));
     add("out of reach: too far or too near, by more than 1e-4 of their length", count_of(run.at("out_of_reach")));
     add("with bad input", count_of(run.at("bad_input")));
     add("seconds to solve", digits_of(run.at("solve_seconds")));
     add("million " + limbs + " a second", digits_of(run.at(limbs + "_per_second").get<double>() / 1e6));
-    add("instruction set", string_of(run.at("isa")));
+    add("instruction set", text_of(run.at("isa")));
     add("threads", count_of(run.at("threads")));
     add("seconds in all, with reading and writing", digits_of(run.at("seconds")));
-    if (run.contains("out")) add("poses in", string_of(run.at("out")));
-    if (run.contains("export_targets")) add("targets in", string_of(run.at("export_targets")));
-    if (run.contains("view")) add("page", string_of(run.at("view")));
+    if (run.contains("out")) add("poses in", text_of(run.at("out")));
+    if (run.contains("export_targets")) add("targets in", text_of(run.at("export_targets")));
+    if (run.contains("view")) add("page", text_of(run.at("view")));
     return rows;
 }
 

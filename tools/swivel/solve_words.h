@@ -11,6 +11,7 @@
 
 namespace swivel::tools {
 
+std::string text_of(const nlohmann::ordered_json& string);
 // A count, with commas between thousands.
 std::string count_of(const nlohmann::ordered_json& number);
 
