@@ -304,16 +304,19 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
             alone.add("%s%s", alone.is_empty() ? "" : " and ", name_of(limit.field));
     }
     if (broken.is_empty()) return;
+    const bool is_step = flags & SWIVEL_LIMITED_STEP;  // limits then forbid the place where the step ends
     if (flags & SWIVEL_INFEASIBLE) {
         text.add(" No place of the elbow keeps %s%s: the one that violates them least is taken.",
-                 alone.is_empty() ? "all limits at once, as the wish breaks " : "",
+                 !alone.is_empty() ? ""
+                 : is_step         ? "all limits at once, as the step's end breaks "
+                                   : "all limits at once, as the wish breaks ",
                  alone.is_empty() ? room[0] : room[1]);
         explain_violations(crowd, group, limb, text);
         return;
     }
     wished.solve();
     text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
-             flags & SWIVEL_LIMITED_STEP ? "the step ends" : "the elbow was wished", room[0],
+             is_step ? "the step takes the elbow," : "the elbow was wished", room[0],
              swivel_between(solved.pose(), wished.pose()));
 }
 

@@ -92,5 +92,8 @@ inline const std::string kTwoArms = [] {
            "1 2 3 0 10 0 0 20 0 0 -30 0 5 0 0 0 20 0 0 30 0 5 0 0\n"
            "1 2 4 0 11 0 0 21 0 0 -31 0 6 0 0 0 21 0 0 31 0 6 0 0\n";
 }();
+// A table of targets for it: its columns, and a row.
+inline const std::string kColumns = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n";
+inline const std::string kGoodRow = "0,0,left,6,8,3,4,8,9\n";
 
 }  // namespace swivel::test

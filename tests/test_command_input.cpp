@@ -71,9 +71,6 @@ const std::string kTwoLegs = [] {
     return text;
 }();
 
-const std::string kColumns = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n";
-const std::string kGoodRow = "0,0,left,6,8,3,4,8,9\n";
-
 void require_table_refused(const std::string& text, const Words& said, const Words& more = {})
 {
     const TempFolder folder;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: no output of `solve` replaces a file that it reads: exit code 2, one line, and every file keeps its
-// bytes.
+// The promise: no output of `solve` replaces a file that it reads. The exit code is 2, one line says why, and every
+// file keeps its bytes.
 #include <fcntl.h>
 #include <unistd.h>
 #include <catch2/catch.hpp>
@@ -21,15 +21,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const std::string kTargets = "frame,character,side,x,y,z,pole_x,pole_y,pole_z\n0,0,left,6,8,3,4,8,9\n";
-
 }  // namespace
 
 TEST_CASE("overwrite: what is read is never written over")
 {
     const TempFolder folder;
     spill(folder / "clip.bvh", kTwoArms);
-    spill(folder / "t.csv", kTargets);
+    spill(folder / "t.csv", kColumns + kGoodRow);
     spill(folder / "c.toml", "[crowd]\n");
     fs::create_hard_link(folder / "t.csv", folder / "same.csv");
     const auto before = contents(folder.path);
@@ -58,7 +56,7 @@ TEST_CASE("overwrite: a file that stands on standard input is never written over
 {
     const TempFolder folder;
     spill(folder / "clip.bvh", kTwoArms);
-    spill(folder / "t.csv", kTargets);
+    spill(folder / "t.csv", kColumns + kGoodRow);
     spill(folder / "c.csv", "[crowd]\n");
     spill(folder / "reads.toml", "[crowd]\ntargets = \"-\"\n");
     fs::create_hard_link(folder / "t.csv", folder / "same.csv");

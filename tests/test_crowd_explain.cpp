@@ -347,10 +347,11 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
 
 TEST_CASE("with a step limit, explain measures the nearest place from where the step ends")
 {
-    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE, 1);
+    Crowd crowd = crowd_of(SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST, 1);
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, 5, 3});
+    crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, range(-3.14, 3.14));
     crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.3));
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone({0, 0, 1}, 3.14));
     crowd.solve();
@@ -359,9 +360,11 @@ TEST_CASE("with a step limit, explain measures the nearest place from where the 
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, cone(elbow[0], 0.1));
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, -5, -3});
     const std::string text = crowd.explain(0, 0);
-    CHECK(text.find("Where the step ends it breaks shoulder_cone") != std::string::npos);
+    CHECK(text.find("Where the step takes the elbow, it breaks shoulder_cone") != std::string::npos);
     const Vector3d before = vec(read<Float3>(crowd, SWIVEL_NORMAL)[0]);
     crowd.solve();
+    crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, range(2, 2.1));
+    CHECK(says(crowd, 0, "keeps all limits at once, as the step's end breaks shoulder_cone and humeral_twist:"));
     const double made = std::acos(before.dot(vec(read<Float3>(crowd, SWIVEL_NORMAL)[0])));
     CHECK(made > 0.05);
     CHECK(number_after(text, "keeps all limits is ") == Approx((0.3 - made) * 180 / kPi).margin(0.06));

@@ -58,8 +58,7 @@ std::map<std::string, std::string> contents(const fs::path& folder)
     std::map<std::string, std::string> all;
     std::error_code dangling;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-        all[fs::relative(entry.path().parent_path(), folder) / entry.path().filename()] =
-            entry.is_regular_file(dangling) ? slurp(entry.path()) : "";
+        all[entry.path().lexically_relative(folder)] = entry.is_regular_file(dangling) ? slurp(entry.path()) : "";
     return all;
 }
 

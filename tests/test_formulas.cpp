@@ -158,7 +158,8 @@ TEST_CASE("the production formula puts the wrist on its target")
             const double reach = std::clamp(d, std::fabs(arm.upper - arm.fore), arm.length());
             const Vector3d reachable = reach / d * arm.wrist;
             const double nearest = 2 * kNearest * arm.length();  // doubled: the solver measures in a power of two
-            const double off = d < nearest ? nearest : 2e-12 * arm.length();  // no wrist comes nearer to the shoulder
+            const double off =
+                reach < nearest ? nearest : 2e-12 * arm.length();  // no wrist comes nearer to the shoulder
             RC_ASSERT((wrist_place(solve<double>(arm), arm) - reachable).norm() <= off);
             RC_ASSERT((wrist_place(solve<float>(arm), arm) - reachable).norm() < 1e-6 * arm.length());
         });

@@ -90,8 +90,8 @@ TEST_CASE("of two least violations within 1e-6, the one nearer to the wish is ta
 TEST_CASE("of two as near, the lower line's is taken")
 {
     // The first line falls towards the wish. The others fall away from it, on either side. `less`: the third line falls
-    // a little sooner, so its peak is nearer by as much. Below a turn of 0.95, one of the others
-    // can peak just where the first line meets its twin. That place is then its own peak, too.
+    // a little sooner, so its peak is nearer by as much. With turns up
+    // to 0.91, the first line can meet one of the others just where the other one peaks. So turns start at 0.95.
     rc::prop("whichever rounding prefers", [](std::uint64_t seed) {
         Random random{seed};
         for (int n = 0; n < 100; ++n) {

@@ -67,7 +67,7 @@ class Disk(Stage):
         self.assert_refused(run("fill", cache, "--quiet", **nobody), "Permission denied; check the folder and its permissions")
         self.assert_refused(run("store", CLIP, cache / "other", "--quiet", **nobody), "Permission denied; check the folder and its permissions")
         cache.chmod(0o444)  # nobody may search it
-        self.assert_refused(run("store", CLIP, cache / "clip/other", "--quiet", **nobody), "clip: cannot be read: Permission denied; check its permissions")
+        self.assert_refused(run("store", CLIP, cache / "clip/other", "--quiet", **nobody), "clip: cannot be reached: Permission denied; check the path and its permissions")
         cache.chmod(0o555)
         self.assertEqual(files_of(cache), before)
         for path in [cache, *cache.rglob("*")]:

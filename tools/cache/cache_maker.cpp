@@ -26,7 +26,8 @@ void require_new(const fs::path& folder)
     if (parent.empty()) return;
     const fs::file_status there = fs::status(parent, reason);
     if (there.type() == fs::file_type::none)
-        throw InputError(parent, fmt::format("cannot be read: {}; check its permissions", reason.message()));
+        throw InputError(parent,
+                         fmt::format("cannot be reached: {}; check the path and its permissions", reason.message()));
     if (!fs::is_directory(there)) throw InputError(parent, "is no folder; make it first");
 }
 

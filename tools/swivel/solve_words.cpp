@@ -35,6 +35,7 @@ double furthest_of(const Json& run)
 }  // namespace
 
 std::string text_of(const Json& string) { return string.get<std::string>(); }
+
 std::string count_of(const Json& number)
 {
     std::string digits = std::to_string(number.get<std::uint64_t>());

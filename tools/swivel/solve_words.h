@@ -11,7 +11,9 @@
 
 namespace swivel::tools {
 
+// A JSON string without its quotes.
 std::string text_of(const nlohmann::ordered_json& string);
+
 // A count, with commas between thousands.
 std::string count_of(const nlohmann::ordered_json& number);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The page's colours, light and dark, and what a limb's colour may say. limb.frag.glsl has the same rules.
+// The page's colours, light and dark, and what a limb's colour may say. limb.frag.glsl has the same ranges of error and flexion.
 import { Flag } from "swivel-wasm/layout.js";
 import { Color } from "three";
 
@@ -22,7 +22,7 @@ const FLAGS = [["reached", "#58a968"], ["softened or stretched", "#9fd356", "SOF
 /** What a limb's colour says: the legend's entries, from the least on. */
 export const COLOUR_BY = [
     { name: "Limb", legend: [] },
-    { name: "Error", unit: "from the target, in lengths of the limb", legend: RAMP.map((colour, n) => [colour, `1e${2 * n - 8}`]) },
+    { name: "Error", unit: "from the target, in lengths of the limb", legend: RAMP.map((colour, n) => [colour, n < 4 ? `1e-0${8 - 2 * n}` : "1"]) },
     { name: "Flag", legend: FLAGS.map(([name, colour]) => [colour, name]) },
     { name: "Flexion", unit: "degrees", legend: RAMP.map((colour, n) => [colour, `${Math.round(37.5 * n)}`]) },
 ];

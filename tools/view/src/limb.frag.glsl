@@ -1,4 +1,4 @@
-// A limb in its own colour, or by what the solver says of it (colours.js has the same numbers for the legend).
+// A limb in its own colour, or by what the solver says of it (colours.js has the same ranges for the legend).
 uniform int uColourBy;  // 0: its own, 1: error, 2: flag, 3: flexion
 uniform vec3 uRamp[5];  // of error and flexion
 uniform vec3 uFlagColours[FLAG_COLOURS];
@@ -14,7 +14,7 @@ vec3 ramp(float share) {
 }
 vec3 ofFlags() {
     vec3 seen = uFlagColours[0];
-    for (int n = 1; n < FLAG_COLOURS; ++n)
+    for (int n = 1; n < FLAG_COLOURS; ++n)  // the last that it has is the gravest
         if ((vFlags & uFlagMasks[n]) != 0u) seen = uFlagColours[n];
     return seen;
 }

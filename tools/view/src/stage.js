@@ -239,4 +239,4 @@ export class Stage {
     }
 }
 
-export { Feature, Field, Flag, SwivelError };
+export { Feature, Field, SwivelError };

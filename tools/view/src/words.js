@@ -27,11 +27,11 @@ export function saidOfAll(limbs, text) {
     return [first, ...others.map((each) => each[0].toLowerCase() + each.slice(1))].join(" or ");
 }
 
-/** A number in three digits, or in two and a power of ten where it is small or large, as the command writes it: 1.1e-07; a dash for none. */
+/** A number in three digits, or in two and a power of ten where it is small or large, which takes two digits at least; a dash for none. */
 export function number(value) {
     if (!Number.isFinite(value)) return "–";
     if (value === 0) return "0";
-    return Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6 ? `${Number(value.toPrecision(3))}` : value.toExponential(1).replace(/e([+-])(\d)$/, "e$10$2");
+    return Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6 ? `${Number(value.toPrecision(3))}` : value.toExponential(1).replace(/e[+-](?=\d$)/, "$&0");
 }
 /** A coordinate to 1e-5 of a length: what is less is rounding. */
 export function coordinate(value, length) {
