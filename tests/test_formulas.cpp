@@ -156,11 +156,11 @@ TEST_CASE("the production formula puts the wrist on its target")
         for_arms(seed, any_arm, [](const Arm& arm) {
             const double d = arm.wrist.norm();
             const double reach = std::clamp(d, std::fabs(arm.upper - arm.fore), arm.length());
-            const Vector3d reachable = reach / d * arm.wrist;
-            const double nearest = 2 * kNearest * arm.length();  // doubled: the solver measures in a power of two
-            const double off =
-                reach < nearest ? nearest : 2e-12 * arm.length();  // no wrist comes nearer to the shoulder
-            RC_ASSERT((wrist_place(solve<double>(arm), arm) - reachable).norm() <= off);
+            const Vector3d line = arm.wrist / d, reachable = reach * line, wrist = wrist_place(solve<double>(arm), arm);
+            // No wrist comes nearer to the shoulder. Twice as far, because the solver measures in a power of two.
+            const double nearest = 2 * kNearest * arm.length();
+            const double along = std::clamp(wrist.dot(line), reach, std::max(reach, nearest));
+            RC_ASSERT((wrist - along * line).norm() < 2e-12 * arm.length());
             RC_ASSERT((wrist_place(solve<float>(arm), arm) - reachable).norm() < 1e-6 * arm.length());
         });
     });
