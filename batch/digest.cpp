@@ -11,10 +11,17 @@ namespace {
 
 using namespace swivel;
 
-constexpr std::uint64_t kStart = 0xcbf29ce484222325u, kPrime = 0x100000001b3u;
+// Any odd number with bits in both halves, so that no flip of one bit leaves the upper half as it was. This one is
+// 2^64 divided by the golden ratio.
+constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15u;
 
-// One step of FNV-1a, on a word instead of a byte.
-void add(std::uint64_t& hash, std::uint64_t word) { hash = (hash ^ word) * kPrime; }
+// The product carries a change to the bits above it, the shift carries those back down. Both steps are one to one, so
+// no change is lost on the way.
+void add(std::uint64_t& hash, std::uint64_t word)
+{
+    hash = (hash ^ word) * kFactor;
+    hash ^= hash >> 32;
+}
 
 std::uint32_t bits_of(float number)
 {
@@ -29,7 +36,7 @@ template <class Number>
 std::uint64_t digest(const swivel_crowd& crowd, const Number* results)
 {
     std::array<std::uint64_t, kLanes> hashes;
-    hashes.fill(kStart);
+    hashes.fill(0);
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const Group& group = crowd.groups[g];
         for (std::uint32_t first = 0; first < group.limb_count; first += kLanes) {
@@ -41,7 +48,7 @@ std::uint64_t digest(const swivel_crowd& crowd, const Number* results)
                     add(hashes[lane], bits_of(rows[row * kLanes + lane]));
         }
     }
-    std::uint64_t whole = kStart;
+    std::uint64_t whole = 0;
     for (const std::uint64_t hash : hashes) add(whole, hash);
     return whole;
 }

@@ -17,7 +17,8 @@ namespace swivel {
 
 namespace {
 
-// So many successive groups share rounds. Characters with more limbs are rare.
+// So many successive groups share rounds, or fewer if their frames have many values: the copies of all of them lie on
+// the stack. Characters with more limbs are rare.
 constexpr std::uint32_t kGroupsTogether = 4;
 // The blocks of a round. With fewer, more time goes into starting loops; with more, fewer rows stay in the nearest
 // cache. 16 and 64 blocks took 1.02 to 1.04 times as long.
@@ -36,13 +37,25 @@ std::uint32_t run_blocks(const Work& work, std::uint32_t group_count)
     return (work.mask ? kChosenRunBlocks : kRoundBlocks) / group_count;
 }
 
-// Streams of a frame that has every field.
+// Streams of a frame that has every field, or of four ordinary ones.
 constexpr std::uint32_t kMostStreams = [] {
     std::uint32_t count = 0;
     for (std::size_t n = 0; n < kFieldCount; ++n)
         count += stream_count(field_row_count(kEveryFeature, static_cast<Field>(n)));
     return count;
 }();
+
+// Streams of a group's frame.
+std::uint32_t stream_count_of(const swivel_crowd& crowd, const swivel_frame& frame)
+{
+    std::uint32_t count = 0;
+    const auto add = [&](Field field, const void* data) {
+        if (data) count += stream_count(field_row_count(crowd.features, field));
+    };
+    for (const auto& [field, member] : kFrameInputs) add(field, (frame.*member).data);
+    for (const auto& [field, member] : kFrameOutputs) add(field, (frame.*member).data);
+    return count;
+}
 
 // Calls copy(first, limb_count) for a group's limbs in some blocks, counted within the group: all of them, or those of
 // the mask.
@@ -77,22 +90,25 @@ struct Blocks {
     std::uint32_t group, first, count;
 };
 
-// Calls take(blocks, group_count, round_count) for the groups that a job's blocks touch, kGroupsTogether at a time.
+// Calls take(blocks, group_count, round_count) for the groups that a job's blocks touch, a few at a time.
 template <class Take>
 void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks all, const Take& take)
 {
     Blocks blocks[kGroupsTogether];
-    std::uint32_t count = 0, most = 0;
+    std::uint32_t count = 0, most = 0, streams = 0;
     const auto flush = [&] {
         if (count == 0) return;
         const std::uint32_t run = run_blocks(work, count);
         take(blocks, count, (most + run - 1) / run);
-        count = most = 0;
+        count = most = streams = 0;
     };
     for_each_group(crowd, all, [&](std::uint32_t g, std::uint32_t first, std::uint32_t block_count) {
+        swivel_frame filled;
+        const std::uint32_t more = stream_count_of(crowd, frame_at(work.frames, g, filled));
+        if (count == kGroupsTogether || streams + more > kMostStreams) flush();
         blocks[count++] = {g, first, block_count};
         most = std::max(most, block_count);
-        if (count == kGroupsTogether) flush();
+        streams += more;
     });
     flush();
 }
@@ -101,15 +117,15 @@ void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks 
 struct Share {
     const Group* group;
     Blocks blocks;
-    std::uint32_t copied_blocks;  // at a time
-    Stream streams[kMostStreams];
-    Stream *in_end, *out_end;  // inputs come first
+    std::uint32_t copied_blocks;         // at a time
+    Stream *streams, *in_end, *out_end;  // inputs come first
 
-    void set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of, std::uint32_t run)
+    // Stores the streams from `to` on, and returns their end.
+    Stream* set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of, std::uint32_t run, Stream* to)
     {
         group = crowd.groups + of.group;
         blocks = of;
-        in_end = streams;
+        streams = in_end = to;
         for (const auto& [field, member] : kFrameInputs) {
             const swivel_in& values = frame.*member;
             if (!values.data) continue;
@@ -127,6 +143,7 @@ struct Share {
             return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
         });
         copied_blocks = is_crowded ? kCrowdedBlocks : run;
+        return out_end;
     }
     void read(std::size_t first, std::size_t limb_count) const { copy(streams, in_end, first, limb_count); }
     void write(std::size_t first, std::size_t limb_count) const { copy(in_end, out_end, first, limb_count); }
@@ -139,6 +156,7 @@ struct Bundle {
     const Work& work;
     std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
     Share shares[kGroupsTogether];
+    Stream streams[kMostStreams];  // of all shares
 
     Bundle(const swivel_crowd& of, const Kernels& with, const Work& todo) : crowd(of), kernels(with), work(todo) {}
 
@@ -146,9 +164,10 @@ struct Bundle {
     {
         count = group_count;
         run = run_blocks(work, count);
+        Stream* to = streams;
         for (std::uint32_t n = 0; n < count; ++n) {
             swivel_frame filled;
-            shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n], run);
+            to = shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n], run, to);
         }
     }
     void solve(std::uint32_t round) const

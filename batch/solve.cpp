@@ -22,7 +22,7 @@ constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 
 // Result rows of a compact crowd are on the stack until they are packed. Those of so many blocks stay in the nearest
 // cache.
-constexpr std::uint32_t kPackBlocks = 8;
+constexpr std::uint32_t kPackBlocks = 4;
 constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand);
 
 SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* input, float* results,

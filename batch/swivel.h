@@ -744,10 +744,11 @@ SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t gr
                                           uint32_t limb_count, swivel_out distance);
 
 // A digest of all results, to compare machines by. Crowds with the same features and groups have equal digests if their
-// results are equal, and almost surely other ones if not. Padding lanes do not count. Each of the SWIVEL_LANES lanes
-// has a 64-bit FNV-1a hash. It takes the lane's number of every row, in the order of rows: a float's bits, or a word of
-// SWIVEL_COMPACT, in one step instead of byte by byte. One more hash takes these, lane 0 first. 0 for a null crowd. On
-// the calling thread; no allocation.
+// results are equal, and almost surely other ones if not, also in their low 32 bits. Padding lanes do not count. Each
+// of the SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. It takes the lane's number of every row, in the
+// order of rows: a float's bits, or a word of SWIVEL_COMPACT. To take a number, h becomes (h ^ number) *
+// 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the lanes, lane 0 first. 0 for a
+// null crowd. It protects from accidents, not from forgers. On the calling thread; no allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // One entity of the lecture's five steps. Coefficients are of the 32 blades of G(4,1): bits 0 to 4 of a blade's number

@@ -14,7 +14,7 @@ template <class T>
 struct Arc {
     Turned<T> from, to;  // by the right hand about the line; equal for the whole circle
 };
-inline constexpr int kMostArcs = 4 * kMostEdges;
+inline constexpr int kMostArcs = 4 * kMostEdges<kMostBoxes>;
 template <class T>
 struct AllowedArcs {
     Arc<T> arc[kMostArcs];
@@ -51,13 +51,13 @@ Turned<T> between(const Turned<T>& a, const Turned<T>& b)
 template <class T>
 AllowedArcs<T> allowed_arcs(const Limits<T>& limits)
 {
-    Edge<T> edge[kMostEdges];
+    Edge<T> edge[kMostEdges<kMostBoxes>];
     const int edge_count = edges(limits, false, edge);
-    Turned<T> end[4 * kMostEdges];
+    Turned<T> end[4 * kMostEdges<kMostBoxes>];
     int count = 0;
     for (int n = 0; n < edge_count; ++n)
         for (const T slack : {T(kNoRoom), T(-kNoRoom)})  // where the room is just enough, on either side of an edge
-            if (const Crossings<T> ends = crossings(edge[n].line - constant(slack)); ends.exist && edge[n].live)
+            if (const Crossings<T> ends = crossings(edge[n].line() - constant(slack)); ends.exist && edge[n].live())
                 end[count++] = ends.first, end[count++] = ends.second;
     std::sort(end, end + count, is_before<T>);
 

@@ -18,16 +18,16 @@ struct FoundSwivel {
 };
 
 // The nearest end of an allowed arc, where there is one.
-template <class T>
-SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T>& limits)
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T, Boxes>& limits)
 {
-    Edge<T> edge[kMostEdges];
+    Edge<T> edge[kMostEdges<Boxes>];
     const int count = edges(limits, false, edge);
     Turned<T> best{T(-1), T(0)};
     T nearest = T(-2);
     for (int n = 0; n < count; ++n) {
-        const Crossings<T> ends = crossings(edge[n].line);
-        const Mask<T> exist = ends.exist & edge[n].live;
+        const Crossings<T> ends = crossings(edge[n].line());
+        const Mask<T> exist = ends.exist & edge[n].live();
         for (const Turned<T>* end : {&ends.first, &ends.second}) {
             const Mask<T> better = exist & (end->cos > nearest) & (room(limits, *end) >= T(kNoRoom));
             best = select(better, *end, best);
@@ -53,10 +53,10 @@ inline constexpr double kTie = 1e-6;
 // and the most over alternatives of such lines. So it peaks where a line peaks, or where two lines of an alternative
 // are equal. Of equal peaks the one nearest to the wish is taken, then the first. Each is compared with the best so
 // far: of three peaks, where each is equal to the next one only, the order decides.
-template <class T>
-SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& limits)
 {
-    Edge<T> edge[kMostEdges];
+    Edge<T> edge[kMostEdges<Boxes>];
     const int count = edges(limits, true, edge);
     Turned<T> best{T(1), T(0)};
     T best_room = room(limits, best), most = best_room;
@@ -71,9 +71,9 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
         best_room = select(better, left, best_room);
     };
     for (int n = 0; n < count; ++n) {
-        const OnCircle<T>& line = edge[n].line;
+        const OnCircle<T> line = edge[n].line();
         const T r2 = line.a * line.a + line.b * line.b;
-        const Mask<T> peaks = edge[n].live & (r2 > T(kFlat2));
+        const Mask<T> peaks = edge[n].live() & (r2 > T(kFlat2));
         const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
         const Turned<T> peak{per_r * line.a, per_r * line.b};
         if (edge[n].front > 0 || edge[n].back > 0) consider(peak, peaks);
@@ -81,9 +81,9 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
         for (int m = 0; m < n; ++m)
             for (const int sign : {1, -1}) {
                 if (!meet(edge[n], edge[m], sign)) continue;
-                const OnCircle<T> off = sign > 0 ? line - edge[m].line : line + edge[m].line;
+                const OnCircle<T> other = edge[m].line(), off = sign > 0 ? line - other : line + other;
                 const Crossings<T> equal = crossings(off);
-                const Mask<T> exist = equal.exist & edge[n].live & edge[m].live;
+                const Mask<T> exist = equal.exist & edge[n].live() & edge[m].live();
                 consider(equal.first, exist);
                 consider(equal.second, exist);
             }
@@ -91,8 +91,8 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T>& limits)
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
 // The same as a function of its own, because with boxes it is long.
-template <class T>
-SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation_called(const Limits<T>& limits)
+template <class T, int Boxes>
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation_called(const Limits<T, Boxes>& limits)
 {
     return least_violation(limits);
 }
@@ -118,8 +118,8 @@ struct ShortSearch : SearchNow {
 };
 
 // valid: false where the input is bad, so that nothing is searched for.
-template <class Policy = SearchNow, class T>
-SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T>& limits, const Mask<T>& valid)
+template <class Policy = SearchNow, class T, int Boxes>
+SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T, Boxes>& limits, const Mask<T>& valid)
 {
     const Turned<T> wish{T(1), T(0)};
     const Mask<T> granted = (room(limits, wish) >= T(kNoRoom)) | !valid;

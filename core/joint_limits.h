@@ -60,9 +60,9 @@ struct SwivellingArm {
 };
 
 // The limits, and the flag of each in the order of Limits: lines, then boxes.
-template <class T>
+template <class T, int Boxes>
 struct SwivelLimits {
-    Limits<T> limits;
+    Limits<T, Boxes> limits;
     std::uint32_t line_flag[kMostLines] = {}, box_flag[kMostBoxes] = {};
 };
 
@@ -74,9 +74,10 @@ SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
            axis.template at<kE3>() * q.template at<kK>();
 }
 
-template <class T, class Lift>
-SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
-                                                      const SwivellingArm<T, Lift>& arm)
+// Boxes: how many there may be, 0 or kMostBoxes.
+template <int Boxes = kMostBoxes, class T, class Lift>
+SWIVEL_INLINE constexpr SwivelLimits<T, Boxes> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
+                                                             const SwivellingArm<T, Lift>& arm)
 {
     const auto e3 = unit<T, kE3>();
     const auto k = unit<T, kK>();
@@ -89,15 +90,18 @@ SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const
     const T per_size = T(1) / len2(to_arm);
     const auto cosine = [&](const Vector<T>& fixed, const auto& moving)
                             SWIVEL_INLINE_LAMBDA { return per_size * inner(fixed, moving); };
-    SwivelLimits<T> out;
+    SwivelLimits<T, Boxes> out;
     const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
         out.line_flag[out.limits.line_count] = flag;
         out.limits.line[out.limits.line_count++] = line;
     };
-    const auto add_box = [&](const EulerBox<T>& box, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
-        out.box_flag[out.limits.box_count] = flag;
-        out.limits.box[out.limits.box_count++] = box;
-    };
+    const auto add_box = [&]([[maybe_unused]] const EulerBox<T>& box, [[maybe_unused]] std::uint32_t flag)
+                             SWIVEL_INLINE_LAMBDA {
+                                 if constexpr (Boxes > 0) {
+                                     out.box_flag[out.limits.box_count] = flag;
+                                     out.limits.box[out.limits.box_count++] = box;
+                                 }
+                             };
 
     // The entries of the matrix whose rows are fixed axes, and whose columns turn with the arm.
     const auto matrix = [&](const Vector<T>& row1, const Vector<T>& row2, const Vector<T>& row3, const auto& turning)

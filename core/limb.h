@@ -73,8 +73,8 @@ SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGo
 }
 
 // Which limits the wish breaks.
-template <class T>
-SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T>& limits)
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr Bits<T> broken(const SwivelLimits<T, Boxes>& limits)
 {
     const Turned<T> wish{T(1), T(0)};
     Bits<T> flags = bits<T>(0);
@@ -138,7 +138,7 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
 
 // good: false where the caller already knows that the input is bad. Policy: see choose_swivel.h. A limb that is not
 // settled gives back the previous normal.
-template <bool Aims, class Policy = SearchNow, class T>
+template <bool Aims, class Policy = SearchNow, int Boxes = kMostBoxes, class T>
 SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
 {
     const Mask<T> valid = good & is_valid(use, goal);
@@ -149,7 +149,7 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
     pose.settled = T(0) == T(0);
     pose.next = Search::nearest_end;
     if (use.limits.on_swivel()) {
-        const SwivelLimits<T> limits = swivel_limits(use.limits, goal.limits, limb.arm);
+        const SwivelLimits<T, Boxes> limits = swivel_limits<Boxes>(use.limits, goal.limits, limb.arm);
         const ChosenSwivel<T> chosen = choose_swivel<Policy>(limits.limits, valid);
         pose.settled = chosen.settled;
         pose.next = chosen.next;

@@ -159,17 +159,27 @@ SWIVEL_INLINE constexpr EulerBox<T> euler_box(const EulerOrder& order, const Ent
 }
 
 // All limits of an arm whose swivel is free: at most kMostLines single lines, and one box for each joint.
-inline constexpr int kMostLines = 5, kMostBoxes = 2, kMostEdges = kMostLines + 10 * kMostBoxes;
-template <class T>
+inline constexpr int kMostLines = 5, kMostBoxes = 2;
+template <int Boxes>
+inline constexpr int kMostEdges = kMostLines + 10 * Boxes;
+template <class T, int Boxes = kMostBoxes>
 struct Limits {
     OnCircle<T> line[kMostLines];
     int line_count = 0;
-    EulerBox<T> box[kMostBoxes];
+    EulerBox<T> box[Boxes];
     int box_count = 0;
 };
-
+// Without boxes, which are nearly all of its size.
 template <class T>
-SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
+struct Limits<T, 0> {
+    OnCircle<T> line[kMostLines];
+    int line_count = 0;
+    static constexpr EulerBox<T>* box = nullptr;
+    static constexpr int box_count = 0;
+};
+
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr T room(const Limits<T, Boxes>& limits, const Turned<T>& swivel)
 {
     T least = T(2);
     for (int n = 0; n < limits.line_count; ++n) least = lo(limits.line[n].at(swivel), least);
@@ -177,27 +187,42 @@ SWIVEL_INLINE constexpr T room(const Limits<T>& limits, const Turned<T>& swivel)
     return least;
 }
 
-// The edges of all limits. The allowed arcs can begin and end only where an edge crosses zero. A box has two rooms,
-// front and back, for either sign of the middle angle's cosine. Lines without a box are part of both.
+// An edge of the limits: where the allowed arcs can begin and end, as there a line crosses zero. It says which line
+// that is, instead of having it, because all lines of two boxes take eight kilobytes with the widest registers. A box
+// has two rooms, front and back, for either sign of the middle angle's cosine. Lines without a box are part of both.
 template <class T>
 struct Edge {
-    OnCircle<T> line;
-    Mask<T> live;     // the lanes in which it is an edge at all
-    int box;          // -1: none
-    int front, back;  // the sign with which it is part of that room; 0: it is no part
+    enum Kind { whole, sine, past_turn, along_turn } kind;
+    const OnCircle<T>*x, *y;  // the line itself; the sine; or cosine and sine of an angle
+    const Turned<T>* turn;    // an end or the middle of that angle's range
+    const T* bound;           // of the sine
+    int box;                  // -1: none
+    int front, back;          // the sign with which it is part of that room; 0: it is no part
+
+    SWIVEL_INLINE constexpr OnCircle<T> line() const
+    {
+        if (kind == whole) return *x;
+        if (kind == sine) return *x - constant(*bound);
+        return kind == past_turn ? past(*turn, *x, *y) : along(*turn, *x, *y);
+    }
+    // The lanes in which it is an edge at all.
+    SWIVEL_INLINE constexpr Mask<T> live() const { return kind == sine ? abs(*bound) <= T(1) : T(0) == T(0); }
 };
-// middles: also gives the lines that matter only where nothing is allowed. Edges that are live in no lane are left out.
-template <class T>
-SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, Edge<T> (&edge)[kMostEdges])
+
+// The edges of all limits, which must outlive them. middles: also gives those that matter only where nothing is
+// allowed. Edges that are live in no lane are left out.
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr int edges(const Limits<T, Boxes>& limits, bool middles, Edge<T> (&edge)[kMostEdges<Boxes>])
 {
+    using E = Edge<T>;
     int count = 0;
-    const Mask<T> always = T(0) == T(0);
-    for (int n = 0; n < limits.line_count; ++n) edge[count++] = {limits.line[n], always, -1, 1, 1};
+    for (int n = 0; n < limits.line_count; ++n)
+        edge[count++] = {E::whole, &limits.line[n], nullptr, nullptr, nullptr, -1, 1, 1};
     for (int n = 0; n < limits.box_count; ++n) {
         const EulerBox<T>& box = limits.box[n];
-        const auto add_sine = [&](const T& sine, int front, int back) SWIVEL_INLINE_LAMBDA {
-            if (const Mask<T> live = abs(sine) <= T(1); any(live))
-                edge[count++] = {box.sine - constant(sine), live, n, front, back};
+        const auto add_sine = [&](const T& bound, int front, int back) SWIVEL_INLINE_LAMBDA {
+            const E sine = {E::sine, &box.sine, nullptr, nullptr, &bound, n, front, back};
+            if (any(sine.live())) edge[count++] = sine;
         };
         add_sine(box.front.low, 1, 0);
         add_sine(box.front.high, -1, 0);
@@ -205,9 +230,10 @@ SWIVEL_INLINE constexpr int edges(const Limits<T>& limits, bool middles, Edge<T>
         add_sine(box.back.high, 0, -1);
         const auto add_angle = [&](const Ends<T>& ends, const OnCircle<T>& cos, const OnCircle<T>& sin)
                                    SWIVEL_INLINE_LAMBDA {
-                                       edge[count++] = {past(ends.low, cos, sin), always, n, 1, -1};
-                                       edge[count++] = {past(ends.high, cos, sin), always, n, -1, 1};
-                                       if (middles) edge[count++] = {along(ends.middle, cos, sin), always, n, 1, -1};
+                                       edge[count++] = {E::past_turn, &cos, &sin, &ends.low, nullptr, n, 1, -1};
+                                       edge[count++] = {E::past_turn, &cos, &sin, &ends.high, nullptr, n, -1, 1};
+                                       if (!middles) return;
+                                       edge[count++] = {E::along_turn, &cos, &sin, &ends.middle, nullptr, n, 1, -1};
                                    };
         add_angle(box.first, box.first_cos, box.first_sin);
         add_angle(box.last, box.last_cos, box.last_sin);

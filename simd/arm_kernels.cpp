@@ -25,12 +25,12 @@ struct Shared {
 template <class T, FeatureSet Features>
 SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
 {
-    const Binding<T> bind = binding_of<T, Features>(run);
-    return {bind.parent_from_arm,
-            ~bind.upper_from_arm,
-            bind.wrist_parent_from_arm,
-            bind.elbow_parent_from_arm * ~bind.fore_from_arm,
-            times_blade<kI>(bind.elbow_parent_from_arm) * ~bind.fore_from_arm,
+    const Binding bind = binding_of<Features>(run);
+    return {broadcast<T>(bind.parent_from_arm),
+            ~broadcast<T>(bind.upper_from_arm),
+            broadcast<T>(bind.wrist_parent_from_arm),
+            broadcast<T>(bind.elbow_parent_from_arm) * ~broadcast<T>(bind.fore_from_arm),
+            times_blade<kI>(broadcast<T>(bind.elbow_parent_from_arm)) * ~broadcast<T>(bind.fore_from_arm),
             T(run.features & feature::pole_direction ? 0 : 1)};
 }
 
@@ -97,22 +97,21 @@ SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>&
     return holds & ordinary;
 }
 
-void solve_aside(const SolveRun& run, LimbsAside& aside)
-{
-    limb_kernels.solve(aside.block_of(run));
-    aside.give_back(run);
-}
+// The features of plain arms that change their rows.
+inline constexpr FeatureSet kPlainRows = feature::world | feature::joints | feature::hand;
 
-// Solves arms of a block for which the formula does not hold. A bit of `others` is set for each of them. If these are
-// all of the block, they are solved where they lie; else they are put aside.
-[[gnu::noinline, gnu::cold]] void solve_others(const SolveRun& run, std::uint32_t block, std::uint32_t others,
-                                               LimbsAside& aside)
+// Solves the first limbs of a list, up to a block, as whole limbs. If they are a block of the run, that is done where
+// they lie.
+[[gnu::noinline, gnu::cold]] void solve_others(const SolveRun& run, WaitingLimbs& others)
 {
-    if (std::popcount(others) == kLanes) return limb_kernels.solve(blocks_of(run, block, 1));
-    for (; others != 0; others &= others - 1) {
-        aside.take(run, std::size_t{block} * kLanes + static_cast<std::size_t>(std::countr_zero(others)));
-        if (aside.count == kLanes) solve_aside(run, aside);
+    if (others.starts_with_block()) {
+        limb_kernels.solve(block_of(run, others.limb[0] / kLanes));
+    } else {
+        BlockAside<kPlainRows> aside;
+        limb_kernels.solve(aside.gather(run, others));
+        aside.give_back(run, others);
     }
+    others.drop_first();
 }
 
 // Calls for input rows in the order in which they lie, so that the CPU's own prefetching follows. The formula takes
@@ -123,10 +122,12 @@ SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
     for (std::uint32_t row = 0; row < row_count; ++row) __builtin_prefetch(input + std::size_t{row} * kLanes);
 }
 
-// Solves whole steps from block on, and returns the first block that is left. It is a function of its own for each T,
-// so that its constants do not take registers from another loop.
+// Solves whole steps from block on, and returns the first block that is left. Arms for which the formula does not hold
+// go to `others`; it returns early when that list is full. It is a function of its own for each T, so that its
+// constants do not take registers from another loop.
 template <class T, FeatureSet Features>
-SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block, LimbsAside& aside)
+SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block,
+                                                           WaitingLimbs& others)
 {
     constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > kLanes ? lanes / kLanes : 1;
     const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
@@ -136,15 +137,16 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
     for (; block + blocks <= block_count; block += blocks) {
         if (has(Features, feature::world) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
-        std::uint32_t others = 0;
+        std::uint32_t fails = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const Mask<T> holds = solve_step(Rows<T, Features>{run, input + lane, results + lane}, shared);
             if (!all(holds)) [[unlikely]]
-                others |= lane_bits(!holds) << lane;
+                fails |= lane_bits(!holds) << lane;
         }
-        if (others != 0) [[unlikely]]
-            for (std::uint32_t n = 0; n < blocks; ++n)
-                solve_others(run, block + n, others >> n * kLanes & 0xffffu, aside);
+        if (fails != 0) [[unlikely]] {
+            others.add(std::size_t{block} * kLanes, fails);
+            if (others.is_full()) return block + blocks;
+        }
         input += row_offset(step, input_row_count(Features), 0);
         results += row_offset(step, result_row_count(Features), 0);
     }
@@ -155,11 +157,16 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
 template <FeatureSet Features>
 void solve(const SolveRun& run)
 {
-    LimbsAside aside;
-    const std::uint32_t done =
-        solve_steps<typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type, Features>(run, 0, aside);
-    solve_steps<typename KernelNumber<SWIVEL_ARCH, 1>::type, Features>(run, done, aside);
-    if (aside.count > 0) solve_aside(run, aside);
+    using Wide = typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type;
+    using Narrow = typename KernelNumber<SWIVEL_ARCH, 1>::type;
+    const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
+    WaitingLimbs others;
+    for (std::uint32_t block = 0; block < block_count;) {
+        block = solve_steps<Wide, Features>(run, block, others);
+        if (!others.is_full()) block = solve_steps<Narrow, Features>(run, block, others);
+        while (others.is_full()) solve_others(run, others);
+    }
+    if (others.count > 0) solve_others(run, others);
 }
 
 using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;

@@ -294,4 +294,10 @@ struct KernelNumber {
 
 #endif
 
+// One register of at most eight lanes: half of AVX-512's is one of AVX2's. Formulas with very many values take half the
+// stack then.
+template <class Arch>
+using NarrowNumber =
+    typename KernelNumber<std::conditional_t<std::is_same_v<Arch, xsimd::avx512bw>, xsimd::avx2, Arch>, 1>::type;
+
 }  // namespace swivel::inline SWIVEL_ISA

@@ -30,6 +30,7 @@ std::uint32_t store_arcs([[maybe_unused]] const SolveRun& run, [[maybe_unused]] 
 }  // namespace
 
 extern const LimbKernels limb_kernels;
-const LimbKernels limb_kernels{solve_limbs<KernelNumber<SWIVEL_ARCH, 1>::type>, store_arcs};
+const LimbKernels limb_kernels{solve_limbs<typename KernelNumber<SWIVEL_ARCH, 1>::type, NarrowNumber<SWIVEL_ARCH>>,
+                               store_arcs};
 
 }  // namespace swivel::inline SWIVEL_ISA

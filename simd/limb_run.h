@@ -13,21 +13,25 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Solves the steps of a run, and calls left(first limb, Waiting) after each. A step has one register. Two were no
-// faster, because their values do not stay in registers.
+// Solves the steps of a run from a limb on, and calls left(first limb, Waiting) after each, until that returns true.
+// Returns the first limb that is left. A step has one register. Two were no faster, because their values do not stay in
+// registers.
 template <class T, FeatureSet Features, bool Aims, class Policy, class Left>
-SWIVEL_FLATTEN [[gnu::noinline]] void solve_limb_steps(const SolveRun& run, Left left)
+SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& run, std::size_t limb, Left left)
 {
     LimbUse use = limb_use<Features>(run);
     use.aim = Aims;  // as it is, but now the compiler knows
-    const Binding<T> bind = binding_of<T, Features>(run);
-    for (std::size_t limb = 0; limb < run.limb_count; limb += lane_count<T>)
-        left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb)));
+    const Binding bind = binding_of<Features>(run);
+    bool is_enough = false;
+    for (; limb < run.limb_count && !is_enough; limb += lane_count<T>)
+        is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb)));
+    return limb;
 }
 template <class T, FeatureSet Features, bool Aims, class Policy = SearchNow>
 void search_limbs(const SolveRun& run)
 {
-    solve_limb_steps<T, Features, Aims, Policy>(run, [](std::size_t, const Waiting<T>&) SWIVEL_INLINE_LAMBDA {});
+    solve_limb_steps<T, Features, Aims, Policy>(
+        run, 0, [](std::size_t, const Waiting<T>&) SWIVEL_INLINE_LAMBDA { return false; });
 }
 
 // Aside, a limb is copied and solved again, which takes about as long as two limbs without a search. The nearest end
@@ -42,73 +46,86 @@ struct SearchForMany {
     }
 };
 
+// Puts the lanes of a step that wait on the list of their search. True: that list is full.
+struct WaitingLists {
+    WaitingLimbs for_end, for_least;
+
+    template <class T>
+    SWIVEL_INLINE bool put(std::size_t first, const Waiting<T>& waiting)
+    {
+        if (!any(waiting.lanes)) return false;
+        WaitingLimbs& list = waiting.search == Search::nearest_end ? for_end : for_least;
+        list.add(first, lane_bits(waiting.lanes));
+        return list.is_full();
+    }
+};
+
 // A run of limbs with Euler boxes.
 template <class T, bool Aims>
 struct BoxedLimbs {
     const SolveRun& run;
-    LimbsAside for_end, for_least;
+    WaitingLists waiting = {};
+    BlockAside<kEveryFeature> aside;
 
     explicit BoxedLimbs(const SolveRun& of) : run(of) {}
     void solve()
     {
-        solve_or_put_aside(run, nullptr);
-        if (for_end.count > 0) find_ends();
-        if (for_least.count > 0) find_least();
-    }
-    // Lanes that wait for a search are put aside, or added to `waits`, a bit for each.
-    void solve_or_put_aside(const SolveRun& steps, std::uint32_t* waits)
-    {
-        solve_limb_steps<T, kToldFeatures, Aims, SearchForMany>(
-            steps, [&](std::size_t first, const Waiting<T>& waiting) SWIVEL_INLINE_LAMBDA {
-                if (!any(waiting.lanes)) return;
-                if (waits)
-                    *waits |= lane_bits(waiting.lanes) << first;
-                else
-                    put_aside(first, lane_bits(waiting.lanes), waiting.search);
-            });
-    }
-    void put_aside(std::size_t first, std::uint32_t lanes, Search search)
-    {
-        LimbsAside& aside = search == Search::nearest_end ? for_end : for_least;
-        for (; lanes != 0; lanes &= lanes - 1) {
-            aside.take(run, first + static_cast<std::size_t>(std::countr_zero(lanes)));
-            if (aside.count == kLanes) search == Search::nearest_end ? find_ends() : find_least();
+        for (std::size_t limb = 0; limb < run.limb_count;) {
+            limb = solve_until_full(run, limb, waiting);
+            if (waiting.for_end.is_full()) find_ends();
+            if (waiting.for_least.is_full()) find_least();
         }
+        if (waiting.for_end.count > 0) find_ends();
+        while (waiting.for_least.count > 0) find_least();
+    }
+    static std::size_t solve_until_full(const SolveRun& steps, std::size_t limb, WaitingLists& lists)
+    {
+        return solve_limb_steps<T, kToldFeatures, Aims, SearchForMany>(
+            steps, limb, [&lists](std::size_t first, const Waiting<T>& of_step) SWIVEL_INLINE_LAMBDA {
+                return lists.put(first, of_step);
+            });
     }
     // All limbs aside need the nearest end, so it is not put off. Those that then wait again need the least violation.
     void find_ends()
     {
-        std::uint32_t waits = 0;
-        solve_or_put_aside(for_end.block_of(run), &waits);
-        waits &= (1u << for_end.count) - 1;
-        for_end.give_back(run);
-        for (; waits != 0; waits &= waits - 1)
-            put_aside(for_end.limb[std::countr_zero(waits)], 1, Search::least_violation);
+        WaitingLists again;  // lanes of the block aside
+        solve_until_full(aside.gather(run, waiting.for_end), 0, again);
+        aside.give_back(run, waiting.for_end);
+        for (std::uint32_t n = 0; n < again.for_least.count; ++n)
+            if (const std::uint32_t lane = again.for_least.limb[n]; lane < waiting.for_end.first_count())
+                waiting.for_least.add(waiting.for_end.limb[lane], 1);
+        waiting.for_end.drop_first();
     }
     void find_least()
     {
-        search_limbs<T, kToldFeatures, Aims>(for_least.block_of(run));
-        for_least.give_back(run);
+        search_limbs<T, kToldFeatures, Aims>(aside.gather(run, waiting.for_least));
+        aside.give_back(run, waiting.for_least);
+        waiting.for_least.drop_first();
     }
 };
 
-template <class T, bool Aims>
+// Boxed: the number type for limbs with Euler boxes. A block alone searches at once: there is no other limb to wait
+// for.
+template <class T, class Boxed, bool Aims>
 void solve_told(const SolveRun& run)
 {
-    if constexpr (1 < lane_count<T>)  // a limb alone keeps no neighbour waiting
-        if (run.features & (feature::shoulder_box | feature::wrist_box)) return BoxedLimbs<T, Aims>(run).solve();
-    search_limbs<T, kToldFeatures, Aims>(run);
+    if (!(run.features & (feature::shoulder_box | feature::wrist_box)))
+        search_limbs<T, kToldWithoutBoxes, Aims>(run);
+    else if (lane_count<Boxed> == 1 || run.limb_count <= kLanes)
+        search_limbs<Boxed, kToldFeatures, Aims>(run);
+    else
+        BoxedLimbs<Boxed, Aims>(run).solve();
 }
-template <class T>
+template <class T, class Boxed>
 void solve_limbs(const SolveRun& run)
 {
     const FeatureSet seen = run.features & ~(feature::compact | feature::budget);  // kernels do not see these
     if (seen == kConeAndTwist)
         search_limbs<T, kConeAndTwist, false, ShortSearch>(run);
     else if (run.features & feature::aim)
-        solve_told<T, true>(run);
+        solve_told<T, Boxed, true>(run);
     else
-        solve_told<T, false>(run);
+        solve_told<T, Boxed, false>(run);
 }
 
 // The swivels that the limits of one limb of a run allow.
@@ -117,7 +134,7 @@ inline AllowedArcs<float> allowed_arcs_of(const SolveRun& run, std::size_t limb)
     const LimbUse use = limb_use<kToldFeatures>(run);
     LimbGoal<float> goal;
     const LimbEntry<float> entry =
-        load_limb(use, binding_of<float, kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb), goal);
+        load_limb(use, binding_of<kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb), goal);
     if (!entry.valid || !is_valid(use, goal)) return {};
     if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
     return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);

@@ -72,10 +72,10 @@ struct LimbEntry {
 
 // Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows,
+SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows,
                                  bool pole_is_point, LimbGoal<T>& goal, LimbEntry<T>& entry)
 {
-    const Vector<T> bone = sandwich(~bind.parent_from_arm, rows.load_vector(Field::clavicle));
+    const Vector<T> bone = sandwich(~broadcast<T>(bind.parent_from_arm), rows.load_vector(Field::clavicle));
     const T share = rows.load(Field::clavicle, 3);
     entry.valid = entry.valid & (len2(bone) <= T(kHuge2)) & is_share(share);
     entry.clavicle =
@@ -88,7 +88,7 @@ SWIVEL_INLINE void turn_clavicle(const LimbUse& use, const Binding<T>& bind, con
 
 // Loads a goal as the formula takes it; what is not used stays as it is.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows,
+SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows,
                                      LimbGoal<T>& goal)
 {
     LimbEntry<T> entry;
@@ -106,7 +106,7 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding<T>& bind,
         entry.valid =
             entry.valid & is_valid(parent) & (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2));
         // The arm frame goes with the parent.
-        const Rotor<T> rotation = joints ? parent.rotation * bind.parent_from_arm : parent.rotation;
+        const Rotor<T> rotation = joints ? parent.rotation * broadcast<T>(bind.parent_from_arm) : parent.rotation;
         const bool pole_is_point = use.wish == Wish::pole && !rows.has(feature::pole_direction);
         const SeenGoal<T> seen = seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, goal.arm.wrist,
                                          goal.arm.pole, T(pole_is_point));
@@ -117,10 +117,11 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding<T>& bind,
         if (rows.has(feature::clavicle)) turn_clavicle(use, bind, rows, pole_is_point, goal, entry);
     }
     if (use.hand && joints)
-        goal.hand = (use.aim ? ~bind.wrist_parent_from_arm * goal.hand : goal.hand) * ~bind.hand_from_arm;
+        goal.hand = (use.aim ? ~broadcast<T>(bind.wrist_parent_from_arm) * goal.hand : goal.hand) *
+                    ~broadcast<T>(bind.hand_from_arm);
     const auto load_in_hand = [&](Field field) SWIVEL_INLINE_LAMBDA {
         const Vector<T> v = rows.load_vector(field);
-        return joints ? sandwich(bind.hand_from_arm, v) : v;
+        return joints ? sandwich(broadcast<T>(bind.hand_from_arm), v) : v;
     };
     if (use.effector) goal.effector = load_in_hand(Field::effector);
     if (use.aim) goal.aim = {load_in_hand(Field::aim), rows.load(Field::aim, 3), rows.load(Field::aim, 4)};
@@ -131,10 +132,13 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding<T>& bind,
             entry.valid = entry.valid & is_orientation(local);
             return scaled(joints ? ~from * local * to : local);
         };
-        goal.incoming = {load(Field::incoming_shoulder, bind.parent_from_arm, bind.upper_from_arm),
-                         load(Field::incoming_elbow, bind.elbow_parent_from_arm, bind.fore_from_arm), one<T>()};
+        goal.incoming = {
+            load(Field::incoming_shoulder, broadcast<T>(bind.parent_from_arm), broadcast<T>(bind.upper_from_arm)),
+            load(Field::incoming_elbow, broadcast<T>(bind.elbow_parent_from_arm), broadcast<T>(bind.fore_from_arm)),
+            one<T>()};
         if (use.hand)
-            goal.incoming.wrist = load(Field::incoming_wrist, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
+            goal.incoming.wrist = load(Field::incoming_wrist, broadcast<T>(bind.wrist_parent_from_arm),
+                                       ~broadcast<T>(bind.hand_from_arm));
     }
     if (use.weights)
         goal.weights = {rows.load(Field::weights, 0), rows.load(Field::weights, 1), rows.load(Field::weights, 2)};
@@ -150,7 +154,7 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding<T>& bind,
 }
 
 template <class T, FeatureSet Features>
-SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows,
+SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows,
                               const LimbEntry<T>& entry, const SolvedLimb<T>& pose)
 {
     const auto store = [&](Field field, Field incoming, const Rotor<T>& q, const Rotor<T>& rest) SWIVEL_INLINE_LAMBDA {
@@ -164,10 +168,12 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding<T>& bind, const 
     const auto if_joints = [&](const float(&q)[4]) SWIVEL_INLINE_LAMBDA { return joints ? broadcast<T>(q) : one<T>(); };
     const Hinge<T> elbow = hinge(pose.arm.cos_half, -pose.arm.sin_half);
     store(Field::shoulder, Field::incoming_shoulder,
-          joints ? bind.parent_from_arm * pose.arm.shoulder * ~bind.upper_from_arm : pose.arm.shoulder,
+          joints ? broadcast<T>(bind.parent_from_arm) * pose.arm.shoulder * ~broadcast<T>(bind.upper_from_arm)
+                 : pose.arm.shoulder,
           if_joints(frames.shoulder_rest));
     if (joints) {
-        store(Field::elbow, Field::incoming_elbow, bind.elbow_parent_from_arm * elbow * ~bind.fore_from_arm,
+        store(Field::elbow, Field::incoming_elbow,
+              broadcast<T>(bind.elbow_parent_from_arm) * elbow * ~broadcast<T>(bind.fore_from_arm),
               broadcast<T>(frames.elbow_rest));
     } else {
         rows.store(Field::elbow, 0, pose.arm.cos_half);
@@ -175,7 +181,8 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding<T>& bind, const 
     }
     if (use.hand)
         store(Field::wrist, Field::incoming_wrist,
-              joints ? bind.wrist_parent_from_arm * pose.wrist * bind.hand_from_arm : pose.wrist,
+              joints ? broadcast<T>(bind.wrist_parent_from_arm) * pose.wrist * broadcast<T>(bind.hand_from_arm)
+                     : pose.wrist,
               if_joints(frames.wrist_rest));
     if (const int bones = static_cast<int>(twist_bone_count(features_of<Features>(rows.run))); bones > 0) {
         const Turned<T> twist = twist_rotor(pose.wrist);
@@ -188,7 +195,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding<T>& bind, const 
         }
     }
     if (rows.has(feature::clavicle)) {
-        const Rotor<T> turn = bind.parent_from_arm * entry.clavicle * ~bind.parent_from_arm;
+        const Rotor<T> turn = broadcast<T>(bind.parent_from_arm) * entry.clavicle * ~broadcast<T>(bind.parent_from_arm);
         rows.store_rotor(Field::clavicle_turn, hemisphere(select(pose.arm.valid, turn, one<T>())));
     }
     rows.store(Field::flags, 0, pose.arm.flags);
@@ -204,7 +211,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding<T>& bind, const 
 template <class T, FeatureSet Features>
 SWIVEL_INLINE Rows<T, Features> rows_of(const SolveRun& run, std::size_t limb)
 {
-    const bool told = Features == kToldFeatures;
+    const bool told = Features & kTold;
     const std::uint32_t inputs = told ? run.input_row_count : input_row_count(Features);
     const std::uint32_t results = told ? run.result_row_count : result_row_count(Features);
     return {run, run.input + row_offset(limb, inputs, 0),
@@ -219,11 +226,12 @@ struct Waiting {
 };
 // Solves one step.
 template <bool Aims, class Policy, class T, FeatureSet Features>
-SWIVEL_INLINE Waiting<T> solve_limb_step(const LimbUse& use, const Binding<T>& bind, const Rows<T, Features>& rows)
+SWIVEL_INLINE Waiting<T> solve_limb_step(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows)
 {
     LimbGoal<T> goal;
     const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
-    const SolvedLimb<T> pose = solve_limb<Aims, Policy>(use, goal, entry.valid);
+    constexpr int boxes = Features & (feature::shoulder_box | feature::wrist_box) ? kMostBoxes : 0;
+    const SolvedLimb<T> pose = solve_limb<Aims, Policy, boxes>(use, goal, entry.valid);
     store_limb(use, bind, rows, entry, pose);
     return {!pose.settled, pose.next};
 }

@@ -12,13 +12,16 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A kernel is compiled for one set of features, or for all sets, and is then told the features with each run.
+// A kernel is compiled for one set of features, or for every set of some features. It is then told the features with
+// each run. A limb without boxes takes a third of the stack.
+inline constexpr FeatureSet kTold = feature::bit(63);
 inline constexpr FeatureSet kToldFeatures = ~FeatureSet{0};
+inline constexpr FeatureSet kToldWithoutBoxes = kToldFeatures & ~(feature::shoulder_box | feature::wrist_box);
 
 template <FeatureSet Features>
 SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
 {
-    return Features == kToldFeatures ? run.features : Features;
+    return Features & kTold ? run.features & Features : Features;
 }
 
 // The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
@@ -26,7 +29,7 @@ SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
 // in one.
 template <class T, FeatureSet Features>
 struct Rows {
-    static_assert(Features != kToldFeatures || lane_count<T> <= kLanes);
+    static_assert(!(Features & kTold) || lane_count<T> <= kLanes);
     const SolveRun& run;
     const float* input;
     float* results;
@@ -35,7 +38,7 @@ struct Rows {
     SWIVEL_INLINE std::uint32_t row(Field field, int component) const
     {
         const std::uint32_t first =
-            Features == kToldFeatures ? run.first_row[index_of(field)] : field_first_row(Features, field);
+            Features & kTold ? run.first_row[index_of(field)] : field_first_row(Features, field);
         return first + static_cast<std::uint32_t>(component);
     }
     SWIVEL_INLINE T load(Field field, int component) const
@@ -91,25 +94,30 @@ struct Rows {
     }
 };
 
-// How a skeleton's joints lie to the arm frame, all of unit length; identities in crowds without joints.
-template <class T>
+// How a skeleton's joints lie to the arm frame, all of unit length; identities in crowds without joints. They are
+// spread over lanes where they are used, because a limb's own values leave no registers for them.
 struct Binding {
-    Rotor<T> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
-    Rotor<T> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
+    Rotor<float> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
+    Rotor<float> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
 };
-template <class T, FeatureSet Features>
-SWIVEL_INLINE Binding<T> binding_of(const SolveRun& run)
+template <FeatureSet Features>
+SWIVEL_INLINE Binding binding_of(const SolveRun& run)
 {
-    const Rotor<T> q = rotor(T(0), T(0), T(0), T(1));
+    const Rotor<float> q = rotor(0.0f, 0.0f, 0.0f, 1.0f);
     if (!(features_of<Features>(run) & feature::joints)) return {q, q, q, q, q, q};
     const RestFrames& b = *run.frames;
-    const Rotor<T> wrist_parent = broadcast<T>(b.wrist_parent_from_arm);
-    return {broadcast<T>(b.parent_from_arm),
-            broadcast<T>(b.upper_from_arm),
-            broadcast<T>(b.elbow_parent_from_arm),
-            broadcast<T>(b.fore_from_arm),
+    const Rotor<float> wrist_parent = broadcast<float>(b.wrist_parent_from_arm);
+    return {broadcast<float>(b.parent_from_arm),
+            broadcast<float>(b.upper_from_arm),
+            broadcast<float>(b.elbow_parent_from_arm),
+            broadcast<float>(b.fore_from_arm),
             wrist_parent,
-            normalise(~wrist_parent * broadcast<T>(b.wrist_rest))};
+            normalise(~wrist_parent * broadcast<float>(b.wrist_rest))};
+}
+template <class T>
+SWIVEL_INLINE Rotor<T> broadcast(const Rotor<float>& q)
+{
+    return rotor(T(q.at<kI>()), T(q.at<kJ>()), T(q.at<kK>()), T(q.at<kScalar>()));
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -3,6 +3,7 @@
 // The promise: groups and fields lie in rows as swivel.h's table says, and data goes in and out whole.
 #include <bit>
 #include <map>
+#include <random>
 
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
@@ -211,9 +212,11 @@ std::uint64_t described_digest(const Crowd& crowd)
     const swivel_rows floats = swivel_result_rows(crowd.get());
     const swivel_words words = swivel_compact_rows(crowd.get());
     const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
-    std::uint64_t hashes[SWIVEL_LANES], whole = 0xcbf29ce484222325u;
-    std::ranges::fill(hashes, whole);
-    const auto step = [](std::uint64_t& hash, std::uint64_t number) { hash = (hash ^ number) * 0x100000001b3u; };
+    std::uint64_t hashes[SWIVEL_LANES] = {}, whole = 0;
+    const auto step = [](std::uint64_t& hash, std::uint64_t number) {
+        const std::uint64_t product = (hash ^ number) * 0x9e3779b97f4a7c15u;
+        hash = product ^ product >> 32;
+    };
     for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g)
         for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), g); ++n)
             for (std::uint32_t row = 0; row < row_count; ++row) {
@@ -277,4 +280,85 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         CHECK(crowd.digest() == solved);
     }
     CHECK(swivel_digest(nullptr) == 0);
+}
+
+namespace {
+
+// Bits of a crowd's results, all limbs' and no padding's: of float n, counted in memory, bit b has the number 32 n + b.
+struct ResultBits {
+    explicit ResultBits(const Crowd& crowd) : floats(swivel_result_rows(crowd.get()).base)
+    {
+        const std::uint32_t row_count = swivel_result_rows(crowd.get()).row_count;
+        for (std::uint32_t limb = 0; limb < swivel_group_limb_count(crowd.get(), 0); ++limb)
+            for (std::uint32_t row = 0; row < row_count; ++row)
+                for (std::uint32_t bit = 0; bit < 32; ++bit)
+                    bits.push_back(((limb / 16 * row_count + row) * 16 + limb % 16) * 32 + bit);
+    }
+    void flip(std::size_t which) const
+    {
+        float& number = floats[bits[which] / 32];
+        number = std::bit_cast<float>(std::bit_cast<std::uint32_t>(number) ^ 1u << bits[which] % 32);
+    }
+    std::size_t size() const { return bits.size(); }
+
+    float* floats;
+    std::vector<std::uint32_t> bits;
+};
+
+}  // namespace
+
+TEST_CASE("the digest notices every flip of one, two or three bits")
+{
+    Crowd crowd(0, {group(17)});  // two limbs share a lane, the others have lanes of their own
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.9f, 0.8f});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 0.75f});
+    crowd.solve();
+    const std::uint64_t solved = crowd.digest();
+    const ResultBits bits(crowd);
+    std::uint64_t unnoticed = 0, tried = 0;
+    const auto look = [&] {
+        unnoticed += crowd.digest() == solved;
+        ++tried;
+    };
+    for (std::size_t a = 0; a < bits.size(); ++a) {
+        bits.flip(a);
+        look();
+        CHECK(static_cast<std::uint32_t>(crowd.digest()) != static_cast<std::uint32_t>(solved));
+        for (std::size_t b = 0; b < a; ++b) {
+            bits.flip(b);
+            look();
+            bits.flip(b);
+        }
+        bits.flip(a);
+    }
+    std::mt19937_64 random(7);
+    while (tried < 10'000'000) {
+        const std::size_t three[] = {random() % bits.size(), random() % bits.size(), random() % bits.size()};
+        if (three[0] == three[1] || three[0] == three[2] || three[1] == three[2]) continue;
+        for (const std::size_t bit : three) bits.flip(bit);
+        look();
+        for (const std::size_t bit : three) bits.flip(bit);
+    }
+    CHECK(unnoticed == 0);
+    CHECK(crowd.digest() == solved);
+}
+
+TEST_CASE("each half of the digest notices that quaternions are negated")
+{
+    Crowd crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND, {group_of(40)});
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.9f, 0.8f});
+    crowd.solve();
+    const std::uint64_t solved = crowd.digest();
+    const swivel_rows rows = swivel_result_rows(crowd.get());
+    for (std::uint32_t limb = 0; limb < 40; ++limb)
+        for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST}) {
+            const std::uint32_t first = swivel_field_first_row(crowd.get(), field);
+            for (std::uint32_t row = first; row < first + 4; ++row) {
+                float& number = rows.base[(limb / 16 * rows.row_count + row) * 16 + limb % 16];
+                number = -number;
+            }
+            const std::uint64_t changed = crowd.digest() ^ solved;
+            CHECK((changed & 0xffffffffu) != 0);
+            CHECK((changed >> 32) != 0);
+        }
 }
