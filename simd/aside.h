@@ -42,7 +42,7 @@ struct WaitingLimbs {
         for (; lanes != 0; lanes &= lanes - 1)
             limb[count++] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(lanes));
     }
-    std::uint32_t first_count() const { return std::min(count, kLanes); }
+    std::uint32_t first_count() const { return is_full() ? kLanes : count; }
     // Takes the first limbs out, as many as a block has.
     void drop_first()
     {
