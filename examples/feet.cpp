@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Feet on uneven ground: a thousand characters stand on slopes in mid-stride. Each sole lies on the ground where it
-// stands, turned to its slope, and the pelvis comes down as far as the lower leg needs. A leg is a limb like an arm:
-// hip, knee, ankle.
+// stands, turned to its slope, and the pelvis comes down as far as the lower leg needs. One more character steps so far
+// aside that no height will do. A leg is a limb like an arm: hip, knee, ankle.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -80,23 +80,39 @@ swivel_binding bind_leg()
     return swivel::bind(chain);
 }
 
-// Where a character's feet go, and how low its pelvis must be for both legs to reach. Returns how far the pelvis came
-// down.
-double place_character(Leg* legs, double x, double z, double heading)
+// How far the pelvis may go up (above 0) or down, so that all legs reach.
+struct Shifts {
+    double low = -HUGE_VAL, high = HUGE_VAL;
+
+    // A hip reaches its ankle from heights of `room` around the ankle's own. A foot too far aside leaves no room; then
+    // the hip is nearest where it is level with the ankle.
+    void add_leg(const Vector& hip, const Vector& ankle)
+    {
+        const double level = ankle[1] - hip[1], across = std::hypot(hip[0] - ankle[0], hip[2] - ankle[2]);
+        const double room = std::sqrt(std::max(kReach * kReach - across * across, 0.0));
+        low = std::max(low, level - room);
+        high = std::min(high, level + room);
+    }
+    // The least shift that will do. Where none does, as far from what one leg needs as from what the other does.
+    double least() const { return low <= high ? std::clamp(0.0, low, high) : (low + high) / 2; }
+};
+
+// Where a character's feet go, and where its pelvis must be for both legs to reach. aside: of the left foot, more than
+// of its hip. Returns how far the pelvis came down.
+double place_character(Leg* legs, double x, double z, double heading, double aside = 0)
 {
     const Rotation pelvis = {0, std::sin(heading / 2), 0, std::cos(heading / 2)};
-    const double standing = ground_height(x, z) + kStanding;
-    double height = standing;
+    Shifts shifts;
     std::array<Vector, 2> hips;
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? 1 : -1;
-        hips[side] = sum({x, 0, z}, turned(pelvis, {sign * kHipSide, 0, 0}));
-        Vector sole = sum({x, 0, z}, turned(pelvis, {sign * kHipSide, 0, sign * kStride}));
+        hips[side] = sum({x, ground_height(x, z) + kStanding, z}, turned(pelvis, {sign * kHipSide, 0, 0}));
+        const double step = side == 0 ? aside : 0;
+        Vector sole = sum({x, 0, z}, turned(pelvis, {sign * kHipSide + step, 0, sign * kStride}));
         sole[1] = ground_height(sole[0], sole[2]);
         const Rotation foot = multiply(ground_slope(sole[0], sole[2]), pelvis);
         const Vector ankle = sum(sole, turned(foot, {0, kAnkleHeight, 0}));
-        const double across = std::hypot(hips[side][0] - ankle[0], hips[side][2] - ankle[2]);
-        height = std::min(height, ankle[1] + std::sqrt(kReach * kReach - across * across));
+        shifts.add_leg(hips[side], ankle);
 
         legs[side].sole = to_floats<Floats>(sole);
         legs[side].foot = to_floats<std::array<float, 4>>(foot);
@@ -104,10 +120,17 @@ double place_character(Leg* legs, double x, double z, double heading)
         legs[side].knee_forward = to_floats<Floats>(turned(pelvis, {0, 0, 1}));
     }
     for (int side = 0; side < 2; ++side) {
-        hips[side][1] = height;
+        hips[side][1] += shifts.least();
         legs[side].hip = to_floats<Floats>(hips[side]);
     }
-    return standing - height;
+    return -shifts.least();
+}
+
+swivel::Crowd make_legs(std::uint32_t count)
+{
+    const swivel_group_def groups[] = {swivel::group(count, bind_leg())};  // left and right legs are alike
+    const swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
+    return swivel::Crowd(features | SWIVEL_POLE_DIRECTION, groups);
 }
 
 void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs)
@@ -158,13 +181,23 @@ int report(const swivel::Crowd& crowd, const std::vector<Leg>& legs, double most
     return stands && std::max(ends.above, ends.below) < 0.01 ? 0 : 1;
 }
 
+// A foot that no height of the pelvis lets the leg reach.
+void step_aside()
+{
+    constexpr double kAside = 1.2;
+    swivel::Crowd crowd = make_legs(2);
+    std::vector<Leg> legs(2);
+    const double drop = place_character(legs.data(), 0, 0, 0, kAside);
+    solve_legs(crowd, legs);
+    std::array<double, 2> off;  // in legs' lengths
+    crowd.residuals(0, off);
+    std::printf("a foot %.1f m aside: the pelvis is down by %.0f mm, level with its ankle; %.0f mm are missing\n",
+                kAside, drop * 1e3, off[0] * (kThigh + kShin) * 1e3);
+}
+
 int stand()
 {
-    const swivel_binding leg = bind_leg();
-    const swivel_group_def groups[] = {swivel::group(2 * kCharacterCount, leg)};  // left and right legs are alike
-    const swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
-    swivel::Crowd crowd(features | SWIVEL_POLE_DIRECTION, groups);
-
+    swivel::Crowd crowd = make_legs(2 * kCharacterCount);
     std::vector<Leg> legs(2 * kCharacterCount);
     double most_drop = 0;
     for (std::uint32_t n = 0; n < kCharacterCount; ++n) {
@@ -180,6 +213,7 @@ int stand()
 int main()
 {
     try {
+        step_aside();
         return stand();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
