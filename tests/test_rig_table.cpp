@@ -77,7 +77,7 @@ Vector3d swung(double degrees, const Vector3d& from, const Vector3d& to)
 std::vector<Row> bend_rows()
 {
     const Want from_rest_back = {kZ, "rest pose"}, knee_clip = {-kZ, "clip"};
-    const Bends through3 = {0, 0, -3, -3}, through15 = {0, 0, -15, -15};
+    const Bends through3 = {0, 0, -3, -3}, through15 = {0, 0, -15, -15}, through25 = {0, 0, -25, -25};
     return {
         {"straight, no clip", {}, anatomy("toes")},
         {"straight, with noise backwards", {.clip = kNoise}, anatomy("toes")},
@@ -94,15 +94,16 @@ std::vector<Row> bend_rows()
         {"knees pressed through by 3, a walk", {.rest = through3, .clip = kWalk}, anatomy("clip")},
         {"knees pressed through by 3, no clip", {.rest = through3}, anatomy("toes")},
         {"knees pressed through by 15, no clip", {.rest = through15}, pairs({kZ, "toes"}, from_rest_back)},
-        {"knees pressed through by 15, a walk",
-         {.rest = through15, .clip = kWalk},
+        {"knees pressed through by 15, a walk", {.rest = through15, .clip = kWalk}, pairs({kZ, "clip"}, knee_clip)},
+        {"knees pressed through by 25, a walk",
+         {.rest = through25, .clip = kWalk},
          pairs({kZ, "clip"}, from_rest_back),
          0,
          {2, 3}},
         {"knees pressed through by 15, a clip that bends them by 25",
          {.rest = through15, .clip = steady({25, 25, 25, 25})},
          pairs({kZ, "clip"}, from_rest_back)},
-        {"rest and clip agree", {.rest = {15, 15, 15, 15}, .clip = kWalk}, anatomy("rest pose")},
+        {"rest and clip agree", {.rest = {25, 25, 25, 25}, .clip = kWalk}, anatomy("rest pose")},
         {"one knee noisy, one bent",
          {.clip = {{0, 0, -1.2, 20}, {0, 0, -2, 40}}},
          with(anatomy("toes"), 3, {-kZ, "clip"})},
@@ -300,7 +301,7 @@ TEST_CASE("rig table: the bend that a refusal offers is a hanging limb's swung t
 TEST_CASE("rig table: a note offers the clip's mean bend")
 {
     const TempFolder folder;
-    const Body body = {.rest = {0, 0, -15, -15}, .clip = kWalk};
+    const Body body = {.rest = {0, 0, -25, -25}, .clip = kWalk};
     rig_of(body).write(folder / "rig.glb");
     const json report = rig_report(rig_of(body));
     const std::string line = offered_line(limb_of(report, "left_leg").at("notes")[0]);

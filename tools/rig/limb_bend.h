@@ -18,12 +18,14 @@ struct Bend {
     std::string source;         // who says so, for people
 };
 
-// The first of these that tells it:
-// - the rest pose, bent by more than 10 degrees: by its sine, as a limb folded by 170 tells as little as a straight
-// one;
-// - the clip, bent by more than 10 degrees in the mean over its frames of the cross product of the unit bones, in the
-//   upper joint's axes, so that noise cancels;
-// - the body: elbows bend forwards and knees backwards in a figure that faces so.
+// The rest pose and the clip are asked, in this order. The first that bends the limb clearly is taken, else the first
+// that bends it at all.
+// - The rest pose bends it by more than 10 degrees, and clearly by more than 20. Its sine counts: a limb folded by 170
+//   tells as little as a straight one.
+// - The clip bends it by more than 10 degrees in the mean, and clearly by more than 30 and one way in nine of ten
+//   frames. The mean is of the cross products of the unit bones, in the upper joint's axes, so that noise cancels.
+// Where neither tells it, the body does: elbows bend forwards and knees backwards in a figure that faces so.
+//
 // rest: of the chain; parent_w: the upper joint's parent at rest. Throws CannotBind where the body must tell and the
 // upper bone points within 30 degrees along that way, or against it; the advice has a bend to write.
 Bend choose_bend(const formats::Clip& clip, formats::LimbName limb, const LimbChain& chain, const ChainPose& rest,
