@@ -107,9 +107,9 @@ TEST_CASE("streams: what cannot be read or written is refused in one line")
     spill(stage.folder / "in.toml", "[crowd]\ntargets = \"-\"\n");
     refused({"-", "--crowd", "in.toml"}, 2, "more than one of FILE", kTwoArms);
     refused({"-"}, 1, "standard input: is empty");
-    refused({"-"}, 1, "standard input: starts neither as BVH nor as glTF", "a,b,c\n");
+    refused({"-"}, 1, "standard input: begins with 'a,b,c\\x0a'; swivel reads BVH", "a,b,c\n");
     refused({"-"}, 1, "standard input:", "HIERARCHY\nROOT");
-    refused({"-"}, 1, "standard input: starts neither", std::string("HIERARCHY\n\0", 11));
+    refused({"-"}, 1, "standard input: is a binary file", std::string("HIERARCHY\n\0", 11));
     refused({"-"}, 1, "standard input:", "{}");
     refused({"-"}, 1, "standard input:", "glTF");
     refused({"clip.bvh", "--crowd", "clip.bvh"}, 1,

@@ -57,7 +57,7 @@ TEST_CASE("gltf faults: of a device or a pipe no more is read than the file says
         CHECK(outcome.peak_kib < 200'000);
     };
     fs::create_symlink("/dev/zero", folder / "zero.glb");
-    refuses(spawn_command(folder.path, {"rig", "zero.glb"}), "is not glTF: it starts neither with 'glTF' nor with '{'");
+    refuses(spawn_command(folder.path, {"rig", "zero.glb"}), "begins with '\\x00\\x00");
     // Three GiB, of which the header says that twenty, or none, are the file.
     bending_arm({0, 1}).write(folder / "arm.glb");
     const std::string good = slurp(folder / "arm.glb");

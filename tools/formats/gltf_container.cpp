@@ -104,6 +104,11 @@ private:
 
 }  // namespace
 
+bool is_gltf_begin(std::string_view begin)
+{
+    return begin.starts_with(kMagic) || trimmed(without_byte_order_mark(begin)).starts_with('{');
+}
+
 GltfContainer read_gltf_container(const std::filesystem::path& path)
 {
     return read_gltf_container(path, open_text(path).get(), {});

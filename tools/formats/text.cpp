@@ -80,6 +80,12 @@ void append_all(const std::filesystem::path& path, std::FILE* file, std::string&
     require(bytes.size());
 }
 
+void require_text(const std::filesystem::path& path, std::string_view bytes)
+{
+    const bool is_binary = bytes.find('\0') != std::string_view::npos;
+    if (is_binary) throw InputError(path, "is a binary file; a text file is needed");
+}
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 }  // namespace
@@ -108,18 +114,18 @@ TextFile open_text(const std::filesystem::path& path)
 std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char* buffer, std::size_t size)
 {
     const std::size_t count = read_some(path, file, buffer, size);
-    const bool is_binary = std::string_view(buffer, count).find('\0') != std::string_view::npos;
-    if (is_binary) throw InputError(path, "is a binary file; a text file is needed");
+    require_text(path, {buffer, count});
     return count;
 }
 
-std::string read_text(const std::filesystem::path& path)
+std::string read_text(const std::filesystem::path& path) { return read_text(path, open_text(path).get(), {}); }
+
+std::string read_text(const std::filesystem::path& path, std::FILE* file, std::string begin)
 {
-    const TextFile file = open_text(path);
-    std::string text;
-    append_all(path, file.get(), text, "cut it", read_chunk);
-    if (text.empty()) throw InputError(path, "is empty; check how it was written");
-    return text;
+    require_text(path, begin);
+    append_all(path, file, begin, "cut it", read_chunk);
+    if (begin.empty()) throw InputError(path, "is empty; check how it was written");
+    return begin;
 }
 
 void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes)

@@ -33,6 +33,9 @@ std::size_t read_chunk(const std::filesystem::path& path, std::FILE* file, char*
 // 2 GiB: a device may have no end. Holds the file once; reading from a pipe works.
 std::string read_text(const std::filesystem::path& path);
 
+// The same of an open file of which `begin` is read. path: what messages call it.
+std::string read_text(const std::filesystem::path& path, std::FILE* file, std::string begin);
+
 // Appends what comes next of any file, text or binary: `most` bytes, or fewer where it ends. Throws InputError on a
 // read error. Allocates as bytes come, not as `most` says.
 void append_bytes(const std::filesystem::path& path, std::FILE* file, std::size_t most, std::string& bytes);

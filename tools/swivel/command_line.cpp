@@ -130,7 +130,7 @@ void add_steps(CLI::App& app)
     const auto vector = [] { return numbers(3, -HUGE_VAL); };
     CLI::Option* file =
         takes(command->add_option("FILE", options->file,
-                                  "A clip, instead of an arm by its numbers: .bvh, .glb, .gltf or .vrm. "
+                                  "A clip, instead of an arm by its numbers: BVH or glTF, as its first bytes say. "
                                   "- is standard input"),
               file_name())
             ->option_text(" ");

@@ -24,42 +24,37 @@ void require_no_choice(const MotionChoice& choice)
         throw CommandError(2, "--fps samples a glTF file; a BVH file has frames of its own; leave it out");
 }
 
-// Told apart by the first bytes.
-Motion read_standard_input(const std::filesystem::path& path, const MotionChoice& choice)
+// A GLB's header, which says how long it is. No more may be read of a GLB: from a pipe, more may never come.
+constexpr std::size_t kGlbHead = 12;
+// By then a text has said what it is, even after blank lines.
+constexpr std::size_t kTextHead = 4096;
+constexpr std::size_t kShownHead = 20;  // bytes of it in a message
+
+// The file's first bytes, by which formats are told apart.
+std::string read_begin(const std::filesystem::path& path, std::FILE* input)
 {
-    const formats::TextFile input = formats::open_text(path);
-    std::string bytes;
-    formats::append_bytes(path, input.get(), 1000, bytes);
-    if (bytes.empty()) throw formats::InputError(path, "is empty; check how it was written");
-    const std::string_view start = formats::trimmed(formats::without_byte_order_mark(bytes));
-    if (start.starts_with("glTF") || start.starts_with('{')) {
-        formats::GltfContainer container = formats::read_gltf_container(path, input.get(), std::move(bytes));
-        return formats::read_gltf(path, std::move(container), {choice.clip, choice.rate});
-    }
-    if (!formats::is_bvh_text(bytes))
-        throw formats::InputError(path, "starts neither as BVH nor as glTF does; give other formats as files");
-    require_no_choice(choice);
-    formats::append_rest(path, input.get(), bytes);
-    if (bytes.find('\0') != std::string::npos)
-        throw formats::InputError(path, "starts neither as BVH nor as glTF does; give other formats as files");
-    return formats::bvh_of(path, std::move(bytes));
+    std::string begin;
+    formats::append_bytes(path, input, kGlbHead, begin);
+    if (!formats::is_gltf_begin(begin)) formats::append_bytes(path, input, kTextHead - kGlbHead, begin);
+    if (begin.empty()) throw formats::InputError(path, "is empty; check how it was written");
+    return begin;
 }
 
 Motion read(const std::filesystem::path& path, const MotionChoice& choice)
 {
-    if (formats::is_standard_stream(path)) return read_standard_input(path, choice);
-    if (is_gltf(formats::lower_suffix(path))) return formats::read_gltf(path, {choice.clip, choice.rate});
-    if (const std::string suffix = formats::lower_suffix(path); suffix == ".fbx" || suffix == ".dae")
-        throw formats::InputError(path,
-                                  "swivel reads no FBX and DAE; export the file as glTF, for example from Blender");
-    require_no_choice(choice);
-    try {
-        return formats::read_bvh(path);
-    } catch (const formats::InputError& fault) {
-        if (is_bvh(formats::lower_suffix(path)) || !std::filesystem::is_regular_file(path)) throw;
-        throw CommandError(
-            1, fmt::format("{} (read as BVH: names of other formats end in .glb, .gltf or .vrm)", fault.what()));
+    const formats::TextFile input = formats::open_text(path);
+    std::string begin = read_begin(path, input.get());
+    if (formats::is_gltf_begin(begin)) {
+        formats::GltfContainer container = formats::read_gltf_container(path, input.get(), std::move(begin));
+        return formats::read_gltf(path, std::move(container), {choice.clip, choice.rate});
     }
+    if (!formats::is_bvh_text(begin))
+        throw formats::InputError(
+            path, fmt::format("begins with '{}'; swivel reads BVH, which begins with HIERARCHY, and glTF, which begins "
+                              "with glTF or {{; export the file as glTF, for example from Blender",
+                              formats::printable(begin, kShownHead)));
+    require_no_choice(choice);
+    return formats::bvh_of(path, formats::read_text(path, input.get(), std::move(begin)));
 }
 
 const char* format_of(const Motion& motion) { return std::holds_alternative<BvhFile>(motion) ? "BVH" : "glTF"; }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <variant>
 
+
 #include "tools/formats/bvh.h"
 #include "tools/formats/gltf.h"
 #include "tools/swivel/motion_choice.h"
@@ -23,8 +24,7 @@ struct OutPlace {
 
 class MotionFile {
 public:
-    // Reads .glb, .gltf and .vrm as glTF, everything else as BVH; the suffix in any case.
-    // Standard input ("-") is glTF if it starts as such files do, else BVH.
+    // Reads a file, or standard input ("-"), as glTF or BVH. Its first bytes say which; its name says nothing.
     // Throws InputError as the readers do, and CommandError (bad usage) for a choice that a BVH file does not have.
     // The clip has no frames until sample().
     MotionFile(const std::filesystem::path& path, const MotionChoice& choice);
@@ -52,7 +52,7 @@ private:
     std::string format_;  // of the file that was read: "BVH" or "glTF"
 };
 
-// Whether a file of this suffix, in lower case, holds one character's motion, and of which format.
+// Whether a file that is written under this suffix, in lower case, holds one character's motion, and of which format.
 inline bool is_bvh(std::string_view suffix) { return suffix == ".bvh"; }
 inline bool is_gltf(std::string_view suffix) { return suffix == ".glb" || suffix == ".gltf" || suffix == ".vrm"; }
 

@@ -19,7 +19,7 @@ void add_file(CLI::App& command, std::string& file, const std::string& meaning)
 {
     takes(command.add_option(
               "FILE", file,
-              meaning + ": .bvh, .glb, .gltf or .vrm. - is standard input, BVH or glTF as its first bytes say"),
+              meaning + ": BVH or glTF (.glb, .gltf, .vrm, .vrma), as its first bytes say. - is standard input"),
           file_name())
         ->required()
         ->option_text(" ");
