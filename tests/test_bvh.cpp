@@ -161,10 +161,21 @@ TEST_CASE("bvh: unusual channels, names and roots are read")
         CHECK(child_joints(clip, -1) == std::vector<int>{0, 1});
         CHECK(world_pose(clip, 0)[1].position == Vector3d(7, 0, 0));
     }
+    SECTION("as many lines as announced") { CHECK(read(folder, kTiny).surplus_count == 0); }
+    SECTION("lines beyond those announced, with blank ones between")
+    {
+        const BvhFile file = read(folder, kTiny + "\n1 2 3 4 5 6 7 8 9\n\n1 2 3 4 5 6 7 8 9\n\n");
+        CHECK(file.clip.frame_count == 2);
+        CHECK(file.surplus_count == 2);
+        CHECK(file.frames_line == 21);
+        write_bvh(folder / "w.bvh", file, {});
+        CHECK(slurp(folder / "w.bvh") == file.text);
+    }
     SECTION("one line more than announced")
     {
         const BvhFile file = read(folder, edited(kTiny, "Frames: 2", "Frames: 1"));
         CHECK(file.clip.frame_count == 1);
+        CHECK(file.surplus_count == 1);
         CHECK(file.clip.rotation.size() == 3);
         const std::vector<Quaterniond> one = {Quaterniond::Identity()};
         write_bvh(folder / "w.bvh", file, {{{1, one}}});
@@ -223,7 +234,7 @@ TEST_CASE("bvh: malformed files are refused with line and cause")
         {"Frames: 2", "Frames: 9000000000000000000",
          "t.bvh:24: the file ends after 2 of the 9000000000000000000 frames"},
         {"Frames: 2", "Frames: 3", "t.bvh:24: the file ends after 2 of the 3 frames announced in line 21; is it cut"},
-        {last, last + last + last, "t.bvh:26: more lines than the 2 frames announced in line 21"},
+        {last, last + last + "1 2\n", "t.bvh:26: 2 values, the channels need 9"},
         {last, last + "1 2\n", "t.bvh:25: 2 values, the channels need 9"},
         {"Frame Time: .5", "Frame Time: 0", "t.bvh:22: Frame Time: '0' is not a number of seconds above 0"},
         {"Frame Time: .5", "Frame Time: -1", "t.bvh:22: Frame Time: '-1' is not"},

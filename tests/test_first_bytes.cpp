@@ -155,3 +155,39 @@ TEST_CASE("first bytes: a file of another kind is refused in a line that shows w
                     "swivel: clip.glb: is empty; check how it was written\n");
     CHECK(folder.file_count() == 4);
 }
+
+TEST_CASE("first bytes: rows of a BVH beyond those announced are noted, and read are those announced")
+{
+    const TempFolder folder;
+    const std::string row = kTwoArms.substr(kTwoArms.find("1 2 4"));
+    const auto report = [&](std::size_t surplus) {
+        std::string text = kTwoArms;
+        for (std::size_t n = 0; n < surplus; ++n) text += row;
+        spill(folder / "clip.bvh", text);
+        return report_of(folder, "clip.bvh");
+    };
+    CHECK(!report(0).contains("notes"));
+    REQUIRE(run_command(folder.path, {"solve", "clip.bvh", "--out", "plain.csv"}).exit_code == 0);
+    const std::string one = "the file has 3 rows of values, and Frames: in line 46 says 2; the last 1 is left out",
+                      two = "the file has 4 rows of values, and Frames: in line 46 says 2; the last 2 are left out";
+    CHECK(report(1).at("notes") == json({one}));
+    const json noted = report(2);
+    CHECK(noted.at("notes") == json({two}));
+    CHECK(noted.at("frames") == 2);
+
+    const Outcome rig = run_command(folder.path, {"rig", "clip.bvh"});
+    CHECK(rig.out.find("\nnote: " + two + "\n") != std::string::npos);
+    const Outcome solve =
+        run_command(folder.path, {"solve", "clip.bvh", "--out", "noted.csv", "--report", "report.html"});
+    INFO(solve.err);
+    REQUIRE(solve.exit_code == 0);
+    CHECK(solve.err.empty());
+    CHECK(solve.out.find("\nnote     " + two + "\n") != std::string::npos);
+    CHECK(slurp(folder / "report.html").find(two) != std::string::npos);
+    CHECK(slurp(folder / "noted.csv") == slurp(folder / "plain.csv"));
+    const Outcome as_json = run_command(folder.path, {"solve", "clip.bvh", "--json"});
+    CHECK(json::parse(as_json.out).at("notes") == json({two}));
+    // A row that is left out stays in the text of a BVH that is written.
+    REQUIRE(run_command(folder.path, {"solve", "clip.bvh", "--out", "same.bvh"}).exit_code == 0);
+    CHECK(slurp(folder / "same.bvh").ends_with(row + row));
+}

@@ -20,17 +20,8 @@ namespace {
 constexpr double kMostDegrees = 1e9;                     // of which a double's last digit is 1e-7 degrees
 constexpr std::size_t kMaxPoses = std::size_t{1} << 28;  // frames times joints: 8 GiB of quaternions
 
-struct MotionHeader {
-    std::size_t frame_count;
-    std::size_t frames_line;
-};
-
-struct FrameLines {
-    std::vector<double> values;  // of the line at hand
-    std::size_t count = 0;       // lines with values so far
-};
-
-MotionHeader read_motion_header(Scanner& scan, BvhFile& file)
+// Returns how many frames are announced.
+std::size_t read_motion_header(Scanner& scan, BvhFile& file)
 {
     if (file.channel_count == 0) fail(scan, "no joint has CHANNELS, so there is no motion to read");
     expect(scan, "Frames:");
@@ -39,7 +30,7 @@ MotionHeader read_motion_header(Scanner& scan, BvhFile& file)
     if (!count || *count < 1) {
         fail(scan, fmt::format("Frames: '{}' is not a whole number above 0", printable(count_word)));
     }
-    const MotionHeader header{static_cast<std::size_t>(*count), scan.line};
+    file.frames_line = scan.line;
     expect(scan, "Frame");
     expect(scan, "Time:");
     const std::string_view time_word = rest_of_line(scan);
@@ -48,15 +39,15 @@ MotionHeader read_motion_header(Scanner& scan, BvhFile& file)
         fail(scan, fmt::format("Frame Time: '{}' is not a number of seconds above 0", printable(time_word)));
     }
     file.clip.frame_time = *time;
-    return header;
+    return static_cast<std::size_t>(*count);
 }
 
 // Makes room for as many frames as the rest of the text can hold, whatever the file announces: a value takes two bytes.
-void reserve_frames(const Scanner& scan, BvhFile& file, const MotionHeader& header)
+void reserve_frames(const Scanner& scan, BvhFile& file, std::size_t announced)
 {
     Clip& clip = file.clip;
     const std::size_t most = (scan.text.size() - scan.at) / (2 * file.channel_count) + 1;
-    const std::size_t frame_count = std::min(header.frame_count, most);
+    const std::size_t frame_count = std::min(announced, most);
     if (frame_count > kMaxPoses / clip.joints.size()) {
         fail(scan, fmt::format("{} frames of {} joints need more than 8 GiB; cut the clip into pieces", frame_count,
                                clip.joints.size()));
@@ -135,33 +126,31 @@ void append_frame(BvhFile& file, std::span<const double> values)
     ++clip.frame_count;
 }
 
-// Takes the line as the next frame. One line too many is checked and left out: writers that count the steps between
-// frames make such files.
-void read_frame(const Scanner& scan, BvhFile& file, const MotionHeader& header, std::string_view line,
-                FrameLines& lines)
+// Takes the line as the next frame. One beyond those announced is checked and left out.
+void read_frame(const Scanner& scan, BvhFile& file, std::size_t announced, std::string_view line,
+                std::span<double> values)
 {
-    parse_values(scan, file, line, lines.values);
-    if (++lines.count > header.frame_count + 1) {
-        fail(scan, fmt::format("more lines than the {} frames announced in line {}; correct the number",
-                               header.frame_count, header.frames_line));
+    parse_values(scan, file, line, values);
+    if (file.clip.frame_count == announced) {
+        ++file.surplus_count;
+        return;
     }
-    if (lines.count > header.frame_count) return;
     file.frame_begin.push_back(scan.at);
-    append_frame(file, lines.values);
+    append_frame(file, values);
 }
 
-void read_frames(Scanner& scan, BvhFile& file, const MotionHeader& header)
+void read_frames(Scanner& scan, BvhFile& file, std::size_t announced)
 {
-    FrameLines lines{std::vector<double>(file.channel_count)};
+    std::vector<double> values(file.channel_count);
     while (scan.at < scan.text.size()) {
         const std::size_t end = std::min(scan.text.find('\n', scan.at), scan.text.size());
         const std::string_view line = scan.text.substr(scan.at, end - scan.at);
-        if (!trimmed(line).empty()) read_frame(scan, file, header, line, lines);
+        if (!trimmed(line).empty()) read_frame(scan, file, announced, line, values);
         skip_to(scan, std::min(end + 1, scan.text.size()));
     }
-    if (file.clip.frame_count != header.frame_count) {
+    if (file.clip.frame_count != announced) {
         fail(scan, fmt::format("the file ends after {} of the {} frames announced in line {}; is it cut short?",
-                               file.clip.frame_count, header.frame_count, header.frames_line));
+                               file.clip.frame_count, announced, file.frames_line));
     }
 }
 
@@ -176,9 +165,9 @@ BvhFile bvh_of(const std::filesystem::path& path, std::string text)
     file.text = std::move(text);
     Scanner scan{file.path, file.text, file.text.size() - without_byte_order_mark(file.text).size()};
     read_hierarchy(scan, file);
-    const MotionHeader header = read_motion_header(scan, file);
-    reserve_frames(scan, file, header);
-    read_frames(scan, file, header);
+    const std::size_t announced = read_motion_header(scan, file);
+    reserve_frames(scan, file, announced);
+    read_frames(scan, file, announced);
     return file;
 }
 

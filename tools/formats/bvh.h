@@ -7,8 +7,8 @@
 //   assimp read it. An old note on the format adds the two at the root. In files in use, the offset there is zero, or
 //   it repeats the first frame's position.
 // - One frame is one line, as the format says. A line with another number of values is refused, because wrapped lines
-//   look like lost values. Blank lines are skipped. One line more than "Frames:" announces is left out, as other
-//   readers do: some exporters count the steps between frames. Two lines more are refused.
+//   look like lost values. Blank lines are skipped. Lines beyond those that "Frames:" announces are checked and left
+//   out, as other readers do. Some exporters count the steps between frames.
 // - Keywords may be in any case, and lines may end in LF or CRLF. Names may repeat and hold anything but braces. There
 //   may be several ROOTs, and joints without CHANNELS.
 
@@ -47,6 +47,8 @@ struct BvhFile {
     std::vector<std::size_t> frame_begin;  // byte in `text` where each frame's line starts
     std::vector<BvhJoint> joints;          // same order as clip.joints
     std::size_t channel_count = 0;         // values a line
+    std::size_t frames_line = 0;           // of "Frames:"; for messages
+    std::size_t surplus_count = 0;         // lines of values beyond those announced
     Clip clip;
 };
 

@@ -98,6 +98,16 @@ std::string MotionFile::describe() const
                        gltf->animation_names.size());
 }
 
+std::vector<std::string> MotionFile::notes() const
+{
+    const BvhFile* bvh = std::get_if<BvhFile>(&file_);
+    if (!bvh || bvh->surplus_count == 0) return {};
+    const std::size_t count = bvh->frame_begin.size();
+    return {fmt::format("the file has {} rows of values, and Frames: in line {} says {}; the last {} {} left out",
+                        count + bvh->surplus_count, bvh->frames_line, count, bvh->surplus_count,
+                        bvh->surplus_count == 1 ? "is" : "are")};
+}
+
 void MotionFile::require_can_write(const OutPlace& out) const
 {
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
-
+#include <vector>
 
 #include "tools/formats/bvh.h"
 #include "tools/formats/gltf.h"
@@ -41,6 +41,8 @@ public:
     std::span<const std::filesystem::path> files_beside() const;
     // What the clip is, for people: "glTF, animation 0 'Walk' of 3", "BVH", "glTF without animation: its rest pose".
     std::string describe() const;
+    // What the user should know of how it was read, a line each; mostly nothing.
+    std::vector<std::string> notes() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
     void require_can_write(const OutPlace& out) const;
     // Throws InputError for a joint whose rotation that cannot hold.

@@ -97,6 +97,7 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"faces_by", facing.forwards_source},
                                {"up", vector_of(facing.up_w)},
                                {"up_by", facing.up_source}};
+    if (const auto notes = motion.notes(); !notes.empty()) out["notes"] = notes;
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, facing));
     const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
     if (with_joints)

@@ -148,7 +148,7 @@ void run_solve(const SolveOptions& options)
     require_html_name(options.view_option, options.view);
     require_html_name("--report", options.report);
     const SolveFacts facts{options.file,        options.crowd, file.describe(), job.targets,
-                           job.plan.characters, job.plan.seed, job.missing};
+                           job.plan.characters, job.plan.seed, job.missing,     file.notes()};
     if (!options.json && !options.quiet) print_clip(reports, facts, file.clip(), job.limbs);
 
     const ThreadLimit limit(options.threads);

@@ -205,6 +205,7 @@ void SolveHtml::commit(const Json& run)
 {
     report_.paragraph(result_of(run));
     report_.table({"what", "value"}, facts_of(run));
+    for (const Json& note : run.value("notes", Json::array())) report_.paragraph(text_of(note) + ".");
     put_limbs(run);
     put_missing(run);
     put_errors(run);

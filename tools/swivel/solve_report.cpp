@@ -21,6 +21,7 @@ void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& cli
     say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(facts.clip), facts.motion, clip.joints.size(),
         clip.frame_count, clip.frame_count == 1 ? "" : "s",
         clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
+    for (const std::string& note : facts.notes) say(to, "note     {}\n", note);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
         say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
@@ -55,6 +56,7 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
                                {"seed", facts.seed},
                                {"targets", facts.targets}};
     if (!facts.crowd.empty()) out["crowd"] = facts.crowd;
+    if (!facts.notes.empty()) out["notes"] = facts.notes;
     for (const Limb& limb : limbs) {
         const LimbWords& words = words_of(limb.name.kind);
         out[fmt::format("{}_bound", words.limbs)].push_back(

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/crowd/characters.h"
 
@@ -19,6 +20,7 @@ struct SolveFacts {
     std::uint32_t characters = 1;
     std::uint64_t seed = 1;
     std::span<const LimbFinding> missing{};  // limbs that were asked for and do not bind
+    std::vector<std::string> notes{};        // MotionFile::notes()
 };
 
 // A file's name as one line shows it.

@@ -209,7 +209,7 @@ void run_store(const StoreOptions& options)
     MotionFile file(options.crowd.file, options.crowd.motion);
     CrowdJob job = make_job(options.crowd, choice, file);
     const SolveFacts facts{options.crowd.file,  options.crowd.crowd, file.describe(), job.targets,
-                           job.plan.characters, job.plan.seed,       job.missing};
+                           job.plan.characters, job.plan.seed,       job.missing,     file.notes()};
     if (!options.crowd.json && !options.crowd.quiet) print_clip(stdout, facts, file.clip(), job.limbs);
     CachedCrowd to_store = crowd_to_store(options, file, job);
     const StopSignals signals;
