@@ -22,8 +22,8 @@ struct Bend {
 // that bends it at all.
 // - The rest pose bends it by more than 10 degrees, and clearly by more than 20. Its sine counts: a limb folded by 170
 //   tells as little as a straight one.
-// - The clip bends it by more than 10 degrees in the mean, and clearly by more than 30 and one way in nine of ten
-//   frames. The mean is of the cross products of the unit bones, in the upper joint's axes, so that noise cancels.
+// - The clip bends it by more than 10 degrees in the mean. It is clear above 30, and one way in nine of ten frames.
+//   The mean is of the cross products of the unit bones, in the upper joint's axes, so that noise cancels.
 // Where neither tells it, the body does: elbows bend forwards and knees backwards in a figure that faces so.
 //
 // rest: of the chain; parent_w: the upper joint's parent at rest. Throws CannotBind where the body must tell and the
