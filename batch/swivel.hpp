@@ -2,9 +2,14 @@
 //
 // C++ on top of swivel.h: a crowd that frees itself, ranges instead of pointers and strides, exceptions instead of
 // statuses, and checks of how many values a range has. Header only. Contracts, units and layouts are swivel.h's.
+//
+// A call that fails throws swivel::Error. Without exceptions (-fno-exceptions) it prints the error's line and aborts.
+// To do something else before the abort, define SWIVEL_ON_ERROR(status, text) before each include, everywhere the same.
+// The text is a const char*. A program that must go on after an error uses swivel.h, whose calls return statuses.
 #pragma once
 
-#if __cplusplus <= 201703L
+// Microsoft's compiler tells its standard here; there __cplusplus is that of C++98 without /Zc:__cplusplus.
+#if (!defined(_MSVC_LANG) || _MSVC_LANG <= 201703L) && __cplusplus <= 201703L
 #error "swivel.hpp is C++20 (-std=c++20); older C++ and C programs use swivel.h"
 #else
 
@@ -12,6 +17,8 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 #include <optional>
 #include <ranges>
@@ -20,10 +27,12 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "swivel.h"
 
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
 namespace swivel {
 
 // A failed call: its status, and one line of text, which is swivel_last_error() where the library refused it.
@@ -33,9 +42,24 @@ struct Error : std::runtime_error {
     swivel_status status;
 };
 
+[[noreturn]] inline void fail(swivel_status status, const std::string& text) { throw Error(status, text); }
+#else
+#ifndef SWIVEL_ON_ERROR
+#define SWIVEL_ON_ERROR(status, text) std::fprintf(stderr, "swivel: %s\n", text)
+#endif
+// A name of its own. Otherwise a linker could give these functions to a file that expects an exception.
+namespace swivel::inline without_exceptions {
+
+[[noreturn]] inline void fail([[maybe_unused]] swivel_status status, [[maybe_unused]] const std::string& text)
+{
+    SWIVEL_ON_ERROR(status, text.c_str());
+    std::abort();
+}
+#endif
+
 inline void check(swivel_status status)
 {
-    if (status != SWIVEL_OK) throw Error(status);
+    if (status != SWIVEL_OK) fail(status, swivel_last_error());
 }
 
 // Limbs that share a binding, for a crowd with SWIVEL_JOINTS; or limbs in the arm frame.
@@ -192,23 +216,33 @@ template <class Range, class Struct, DoubleValue Value>
 requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
 auto stream_doubles(Range&& values, Value Struct::*member) { return stream_of(values, member); }
 
-// A range that was given, empty or not; or none. Two words, so that a job is made in a few steps.
+// A range that was given, empty or not; or none. It views a std::span, or a range that has a name, and that range must
+// outlive it. Values in braces and other ranges without a name end with their line. It keeps copies of those, which
+// allocates.
 template <class Each>
 class Given {
 public:
     Given() = default;
-    Given(const Each* first, std::size_t count) : first_(first), count_and_one_(count + 1) {}
-    Given(std::initializer_list<Each> values) : Given(values.begin(), values.size()) {}  // for one call
+    Given(const Each* first, std::size_t count) : values_(std::span<const Each>(first, count)) {}
+    Given(std::initializer_list<Each> values) : values_(std::vector<Each>(values)) {}
     template <std::convertible_to<std::span<const Each>> Range>
-    Given(const Range& range) : Given(std::span<const Each>(range).data(), std::span<const Each>(range).size())
+    Given(Range&& range)
     {
+        const std::span<const Each> values(range);
+        if constexpr (std::is_lvalue_reference_v<Range> || std::ranges::borrowed_range<Range>)
+            values_ = values;
+        else
+            values_ = std::vector<Each>(values.begin(), values.end());
     }
-    explicit operator bool() const { return count_and_one_ > 0; }
-    std::span<const Each> operator*() const { return {first_, count_and_one_ - 1}; }
+    explicit operator bool() const { return values_.index() > 0; }
+    std::span<const Each> operator*() const
+    {
+        const auto* const kept = std::get_if<std::vector<Each>>(&values_);
+        return kept ? std::span<const Each>(*kept) : *std::get_if<std::span<const Each>>(&values_);
+    }
 
 private:
-    const Each* first_ = nullptr;
-    std::size_t count_and_one_ = 0;
+    std::variant<std::monostate, std::span<const Each>, std::vector<Each>> values_;
 };
 
 // What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB. Of mask, limbs and
@@ -319,12 +353,15 @@ public:
         return swivel_find(crowd_, flags, &from.group, &from.limb) ? std::optional(from) : std::nullopt;
     }
 
-    // swivel_explain(): why a limb is as it is, in words.
+    // swivel_explain(): why a limb is as it is, in words, however many.
     std::string explain(std::uint32_t group, std::uint32_t limb) const
     {
-        std::array<char, 1024> text;
-        check(swivel_explain(crowd_, group, limb, text.data(), text.size()));
-        return text.data();
+        // Most texts fit; that of a limb whose inputs are all bad has 3,135 bytes.
+        for (std::string text(1024, '\0');; text.resize(2 * text.size())) {
+            check(swivel_explain(crowd_, group, limb, text.data(), text.size()));
+            const std::size_t length = text.find('\0');
+            if (length + 1 < text.size()) return text.substr(0, length);  // a text that fills its room may be cut
+        }
     }
 
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
@@ -375,9 +412,9 @@ private:
     {
         const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
         if (!first && given != has && has > 0)
-            throw Error(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " values for the " + std::to_string(has) +
-                                                     " limbs of group " + std::to_string(group) +
-                                                     "; give one for each, or say from which limb on");
+            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " values for the " + std::to_string(has) +
+                                              " limbs of group " + std::to_string(group) +
+                                              "; give one for each, or say from which limb on");
         return given;
     }
     // Where values lie. An empty range may have null data, which calls refuse.
@@ -412,8 +449,8 @@ private:
         std::uint32_t groups = 0;
         while (swivel_group_limb_count(crowd_, groups) > 0) ++groups;
         if (given != groups)
-            throw Error(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " " + what + " for " + std::to_string(groups) +
-                                                     " groups; give one for each");
+            fail(SWIVEL_INVALID_ARGUMENT,
+                 std::to_string(given) + " " + what + " for " + std::to_string(groups) + " groups; give one for each");
         return each.data();
     }
 

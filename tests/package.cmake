@@ -135,6 +135,7 @@ run(${CC} -std=c11 ${flags} ${CMAKE_CURRENT_LIST_DIR}/package/arm.c -o ${WORK}/p
 must_print_the_line(${WORK}/pc_arm_c)
 run(${CXX} -std=c++20 ${flags} ${CMAKE_CURRENT_LIST_DIR}/package/arm.cpp -o ${WORK}/pc_arm_cpp ${options})
 must_print_the_line(${WORK}/pc_arm_cpp)
+include(${CMAKE_CURRENT_LIST_DIR}/package/engine.cmake)
 unset(ENV{LD_LIBRARY_PATH})
 message(STATUS "installed, moved, found and linked")
 

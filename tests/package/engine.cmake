@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+#
+# The promise: swivel.hpp works without exceptions and run-time types. A call that fails then prints the error's line, or calls the
+# program's own handler, and ends the program. Files with exceptions may be linked beside.
+#   CXX, NM: as package.cmake has them; WORK: its folder. flags: of the compiler, options: what pkg-config says. See host.cmake, too.
+set(other clang++)
+if(CXX MATCHES "clang")
+  set(other g++)
+endif()
+find_program(OTHER_CXX ${other})
+set(compilers ${CXX})
+if(OTHER_CXX)
+  list(APPEND compilers ${OTHER_CXX})
+endif()
+
+# Runs the program with the word "fail" and fills `status` and `said`.
+function(run_and_fail program)
+  execute_process(COMMAND ${program} fail RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  set(status "${result}" PARENT_SCOPE)
+  set(said "${output}" PARENT_SCOPE)
+endfunction()
+
+set(engine ${WORK}/engine)
+set(includes ${options})
+list(FILTER includes INCLUDE REGEX "^-I")
+set(line "entry 0 of the list: 5000 is no limb of this crowd[^\n]*\n")
+foreach(compiler IN LISTS compilers)
+  foreach(handler "" -DOWN_HANDLER)
+    run(${compiler} -std=c++20 -fno-exceptions -fno-rtti ${flags} ${handler} -c ${CMAKE_CURRENT_LIST_DIR}/engine.cpp -o ${engine}.o ${includes})
+    run(${compiler} ${flags} ${engine}.o -o ${engine} ${options})
+    must_print_the_line(${engine})
+    run_and_fail(${engine})
+    if(handler)
+      set(wanted "^7 the engine's log: status 1, ${line}$")
+    else()
+      set(wanted "^(Subprocess aborted|SIGABRT|Child aborted|134) swivel: ${line}")
+    endif()
+    if(NOT "${status} ${said}" MATCHES "${wanted}")
+      message(SEND_ERROR "engine.cpp of ${compiler} ${handler}, which fails: ${status} ${said}")
+    endif()
+  endforeach()
+  # A linker takes one of all functions of a name. So those without exceptions have names of their own.
+  run(${NM} -C ${engine}.o)
+  string(REGEX MATCHALL " [WV] swivel::[A-Za-z_]+" names "${output}")
+  list(TRANSFORM names REPLACE "^ [WV] " "")
+  list(REMOVE_DUPLICATES names)
+  if(NOT names STREQUAL "swivel::without_exceptions")
+    message(SEND_ERROR "engine.cpp of ${compiler} has functions of [${names}]")
+  endif()
+endforeach()
