@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 #
 # The promise: an installed swivel consists of two headers, the library, its command with man page and completions, package files and the
-# licence. You may move it. C11 and C++20 programs outside the tree find it through CMake and pkg-config. They get its place and no other
-# options.
+# licence. The page's program is installed where tools/view/build has made it. You may move all. C11 and C++20 programs outside the tree
+# find it through CMake and pkg-config. They get its place and no other options.
 #   BUILD: the build folder to install from. WORK: an own folder. SOURCE: the repository. LIBDIR, BINDIR, DOCDIR, MANDIR, DATADIR, VERSION,
 #   MAJOR. SHARED, TBB, TOOLS: what BUILD has. FLAGS: what the build's programs need. NM, READELF: tools. See package/host.cmake, too.
 cmake_minimum_required(VERSION 3.22)
@@ -10,8 +10,6 @@ include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
 unset(ENV{SWIVEL_FORCE_ISA})  # the library may be built for scalar alone
 
 # ---- exactly these files, then moved
-file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
 set(wanted include/swivel/swivel.h include/swivel/swivel.hpp ${DOCDIR}/LICENSE ${LIBDIR}/cmake/swivel/swivelConfig.cmake
     ${LIBDIR}/cmake/swivel/swivelConfigVersion.cmake ${LIBDIR}/cmake/swivel/swivelTargets-release.cmake
     ${LIBDIR}/cmake/swivel/swivelTargets.cmake ${LIBDIR}/pkgconfig/swivel.pc)
@@ -24,11 +22,35 @@ if(TOOLS)
   list(APPEND wanted ${BINDIR}/swivel ${BINDIR}/swivel-race ${MANDIR}/man1/swivel.1 ${DATADIR}/bash-completion/completions/swivel
        ${DATADIR}/zsh/site-functions/_swivel ${DATADIR}/fish/vendor_completions.d/swivel.fish)
 endif()
-file(GLOB_RECURSE installed RELATIVE ${WORK}/first ${WORK}/first/*)
-list(SORT wanted)
-list(SORT installed)
-if(NOT installed STREQUAL wanted)
-  message(SEND_ERROR "installed [${installed}] instead of [${wanted}]")
+# Checks what a prefix has, and fills `installed`. The page's program is expected if this file exists.
+function(must_have prefix page)
+  if(TOOLS AND EXISTS ${page})
+    list(APPEND wanted ${DATADIR}/swivel/view.html)
+  endif()
+  file(GLOB_RECURSE installed RELATIVE ${prefix} ${prefix}/*)
+  list(SORT wanted)
+  list(SORT installed)
+  if(NOT installed STREQUAL wanted)
+    message(SEND_ERROR "installed [${installed}] instead of [${wanted}]")
+  endif()
+  set(installed "${installed}" PARENT_SCOPE)
+endfunction()
+file(REMOVE_RECURSE ${WORK})
+set(page ${SOURCE}/build/view/view.html)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+must_have(${WORK}/first ${page})
+if(TOOLS)  # This tree has the page or lacks it. The same installation, told of another place, meets both cases.
+  file(READ ${BUILD}/cmake_install.cmake script)
+  string(REPLACE \"${page}\" \"${WORK}/view.html\" elsewhere "${script}")
+  if(elsewhere STREQUAL script)
+    message(SEND_ERROR "the installation does not ask for ${page}")
+  endif()
+  file(WRITE ${WORK}/install.cmake "${elsewhere}")
+  foreach(prefix ${WORK}/without_page ${WORK}/with_page)
+    run(${CMAKE_COMMAND} -DCMAKE_INSTALL_PREFIX=${prefix} -P ${WORK}/install.cmake)
+    must_have(${prefix} ${WORK}/view.html)
+    file(WRITE ${WORK}/view.html "a page")
+  endforeach()
 endif()
 set(prefix ${WORK}/moved)
 file(RENAME ${WORK}/first ${prefix})
