@@ -40,8 +40,8 @@ class CMakeBuild(build_ext):
         build = Path(self.build_temp).resolve() / ext.name
         given = shlex.split(os.environ.get("CMAKE_ARGS", ""))
         subprocess.check_call(["cmake", "-S", str(ROOT / "tools" / "python"), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
-                               f"-DPython_EXECUTABLE={sys.executable}", f"-DSWIVEL_PYTHON_FOLDER={folder}", *pybind11_folder(),
-                               *generator(build, given), *given])
+                               "-DSWIVEL_HARDEN=ON", f"-DPython_EXECUTABLE={sys.executable}", f"-DSWIVEL_PYTHON_FOLDER={folder}",
+                               *pybind11_folder(), *generator(build, given), *given])
         jobs = str(self.parallel or os.cpu_count() or 1)
         subprocess.check_call(["cmake", "--build", str(build), "--target", "swivel_python", "--parallel", jobs])
 
