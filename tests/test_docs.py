@@ -89,9 +89,20 @@ class Readme(unittest.TestCase):
         self.text = (ROOT / "README.md").read_text(encoding="utf-8")
 
     def test_links_lead_to_files(self):
-        for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples/README.md", ROOT / "bench/results/README.md"):
+        for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "examples/README.md",
+                     ROOT / "bench/results/README.md"):
             for link in re.findall(r"\]\(([^)#:]+)", page.read_text(encoding="utf-8")):
                 self.assertTrue((page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}")
+
+    def test_security_has_what_it_names(self):
+        self.assertIn("](SECURITY.md)", self.text)
+        text = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
+        for program in re.findall(r"`((?:tools|tests)/[\w/]+)", text):
+            self.assertTrue((ROOT / program).exists(), program)
+        for reader in re.search(r"\*\*Files of motion and tables: (.*?)\.\*\*", text)[1].split(", "):
+            name = {"crowd files (TOML)": "crowd_file", "targets (CSV)": "targets"}.get(reader, reader.lower())
+            self.assertTrue((ROOT / f"tests/fuzz/fuzz_{name}.cpp").exists(), f"no fuzzer of {reader}")
+        self.assertIn("sha256sum -- * >SHA256SUMS", (ROOT / "tools/release/build").read_text(encoding="utf-8"))
 
     def test_the_files_to_the_elbow_have_what_it_says(self):
         steps = re.findall(r"^\d\. (.*)$", self.text, re.M)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The promise: `pip install` builds and installs the package without a network, with the system's own packages, from a source
-distribution that holds all it needs, and links an installed swivel where there is one.
+distribution that holds all it needs, and links an installed swivel where there is one. The module is guarded as a released one.
 
     test_package.py BUILD FOLDER    BUILD: a build of swivel to install; FOLDER: an own folder, emptied first
 """
@@ -12,8 +12,8 @@ import tarfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("CHANGELOG.md", "CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py", "batch", "cmake",
-           "core", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
+SOURCES = ("CHANGELOG.md", "CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md", "SECURITY.md", "pyproject.toml", "setup.py",
+           "batch", "cmake", "core", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
 USE = """
 import sys, pathlib, importlib.metadata, swivel
 folder = pathlib.Path(swivel.__file__).parent
@@ -49,6 +49,8 @@ def source_distribution():
     [archive] = FOLDER.glob("swivel-*.tar.gz")
     with tarfile.open(archive) as files:
         held = {name.partition("/")[2] for name in files.getnames()}
+    if "SECURITY.md" not in held:
+        sys.exit("the source distribution lacks SECURITY.md")
     for folder in ("batch", "cmake", "core", "simd", "tools/cache", "tools/python"):
         files = {str(path.relative_to(ROOT)) for path in (ROOT / folder).rglob("*.*") if path.suffix != ".pyc" and path.is_file()}
         if files - held:
@@ -66,6 +68,8 @@ def main():
     if f": installed, {FOLDER / 'installed'}" not in said:
         sys.exit(f"{said}\nthe installed swivel was not linked")
     run(python, "-c", USE)
+    [module] = (FOLDER / "env").rglob("_core*.so")
+    run(ROOT / "tools/release/hardened", module)
     run(python, "-m", "pip", "uninstall", "--yes", "swivel")
     left = [str(path) for path in (FOLDER / "env").rglob("*swivel*")]
     if left:
