@@ -45,7 +45,7 @@ std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_coun
 
 struct Layout {
     std::uint32_t block_count;
-    std::uint64_t groups, chosen, urgency, input, results, end;  // byte offsets in the arena, also of one too large
+    std::uint64_t groups, chosen, urgency, done, input, results, end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def) : block_count(0)
     {
@@ -54,7 +54,8 @@ struct Layout {
         groups = aligned(sizeof(swivel_crowd));
         chosen = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
         urgency = chosen + aligned(words * sizeof(std::uint32_t));
-        input = urgency + (def.features & feature::budget ? aligned(blocks * sizeof(float)) : 0);
+        done = urgency + (def.features & feature::budget ? aligned(blocks * sizeof(float)) : 0);
+        input = done + aligned(blocks);
         results = input + blocks * kInputRowBytes * input_row_count(def.features);
         end = results + aligned(blocks * result_row_bytes(def.features) * result_row_count(def.features));
     }
@@ -180,7 +181,8 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
                                 nullptr,
                                 {},
                                 reinterpret_cast<std::uint32_t*>(base + layout.chosen),
-                                budget ? reinterpret_cast<float*>(base + layout.urgency) : nullptr};
+                                budget ? reinterpret_cast<float*>(base + layout.urgency) : nullptr,
+                                reinterpret_cast<std::uint8_t*>(base + layout.done)};
 
     for (std::size_t f = 0; f < kFieldCount; ++f)
         crowd->first_row[f] =

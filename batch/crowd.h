@@ -37,6 +37,7 @@ struct swivel_crowd {
     alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
     std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (api_solve.cpp)
     float* urgency;                          // of each block; null without SWIVEL_BUDGET (budget.cpp)
+    std::uint8_t* done;                      // a byte for each block, of a solve on threads (schedule.cpp)
 };
 
 namespace swivel {

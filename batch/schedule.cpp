@@ -2,10 +2,17 @@
 //
 // Cuts a crowd's blocks into chunks and runs them on oneTBB. A chunk runs on the thread that had it before, if that
 // thread is free. So its rows are in the cache of that core. This is the only file that knows oneTBB.
+//
+// oneTBB throws where it finds no memory or cannot start a thread. So this file is compiled with exceptions, unlike the
+// rest of the library, and lets none out. The calling thread then solves what oneTBB left.
 #include "batch/solve.h"
 
 #include <algorithm>
+#include <atomic>
+#include <latch>
 #include <new>
+#include <thread>
+#include <vector>
 
 #include "simd/float_env.h"
 #include "simd/rows.h"
@@ -29,9 +36,7 @@ Partitioner& partitioner_of(swivel_crowd& crowd)
 {
     return *std::launder(reinterpret_cast<Partitioner*>(crowd.schedule));
 }
-#endif
 
-#ifdef SWIVEL_WITH_TBB
 // How many blocks have something to do, or one more.
 std::uint32_t busy_block_count(const Work& work, swivel_blocks blocks)
 {
@@ -39,6 +44,104 @@ std::uint32_t busy_block_count(const Work& work, swivel_blocks blocks)
     const std::uint32_t* const first = work.mask + blocks.first / 2;
     const std::uint32_t* const end = work.mask + (blocks.first + blocks.count - 1) / 2 + 1;
     return 2 * static_cast<std::uint32_t>(std::count_if(first, end, [](std::uint32_t word) { return word > 0; }));
+}
+
+// What threads take parts of: the rounds of a job with frames, or else its blocks. In rounds, one thread has the same
+// characters of all groups. A part must be solved once, because a solve may read what it wrote: the last normal, or a
+// pose that is read and written in place. So each part's byte in the crowd says whether it is done.
+struct Parts {
+    swivel_crowd& crowd;
+    const Kernels& kernels;
+    const Work& work;
+    const swivel_blocks blocks;
+    const std::uint32_t count;
+    std::uint8_t* const done;
+
+    Parts(swivel_crowd& of, const Kernels& with, const Work& todo, swivel_blocks in)
+        : crowd(of),
+          kernels(with),
+          work(todo),
+          blocks(in),
+          count(todo.frames ? round_count(of, todo, in) : in.count),
+          done(of.done)
+    {
+        std::fill_n(done, count, std::uint8_t{0});
+    }
+    void solve(std::uint32_t first, std::uint32_t end) const
+    {
+        if (work.frames)
+            solve_rounds(crowd, kernels, work, blocks, first, end);
+        else
+            solve_here(crowd, kernels, work, {blocks.first + first, end - first});
+        std::fill(done + first, done + end, std::uint8_t{1});
+    }
+    void solve_rest() const
+    {
+        for (std::uint32_t first = 0; first < count;) {
+            const auto* const end = std::find(done + first, done + count, done[first] ? 0 : 1);
+            const auto next = static_cast<std::uint32_t>(end - done);
+            if (!done[first]) solve(first, next);
+            first = next;
+        }
+    }
+};
+
+// Whether the system gives so many threads at once.
+bool can_start(std::size_t thread_count)
+{
+    std::vector<std::thread> threads;
+    std::latch all_started(1);
+    bool can = true;
+    try {
+        threads.reserve(thread_count);
+        while (threads.size() < thread_count) threads.emplace_back([&] { all_started.wait(); });
+    } catch (...) {
+        can = false;
+    }
+    all_started.count_down();
+    for (std::thread& thread : threads) thread.join();
+    return can;
+}
+
+// oneTBB's state is the process's, and so is what is known of it.
+std::atomic<int> most_threads{0};  // that could be started, the calling thread among them; 0: nothing has used oneTBB
+std::atomic<bool> has_failed{false};  // it has thrown: what it left unfinished then, its later calls may await for ever
+
+// Whether all threads of the caller's arena can be started. oneTBB's threads start each other, and one that cannot ends
+// the process. A limit of the system, such as a container's, is so found before.
+bool has_threads()
+{
+    const int wanted = oneapi::tbb::this_task_arena::max_concurrency();
+    if (wanted <= most_threads) return true;
+    if (!can_start(static_cast<std::size_t>(wanted - 1))) return false;
+    most_threads = wanted;
+    return true;
+}
+
+void solve_on_threads(const Parts& parts, std::uint32_t grain)
+{
+    using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+    // This context is isolated, because a cancelled context of the caller must not leave blocks out.
+    oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
+    const auto on_range = [&](const Range& range) { parts.solve(range.begin(), range.end()); };
+    // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
+    oneapi::tbb::this_task_arena::isolate([&] {
+        oneapi::tbb::parallel_for(Range(0, parts.count, grain), on_range, partitioner_of(parts.crowd), context);
+    });
+}
+
+// Whether all parts are solved.
+bool try_on_threads(const Parts& parts, std::uint32_t grain)
+{
+    if (has_failed) return false;
+    try {
+        if (!has_threads()) return false;
+        solve_on_threads(parts, grain);
+        return true;
+    } catch (...) {
+        has_failed = true;
+        return false;
+    }
 }
 #endif
 
@@ -53,23 +156,8 @@ void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& wo
     const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes(crowd));
     if (busy_block_count(work, blocks) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
-        using Range = oneapi::tbb::blocked_range<std::uint32_t>;
-        // This context is isolated, because a cancelled context of the caller must not leave blocks out.
-        oneapi::tbb::task_group_context context(oneapi::tbb::task_group_context::isolated);
-        // Threads take rounds of frames, so that one thread has the same characters of all groups; or else blocks.
-        const bool in_rounds = work.frames != nullptr;
-        const std::uint32_t first = in_rounds ? 0 : blocks.first;
-        const std::uint32_t count = in_rounds ? round_count(crowd, work, blocks) : blocks.count;
-        const Range all(first, first + count, std::max(1u, chunk / (blocks.count / count)));
-        const auto on_range = [&](const Range& range) {
-            if (in_rounds)
-                solve_rounds(crowd, kernels, work, blocks, range.begin(), range.end());
-            else
-                solve_here(crowd, kernels, work, {range.begin(), range.end() - range.begin()});
-        };
-        // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
-        oneapi::tbb::this_task_arena::isolate(
-            [&] { oneapi::tbb::parallel_for(all, on_range, partitioner_of(crowd), context); });
+        const Parts parts(crowd, kernels, work, blocks);
+        if (!try_on_threads(parts, std::max(1u, chunk / (blocks.count / parts.count)))) parts.solve_rest();
         return;
     }
 #endif
@@ -85,7 +173,9 @@ void begin_schedule([[maybe_unused]] swivel_crowd& crowd)
 void end_schedule([[maybe_unused]] swivel_crowd& crowd)
 {
 #ifdef SWIVEL_WITH_TBB
-    partitioner_of(crowd).~Partitioner();
+    // The destructor asks how many threads there are, which may fail or wait for ever as well. Without it, at most the
+    // partitioner's few numbers stay behind.
+    if (most_threads > 0 && !has_failed) partitioner_of(crowd).~Partitioner();
 #endif
 }
 

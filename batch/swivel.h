@@ -594,7 +594,9 @@ typedef struct swivel_job {
 
     // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Several threads may make such calls
     // at once, on blocks that do not overlap. They may share a mask and frames. 0: on the calling thread's oneTBB
-    // arena, if built with it and there is enough to do. oneTBB may allocate.
+    // arena, if built with it and there is enough to do. oneTBB may allocate. Where it finds no memory or cannot start
+    // its threads, the calling thread solves what is left, with the same bits and status. If oneTBB itself failed, this
+    // process does not use it again.
     int on_this_thread;
 
     // Unless null, becomes how many limbs were solved.

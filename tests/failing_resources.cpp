@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//
+// Replaces malloc and its relatives, mmap, pthread_create and dlopen in the program it is linked into.
+#include "tests/failing_resources.h"
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <sys/mman.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+extern "C" {
+// glibc's own, under the names it keeps for those who replace malloc.
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+}
+
+namespace {
+
+using swivel::test::Resource;
+
+Resource wanted;
+std::uint32_t first, request_count;
+bool is_lasting;
+thread_local bool is_armed = false;   // for memory
+std::atomic<bool> is_limited{false};  // for threads
+std::atomic<std::uint32_t> thread_count, failure_count;
+
+bool fails(Resource resource)
+{
+    if (!is_armed || resource != wanted) return false;
+    const std::uint32_t n = ++request_count;
+    if (n < first || (n > first && !is_lasting)) return false;
+    ++failure_count;
+    errno = ENOMEM;
+    return true;
+}
+
+// A thread that is counted while it runs.
+struct Counted {
+    void* (*run)(void*);
+    void* argument;
+};
+void* run_counted(void* data)
+{
+    const Counted thread = *static_cast<Counted*>(data);
+    std::free(data);
+    void* const result = thread.run(thread.argument);
+    --thread_count;
+    return result;
+}
+
+template <class Function>
+Function* next(const char* name)
+{
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+namespace swivel::test {
+
+void let_fail(Resource resource, std::uint32_t nth, bool later_too)
+{
+    wanted = resource;
+    first = nth;
+    is_lasting = later_too;
+    request_count = 0;
+    thread_count = failure_count = 0;
+    is_limited = resource == Resource::thread;
+    is_armed = resource != Resource::thread;
+}
+std::uint32_t stop_failing()
+{
+    is_armed = is_limited = false;
+    return failure_count;
+}
+
+}  // namespace swivel::test
+
+// Visible, so that libraries take these, too.
+#pragma GCC visibility push(default)
+extern "C" {
+void* malloc(std::size_t bytes) noexcept { return fails(Resource::allocation) ? nullptr : __libc_malloc(bytes); }
+void* calloc(std::size_t count, std::size_t bytes) noexcept
+{
+    return fails(Resource::allocation) ? nullptr : __libc_calloc(count, bytes);
+}
+void* realloc(void* memory, std::size_t bytes) noexcept
+{
+    return fails(Resource::allocation) ? nullptr : __libc_realloc(memory, bytes);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept
+{
+    return fails(Resource::allocation) ? nullptr : __libc_memalign(alignment, bytes);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept
+{
+    if (fails(Resource::allocation)) return ENOMEM;
+    *memory = __libc_memalign(alignment, bytes);
+    return *memory ? 0 : ENOMEM;
+}
+void* mmap(void* address, std::size_t bytes, int protection, int flags, int file, off_t offset) noexcept
+{
+    static auto* const real = next<decltype(mmap)>("mmap");
+    return fails(Resource::mapping) ? MAP_FAILED : real(address, bytes, protection, flags, file, offset);
+}
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* argument) noexcept
+{
+    static auto* const real = next<decltype(pthread_create)>("pthread_create");
+    if (!is_limited) return real(thread, attributes, run, argument);
+    if (++thread_count >= first) {
+        --thread_count;
+        ++failure_count;
+        return EAGAIN;
+    }
+    void* const data = __libc_malloc(sizeof(Counted));
+    std::memcpy(data, &static_cast<const Counted&>(Counted{run, argument}), sizeof(Counted));
+    return real(thread, attributes, run_counted, data);
+}
+// oneTBB would take memory from a library of its own, which maps it. Where allocations are to fail, that is missing.
+void* dlopen(const char* file, int mode) noexcept
+{
+    static auto* const real = next<decltype(dlopen)>("dlopen");
+    const bool is_missing = is_armed && wanted == Resource::allocation && file && std::strstr(file, "tbbmalloc");
+    return is_missing ? nullptr : real(file, mode);
+}
+}
+#pragma GCC visibility pop

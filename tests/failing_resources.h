@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+//
+// Makes a process run out of something on purpose. The program is linked with failing_resources.cpp, which replaces the
+// functions that give memory and threads.
+#pragma once
+
+#include <cstdint>
+
+namespace swivel::test {
+
+enum class Resource { allocation, mapping, thread };
+
+// From now on this fails, until stop_failing():
+// - of allocations and mappings the nth request of the calling thread, counted from 1. With later_too, all later ones
+//   fail as well.
+// - every start of a thread, on any thread, while nth - 1 of those that were started from now on are still there.
+void let_fail(Resource resource, std::uint32_t nth, bool later_too);
+// Returns how many requests have failed.
+std::uint32_t stop_failing();
+
+}  // namespace swivel::test

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: if oneTBB finds no memory or cannot start a thread, swivel_solve() says SWIVEL_OK and gives every limb
+// its bits. What a solve reads and writes, such as the last normal, takes one step and not two.
+//
+// Each case has a process of its own, because oneTBB takes most of what it needs in the first solve.
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/failing_resources.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_random.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+constexpr std::uint32_t kLimbs = 20000;  // many chunks
+constexpr int kThreads = 4;              // on any machine
+
+enum class Kind { plain, step_limited, pose_in_place };
+constexpr std::pair<Kind, const char*> kKinds[] = {
+    {Kind::plain, "plain"}, {Kind::step_limited, "step-limited"}, {Kind::pose_in_place, "pose in place"}};
+
+swivel_features features_of(Kind kind)
+{
+    return kind == Kind::plain          ? swivel_features{0}
+           : kind == Kind::step_limited ? SWIVEL_WITH_MOST_SWIVEL
+                                        : SWIVEL_JOINTS | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
+}
+
+// A crowd of which each solve changes all results, but for a plain one.
+struct Stage {
+    struct Pose {
+        Float4 shoulder{0, 0, 0, 1}, elbow{0, 0, 0, 1};
+    };
+    Kind kind;
+    Crowd crowd;
+    std::vector<Pose> poses;
+
+    explicit Stage(Kind of) : kind(of), crowd(crowd_of(features_of(of), kLimbs, group_of(1).binding)), poses(kLimbs)
+    {
+        std::vector<Float3> targets(kLimbs), poles(kLimbs);
+        Random random{1};
+        for (std::uint32_t n = 0; n < kLimbs; ++n) {
+            targets[n] = floats(random.between(0, 2.2) * random.direction());
+            poles[n] = floats(random.direction());
+        }
+        crowd.write(SWIVEL_TARGET, 0, targets);
+        crowd.write(SWIVEL_POLE, 0, poles);
+        if (kind == Kind::step_limited) {
+            crowd.write_all(SWIVEL_MOST_SWIVEL, 0, turn(0.1));
+            solve(true);
+            for (Float3& pole : poles) pole = floats(random.direction());  // now steps away
+            crowd.write(SWIVEL_POLE, 0, poles);
+        }
+        if (kind == Kind::pose_in_place) crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 0.5f, 0.5f});
+    }
+    swivel_status solve(bool on_this_thread)
+    {
+        swivel_frame frame = swivel_default_frame();
+        frame.incoming_shoulder = {&poses[0].shoulder, sizeof(Pose)};
+        frame.incoming_elbow = {&poses[0].elbow, sizeof(Pose)};
+        frame.shoulder = {&poses[0].shoulder, sizeof(Pose)};
+        frame.elbow = {&poses[0].elbow, sizeof(Pose)};
+        swivel_job job = swivel_default_job();
+        job.on_this_thread = on_this_thread;
+        if (kind == Kind::pose_in_place) job.frames = &frame;
+        return swivel_solve(crowd.get(), &job);
+    }
+    bool operator==(const Stage& other) const
+    {
+        return all_words(crowd) == all_words(other.crowd) &&
+               std::memcmp(poses.data(), other.poses.data(), poses.size() * sizeof(Pose)) == 0;
+    }
+};
+
+struct Case {
+    Kind kind;
+    Resource resource;
+    std::uint32_t nth;
+    bool later_too, in_arena;
+};
+
+// What a case's process says. nothing_failed: there are fewer requests.
+enum Outcome { held, nothing_failed, bad_status, other_bits, other_bits_later };
+
+Outcome run(const Case& of)
+{
+    Stage expected(of.kind), tried(of.kind);
+    expected.solve(true);
+    std::uint32_t failed = 0;
+    swivel_status status = SWIVEL_OK;
+    const auto try_it = [&] {
+        let_fail(of.resource, of.nth, of.later_too);
+        status = tried.solve(false);
+        failed = stop_failing();
+    };
+    if (of.in_arena) {
+        using Control = oneapi::tbb::global_control;
+        const Control control(Control::max_allowed_parallelism, kThreads);
+        oneapi::tbb::task_arena arena(kThreads);
+        arena.execute(try_it);
+    } else {
+        try_it();  // oneTBB itself hangs when this process uses it again, so nothing here does
+    }
+    if (status != SWIVEL_OK) return bad_status;
+    if (!(tried == expected)) return other_bits;
+    for (int n = 0; n < 2; ++n) {
+        expected.solve(true);
+        if (tried.solve(false) != SWIVEL_OK || !(tried == expected)) return other_bits_later;
+    }
+    return failed ? held : nothing_failed;
+}
+
+// Runs a case in a process of its own. Returns its outcome, or a signal's number above 100.
+int run_apart(const Case& of)
+{
+    std::fflush(stdout);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::alarm(20);  // if it waits for ever
+        std::exit(run(of));
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? 100 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+int failures = 0;
+
+// Fails the first request, the second, and so on, until there are no more. Returns how many there were.
+std::uint32_t run_all(Case of, const std::string& name)
+{
+    for (of.nth = 1; of.nth < 1000; ++of.nth) {
+        const int outcome = run_apart(of);
+        if (outcome == nothing_failed) break;
+        if (outcome == held) continue;
+        static const char* const kTexts[] = {"", "", "a status", "other bits", "other bits in a later solve"};
+        const std::string text = outcome > 100 ? "signal " + std::to_string(outcome - 100) : kTexts[outcome];
+        std::fprintf(stderr, "failed: %s, request %u%s: %s\n", name.c_str(), of.nth,
+                     of.later_too ? " and all later ones" : "", text.c_str());
+        ++failures;
+        break;
+    }
+    return of.nth - 1;
+}
+
+}  // namespace
+
+int main()
+{
+    std::uint32_t counts[3] = {};
+    static const char* const kResources[] = {"allocations", "mappings", "threads"};
+    for (const Resource resource : {Resource::allocation, Resource::mapping, Resource::thread})
+        for (const auto& [kind, name] : kKinds)
+            for (const bool in_arena : {false, true})
+                for (const bool later_too : {false, true}) {
+                    // Without any memory, oneTBB ends the process: it finds none for the exception that it hands on.
+                    // Debian's oneTBB has its own reserve, which ends with mappings.
+                    if (later_too && resource != Resource::mapping) continue;
+                    const std::string what = std::string(name) + (in_arena ? ", in an arena, " : ", ") +
+                                             kResources[static_cast<int>(resource)];
+                    const std::uint32_t n = run_all({kind, resource, 1, later_too, in_arena}, what);
+                    if (!later_too) std::printf("%s: %u\n", what.c_str(), n);
+                    counts[static_cast<int>(resource)] += n;
+                }
+    for (const std::uint32_t count : counts)
+        if (count == 0) ++failures;
+    return failures != 0;
+}
