@@ -158,6 +158,10 @@ must_print_the_line(${WORK}/pc_arm_c)
 run(${CXX} -std=c++20 ${flags} ${CMAKE_CURRENT_LIST_DIR}/package/arm.cpp -o ${WORK}/pc_arm_cpp ${options})
 must_print_the_line(${WORK}/pc_arm_cpp)
 include(${CMAKE_CURRENT_LIST_DIR}/package/engine.cmake)
+if(SHARED AND TBB)  # a host that loads the library as a plugin does, and closes it
+  run(${CC} -std=gnu11 ${flags} -I${prefix}/include ${CMAKE_CURRENT_LIST_DIR}/package/plugin.c -o ${WORK}/plugin -ldl)
+  run(${WORK}/plugin ${LIBRARY})
+endif()
 unset(ENV{LD_LIBRARY_PATH})
 message(STATUS "installed, moved, found and linked")
 

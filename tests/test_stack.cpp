@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: no call takes more than 32 KiB of stack, so jobs fit fibres of 64 KiB. Each call runs on a thread whose
+// stack was painted, with every instruction set of this CPU; what is no longer painted was used.
+#include <pthread.h>
+#include <sys/mman.h>
+
+#include <cstring>
+#include <functional>
+
+#include "tests/rest_skeleton.h"
+#include "tests/test_crowd.h"
+#include "tests/test_isa_scope.h"
+#include "tools/corpus/corpus.h"
+
+using namespace swivel;
+using namespace swivel::test;
+using corpus::full_name;
+using corpus::Part;
+using corpus::Recipe;
+
+namespace {
+
+constexpr std::size_t kPromised = 32 * 1024;
+constexpr std::size_t kStack = 192 * 1024;
+constexpr unsigned char kPaint = 0xa5;
+
+struct Painted {
+    const std::function<void()>& call;
+    unsigned char* lowest;
+    std::size_t used = 0;
+};
+
+// Paints the stack below this function's frame, calls, and looks how far down the paint is gone.
+[[gnu::noinline]] void measure(Painted& painted)
+{
+    unsigned char* const frame = static_cast<unsigned char*>(__builtin_frame_address(0));
+    constexpr std::size_t kOwnFrame = 512;  // of this function and of memset; it counts as used
+    std::memset(painted.lowest, kPaint, static_cast<std::size_t>(frame - painted.lowest) - kOwnFrame);
+    painted.call();
+    const unsigned char* deepest = painted.lowest;
+    while (*deepest == kPaint) ++deepest;
+    painted.used = static_cast<std::size_t>(frame - deepest);
+}
+
+// Bytes of stack that a call takes.
+std::size_t stack_of(const std::function<void()>& call)
+{
+    void* const memory = mmap(nullptr, kStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    Painted painted{call, static_cast<unsigned char*>(memory)};
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstack(&attributes, memory, kStack);
+    pthread_t thread;
+    const auto start = [](void* given) -> void* {
+        measure(*static_cast<Painted*>(given));
+        return nullptr;
+    };
+    REQUIRE(pthread_create(&thread, &attributes, start, &painted) == 0);
+    pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+    munmap(memory, kStack);
+    return painted.used;
+}
+
+// The most that any call took, and which one it was.
+struct Most {
+    std::size_t bytes = 0;
+    std::string what;
+
+    void take(const std::string& name, const std::function<void()>& call)
+    {
+        const std::size_t used = stack_of(call);
+        if (used > bytes) bytes = used, what = name;
+    }
+};
+
+// Frames that take every result of each group out of the crowd, as far as frames can.
+struct Frames {
+    std::vector<swivel_frame> frames;
+    std::vector<std::vector<float>> values;
+
+    explicit Frames(const Crowd& crowd)
+    {
+        constexpr std::size_t kFloats = 4 * 7;  // the longest result: seven twist bones
+        const auto has = [&](swivel_field field) { return swivel_field_row_count(crowd.get(), field) > 0; };
+        for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g) {
+            std::vector<float>& group = values.emplace_back(kFloats * 8 * swivel_group_limb_count(crowd.get(), g));
+            swivel_frame frame = swivel_default_frame();
+            swivel_out* const outs[] = {&frame.shoulder, &frame.elbow,  &frame.wrist,       &frame.flags,
+                                        &frame.stretch,  &frame.normal, &frame.twist_bones, &frame.clavicle_turn};
+            for (std::size_t n = 0; n < std::size(outs); ++n)
+                if (has(static_cast<swivel_field>(SWIVEL_SHOULDER + n)))
+                    *outs[n] = {group.data() + kFloats * n, kFloats * 8 * sizeof(float)};
+            frames.push_back(frame);
+        }
+    }
+};
+
+// Every kind of job over a crowd.
+void run_jobs(Crowd& crowd, const std::string& name, Most& most)
+{
+    const auto run = [&](const char* kind, swivel_job job) {
+        most.take(name + ", " + kind, [&] { swivel_solve(crowd.get(), &job); });
+    };
+    const std::uint32_t blocks = swivel_block_count(crowd.get());
+    const std::vector<std::uint32_t> few((blocks + 1) / 2, 0x00018001u), many((blocks + 1) / 2, 0xfff70ff7u);
+    const std::uint32_t indices[] = {0, 3, 4, 17, 18, 19};
+    const swivel_limbs list{indices, std::size(indices)};
+    swivel_job job = swivel_default_job();
+    const auto on_rows_and_frames = [&](const char* on_rows, const char* on_frames) {
+        run(on_rows, job);
+        if (swivel_compact_rows(crowd.get()).base) return;  // frames take no words
+        Frames frames(crowd);
+        job.frames = frames.frames.data();
+        run(on_frames, job);
+        job.frames = nullptr;
+    };
+    on_rows_and_frames("whole", "whole with frames");
+    job.limbs = &list;
+    on_rows_and_frames("list", "list with frames");
+    job.limbs = nullptr;
+    job.on_this_thread = 1;
+    on_rows_and_frames("on this thread", "on this thread with frames");
+    job.mask_word_count = (blocks + 1) / 2;
+    job.mask = few.data();
+    on_rows_and_frames("few limbs of a mask", "few limbs of a mask with frames");
+    job.mask = many.data();
+    on_rows_and_frames("many limbs of a mask", "many limbs of a mask with frames");
+}
+
+// Calls that judge a crowd's results.
+void run_questions(const Crowd& crowd, const std::string& name, Most& most)
+{
+    for (std::uint32_t limb = 0; limb < swivel_group_limb_count(crowd.get(), 0); limb += 7) {
+        char text[4096];
+        swivel_arc arcs[100];
+        std::uint32_t count;
+        most.take(name + ", explain", [&] { swivel_explain(crowd.get(), 0, limb, text, sizeof text); });
+        most.take(name + ", allowed arcs",
+                  [&] { swivel_allowed_arcs(crowd.get(), 0, limb, arcs, std::size(arcs), &count); });
+        double three[3], seven[7];
+        most.take(name + ", residuals", [&] { swivel_residuals(crowd.get(), 0, limb, 1, {three, sizeof three}); });
+        most.take(name + ", forward", [&] {
+            swivel_forward(crowd.get(), 0, limb, 1, {three, sizeof three}, {three, sizeof three}, {nullptr, 0});
+        });
+        most.take(name + ", joint angles", [&] {
+            swivel_joint_angles(crowd.get(), 0, limb, 1, SWIVEL_XYZ, SWIVEL_ZYX, 0, {seven, sizeof seven});
+        });
+    }
+}
+
+}  // namespace
+
+TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of stack")
+{
+    const IsaScope scope;
+    for (const std::string& isa : runnable_isas()) {
+        swivel_use_isa(isa.c_str());
+        Most jobs, questions;
+        for (const Part part : corpus::kParts)
+            for (const Recipe& recipe : corpus::recipes_of(part)) {
+                Crowd crowd = corpus::make_crowd(recipe, 100);
+                run_jobs(crowd, full_name(recipe), jobs);
+                run_questions(crowd, full_name(recipe), questions);
+            }
+        INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);
+        CHECK(jobs.bytes <= kPromised);
+        CHECK(questions.bytes <= kPromised);
+    }
+}
