@@ -9,6 +9,7 @@
 #include "batch/numbers.h"
 #include "batch/status.h"
 #include "core/limits.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -55,6 +56,7 @@ void mirror_range(const float* from, float* to)
 
 swivel_status swivel_range(double least, double most, float range[4])
 {
+    const FloatEnv env(least, most);
     if (!range) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: range is null");
     if (!std::isfinite(least) || !std::isfinite(most))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_range: %g to %g is not finite", least, most);
@@ -69,6 +71,7 @@ swivel_status swivel_range(double least, double most, float range[4])
 
 swivel_status swivel_cone(const double axis[3], double most, float cone[4])
 {
+    const FloatEnv env(most);
     if (!axis || !cone) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: %s is null", axis ? "cone" : "axis");
     if (!(most >= 0 && most <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_cone: largest angle %g is not in 0 to pi; angles are in radians",
@@ -80,6 +83,7 @@ swivel_status swivel_cone(const double axis[3], double most, float cone[4])
 
 swivel_status swivel_flexion(double least, double most, float flexion[2])
 {
+    const FloatEnv env(least, most);
     if (!flexion) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_flexion: flexion is null");
     if (!(least >= 0 && least <= most && most <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT,
@@ -91,6 +95,7 @@ swivel_status swivel_flexion(double least, double most, float flexion[2])
 
 swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
 {
+    const FloatEnv env(flexion);
     if (!axis || !aim) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: %s is null", axis ? "aim" : "axis");
     if (!(flexion >= 0 && flexion <= kPi + kSlack))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_aim: flexion %g is not in 0 to pi; angles are in radians",
@@ -102,12 +107,17 @@ swivel_status swivel_aim(const double axis[3], double flexion, float aim[5])
     return SWIVEL_OK;
 }
 
-void swivel_turn(double angle, float turn[2]) { store_turn(angle, turn); }
+void swivel_turn(double angle, float turn[2])
+{
+    const FloatEnv env(angle);
+    store_turn(angle, turn);
+}
 
 // The arm frame of the other side is the mirror image with its hinge turned over. So coordinates of vectors change sign
 // along the hinge, and turns about the two other axes change their sense.
 swivel_status swivel_mirror(swivel_field number, swivel_euler_order order, const float* from, float* to)
 {
+    const FloatEnv env;
     if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
     if (const swivel_status status = check_field(number); status != SWIVEL_OK) return status;
     const Field field = field_of(number);

@@ -112,6 +112,7 @@ void swivel_crowd_destroy(swivel_crowd* crowd)
 
 swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
 {
+    const FloatEnv env;
     if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
     if (const swivel_status status = check_size<swivel_chain>("chain", size_of(chain)); status != SWIVEL_OK)
         return status;
@@ -123,6 +124,7 @@ swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
 swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                  swivel_binding* binding)
 {
+    const FloatEnv env;
     if (!skeleton || !joints || !binding)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: skeleton, joints or binding is null");
     swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(skeleton));
@@ -137,6 +139,7 @@ swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_l
 swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_rotation[4], const double direction[3],
                               double axis[3])
 {
+    const FloatEnv env;
     if (!binding || !parent_rotation || !direction || !axis)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_arm_axis: %s is null",
                     !binding           ? "binding"
@@ -208,6 +211,7 @@ swivel_status swivel_write(swivel_crowd* crowd, swivel_field number, uint32_t gr
 swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
                                    uint32_t limb_count, swivel_in values, swivel_in origins)
 {
+    const FloatEnv env;
     swivel_status status = check(crowd, group, first, limb_count);
     if (status == SWIVEL_OK) status = check_field(number);
     if (status != SWIVEL_OK) return status;
@@ -225,7 +229,6 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field number, uin
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
     if (status != SWIVEL_OK) return status;
-    const FloatEnv env;
     copy_doubles_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values, origins);
     return SWIVEL_OK;
 }
@@ -233,6 +236,7 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field number, uin
 swivel_status swivel_read(const swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
                           uint32_t limb_count, swivel_out values)
 {
+    const FloatEnv env;
     swivel_status status = check(crowd, group, first, limb_count);
     if (status == SWIVEL_OK) status = check_field(number);
     if (status != SWIVEL_OK) return status;

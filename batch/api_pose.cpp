@@ -60,6 +60,7 @@ int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint
 
 swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text, size_t size)
 {
+    const FloatEnv env;
     if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     explain(*crowd, crowd->groups[group], limb, {text, size});
@@ -78,6 +79,7 @@ swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, 
 swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                   uint32_t capacity, uint32_t* arc_count)
 {
+    const FloatEnv env;
     if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
@@ -89,6 +91,7 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
                                   swivel_euler_order shoulder_order, swivel_euler_order wrist_order, int family,
                                   swivel_out angles)
 {
+    const FloatEnv env;
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
     for (const auto& [order, name] :
          {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
@@ -101,7 +104,6 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
             check_stride(group, "angles", angles.data, angles.stride, 7 * sizeof(double), false);
         status != SWIVEL_OK)
         return status;
-    const FloatEnv env;
     const Group& g = crowd->groups[group];
     for (std::uint32_t n = 0; n < limb_count; ++n) {
         const std::size_t limb = std::size_t{g.first_block} * SWIVEL_LANES + first + n;
@@ -114,6 +116,7 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
 swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                              swivel_out elbow, swivel_out wrist, swivel_out hand)
 {
+    const FloatEnv env;
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->features & feature::hand))
         return fail(SWIVEL_INVALID_ARGUMENT,
@@ -138,6 +141,7 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
 swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                swivel_out distance)
 {
+    const FloatEnv env;
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
     if (const swivel_status status =
             check_stride(group, "distance", distance.data, distance.stride, sizeof(double), false);

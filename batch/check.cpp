@@ -13,6 +13,7 @@
 #include "batch/sized.h"
 #include "batch/status.h"
 #include "core/conformal.h"
+#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -92,6 +93,7 @@ swivel_crowd_def full_def(const swivel_crowd_def* def) { return element(def, 0, 
 
 swivel_status check(const swivel_crowd_def* given)
 {
+    const FloatEnv env;  // bindings hold floats; the def's callbacks are called later, outside it
     if (!given) return fail(SWIVEL_INVALID_ARGUMENT, "crowd def is null; start from swivel_default_crowd_def()");
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;

@@ -45,7 +45,8 @@ std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_coun
 
 struct Layout {
     std::uint32_t block_count;
-    std::uint64_t groups, chosen, urgency, done, input, results, end;  // byte offsets in the arena, also of one too large
+    std::uint64_t groups, chosen, urgency, done, input, results,
+        end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def) : block_count(0)
     {

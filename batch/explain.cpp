@@ -17,7 +17,6 @@
 #include "batch/solve.h"
 #include "core/bit_cast.h"
 #include "simd/dispatch.h"
-#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -98,7 +97,6 @@ public:
     // Solves the limb and gives its flags.
     std::uint32_t solve()
     {
-        const FloatEnv env;
         solve_group(*crowd_, find_isa("scalar")->kernels, crowd_->groups[0], 0, 1);
         const std::size_t at = std::size_t{field_first_row(crowd_->features, Field::flags)} * SWIVEL_LANES;
         if (crowd_->words) return crowd_->words[at] | std::uint32_t{crowd_->words[at + SWIVEL_LANES]} << 16;

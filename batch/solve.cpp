@@ -91,7 +91,6 @@ bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
                            swivel_arc* arcs, std::uint32_t capacity)
 {
-    const FloatEnv env;
     const std::size_t first = std::size_t{group.first_block} * SWIVEL_LANES;
     // The normal of the last solve counts; compact crowds have none.
     float* const results = crowd.words ? nullptr : crowd.results + row_offset(first, crowd.result_row_count, 0);

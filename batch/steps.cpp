@@ -6,6 +6,7 @@
 #include "batch/status.h"
 #include "batch/swivel.h"
 #include "core/pipeline.h"
+#include "simd/float_env.h"
 
 using namespace swivel;
 
@@ -106,6 +107,7 @@ double closing_error_of(const PipelineSteps<double>& m, const Vector<double>& ta
 swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
                            swivel_entity* entities, uint32_t capacity, uint32_t* entity_count, double* closing_error)
 {
+    const FloatEnv env(upper, fore);
     if (!target || !pole) return refuse("target or pole is null");
     if (!entities && capacity > 0) return refuse("entities is null, capacity is not 0");
     const Vector<double> to = vector(target[0], target[1], target[2]), side = vector(pole[0], pole[1], pole[2]);

@@ -32,6 +32,10 @@
 // exceptions. Calls that take it const may run together while nothing changes it. Jobs on_this_thread may run together
 // on blocks that do not overlap.
 //
+// FLOATING POINT. No call depends on the caller's rounding, flushing of denormals or traps. Each computes, judges and
+// writes its line in the usual environment, and restores the caller's with its sticky flags. Callbacks run in the
+// caller's. No exception of C++ leaves a call.
+//
 // SIZES. Structures that may grow start with their size. Start each from its swivel_default_ function. A library
 // accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
 // first.
@@ -519,7 +523,7 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 // origins: nothing is subtracted. Poles that are directions or normals have no origin and are refused with one. A
 // difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each
 // other, but not the crowd's own memory. Fails like swivel_write(), and for fields that are no positions. One thread;
-// no allocation; two to three times as long as swivel_write(). The floating-point environment is restored.
+// no allocation; two to three times as long as swivel_write().
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
@@ -612,7 +616,7 @@ static inline swivel_job swivel_default_job(void)
     return job;
 }
 
-// Solves limbs; job may be null, for every limb from and to rows. The caller's floating-point environment is restored.
+// Solves limbs; job may be null, for every limb from and to rows.
 //
 // With frames, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
 // given. The bits are the same. It takes a run of blocks of each group in turn, so limbs of one character use shared

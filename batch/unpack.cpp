@@ -5,7 +5,6 @@
 
 #include "core/arm.h"
 #include "core/compact.h"
-#include "simd/float_env.h"
 #include "simd/rows.h"
 
 namespace swivel {
@@ -68,7 +67,6 @@ std::array<float, 4> unpack_value(const swivel_crowd& crowd, Field field, std::s
 void unpack_out(const swivel_crowd& crowd, const Group& group, Field field, std::size_t first, std::size_t limb_count,
                 swivel_out values)
 {
-    const FloatEnv env;
     const std::size_t bytes = field_component_count(crowd.features, field) * sizeof(float);
     const std::size_t limb = std::size_t{group.first_block} * SWIVEL_LANES + first;
     for (std::size_t n = 0; n < limb_count; ++n) {

@@ -7,11 +7,13 @@
 // - The production formula in float is compared with its own target, through forward kinematics in double.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "batch/status.h"
 #include "core/any_arm.h"
 #include "core/pipeline.h"
 #include "core/reference.h"
+#include "simd/float_env.h"
 
 namespace swivel {
 
@@ -55,13 +57,16 @@ struct Error {
 struct Report {
     void (*line)(const swivel_check* check, void* user);
     void* user;
+    std::optional<FloatEnv> env = {};
     bool passed = true;
 
     void operator()(const char* name, const char* set, const Error& error, double max_limit, double rms_limit)
     {
         const swivel_check check{name, set, error.count, error.max, error.rms(), max_limit, rms_limit};
         passed = passed && error.count > 0 && error.max <= max_limit && (rms_limit == 0 || error.rms() <= rms_limit);
+        env.reset();  // the caller's function runs in the caller's environment
         if (line) line(&check, user);
+        env.emplace();
     }
 };
 
@@ -226,6 +231,7 @@ swivel_status swivel_verify(uint64_t arm_count, uint64_t seed, void (*report)(co
     if (!passed) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_verify: passed is null");
     if (arm_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_verify: no arms to check; give at least one");
     Report lines{report, user};
+    lines.env.emplace();
     Random random{seed};
     verify_double(random, std::clamp<std::uint64_t>(arm_count / 100, 100, 4000), lines);
     verify_float(random, arm_count, lines);
