@@ -5,6 +5,7 @@
 
 #include <dlfcn.h>
 #include <pthread.h>
+#include <sched.h>
 #include <sys/mman.h>
 
 #include <atomic>
@@ -30,9 +31,25 @@ bool is_lasting;
 thread_local bool is_armed = false;   // for memory
 std::atomic<bool> is_limited{false};  // for threads
 std::atomic<std::uint32_t> thread_count, failure_count;
+std::atomic<const volatile float*> watched{nullptr};
+float watched_before;
+thread_local bool is_watcher = false;
+std::atomic<bool> is_hidden{false};  // oneTBB's own memory
 
+bool fails_elsewhere(Resource resource)
+{
+    const volatile float* const word = watched;
+    if (!word || is_watcher || resource != Resource::allocation) return false;
+    for (int n = 0; n < 100000 && std::memcmp(&watched_before, const_cast<const float*>(word), sizeof(float)) == 0; ++n)
+        sched_yield();
+    if (!watched.exchange(nullptr)) return false;
+    ++failure_count;
+    errno = ENOMEM;
+    return true;
+}
 bool fails(Resource resource)
 {
+    if (fails_elsewhere(resource)) return true;
     if (!is_armed || resource != wanted) return false;
     const std::uint32_t n = ++request_count;
     if (n < first || (n > first && !is_lasting)) return false;
@@ -75,8 +92,17 @@ void let_fail(Resource resource, std::uint32_t nth, bool later_too)
     is_limited = resource == Resource::thread;
     is_armed = resource != Resource::thread;
 }
+void hide_own_memory() { is_hidden = true; }
+void let_fail_elsewhere(const volatile float* word)
+{
+    failure_count = 0;
+    is_watcher = true;
+    watched_before = *word;
+    watched = word;
+}
 std::uint32_t stop_failing()
 {
+    watched = nullptr;
     is_armed = is_limited = false;
     return failure_count;
 }
@@ -96,6 +122,10 @@ void* realloc(void* memory, std::size_t bytes) noexcept
     return fails(Resource::allocation) ? nullptr : __libc_realloc(memory, bytes);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept
+{
+    return fails(Resource::allocation) ? nullptr : __libc_memalign(alignment, bytes);
+}
+void* memalign(std::size_t alignment, std::size_t bytes) noexcept
 {
     return fails(Resource::allocation) ? nullptr : __libc_memalign(alignment, bytes);
 }
@@ -123,12 +153,10 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
     std::memcpy(data, &static_cast<const Counted&>(Counted{run, argument}), sizeof(Counted));
     return real(thread, attributes, run_counted, data);
 }
-// oneTBB would take memory from a library of its own, which maps it. Where allocations are to fail, that is missing.
 void* dlopen(const char* file, int mode) noexcept
 {
     static auto* const real = next<decltype(dlopen)>("dlopen");
-    const bool is_missing = is_armed && wanted == Resource::allocation && file && std::strstr(file, "tbbmalloc");
-    return is_missing ? nullptr : real(file, mode);
+    return is_hidden && file && std::strstr(file, "tbbmalloc") ? nullptr : real(file, mode);
 }
 }
 #pragma GCC visibility pop
