@@ -13,9 +13,11 @@
 #include <numbers>
 
 #include "batch/edge.h"
+#include "batch/input_ranges.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "core/bit_cast.h"
+#include "core/limb_goal.h"
 #include "simd/dispatch.h"
 #include "simd/rows.h"
 
@@ -140,47 +142,21 @@ private:
     std::size_t from_;
 };
 
-// What a value must be to be in its range.
-const char* range_of(Field field)
+// The lengths of a field's axis and pairs that must be 1 and are not.
+void explain_lengths(const Probe& probe, Field field, Text& text)
 {
-    switch (field) {
-        case Field::lengths:
-            return "0 or 1e-15 to 1e15 each";
-        case Field::parent_scale:
-            return "1e-15 to 1e15";
-        case Field::parent_rotation:
-        case Field::hand:
-        case Field::incoming_shoulder:
-        case Field::incoming_elbow:
-        case Field::incoming_wrist:
-            return "a quaternion of length 1e-9 to 1e9";
-        case Field::angle:
-            return "cos and sin, 1e-9 to 1e9 long; swivel_turn() makes them";
-        case Field::weights:
-            return "0 to 1 each";
-        case Field::reach:
-            return "0 to 1 each, the stretch 1 to 1000";
-        case Field::most_swivel:
-            return "cos and sin of 0 to pi; swivel_turn() makes them";
-        case Field::flexion_limit:
-            return "cosines of half angles; swivel_flexion() makes them";
-        case Field::shoulder_cone:
-        case Field::hand_cone:
-            return "a unit axis and a cosine; swivel_cone() makes them";
-        case Field::humeral_twist:
-        case Field::forearm_twist:
-        case Field::shoulder_box:
-        case Field::wrist_box:
-            return "ranges of angles; swivel_range() makes them";
-        case Field::hand_twist:
-            return "a unit axis and a range of angles; swivel_range() makes it";
-        case Field::aim:
-            return "a unit axis, cos and sin; swivel_aim() makes them";
-        case Field::clavicle:
-            return "a place no further than 1e15 and a share of 0 to 1";
-        default:
-            return "no further than 1e15";
-    }
+    const auto length2 = [&](std::uint32_t first, std::uint32_t count) {
+        float sum = 0;  // of floats and in their order, as a solve sums them
+        for (std::uint32_t c = first; c < first + count; ++c) sum += probe.value(field, c) * probe.value(field, c);
+        return sum;
+    };
+    const auto [axis_size, pair_count] = unit_parts(field);
+    if (const float axis2 = length2(0, axis_size); axis_size > 0 && !is_unit2(axis2))
+        text.add(" (its axis is %.8g long)", std::sqrt(double{axis2}));
+    for (std::uint32_t c = axis_size; c < axis_size + 2 * pair_count; c += 2)
+        if (const float pair2 = length2(c, 2); !is_unit2(pair2))
+            text.add(" (its pair %g, %g is %.8g long)", double{probe.value(field, c)},
+                     double{probe.value(field, c + 1)}, std::sqrt(double{pair2}));
 }
 
 // Inputs that are bad whatever the others are.
@@ -201,11 +177,13 @@ void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint3
             text.add("%s%g", c == 0 ? "" : ", ", x);
             is_number = is_number && !std::isnan(x);
         }
-        if (is_number)
-            text.add(") is out of its range, %s", range_of(field));
-        else
-            text.add(") is not a number: was it ever written?");
         is_found = true;
+        if (is_number) {
+            text.add(") is out of its range, %s", range_of(field));
+            explain_lengths(probe, field, text);
+        } else {
+            text.add(") is not a number: it may never have been written");
+        }
     }
     text.add("%s", is_found
                        ? ". The limb has its rest pose."

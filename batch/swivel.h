@@ -142,8 +142,9 @@ typedef uint64_t swivel_features;
 //
 // VALID INPUT. A limb with any value that is not valid gets its rest pose and SWIVEL_BAD_INPUT. No other limb changes
 // by a bit. The magnitude of positions and poles is at most 1e15, in the world as given and in the arm frame. The norm
-// of a quaternion is 1e-9..1e9; it need not be normalised. Axes have unit length within 5e-4, and so has each pair of
-// cosine and sine, but SWIVEL_ANGLE's. Weights and shares are 0..1. Other bounds are given at their fields.
+// of a quaternion is 1e-9..1e9; it need not be normalised. The squared length of an axis is 1 within 1e-6, summed in
+// floats, and so is that of each pair of cosine and sine, but SWIVEL_ANGLE's. They are used as they are. Weights and
+// shares are 0..1. Other bounds are given at their fields.
 //
 // RANGES. A range of angles is four numbers: cos and sin of its middle, cos and sin of its half-width. The half-width
 // is 0..pi. swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make values from angles.

@@ -119,12 +119,16 @@ SWIVEL_INLINE LimbEntry<T> load_limb(const LimbUse& use, const Binding& bind, co
     if (use.hand && joints)
         goal.hand = (use.aim ? ~broadcast<T>(bind.wrist_parent_from_arm) * goal.hand : goal.hand) *
                     ~broadcast<T>(bind.hand_from_arm);
-    const auto load_in_hand = [&](Field field) SWIVEL_INLINE_LAMBDA {
-        const Vector<T> v = rows.load_vector(field);
+    const auto in_hand = [&](const Vector<T>& v) SWIVEL_INLINE_LAMBDA {
         return joints ? sandwich(broadcast<T>(bind.hand_from_arm), v) : v;
     };
-    if (use.effector) goal.effector = load_in_hand(Field::effector);
-    if (use.aim) goal.aim = {load_in_hand(Field::aim), rows.load(Field::aim, 3), rows.load(Field::aim, 4)};
+    if (use.effector) goal.effector = in_hand(rows.load_vector(Field::effector));
+    if (use.aim) {
+        // Checked as given: a turn's rounding is no fault of the axis.
+        const Vector<T> axis = rows.load_vector(Field::aim);
+        entry.valid = entry.valid & is_unit2(len2(axis));
+        goal.aim = {in_hand(axis), rows.load(Field::aim, 3), rows.load(Field::aim, 4)};
+    }
     if (use.angle) goal.angle = rows.load_turned(Field::angle);
     if (use.incoming) {
         const auto load = [&](Field field, const Rotor<T>& from, const Rotor<T>& to) SWIVEL_INLINE_LAMBDA {

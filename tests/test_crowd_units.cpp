@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: an axis or a pair of cosine and sine whose squared length is not 1 within 1e-6 is bad input, and
+// explain says how long it is. What swivel_cone(), swivel_range(), swivel_aim() and swivel_turn() make is always valid.
+#include "tests/test_whole_limb.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+// Consecutive numbers of a field that must have unit length together.
+struct Part {
+    swivel_field field;
+    swivel_features features;
+    std::uint32_t first, size;
+};
+std::vector<Part> every_part()
+{
+    std::vector<Part> parts = {
+        {SWIVEL_SHOULDER_CONE, SWIVEL_WITH_SHOULDER_CONE, 0, 3},
+        {SWIVEL_HAND_CONE, SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_CONE, 0, 3},
+        {SWIVEL_HAND_TWIST, SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_TWIST, 0, 3},
+        {SWIVEL_HAND_TWIST, SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_TWIST, 3, 2},
+        {SWIVEL_HAND_TWIST, SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_TWIST, 5, 2},
+        {SWIVEL_AIM, SWIVEL_WITH_AIM, 0, 3},
+        {SWIVEL_AIM, SWIVEL_WITH_AIM, 3, 2},
+        {SWIVEL_MOST_SWIVEL, SWIVEL_WITH_MOST_SWIVEL, 0, 2},
+    };
+    for (const std::uint32_t first : {0u, 2u}) {
+        parts.push_back({SWIVEL_HUMERAL_TWIST, SWIVEL_WITH_HUMERAL_TWIST, first, 2});
+        parts.push_back({SWIVEL_FOREARM_TWIST, SWIVEL_WITH_HAND | SWIVEL_WITH_FOREARM_TWIST, first, 2});
+    }
+    for (std::uint32_t first = 0; first < 12; first += 2) {
+        parts.push_back({SWIVEL_SHOULDER_BOX, SWIVEL_WITH_SHOULDER_BOX, first, 2});
+        parts.push_back({SWIVEL_WRIST_BOX, SWIVEL_WITH_HAND | SWIVEL_WITH_WRIST_BOX, first, 2});
+    }
+    return parts;
+}
+
+// An axis of any length, often with components that vanish in the others.
+Vector3d any_axis(Random& random)
+{
+    Vector3d axis = random.direction();
+    if (random.below(2)) axis[random.below(3)] *= random.spread(1e-12, 1);
+    return random.spread(1e-30, 1e30) * axis;
+}
+// An angle from 0 to most, often next to an end or a right angle.
+double any_angle(Random& random, double most)
+{
+    const double angle = random.below(2) ? random.between(0, most) : kPi / 2 * random.below(3);
+    return std::clamp(angle + random.spread(1e-12, 1e-2) * random.between(-1, 1), 0.0, most);
+}
+void make_range(Random& random, float* range)
+{
+    const double middle = 4 * any_angle(random, kPi) - 2 * kPi, half = any_angle(random, kPi);
+    REQUIRE(swivel_range(middle - half, middle + half, range) == SWIVEL_OK);
+}
+// A value from the library's own functions.
+Float12 made_value(Random& random, swivel_field field)
+{
+    Float12 value = {};
+    const Vector3d axis = any_axis(random);
+    switch (field) {
+        case SWIVEL_SHOULDER_CONE:
+        case SWIVEL_HAND_CONE:
+            REQUIRE(swivel_cone(axis.data(), any_angle(random, kPi), value.data()) == SWIVEL_OK);
+            break;
+        case SWIVEL_HAND_TWIST:
+            REQUIRE(swivel_cone(axis.data(), 1, value.data()) == SWIVEL_OK);
+            make_range(random, value.data() + 3);
+            break;
+        case SWIVEL_AIM:
+            REQUIRE(swivel_aim(axis.data(), any_angle(random, kPi), value.data()) == SWIVEL_OK);
+            break;
+        case SWIVEL_MOST_SWIVEL:
+            swivel_turn(any_angle(random, 3.14159), value.data());
+            break;
+        case SWIVEL_HUMERAL_TWIST:
+        case SWIVEL_FOREARM_TWIST:
+            make_range(random, value.data());
+            break;
+        default:  // boxes
+            for (std::size_t n = 0; n < 12; n += 4) make_range(random, value.data() + n);
+    }
+    return value;
+}
+
+std::vector<std::uint32_t> flags_of(const Part& part, const std::vector<Float12>& values,
+                                    const swivel_binding& binding = {})
+{
+    const auto count = static_cast<std::uint32_t>(values.size());
+    const swivel_features joints = binding.lengths[0] > 0 ? SWIVEL_JOINTS : 0;
+    Crowd crowd = crowd_of(part.features | joints, count, binding);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.3f, 0.6f});
+    REQUIRE(swivel_write(crowd.get(), part.field, 0, 0, count, {values.data(), sizeof values[0]}) == SWIVEL_OK);
+    crowd.solve();
+    return read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+}
+
+}  // namespace
+
+TEST_CASE("an axis or pair whose squared length is not 1 within 1e-6 is bad input")
+{
+    Random random{1};
+    for (const Part& part : every_part()) {
+        INFO("field " << part.field << ", from " << part.first);
+        std::vector<Float12> values;
+        std::vector<double> off;
+        while (values.size() < 400) {
+            Float12 value = made_value(random, part.field);
+            const double length = std::sqrt(1 + random.spread(1e-8, 1e-2) * (random.below(2) ? 1 : -1));
+            double length2 = 0;
+            for (std::uint32_t c = part.first; c < part.first + part.size; ++c) {
+                value[c] = static_cast<float>(length * double{value[c]});
+                length2 += double{value[c]} * double{value[c]};
+            }
+            values.push_back(value);
+            off.push_back(std::fabs(length2 - 1));
+        }
+        const auto flags = flags_of(part, values);
+        int good = 0, bad = 0;
+        for (std::size_t n = 0; n < values.size(); ++n) {
+            INFO("off by " << off[n]);
+            const bool is_bad = flags[n] & SWIVEL_BAD_INPUT;
+            if (off[n] < 7.5e-7) CHECK_FALSE(is_bad);  // 2e-7 and more from 1e-6: floats sum that well
+            if (off[n] > 1.25e-6) CHECK(is_bad);
+            good += off[n]<7.5e-7, bad += off[n]> 1.25e-6;
+        }
+        CHECK(good > 50);
+        CHECK(bad > 50);
+    }
+}
+
+TEST_CASE("axes and pairs that the library makes from angles are valid, for joints of a skeleton, too")
+{
+    Random random{2};
+    constexpr std::size_t count = 20'000;
+    for (const Part& part : every_part()) {
+        if (part.first != 0) continue;  // once for each field
+        INFO("field " << part.field);
+        for (const bool joints : {false, true}) {
+            std::vector<Float12> values;
+            for (std::size_t n = 0; n < count; ++n) values.push_back(made_value(random, part.field));
+            for (std::size_t n = 0; n < count; n += 2) {  // half of them as the other side has them
+                float* const value = values[n].data();
+                REQUIRE(swivel_mirror(part.field, SWIVEL_XYZ, value, value) == SWIVEL_OK);
+            }
+            const auto flags = flags_of(part, values, joints ? chained(random).bound : swivel_binding{});
+            CHECK(std::ranges::count_if(flags, [](std::uint32_t f) { return (f & SWIVEL_BAD_INPUT) != 0; }) == 0);
+        }
+    }
+}
+
+TEST_CASE("a cone about an axis that is too long or too short is bad input, and explain says the length")
+{
+    const double lengths[] = {1.0004, 0.9996, 1.000002, 1.0};
+    Crowd crowd = crowd_of(SWIVEL_WITH_SHOULDER_CONE, 4);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.2f, 1.7f});
+    crowd.write_all(SWIVEL_POLE, 0, Float3{0, 5, 1});
+    const auto elbow_way = [&](std::uint32_t n) {
+        std::vector<std::array<double, 3>> elbow(1);
+        crowd.elbows(0, elbow, n);
+        return Vector3d(Vector3d(elbow[0].data()).normalized());
+    };
+    crowd.solve();
+    const Vector3d way = elbow_way(0);  // one that the elbow can take
+    std::vector<Float4> cones;
+    for (const double length : lengths) {
+        const Float3 axis = floats(Vector3d(length * way));
+        cones.push_back({axis[0], axis[1], axis[2], static_cast<float>(std::cos(degrees(1)))});
+    }
+    crowd.write(SWIVEL_SHOULDER_CONE, 0, cones);
+    crowd.write_all(SWIVEL_POLE, 0, Float3{5, 0, 1});
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    for (std::uint32_t n = 0; n < 4; ++n) {
+        const std::string text = crowd.explain(0, n);
+        const double off = std::acos(std::min(elbow_way(n).dot(way), 1.0)) / degrees(1);
+        INFO("The axis is " << lengths[n] << " long, the upper arm is " << off << " degrees from it. " << text);
+        const bool is_unit_axis = lengths[n] == 1;
+        CHECK(((flags[n] & SWIVEL_BAD_INPUT) != 0) == !is_unit_axis);
+        const std::size_t at = text.find("its axis is ");
+        CHECK((at == std::string::npos) == is_unit_axis);
+        if (is_unit_axis) CHECK(off == Approx(1).epsilon(1e-3));
+        if (at != std::string::npos) CHECK(std::stod(text.substr(at + 12)) == Approx(lengths[n]).epsilon(1e-7));
+    }
+}
+
+TEST_CASE("explain says how long each pair of cosine and sine is that is not of unit length, and no other")
+{
+    Random random{3};
+    for (const Part& part : every_part()) {
+        if (part.size != 2) continue;
+        Float12 value = made_value(random, part.field);
+        value[part.first] *= 1.5f, value[part.first + 1] *= 1.5f;
+        Crowd crowd = crowd_of(part.features, 1);
+        crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.3f, 0.6f});
+        REQUIRE(swivel_write(crowd.get(), part.field, 0, 0, 1, {value.data(), sizeof value}) == SWIVEL_OK);
+        crowd.solve();
+        const std::string text = crowd.explain(0, 0);
+        INFO(text);
+        const std::size_t at = text.find("its pair ");
+        REQUIRE(at != std::string::npos);
+        CHECK(text.find("its pair ", at + 1) == std::string::npos);
+        CHECK(text.find("its axis ") == std::string::npos);
+        CHECK(std::stod(text.substr(at + 9)) == Approx(double{value[part.first]}).epsilon(1e-5).margin(1e-12));
+        CHECK(std::stod(text.substr(text.find(" is ", at) + 4)) ==
+              Approx(std::hypot(double{value[part.first]}, double{value[part.first + 1]})).epsilon(1e-7));
+    }
+}
+
+TEST_CASE("SWIVEL_ANGLE keeps its own rule: a pair of any length from 1e-9 to 1e9")
+{
+    Crowd crowd = crowd_of(SWIVEL_WITH_ANGLE, 4);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.3f, 0.6f});
+    crowd.write(SWIVEL_ANGLE, 0, std::vector<Float2>{{2e-9f, 0}, {3e8f, 4e8f}, {0.5e-9f, 0}, {0, 2e9f}});
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    for (std::uint32_t n = 0; n < 4; ++n) CHECK(((flags[n] & SWIVEL_BAD_INPUT) != 0) == (n >= 2));
+}
