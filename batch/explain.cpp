@@ -25,7 +25,7 @@ namespace swivel {
 
 namespace {
 
-// Text as far as there is room, always with a 0 at its end.
+// Text as far as there is room, always with a 0 at its end. A text that was cut ends in three dots.
 class Text {
 public:
     explicit Text(std::span<char> room) : room_(room) { room_[0] = 0; }
@@ -38,9 +38,13 @@ public:
     {
         std::va_list arguments;
         va_start(arguments, format);
-        const int length = std::vsnprintf(room_.data() + used_, room_.size() - used_, format, arguments);
+        const std::size_t left = room_.size() - used_;
+        const int length = std::vsnprintf(room_.data() + used_, left, format, arguments);
         va_end(arguments);
-        if (length > 0) used_ = std::min(used_ + static_cast<std::size_t>(length), room_.size() - 1);
+        if (length < 0) return;
+        used_ += std::min(static_cast<std::size_t>(length), left - 1);
+        if (static_cast<std::size_t>(length) < left) return;
+        for (std::size_t at = used_ - std::min(used_, std::size_t{3}); at < used_; ++at) room_[at] = '.';
     }
     bool is_empty() const { return used_ == 0; }
 
@@ -191,17 +195,42 @@ void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint3
                          "has its rest pose.");
 }
 
+// What goes to the target.
+const char* end_of(const Probe& solved)
+{
+    const bool has_effector = solved.component_count(Field::effector) > 0 && !solved.is(Field::effector, {0, 0, 0});
+    return has_effector ? "effector" : "wrist";
+}
+
+// reached: how far the wrist is from the shoulder; by: what keeps it there. missed() is from the target itself.
+void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reached, const char* by, Text& text)
+{
+    if (flags & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) {
+        const bool is_far = flags & SWIVEL_CLAMPED_FAR;
+        text.add("The blended target is %s: the wrist is %.4g from the shoulder, as %s as %s let it.",
+                 is_far ? "out of reach" : "too near", reached, is_far ? "far" : "near", by);
+    } else if (flags & SWIVEL_SOFTENED) {
+        text.add("A soft zone of reach keeps the %s from its blended target.", end_of(solved));
+    } else {
+        text.add("The blended target is reached.");
+    }
+    text.add(" With a position weight of %.3g, the %s is %.4g from the target itself.",
+             double{solved.value(Field::weights, 0)}, end_of(solved), solved.missed());
+}
+
 void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
 {
     const double missed = solved.missed();
     const LimbPose pose = solved.pose();
     const double reached = std::sqrt(len2(pose.wrist - pose.shoulder));
     const bool aims = solved.component_count(Field::aim) > 0, has_length = !solved.is(Field::lengths, {0, 0});
-    const bool has_effector = solved.component_count(Field::effector) > 0 && !solved.is(Field::effector, {0, 0, 0});
+    const bool blends = solved.component_count(Field::weights) > 0 && solved.value(Field::weights, 0) < 1;
     const char* const by = !has_length                      ? "bones of no length"
                            : flags & SWIVEL_LIMITED_FLEXION ? "its bones and its flexion limit"
                                                             : "its bones";
-    if (aims && flags & SWIVEL_CLAMPED_NEAR)
+    if (blends)
+        explain_blended_reach(solved, flags, reached, by, text);
+    else if (aims && flags & SWIVEL_CLAMPED_NEAR)
         text.add("The target is too near to aim at with this flexion: the hand's ray passes it by %.4g.", missed);
     else if (aims)
         text.add("The hand aims at the target, to within %.2g of the limb's length.", solved.missed_share());
@@ -212,8 +241,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         text.add("The target is %.4g too near: the wrist is %.4g from the shoulder, as near as %s let it.", missed,
                  reached, by);
     else if (flags & SWIVEL_SOFTENED)
-        text.add("A soft zone of reach keeps the %s %.4g from its target.", has_effector ? "effector" : "wrist",
-                 missed);
+        text.add("A soft zone of reach keeps the %s %.4g from its target.", end_of(solved), missed);
     else
         text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");

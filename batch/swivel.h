@@ -674,13 +674,16 @@ SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint3
 //         printf("limb %u of group %u has bad input\n", limb, group);
 SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb);
 
+enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain()
+
 // Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, how far out of
 // reach the target is, which limit turned the elbow from its wish and by how much. Where no elbow keeps the limits, it
 // says by how many degrees the pose violates each. It says so if the results do not match the present inputs. It cannot
 // know the swivel from which the last step started. Distances are in the targets' unit, unless it says that they are of
-// the limb's length. limb is counted within the group. text gets at most size bytes, the 0 at its end among them. For
-// people and logs: the words may change, and the last digits differ between C libraries. Takes up to a millisecond; no
-// allocation.
+// the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not from the blended one.
+// limb is counted within the group. text gets at most size bytes, the 0 at its end among them. For people and logs: the
+// words may change, and the last digits differ between C libraries. A text that was cut ends in three dots. Takes up to
+// a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 

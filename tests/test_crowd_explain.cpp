@@ -399,10 +399,14 @@ TEST_CASE("explain writes no further than it may, changes nothing and refuses wh
     const auto before = all_words(crowd);
     CHECK(says(crowd, 0, "the next solve goes as far as step and limits allow"));
     const std::string whole = crowd.explain(0, 0);
-    for (const std::size_t size : {std::size_t{1}, std::size_t{2}, std::size_t{30}, whole.size(), whole.size() + 1}) {
+    for (const std::size_t size : {std::size_t{1}, std::size_t{2}, std::size_t{4}, std::size_t{30}, whole.size(),
+                                   whole.size() + 1, whole.size() + 2}) {
         std::vector<char> text(size + 8, '?');
         REQUIRE(swivel_explain(crowd.get(), 0, 0, text.data(), size) == SWIVEL_OK);
-        CHECK(std::string(text.data()) == whole.substr(0, size - 1));
+        std::string expected = whole.substr(0, size - 1);
+        if (expected != whole)  // cut
+            for (std::size_t n = 1; n <= std::min(expected.size(), std::size_t{3}); ++n) expected.end()[-int(n)] = '.';
+        CHECK(std::string(text.data()) == expected);
         CHECK(std::count(text.begin() + static_cast<std::ptrdiff_t>(size), text.end(), '?') == 8);
     }
     CHECK((all_words(crowd) == before));
@@ -412,4 +416,98 @@ TEST_CASE("explain writes no further than it may, changes nothing and refuses wh
     CHECK_REFUSED(swivel_explain(crowd.get(), 0, 20, text, 8), SWIVEL_INVALID_ARGUMENT);
     CHECK_REFUSED(swivel_explain(crowd.get(), 0, 0, nullptr, 8), SWIVEL_INVALID_ARGUMENT);
     CHECK_REFUSED(swivel_explain(crowd.get(), 0, 0, text, 0), SWIVEL_INVALID_ARGUMENT);
+}
+
+TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every input is bad")
+{
+    constexpr swivel_features all = kWorldJointsHand | kLimits | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
+                                    SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
+                                    SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_CLAVICLE,
+                              aim = kWorldJointsHand | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_AIM;
+    Random random{10};
+    for (const swivel_features features : {all, aim}) {
+        Crowd crowd = crowd_of(features, 1, chained(random).bound);
+        // Written as twelve characters each; too long for some fields, too short for the others.
+        for (const float bad : {-1.23456789e20f, -1.23456789e-20f, kNan, -kNan}) {
+            for (int f = 0; f < SWIVEL_INPUT_END; ++f) {
+                const auto field = static_cast<swivel_field>(f);
+                Float12 value;
+                value.fill(bad);
+                if (swivel_field_row_count(crowd.get(), field))
+                    REQUIRE(swivel_write(crowd.get(), field, 0, 0, 1, {value.data(), sizeof value}) == SWIVEL_OK);
+            }
+            crowd.solve();
+            std::vector<char> text(100'000);
+            REQUIRE(swivel_explain(crowd.get(), 0, 0, text.data(), text.size()) == SWIVEL_OK);
+            const std::string whole = text.data();
+            INFO(whole);
+            CHECK(whole.ends_with(" The limb has its rest pose."));
+            CHECK(whole.find('?') == std::string::npos);
+            CHECK(whole.size() < SWIVEL_EXPLANATION_BYTES);
+        }
+    }
+}
+
+TEST_CASE("with weights, explain speaks of the blended target, and of how far the limb is from the target itself")
+{
+    Random random{9};
+    constexpr std::uint32_t count = 200;
+    constexpr swivel_features features = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_INCOMING |
+                                         SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT;
+    Crowd crowd = crowd_of(features, count);
+    std::vector<Float3> targets, effectors, weights;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        targets.push_back(floats(Vector3d(random.between(0, 4) * random.direction())));
+        effectors.push_back(n % 2 == 0 ? Float3{0, 0, 0} : floats(Vector3d(0.3 * random.direction())));
+        weights.push_back({n % 4 == 0 ? 1 : static_cast<float>(random.below(4) ? random.unit() : 0), 1, 1});
+    }
+    crowd.write(SWIVEL_TARGET, 0, targets);
+    crowd.write(SWIVEL_EFFECTOR, 0, effectors);
+    crowd.write(SWIVEL_WEIGHTS, 0, weights);
+    crowd.write_all(SWIVEL_HAND, 0, floats(random.rotation()));
+    crowd.write_all(SWIVEL_INCOMING_ELBOW, 0, Float4{-0.5f, 0, 0, 1});
+    crowd.write_all(SWIVEL_REACH, 0, Float4{0.1f, 0.1f, 1, 0});
+    float flexion[2];
+    REQUIRE(swivel_flexion(0.2, 2.5, flexion) == SWIVEL_OK);
+    crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, flexion);
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    std::vector<std::array<double, 3>> wrists(count);
+    std::vector<std::array<double, 4>> hands(count);
+    crowd.wrists(0, wrists);
+    crowd.hands(0, hands);
+    int reached = 0, softened = 0, far = 0, near = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const std::string text = crowd.explain(0, n);
+        INFO(text);
+        const Vector3d tip = Vector3d(wrists[n].data()) + Quaterniond(hands[n].data()) * vec(effectors[n]);
+        const double missed = (tip - vec(targets[n])).norm();
+        if (weights[n][0] == 1) {
+            CHECK(text.find("blended") == std::string::npos);
+            if (flags[n] & SWIVEL_REACHED) CHECK(number_after(text, "reached, to within ") < 3e-6);
+            continue;
+        }
+        CHECK(text.find("to within") == std::string::npos);
+        CHECK(number_after(text, "With a position weight of ") ==
+              Approx(double{weights[n][0]}).epsilon(6e-3).margin(1e-12));
+        const std::size_t tail = text.find("With a position weight");
+        CHECK(number_after(text.substr(tail), n % 2 == 0 ? "the wrist is " : "the effector is ") ==
+              Approx(missed).epsilon(6e-4).margin(1e-5));
+        if (flags[n] & SWIVEL_REACHED) {
+            CHECK(text.starts_with("The blended target is reached."));
+            ++reached;
+        } else if (flags[n] & (SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR)) {
+            const bool is_far = flags[n] & SWIVEL_CLAMPED_FAR;
+            CHECK(text.starts_with(is_far ? "The blended target is out of reach: the wrist is "
+                                          : "The blended target is too near: the wrist is "));
+            CHECK(number_after(text, ": the wrist is ") ==
+                  Approx(Vector3d(wrists[n].data()).norm()).epsilon(6e-4).margin(1e-12));
+            ++(is_far ? far : near);
+        } else {
+            CHECK(text.starts_with("A soft zone of reach keeps the "));
+            CHECK(text.find(" from its blended target.") != std::string::npos);
+            ++softened;
+        }
+    }
+    CHECK(std::min({reached, softened, far}) > 5);
 }

@@ -166,6 +166,17 @@ class Poses(unittest.TestCase):
         self.assertIsNone(crowd.find(Flag.CLAMPED_FAR, 1, 34))
         self.assertIsNone(crowd.find(Flag.REACHED, 2))
 
+    def test_explanations_of_many_bad_inputs_are_whole(self):
+        crowd = swivel.Crowd([1], Feature.WORLD | Feature.WITH_HAND | Feature.WITH_INCOMING | Feature.WITH_SHOULDER_BOX |
+                             Feature.WITH_WRIST_BOX | Feature.WITH_HAND_TWIST | Feature.WITH_REACH)
+        for field in (Field.TARGET, Field.POLE, Field.HAND, Field.INCOMING_SHOULDER, Field.INCOMING_ELBOW,
+                      Field.INCOMING_WRIST, Field.REACH, Field.HAND_TWIST, Field.SHOULDER_BOX, Field.WRIST_BOX):
+            crowd.write(field, np.full_like(crowd.read(field)[0], -1.2345678e+20))
+        crowd.solve()
+        text = crowd.explain(limb=0)
+        self.assertGreater(len(text), 1024)
+        self.assertTrue(text.endswith(" The limb has its rest pose."), text[-100:])
+
     def test_the_digest_is_that_of_the_results(self):
         first, second = swivel.Crowd([5, 40]), swivel.Crowd([5, 40])
         for crowd in (first, second):

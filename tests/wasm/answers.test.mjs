@@ -38,6 +38,18 @@ test('joints of a bound skeleton put wrists at their targets', () => {
   crowd.dispose();
 });
 
+test('explanations of many bad inputs are whole', () => {
+  const crowd = swivel.crowd([1], Feature.WITH_HAND | Feature.WITH_INCOMING | Feature.WITH_SHOULDER_BOX | Feature.WITH_WRIST_BOX | Feature.WITH_REACH);
+  for (const field of Object.values(Field)) {
+    const count = field < Field.SHOULDER ? crowd.fieldRowCount(field) : 0;
+    if (count) crowd.write(field, new Array(count).fill(-1.2345678e20));
+  }
+  crowd.solve();
+  assert.ok(crowd.explain(0).length > 1024);
+  assert.match(crowd.explain(0), / The limb has its rest pose\.$/);
+  crowd.dispose();
+});
+
 test('limits, their arcs, and what explains them', () => {
   const crowd = swivel.crowd([3], Feature.WITH_SHOULDER_CONE | Feature.WITH_FLEXION_LIMIT | Feature.WITH_ANGLE | Feature.WITH_SHOULDER_BOX, { shoulderOrder: Order.YXZ });
   crowd.write(Field.LENGTHS, [1, 1]);

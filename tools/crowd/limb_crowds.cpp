@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 
 #include "tools/crowd/parallel.h"
@@ -126,9 +127,9 @@ void LimbCrowds::residuals(std::size_t limb, std::uint32_t first, std::uint32_t 
 
 std::string LimbCrowds::explain(std::size_t limb, std::uint32_t character) const
 {
-    char text[1024];
-    check(swivel_explain(crowd_of(limb).get(), places_[limb].group, character, text, sizeof text));
-    return text;
+    std::array<char, SWIVEL_EXPLANATION_BYTES> text;
+    check(swivel_explain(crowd_of(limb).get(), places_[limb].group, character, text.data(), text.size()));
+    return text.data();
 }
 
 void LimbCrowds::reset(std::size_t limb, std::uint32_t character)

@@ -4,6 +4,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <string>
+
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
 
@@ -113,7 +116,10 @@ void add_answers(CrowdClass& crowd)
         "explain",
         [](HeldCrowd& held, std::int64_t limb, std::int64_t group) {
             const Limbs one = limbs_of(held, group, limb, 1);
-            return run(held, Way::kReading, [&] { return held.crowd.explain(one.group, one.first); });
+            std::array<char, SWIVEL_EXPLANATION_BYTES> text;
+            run(held, Way::kReading,
+                [&] { check(swivel_explain(held.crowd.get(), one.group, one.first, text.data(), text.size())); });
+            return std::string(text.data());
         },
         py::kw_only(), py::arg("limb"), py::arg("group") = 0,
         "Why a limb is as it is, from its present inputs, in a sentence or two.\n\n"

@@ -90,6 +90,7 @@ static void print_structures(void)
     for (int n = 0; n < field_count; ++n) printf("    [Field.%s]: %zu,\n", members[n].name, members[n].offset);
     printf("};\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
+    printf("export const EXPLANATION_BYTES = %d;\n", SWIVEL_EXPLANATION_BYTES);
     printf("export const VERSION = \"%d.%d.%d\";\n", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, whole } from "./arguments.js";
-import { Field } from "./layout.js";
+import { EXPLANATION_BYTES, Field } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
@@ -95,8 +95,8 @@ export class Crowd extends CrowdRows {
     explain(limb: number, group = 0): string {
         const { first } = this.one(limb, group);
         return this.memory.borrow((borrowed) => {
-            const at = borrowed.bytes(1024);
-            this.memory.check(this.memory.calls.swivel_explain(this.crowd, group, first, at, 1024));
+            const at = borrowed.bytes(EXPLANATION_BYTES);
+            this.memory.check(this.memory.calls.swivel_explain(this.crowd, group, first, at, EXPLANATION_BYTES));
             return this.memory.text(at);
         });
     }
