@@ -77,7 +77,9 @@ typedef enum swivel_status {
 
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
-    // The wrist is at its target or blended target. With WITH_AIM, the hand's ray goes through the target.
+    // The wrist or effector is at its target or blended target. Without features it is within 1e-6 arm lengths, with
+    // features within 2e-6, where effector and clavicle are no longer than half of the arm. With WITH_AIM, the hand's
+    // ray goes through the target instead.
     SWIVEL_REACHED = 1u << 0,
     SWIVEL_SOFTENED = 1u << 1,   // in a soft zone of reach, so the wrist is not quite at the target
     SWIVEL_STRETCHED = 1u << 2,  // SWIVEL_STRETCH is above 1
@@ -154,9 +156,10 @@ typedef uint64_t swivel_features;
 // twist is the one of swing and twist: of a rotation (v, w) from rest the angle 2 atan2(dot(v, axis), w), by the right
 // hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
 // - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
-//   angle is off by at most 1e-6. In a box, what is off by at most 1e-6 is the sine of the middle angle, and the
-//   sines of the others times the middle one's cosine. So near a right angle the middle one may be off by 0.082
-//   degrees, and the others may be free.
+//   angle is off by at most 3e-6, for a twist times (1 + cos swing) / 2. So a cone may be left by 0.14 degrees near 0
+//   and 180 degrees. In a box, what is off by at most 4e-6 is the sine of the middle angle, and the sines of the others
+//   times the middle one's cosine. So near a right angle the middle one may be off by 0.17 degrees, and the others may
+//   be free. docs/howto/limits.md has the figures that a search for the worst found.
 // - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.

@@ -219,3 +219,49 @@ TEST_CASE("SWIVEL_ANGLE keeps its own rule: a pair of any length from 1e-9 to 1e
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
     for (std::uint32_t n = 0; n < 4; ++n) CHECK(((flags[n] & SWIVEL_BAD_INPUT) != 0) == (n >= 2));
 }
+
+TEST_CASE("limits hold to 3e-6 of a cosine with axes and pairs as far from unit length as is valid")
+{
+    constexpr std::uint32_t count = 20'000;
+    constexpr swivel_features features = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
+    Random random{4};
+    Crowd crowd = crowd_of(features, count);
+    std::vector<Float4> cones, twists;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        write_limb(crowd, 0, n, random_limb(random, features, {1, 1}));
+        const auto scaled = [&](float* part, int size) {
+            for (int c = 0; c < size; ++c) part[c] *= random.below(2) ? 1.0000004f : 0.9999996f;
+        };
+        Float4 cone =
+            swivel::cone({random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}, random.between(0.1, 3));
+        Float4 twist;
+        make_range(random, twist.data());
+        scaled(cone.data(), 3);
+        scaled(twist.data(), 2);
+        scaled(twist.data() + 2, 2);
+        cones.push_back(cone);
+        twists.push_back(twist);
+    }
+    crowd.write(SWIVEL_SHOULDER_CONE, 0, cones);
+    crowd.write(SWIVEL_HUMERAL_TWIST, 0, twists);
+    crowd.solve();
+    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
+    const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
+    const Vector3d e3 = Vector3d::UnitZ();
+    double worst = -1;
+    int limited = 0;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        REQUIRE_FALSE(flags[n] & SWIVEL_BAD_INPUT);
+        if (flags[n] & SWIVEL_INFEASIBLE) continue;
+        const Quaterniond q = quat(shoulders[n]).normalized();
+        const Float4 &cone = cones[n], &twist = twists[n];
+        const AngleRange range{std::atan2(double{twist[1]}, double{twist[0]}),
+                               std::atan2(double{twist[3]}, double{twist[2]})};
+        const Vector3d axis = Vector3d(cone[0], cone[1], cone[2]).normalized();
+        worst = std::max({worst, cone_violation(axis, double{cone[3]}, q * e3), twist_violation(e3, range, q)});
+        limited += (flags[n] & (SWIVEL_LIMITED_SHOULDER_CONE | SWIVEL_LIMITED_HUMERAL_TWIST)) != 0;
+    }
+    CHECK(worst <= 3e-6);
+    CHECK(worst > 2e-7);  // the axes' own error shows
+    CHECK(limited > 1000);
+}
