@@ -78,7 +78,7 @@ typedef enum swivel_status {
 // What the flag word of a limb says. Hard poses are results, not errors.
 typedef enum swivel_flag {
     // The wrist or effector is at its target or blended target. Without features it is within 1e-6 arm lengths, with
-    // features within 2e-6, where effector and clavicle are no longer than half of the arm. With WITH_AIM, the hand's
+    // features within 3e-6, where effector and clavicle are no longer than half of the arm. With WITH_AIM, the hand's
     // ray goes through the target instead.
     SWIVEL_REACHED = 1u << 0,
     SWIVEL_SOFTENED = 1u << 1,   // in a soft zone of reach, so the wrist is not quite at the target

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise of SWIVEL_REACHED: the wrist of a plain arm is within 1e-6 arm lengths of its target. With features,
-// wrist or effector is within 2e-6 of the target or the blended target. By the skeleton's own forward kinematics, in
-// Eigen.
+// wrist or effector is within 3e-6 of the target or the blended target. Limbs at random, as here, stay within 1e-6:
+// only a search finds worse ones (docs/mathematics.md). By the skeleton's own forward kinematics, in Eigen.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;
@@ -94,7 +94,7 @@ TEST_CASE("with SWIVEL_REACHED, a plain arm's wrist is within 1e-6 of its target
     CHECK(reached > 99'000);
 }
 
-TEST_CASE("with SWIVEL_REACHED and features, the skeleton's wrist or effector is within 2e-6 of where it should be")
+TEST_CASE("with SWIVEL_REACHED and features, the random limbs of skeletons are within 1e-6 of where they should be")
 {
     Random random{2};
     for (const swivel_features features :
@@ -124,7 +124,7 @@ TEST_CASE("with SWIVEL_REACHED and features, the skeleton's wrist or effector is
                 ++reached;
             }
         }
-        CHECK(worst <= 2e-6);
+        CHECK(worst <= 1e-6);
         CHECK(reached > 3000);
     }
 }
