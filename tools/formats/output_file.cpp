@@ -70,12 +70,18 @@ void keep_rights(int descriptor, const struct stat& before)
     static_cast<void>(::fchmod(descriptor, mode));
 }
 
+struct CloseAtEnd {
+    int descriptor;
+    ~CloseAtEnd() { ::close(descriptor); }
+};
+
 std::mutex list_mutex;
 OutputFile* all_files = nullptr;
 
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& path) : named_(is_standard_stream(path) ? kStandardOutput : path)
+OutputFile::OutputFile(const fs::path& path)
+    : named_(is_standard_stream(path) ? kStandardOutput : path), folder_(AT_FDCWD)
 {
     std::error_code ignored;
     if (path.empty()) throw InputError("(no name)", "an output file needs a name");
@@ -90,23 +96,41 @@ OutputFile::OutputFile(const fs::path& path) : named_(is_standard_stream(path) ?
         if (descriptor_ < 0) fail("cannot be opened for writing");
     } else {
         target_ = follow_links(path);
-        open_partial();
+        open_partial(0);
     }
+    enlist();
+}
+
+OutputFile::OutputFile(int folder, const std::string& name, const fs::path& path)
+    : named_(path), folder_(folder), target_(name)
+{
+    buffer_.reserve(kBufferBytes);
+    open_partial(AT_SYMLINK_NOFOLLOW);
+    enlist();
+}
+
+void OutputFile::enlist()
+{
     const std::lock_guard lock(list_mutex);
     next_ = std::exchange(all_files, this);
 }
 
 // A short name of its own: the target's may be as long as a name can be.
-void OutputFile::open_partial()
+// follows: 0, or AT_SYMLINK_NOFOLLOW for a target that is what it is, which has rights of its own if it is a plain
+// file.
+void OutputFile::open_partial(int follows)
 {
     struct stat before;
-    const bool is_there = ::stat(target_.c_str(), &before) == 0;
+    bool is_there = ::fstatat(folder_, target_.c_str(), &before, follows) == 0;
     if (!is_there && errno != ENOENT) fail("cannot be created");
-    if (is_there && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be replaced");
+    if (is_there && S_ISDIR(before.st_mode)) throw InputError(named_, "is a directory; name a file in it");
+    is_there = is_there && S_ISREG(before.st_mode);
+    if (is_there && ::faccessat(folder_, target_.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be replaced");
     for (int n = 0; descriptor_ < 0; ++n) {
         partial_ = target_.parent_path() / fmt::format(".swivel-{}-{}", ::getpid(), n);
         // What others may not read in the old file they may not read in the new one at any moment.
-        descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, is_there ? 0600 : 0666);
+        descriptor_ =
+            ::openat(folder_, partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, is_there ? 0600 : 0666);
         if (descriptor_ >= 0 || errno == EEXIST) continue;
         partial_.clear();
         fail("cannot be created");
@@ -151,8 +175,10 @@ void OutputFile::commit()
     const int status = ::close(descriptor_);
     descriptor_ = -1;
     if (status != 0) fail("cannot be written");
-    if (!partial_.empty() && ::rename(partial_.c_str(), target_.c_str()) != 0) fail("cannot be renamed to");
-    if (!partial_.empty()) sync_folder(target_.parent_path());
+    if (!partial_.empty() && ::renameat(folder_, partial_.c_str(), folder_, target_.c_str()) != 0)
+        fail("cannot be renamed to");
+    if (!partial_.empty())
+        folder_ == AT_FDCWD ? sync_folder(target_.parent_path()) : sync_folder(folder_, named_.parent_path());
     partial_.clear();
 }
 
@@ -169,7 +195,7 @@ void OutputFile::discard() noexcept
 {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
-    if (!partial_.empty()) ::unlink(partial_.c_str());
+    if (!partial_.empty()) ::unlinkat(folder_, partial_.c_str(), 0);
     partial_.clear();
 }
 
@@ -182,15 +208,23 @@ void OutputFile::fail(std::string_view action)
     throw InputError(named_, fmt::format("{}: {}; {}", action, reason.message(), advice(reason)));
 }
 
+void sync_folder(int folder, const fs::path& path)
+{
+    const int descriptor = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;  // it may be written, and not read
+    const CloseAtEnd closes{descriptor};
+    const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+    const std::error_code reason(errno, std::generic_category());
+    if (!is_synced) throw InputError(path, fmt::format("cannot be written: {}; check the disk", reason.message()));
+}
+
 void sync_folder(const fs::path& folder)
 {
     const fs::path path = folder.empty() ? fs::path(".") : folder;
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;  // it may be written, and not read
-    const bool is_synced = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
-    const std::error_code reason(errno, std::generic_category());
-    ::close(descriptor);
-    if (!is_synced) throw InputError(path, fmt::format("cannot be written: {}; check the disk", reason.message()));
+    const CloseAtEnd closes{descriptor};
+    sync_folder(descriptor, path);
 }
 
 }  // namespace swivel::formats

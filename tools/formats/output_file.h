@@ -22,6 +22,10 @@ public:
     // One object belongs to one thread. Allocates its buffer of 1 MiB here, nothing later.
     explicit OutputFile(const std::filesystem::path& path);
 
+    // The same for a name in an open folder, which must stay open as long as the object. No link is followed: one of
+    // that name is replaced itself. Throws InputError, naming `path`, if it is a folder, or as above.
+    OutputFile(int folder, const std::string& name, const std::filesystem::path& path);
+
     // Without a commit the partial file is removed.
     ~OutputFile();
 
@@ -40,12 +44,14 @@ public:
     static void discard_all() noexcept;
 
 private:
-    void open_partial();
+    void open_partial(int follows);
+    void enlist();
     void flush(std::string_view bytes);
     void discard() noexcept;
     [[noreturn]] void fail(std::string_view action);
 
     std::filesystem::path named_;    // as the caller wrote it: for messages
+    int folder_;                     // where relative names begin
     std::filesystem::path target_;   // links followed
     std::filesystem::path partial_;  // empty: written straight, or renamed already
     std::string buffer_;
@@ -56,5 +62,7 @@ private:
 // Waits until the disk has the names in a folder; "" is the working folder. Some file systems cannot do that, and then
 // nothing is waited for. Throws InputError if the disk fails.
 void sync_folder(const std::filesystem::path& folder);
+// The same for an open folder; `path` is for messages.
+void sync_folder(int folder, const std::filesystem::path& path);
 
 }  // namespace swivel::formats
