@@ -8,6 +8,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import { createXXHash3 } from 'hash-wasm';
 import * as zarr from 'zarrita';
 
 const { SWIVEL, CLIP, PACKAGE, MODULE } = process.env;
@@ -52,14 +53,16 @@ async function open(path) {
 
 // ---- digests
 
-const START = 0xcbf29ce484222325n, PRIME = 0x100000001b3n;
-const step = (digest, word) => BigInt.asUintN(64, (digest ^ word) * PRIME);
+const hasher = await createXXHash3();
 
-/** Of a chunk of goals, as it is before it is packed. */
-function digestOf({ data }) {
-  const bytes = new Uint8Array(Math.ceil(data.byteLength / 8) * 8);
-  bytes.set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
-  return new BigUint64Array(bytes.buffer).reduce(step, START) || 1n;
+/** XXH3 of bytes, as hash-wasm computes it; never 0. */
+const digestOf = (bytes) => BigInt(`0x${hasher.init().update(bytes).digest()}`) || 1n;
+/** Of a typed array, such as a chunk of goals as it is before it is packed, as little-endian numbers. */
+const digestOfNumbers = (data) => digestOf(new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
+/** Of the attributes: their text without the blanks between its words, and without the digest itself, which comes last. */
+function proveAttributes(text) {
+  const [, before, digest] = /^(.*),"digest":"([0-9a-f]{16})"}$/.exec(text.replace(/("(?:[^"\\]|\\.)*")|\s+/g, '$1'));
+  assert.equal(digestOf(new TextEncoder().encode(`${before}}`)).toString(16).padStart(16, '0'), digest);
 }
 
 /** Every place in a grid, the last dimension's counted first. */
@@ -71,19 +74,34 @@ async function proveGoals({ root, attrs }) {
   names.push('character/size', 'character/place', 'character/start');
   if (attrs.has_given) names.push('given/target', 'given/pole', 'given/hand');
   if (attrs.budget_blocks > 0) names.push('chosen');
-  let count = 0, all = START;
+  let count = 0;
+  const all = [];
   for (const name of names.sort()) {
     const array = await zarr.open.v2(root.resolve(name), { kind: 'array' });
     const digests = await zarr.get(await zarr.open.v2(root.resolve(`goal_digest/${name}`), { kind: 'array' }));
-    all = digests.data.reduce(step, all);
+    all.push(...digests.data);
     for (const [n, place] of placesIn(digests.shape).entries()) {
       if (digests.data[n] === 0n) continue;
-      assert.equal(digestOf(await array.getChunk(place)), digests.data[n], `${name}/${place}`);
+      assert.equal(digestOfNumbers((await array.getChunk(place)).data), digests.data[n], `${name}/${place}`);
       ++count;
     }
   }
-  assert.equal(all.toString(16).padStart(16, '0'), attrs.goals_digest);
+  assert.equal(digestOfNumbers(new BigUint64Array(all)).toString(16).padStart(16, '0'), attrs.goals_digest);
   return count;
+}
+
+/** Computes every digest of the state again. Returns how many there are. */
+async function proveState({ root, read }) {
+  const open = (name) => zarr.open.v2(root.resolve(`state/${name}`), { kind: 'array' });
+  const found = await Promise.allSettled(['shoulder', 'elbow', 'wrist', 'flags', 'stretch', 'normal', 'twist_bones', 'clavicle_turn'].map(open));
+  const arrays = found.filter(({ status }) => status === 'fulfilled').map(({ value }) => value);
+  if (arrays.length === 0) return 0;
+  const { data, shape } = await read('state/digest');
+  for (const [n, [time, column]] of placesIn(shape).entries()) {
+    const chunks = await Promise.all(arrays.map((array) => array.getChunk([time, 0, column, ...array.shape.slice(3).map(() => 0)])));
+    assert.equal(digestOfNumbers(new BigUint64Array(chunks.map((chunk) => digestOfNumbers(chunk.data)))), data[n], `state/${time}.${column}`);
+  }
+  return data.length;
 }
 
 // ---- crowds
@@ -218,19 +236,21 @@ for (const [name, toml, options, crowdCount = 1] of [
     const names = Object.keys(results).filter((field) => { try { return readFileSync(join(folder, 'cache', field, '.zarray')); } catch { return false; } });
     const stored = Object.fromEntries(await Promise.all(names.map(async (field) => [field, await cache.read(field)])));
     assert.ok(await proveGoals(cache) > 18);
+    assert.equal(await proveState(cache), attrs.budget_blocks > 0 ? 9 : 0);
+    proveAttributes(readFileSync(join(folder, 'cache/.zattrs'), 'utf8'));
     const digests = await cache.read('digest');
     let compared = 0, solvedLimbs = 0;
     for (const first of [0, 32, 64]) {
       const memory = await instantiate({ wasm: readFileSync(MODULE), megabytes: 64 }), column = new Column(memory, cache, first);
       assert.equal(column.crowds.length, crowdCount);
-      let digest = START;
+      let words = [];
       for (let frame = 0; frame < attrs.frames; ++frame) {
         column.solve(frame, given, chosen);
-        if (frame % attrs.chunk_frames === 0) digest = START;
-        for (const crowd of column.crowds) digest = step(digest, crowd.digest());
+        if (frame % attrs.chunk_frames === 0) words = [];
+        for (const crowd of column.crowds) words.push(crowd.digest());
         const time = Math.floor(frame / attrs.chunk_frames), [, columnCount] = digests.shape;
         if ((frame + 1) % attrs.chunk_frames === 0 || frame + 1 === attrs.frames)
-          assert.equal(digests.data[time * columnCount + first / attrs.chunk_characters], digest || 1n, `digest of chunk ${time}, characters from ${first} on`);
+          assert.equal(digests.data[time * columnCount + first / attrs.chunk_characters], digestOfNumbers(new BigUint64Array(words)), `digest of chunk ${time}, characters from ${first} on`);
         column.limbs.forEach(({ crowd, group }, limb) => {
           for (const field of names) {
             const parts = crowd.componentCount(Field[results[field]]);

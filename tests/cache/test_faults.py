@@ -76,6 +76,19 @@ class Disk(Stage):
         self.swivel("check", cache, "--quiet")
         self.assertEqual(run("check", cache, "--quiet", **nobody).returncode, 0)  # a closed cache is only read
 
+    def test_a_cache_that_may_not_be_read(self):
+        nobody = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+        self.folder.chmod(0o755)
+        for name in (".", ".zattrs", "elbow", "digest/0.0"):
+            with self.subTest(file=name):
+                cache = self.fill(self.store())
+                (cache / name).chmod(0)
+                for command in ("check", "replay"):
+                    if (command, name) != ("replay", "elbow"):
+                        self.assert_refused(run(command, cache, "--quiet", **nobody), "Permission denied; check its permissions and those of its folder")
+                (cache / name).chmod(0o755)
+                shutil.rmtree(cache)
+
     def test_a_cache_is_not_replaced(self):
         cache = self.fill(self.store())
         before = files_of(cache)
@@ -198,8 +211,8 @@ class Metadata(Stage):
         changes = [
             (".zattrs", lambda path: os.truncate(path, 100), "is no JSON object: it was changed or cut"),
             (".zattrs", os.remove, r"\.zattrs: is missing; take it from a copy, or make the cache anew in another folder"),
-            (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=2)),
-             "the cache has format 2, this swivel reads format 1; use the swivel that made it"),
+            (".zattrs", lambda path: edit(path, lambda a: a.update(swivel_cache=1)),
+             "the cache has format 1, this swivel reads format 2; make it anew by swivel store, or use the swivel that made it"),
             (".zattrs", lambda path: edit(path, lambda a: a.update(characters=101)), "was changed: its digest is another"),
             (".zattrs", lambda path: edit(path, lambda a: a["limbs"][0].update(priority=2)), "was changed: its digest is another"),
             (".zattrs", lambda path: edit(path, lambda a: a.pop("swivel_cache")), "describes no cache of swivel"),

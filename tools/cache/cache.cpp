@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/cache/digest.h"
 #include "tools/cache/members.h"
 #include "tools/formats/error.h"
 
@@ -16,19 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 using formats::InputError;
 
-CachedCrowd read_crowd(const fs::path& folder)
+constexpr const char* kNoCache = "is no cache of swivel; swivel store makes one";
+
+CachedCrowd read_crowd(const PlainFolder& folder)
 {
-    const fs::path path = folder / ".zattrs";
-    std::error_code ignored;
-    if (!fs::exists(path, ignored) && fs::exists(folder / "goal_digest", ignored))
+    const fs::path path = folder.path() / ".zattrs";
+    if (!folder.has(".zattrs") && folder.has("goal_digest"))
         throw InputError(path, "is missing; take it from a copy, or make the cache anew in another folder");
-    if (!fs::exists(path, ignored)) throw InputError(folder, "is no cache of swivel; swivel store makes one");
-    const ZarrStore store(folder, false);
-    std::uint32_t clip_frames = 0;
-    CachedCrowd crowd = crowd_of_attributes(store.attributes(), path, &clip_frames);
-    for (CachedLimb& limb : crowd.limbs) limb.sources.resize(clip_frames);
-    crowd.positions.resize(std::size_t{clip_frames} * crowd.joints.size() * 3);
-    return crowd;
+    if (!folder.has(".zattrs")) throw InputError(folder.path(), kNoCache);
+    return crowd_of_attributes(attributes_in(folder), path);
 }
 
 GoalDigests read_digests(const ZarrStore& store, const std::vector<ZarrArray>& made)
@@ -54,42 +51,25 @@ std::uint64_t state_digest(const Results& results)
     return digest_of(std::as_bytes(std::span(of_fields)));
 }
 
-void remove_whole(const fs::path& path)
-{
-    std::error_code reason;
-    fs::remove_all(path, reason);
-    if (reason)
-        throw InputError(path,
-                         fmt::format("cannot be removed: {}; check the folder and its permissions", reason.message()));
-}
-
-// Files and folders that writers left when they were killed: .swivel-PID-N.
-std::vector<fs::path> unfinished_in(const fs::path& folder)
-{
-    std::vector<fs::path> unfinished;
-    std::error_code reason;
-    for (fs::recursive_directory_iterator entry(folder, reason), end; !reason && entry != end;) {
-        if (entry->path().filename().string().starts_with(".swivel-")) {
-            unfinished.push_back(entry->path());
-            entry.disable_recursion_pending();
-        }
-        entry.increment(reason);
-    }
-    if (reason) throw InputError(folder, fmt::format("cannot be read: {}; check its permissions", reason.message()));
-    return unfinished;
-}
-
 }  // namespace
 
-Cache::Cache(const fs::path& folder)
-    : crowd_(read_crowd(folder_name(folder))), arrays_(crowd_), store_(folder_name(folder), crowd_.is_compressed)
+Cache::Cache(const fs::path& folder, std::uint64_t memory) : Cache(PlainFolder(folder_name(folder), kNoCache), memory)
+{
+}
+
+Cache::Cache(PlainFolder files, std::uint64_t memory)
+    : crowd_(read_crowd(files)), arrays_(crowd_), store_(std::move(files), crowd_.is_compressed)
 {
     const std::vector<ZarrArray> made = arrays_.made(crowd_);
     for (const auto& arrays : {arrays_.filled(crowd_), made})
         for (const ZarrArray& array : arrays) store_.require(array);
+    // With less memory than the program's own, filling says how much a chunk takes, which tells more.
+    const auto most = std::max(memory, static_cast<std::uint64_t>(kProgramBytes));
+    require_memory(folder(), bytes_all_along(crowd_, arrays_), most, "the clip with the lists of chunks",
+                   "give more, or store the crowd in larger chunks");
     made_ = read_digests(store_, made);
     if (digest_of(made_) != crowd_.goals_digest)
-        throw InputError(folder_name(folder) / "goal_digest",
+        throw InputError(folder() / "goal_digest",
                          "was changed: its digest is another; take it from a copy, or make the cache anew");
     if (crowd_.has_goals()) read_clip();
 }
@@ -103,15 +83,16 @@ void Cache::require_goals() const
 
 void Cache::read_clip()
 {
-    const std::size_t frame_count = crowd_.clip_frame_count();
+    for (CachedLimb& limb : crowd_.limbs) limb.sources.resize(crowd_.clip_frames);
     for (std::size_t n = 0; n < std::size(kSourceMembers); ++n) {
         std::vector<std::byte> bytes(arrays_.clip[n].chunk_bytes());
         require_made(arrays_.clip[n], {}, bytes);
         const std::size_t of_limb = bytes.size() / crowd_.limbs.size();
         for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb)
             scatter(std::span(bytes).subspan(limb * of_limb, of_limb), kSourceMembers[n],
-                    std::span(crowd_.limbs[limb].sources).first(frame_count));
+                    std::span(crowd_.limbs[limb].sources));
     }
+    crowd_.positions.resize(arrays_.clip.back().chunk_bytes() / sizeof(float));
     require_made(arrays_.clip.back(), {}, std::as_writable_bytes(std::span(crowd_.positions)));
 }
 
@@ -172,6 +153,17 @@ ChunkGoals Cache::goals(ChunkAt at) const
 std::uint64_t Cache::digest(ChunkAt at) const
 {
     return store_.read_number(arrays_.digest, {at.time, at.column}).value_or(0);
+}
+
+std::vector<ChunkAt> Cache::done() const
+{
+    std::vector<ChunkAt> done;
+    store_.for_chunks(arrays_.digest, [&](const ChunkPlace& place) {
+        const ChunkAt at{static_cast<std::uint32_t>(place[0]), static_cast<std::uint32_t>(place[1])};
+        if (digest(at) != 0) done.push_back(at);
+    });
+    std::ranges::sort(done, {}, [](ChunkAt at) { return std::pair(at.column, at.time); });
+    return done;
 }
 
 std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place) const
@@ -241,10 +233,14 @@ void Cache::close()
         crowd_.goals_digest = digest_of(made_);
         store_.write_attributes(attributes_of(crowd_));
     }
-    for (const fs::path& path : unfinished_in(folder())) remove_whole(path);
+    store_.remove_unfinished_attributes();
+    for (const auto& arrays : {arrays_.filled(crowd_), arrays_.made(crowd_)})
+        for (const ZarrArray& array : arrays) store_.remove_unfinished(array);
     if (crowd_.has_goals()) return;
-    for (const char* group : {"clip", "given", "chosen", "state"})
-        for (const fs::path& path : {folder() / group, folder() / "goal_digest" / group}) remove_whole(path);
+    for (const ZarrArray& array : arrays_.left_out()) {
+        store_.remove(array);
+        store_.remove(digest_array(array));
+    }
 }
 
 fs::path folder_name(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }

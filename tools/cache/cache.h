@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/cache/cache_arrays.h"
+#include "tools/cache/cache_memory.h"
 
 namespace swivel::tools {
 
@@ -34,8 +35,9 @@ struct ChunkGoals {
 // All calls throw InputError, naming the file, where one may not be read or written.
 class Cache {
 public:
-    // Reads and checks the metadata. Throws InputError naming the file that is missing, damaged or of another version.
-    explicit Cache(const std::filesystem::path& folder);
+    // Reads and checks the metadata and the clip. memory: bytes that the process may have resident. Throws InputError
+    // naming the file that is missing, damaged or of another version, and if the lists and the clip take more memory.
+    explicit Cache(const std::filesystem::path& folder, std::uint64_t memory = kUsualMemory);
 
     const std::filesystem::path& folder() const { return store_.folder(); }
     const CachedCrowd& crowd() const { return crowd_; }
@@ -50,6 +52,8 @@ public:
 
     // 0: the chunk is not done, or the file of its digest is damaged, which comes to the same.
     std::uint64_t digest(ChunkAt at) const;
+    // The chunks that are done, in the order of chunks_of().
+    std::vector<ChunkAt> done() const;
     // The stored poses of a chunk; nothing if a file of them is missing or cut.
     std::optional<Results> results(ChunkAt at) const;
     // The files that hold a chunk's poses and their digest, by their names within the folder.
@@ -63,10 +67,12 @@ public:
     std::size_t write(ChunkAt at, const Results& results, std::uint64_t digest) const;
 
     // Ends the filling: removes what unfinished writers left, and all but poses and characters if the cache keeps poses
-    // alone. For one process with no other at work. A closed cache with nothing to remove is only read.
+    // alone. It removes files of a cache's own names alone. For one process with no other at work. A closed cache with
+    // nothing to remove is only read.
     void close();
 
 private:
+    Cache(PlainFolder folder, std::uint64_t memory);
     void read_clip();
     bool read_made(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
     void require_made(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;

@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+#include "tools/cache/digest.h"
 #include "tools/cache/members.h"
 
 namespace swivel::tools {
@@ -92,7 +93,7 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
         results.push_back(by_character(crowd, field.name, type, field.meaning, field.parts, field.part_dimensions));
         if (crowd.carries_state()) state.push_back(state_array(crowd, results.back()));
     }
-    const std::uint64_t limb_count = crowd.limbs.size(), clip_frames = crowd.clip_frame_count();
+    const std::uint64_t limb_count = crowd.limbs.size(), clip_frames = crowd.clip_frames;
     for (const Member& member : kSourceMembers)
         clip.push_back(whole(fmt::format("clip/{}", member.name), member.type, {"limb", "clip_frame", "part"},
                              {limb_count, clip_frames, member.count}, member.meaning));
@@ -111,6 +112,15 @@ std::vector<ZarrArray> CacheArrays::made(const CachedCrowd& crowd) const
     if (!crowd.has_goals()) return arrays;
     for (const auto& more : {clip, given}) arrays.insert(arrays.end(), more.begin(), more.end());
     if (chosen) arrays.push_back(*chosen);
+    return arrays;
+}
+
+std::vector<ZarrArray> CacheArrays::left_out() const
+{
+    std::vector<ZarrArray> arrays = clip;
+    for (const auto& more : {given, state}) arrays.insert(arrays.end(), more.begin(), more.end());
+    if (chosen) arrays.push_back(*chosen);
+    if (!state.empty()) arrays.push_back(state_digest);
     return arrays;
 }
 

@@ -27,6 +27,8 @@ struct CacheArrays {
 
     // Those that are written once, when a cache is made, as far as this crowd still has them.
     std::vector<ZarrArray> made(const CachedCrowd& crowd) const;
+    // Those that a cache of poses alone is without, once it is closed.
+    std::vector<ZarrArray> left_out() const;
     // All others: results if they are kept, state, digests.
     std::vector<ZarrArray> filled(const CachedCrowd& crowd) const;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "tools/cache/digest.h"
 #include "tools/cache/members.h"
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
@@ -68,8 +69,9 @@ CacheMaker::CacheMaker(const fs::path& folder, CachedCrowd crowd)
     : partial_(folder_name(folder)),
       crowd_(std::move(crowd)),
       arrays_(crowd_),
-      store_(partial_.path(), crowd_.is_compressed)
+      store_(PlainFolder(partial_.path(), "is gone; store the crowd again"), crowd_.is_compressed)
 {
+    store_.write_attributes(attributes_of(crowd_));  // throws if they are too long; commit() writes them again
     for (const auto& arrays : {arrays_.filled(crowd_), arrays_.made(crowd_)})
         for (const ZarrArray& array : arrays) store_.write_array(array);
     for (const ZarrArray& array : arrays_.made(crowd_)) digests_[array.name].resize(array.chunk_count());
@@ -83,7 +85,7 @@ void CacheMaker::write(const ZarrArray& array, const ChunkPlace& place, std::spa
 
 void CacheMaker::write_clip()
 {
-    const std::uint64_t frame_count = crowd_.clip_frame_count();
+    const std::uint64_t frame_count = crowd_.clip_frames;
     for (std::size_t n = 0; n < std::size(kSourceMembers); ++n) {
         std::vector<std::byte> bytes;
         for (const CachedLimb& limb : crowd_.limbs) {

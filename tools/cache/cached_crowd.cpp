@@ -8,7 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/cache/digest.h"
+#include "tools/crowd/limb_crowds.h"
 #include "tools/formats/error.h"
+#include "tools/formats/text.h"
 
 namespace swivel::tools {
 
@@ -16,12 +19,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;  // 1 had digests that missed pairs of flipped bits
 constexpr std::pair<Keep, const char*> kKeeps[] = {
     {Keep::goals, "goals"}, {Keep::poses, "poses"}, {Keep::both, "both"}};
 constexpr std::uint32_t kLimbsInChunk = 65'536;
-constexpr std::uint32_t kMost = 0x7fffffff;  // frames, characters
-constexpr std::size_t kMostLimbs = 4;        // of a character: formats::LimbName has no more
+constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
+constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
+constexpr std::int64_t kMostJoints = 1'000'000;  // more than the attributes have room for
 
 // The rotations of a binding, by the names of swivel_binding.
 constexpr std::pair<const char*, float (swivel_binding::*)[4]> kBindingRotations[] = {
@@ -34,7 +38,7 @@ constexpr std::pair<const char*, float (swivel_binding::*)[4]> kBindingRotations
     {"elbow_rest", &swivel_binding::elbow_rest},
     {"wrist_rest", &swivel_binding::wrist_rest}};
 
-// A number within its range.
+// A number within its range. JSON's own conversions would wrap, cut or round others.
 std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
 {
     const Json& value = json.at(name);
@@ -42,8 +46,22 @@ std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std
         value.is_number_unsigned() && value.get<std::uint64_t>() >= least && value.get<std::uint64_t>() <= most;
     if (!is_whole)
         throw std::invalid_argument(
-            fmt::format("{} is {}, not a number from {} to {}", name, value.dump(), least, most));
+            fmt::format("{} is {}, not a number from {} to {}", name, formats::printable(value.dump()), least, most));
     return value.get<std::uint32_t>();
+}
+bool yes_or_no(const Json& json, const char* name) { return whole(json, name, 0, 1) != 0; }
+template <class Enum>
+Enum one_of(const Json& json, const char* name, Enum last)
+{
+    return static_cast<Enum>(whole(json, name, 0, last));
+}
+
+// A joint's place in the list, or -1.
+int place_of(const Json& json)
+{
+    if (!json.is_number_integer() || json.get<std::int64_t>() < -1 || json.get<std::int64_t>() > kMostJoints)
+        throw std::invalid_argument("a joint's number is out of range");
+    return json.get<int>();
 }
 
 Json json_of(const swivel_binding& binding)
@@ -72,7 +90,7 @@ void get(const Json& json, Number (&to)[Count])
         else if constexpr (std::is_same_v<Number, float>)
             to[n] = number_of(json[n]);
         else
-            json[n].get_to(to[n]);
+            json[n].get_to(to[n]);  // throws for what is no number
 }
 
 swivel_binding binding_of(const Json& json)
@@ -80,7 +98,7 @@ swivel_binding binding_of(const Json& json)
     swivel_binding binding{};
     for (const auto& [name, rotation] : kBindingRotations) get(json.at(name), binding.*rotation);
     get(json.at("lengths"), binding.lengths);
-    json.at("twist_bone_count").get_to(binding.twist_bone_count);
+    binding.twist_bone_count = whole(json, "twist_bone_count", 0, SWIVEL_MOST_TWIST_BONES);
     get(json.at("twist_parent_from_arm"), binding.twist_parent_from_arm);
     get(json.at("twist_from_arm"), binding.twist_from_arm);
     return binding;
@@ -106,11 +124,11 @@ goal_plan goals_of(const Json& json)
     get(json.at("target_offset"), goals.target_offset);
     get(json.at("effector"), goals.effector);
     get(json.at("pole_fixed"), goals.pole_fixed);
-    json.at("has_target_point").get_to(goals.has_target_point);
-    json.at("has_pole_fixed").get_to(goals.has_pole_fixed);
-    goals.pole = static_cast<decltype(goals.pole)>(whole(json, "pole", 0, 2));
-    json.at("hand_is_local").get_to(goals.hand_is_local);
-    json.at("is_mirrored").get_to(goals.is_mirrored);
+    goals.has_target_point = yes_or_no(json, "has_target_point");
+    goals.has_pole_fixed = yes_or_no(json, "has_pole_fixed");
+    goals.pole = one_of(json, "pole", GOAL_POLE_NORMAL);
+    goals.hand_is_local = yes_or_no(json, "hand_is_local");
+    goals.is_mirrored = yes_or_no(json, "is_mirrored");
     return goals;
 }
 
@@ -136,16 +154,20 @@ CachedLimb limb_of(const Json& json)
     const auto name = formats::limb_of_word(json.at("name").get<std::string>());
     if (!name) throw std::invalid_argument("a limb has no name that is known");
     limb.name = *name;
-    json.at("joints").get_to(limb.joints);
+    for (const Json& joint : json.at("joints")) limb.joints.push_back(place_of(joint));
     LimbSetup& setup = limb.setup;
+    if (!json.at("features").is_number_unsigned()) throw std::invalid_argument("features is no set of bits");
     json.at("features").get_to(setup.features);
-    json.at("shoulder_order").get_to(setup.shoulder_order);
-    json.at("wrist_order").get_to(setup.wrist_order);
+    setup.shoulder_order = one_of(json, "shoulder_order", SWIVEL_ZYX);
+    setup.wrist_order = one_of(json, "wrist_order", SWIVEL_ZYX);
     json.at("priority").get_to(setup.priority);
     setup.binding = binding_of(json.at("binding"));
     setup.goals = goals_of(json.at("goals"));
-    for (const Json& each : json.at("fixed"))
-        setup.fields.push_back({each.at("field").get<swivel_field>(), each.at("value").get<std::array<float, 12>>()});
+    for (const Json& each : json.at("fixed")) {
+        FixedField& fixed = setup.fields.emplace_back();
+        fixed.field = one_of(each, "field", SWIVEL_CLAVICLE_TURN);
+        each.at("value").get_to(fixed.value);
+    }
     return limb;
 }
 
@@ -169,6 +191,14 @@ void require_sane(const CachedCrowd& crowd)
     for (const CachedLimb& limb : crowd.limbs)
         if (limb.joints.size() != 3 || !std::ranges::all_of(limb.joints, is_joint))
             throw std::invalid_argument("a limb's joints are not three of the joints");
+}
+
+// The solver knows what it takes: features that go together, unit rotations, fields that there are.
+void require_solvable(const CachedCrowd& crowd, const std::filesystem::path& path)
+{
+    std::vector<LimbSetup> setups;
+    for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
+    LimbCrowds(setups, 1, crowd.budget_blocks, path);
 }
 
 std::string digest_text(const Json& attributes)
@@ -249,7 +279,7 @@ Json attributes_of(const CachedCrowd& crowd)
              {"has_given", crowd.has_given},
              {"title", crowd.title},
              {"clip", crowd.clip},
-             {"clip_frames", crowd.clip_frame_count()},
+             {"clip_frames", crowd.clip_frames},
              {"frame_seconds", crowd.frame_seconds},
              {"goals_digest", fmt::format("{:016x}", crowd.goals_digest)},
              {"joints", std::move(joints)},
@@ -258,14 +288,15 @@ Json attributes_of(const CachedCrowd& crowd)
     return out;
 }
 
-CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::path& path,
-                                std::uint32_t* clip_frame_count)
+CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::path& path)
 {
     const auto refuse = [&](const std::string& why) { throw formats::InputError(path, why); };
     if (!attributes.contains("swivel_cache")) refuse("describes no cache of swivel; swivel store makes one");
     if (attributes["swivel_cache"] != kFormat)
-        refuse(fmt::format("the cache has format {}, this swivel reads format {}; use the swivel that made it",
-                           attributes["swivel_cache"].dump(), kFormat));
+        refuse(
+            fmt::format("the cache has format {}, this swivel reads format {}; make it anew by swivel store, or use "
+                        "the swivel that made it",
+                        formats::printable(attributes["swivel_cache"].dump()), kFormat));
     Json without = attributes;
     without.erase("digest");
     if (attributes.value("digest", Json()) != digest_text(without))
@@ -285,15 +316,17 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         attributes.at("has_given").get_to(crowd.has_given);
         attributes.at("title").get_to(crowd.title);
         attributes.at("clip").get_to(crowd.clip);
-        *clip_frame_count = whole(attributes, "clip_frames", 1, crowd.frame_count);
+        crowd.clip_frames = whole(attributes, "clip_frames", 1, crowd.frame_count);
         attributes.at("frame_seconds").get_to(crowd.frame_seconds);
         crowd.goals_digest = std::stoull(attributes.at("goals_digest").get<std::string>(), nullptr, 16);
         for (const Json& joint : attributes.at("joints"))
-            crowd.joints.push_back({joint.at("name").get<std::string>(), joint.at("parent").get<int>()});
+            crowd.joints.push_back({joint.at("name").get<std::string>(), place_of(joint.at("parent"))});
         for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
         require_sane(crowd);
+        require_solvable(crowd, path);
     } catch (const std::exception& error) {  // the digest holds, so another program wrote it
-        refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store", error.what()));
+        refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store",
+                           formats::printable(error.what(), 200)));
     }
     return crowd;
 }

@@ -29,7 +29,7 @@ struct CachedLimb {
     formats::LimbName name;
     std::vector<int> joints;  // among the cached ones: shoulder, elbow, wrist
     LimbSetup setup;
-    std::vector<goal_source> sources;  // one for each frame of the clip
+    std::vector<goal_source> sources;  // one for each frame of the clip; none where there are no goals
 };
 
 constexpr std::uint32_t kMostFramesInChunk = 65'536, kMostCharactersInChunk = 1'048'576;
@@ -42,6 +42,7 @@ struct CachedCrowd {
     std::string title, clip;   // the motion's file, and what it is
     double frame_seconds = 0;  // from frame to frame
     std::uint32_t frame_count = 0, character_count = 0;
+    std::uint32_t clip_frames = 0;    // of the clip, which a longer crowd plays again and again
     std::uint32_t budget_blocks = 0;  // 0: no budget
     std::vector<CachedJoint> joints;
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world
@@ -52,7 +53,6 @@ struct CachedCrowd {
     ChunkShape chunk{1, 16};
     std::uint64_t goals_digest = 0;  // of all arrays that are written once
 
-    std::uint32_t clip_frame_count() const { return static_cast<std::uint32_t>(limbs[0].sources.size()); }
     // Chunks along the frames and along the characters.
     std::uint32_t time_count() const { return (frame_count + chunk.frames - 1) / chunk.frames; }
     std::uint32_t column_count() const { return (character_count + chunk.characters - 1) / chunk.characters; }
@@ -93,9 +93,8 @@ std::vector<ResultField> result_fields(const CachedCrowd& crowd);
 
 // The attributes of the cache's folder. Arrays hold sources and positions.
 nlohmann::ordered_json attributes_of(const CachedCrowd& crowd);
-// The way back, without sources and positions; *clip_frame_count becomes how many of them there are. Throws InputError
-// naming path where a value is missing, damaged or of another version.
-CachedCrowd crowd_of_attributes(const nlohmann::ordered_json& attributes, const std::filesystem::path& path,
-                                std::uint32_t* clip_frame_count);
+// The way back, without sources and positions. All numbers are within their ranges, and the limbs are some that the
+// solver takes. Throws InputError naming path where a value is missing, damaged or of another version.
+CachedCrowd crowd_of_attributes(const nlohmann::ordered_json& attributes, const std::filesystem::path& path);
 
 }  // namespace swivel::tools

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/cache/digest.h"
+
 namespace swivel::tools {
 
 namespace {
@@ -123,11 +125,6 @@ Results empty_results(const CachedCrowd& crowd)
     for (const ResultField& field : result_fields(crowd))
         results.emplace_back(limbs * field.count(), field.field == SWIVEL_FLAGS ? 0 : kNoNumber);
     return results;
-}
-
-void ChunkDigest::add(const std::vector<std::uint64_t>& of_frame)
-{
-    for (const std::uint64_t digest : of_frame) digest_ = (digest_ ^ digest) * 0x100000001b3u;
 }
 
 }  // namespace swivel::tools

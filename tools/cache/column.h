@@ -50,14 +50,4 @@ std::vector<std::span<const goal_source>> sources_of(const CachedCrowd& crowd);
 // Whole chunks' results, all of them NaN, and 0 where they are flags.
 Results empty_results(const CachedCrowd& crowd);
 
-// A chunk's digest, never 0. It takes the digests of each frame's crowds in order, as FNV-1a takes bytes.
-class ChunkDigest {
-public:
-    void add(const std::vector<std::uint64_t>& of_frame);
-    std::uint64_t value() const { return digest_ == 0 ? 1 : digest_; }
-
-private:
-    std::uint64_t digest_ = 0xcbf29ce484222325u;
-};
-
 }  // namespace swivel::tools

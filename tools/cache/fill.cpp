@@ -59,11 +59,14 @@ struct Work {
 
 class Filling {
 public:
-    Filling(const Cache& cache, const FillOptions& options)
+    // compares: chunks that are done are solved, too. writes: all that were not right are written.
+    Filling(const Cache& cache, const FillOptions& options, std::vector<ChunkAt> chunks, bool compares, bool writes)
         : cache_(cache),
           options_(options),
+          compares_(compares),
+          writes_(writes),
           threads_(solver_count(options)),
-          chunks_(chunks_of(cache.crowd(), options.shard))
+          chunks_(std::move(chunks))
     {
     }
 
@@ -79,6 +82,7 @@ private:
 
     const Cache& cache_;
     const FillOptions& options_;
+    bool compares_, writes_;
     unsigned threads_;  // that solve
     std::vector<ChunkAt> chunks_;
     std::size_t next_ = 0;
@@ -101,7 +105,7 @@ Work* Filling::read_next()
     for (; next_ < chunks_.size(); ++next_) {
         const ChunkAt at = chunks_[next_];
         const std::uint64_t stored = cache_.digest(at);
-        if (stored != 0 && !options_.verifies) {
+        if (stored != 0 && !compares_) {
             const std::lock_guard lock(mutex_);
             ++report_.skipped;
             ++through_;
@@ -176,8 +180,8 @@ std::string Filling::difference(const Work& work) const
 void Filling::write(Work& work)
 {
     const BusyClock::Turn turn(disk_);
-    const std::string what = work.stored != 0 ? difference(work) : "";
-    const bool is_written = work.stored == 0 || !what.empty();
+    const std::string what = work.stored != 0 ? difference(work) : writes_ ? "" : "is not done";
+    const bool is_written = writes_ && (work.stored == 0 || !what.empty());
     const std::size_t bytes = is_written ? cache_.write(work.at, work.results, work.digest) : 0;
     const CachedCrowd& crowd = cache_.crowd();
     std::unique_ptr<Work> done;  // is freed after the lock
@@ -186,7 +190,7 @@ void Filling::write(Work& work)
     done = std::move(*at);
     under_way_.erase(at);
     if (!what.empty()) report_.differences.push_back({work.at, what});
-    ++(work.stored == 0 ? report_.written : report_.compared);
+    ++(work.stored == 0 && writes_ ? report_.written : report_.compared);
     report_.bytes += bytes;
     report_.limbs +=
         std::uint64_t{crowd.frames_in(work.at.time)} * crowd.characters_in(work.at.column) * crowd.limbs.size();
@@ -239,7 +243,7 @@ void Filling::run_chunks(std::size_t)
 FillReport Filling::run()
 {
     const auto begin = std::chrono::steady_clock::now();
-    run_chunks(chunks_in_flight(cache_, options_, threads_, chunks_.size()));
+    run_chunks(chunks_in_flight(cache_, options_.memory, compares_, threads_));
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report_.solve_seconds = solving_.seconds();
     report_.disk_seconds = disk_.seconds();
@@ -264,7 +268,21 @@ std::vector<ChunkAt> chunks_of(const CachedCrowd& crowd, const Shard& shard)
 FillReport fill(const Cache& cache, const FillOptions& options)
 {
     cache.require_goals();
-    return Filling(cache, options).run();
+    return Filling(cache, options, chunks_of(cache.crowd(), options.shard), options.verifies, true).run();
+}
+
+FillReport compare(const Cache& cache, const FillOptions& options)
+{
+    cache.require_goals();
+    return Filling(cache, options, chunks_of(cache.crowd(), options.shard), true, false).run();
+}
+
+FillReport mend(const Cache& cache, const FillOptions& options, const std::vector<Difference>& differences)
+{
+    cache.require_goals();
+    std::vector<ChunkAt> chunks;
+    for (const Difference& each : differences) chunks.push_back(each.at);
+    return Filling(cache, options, std::move(chunks), true, true).run();
 }
 
 }  // namespace swivel::tools

@@ -33,7 +33,7 @@ struct FillReport {
     std::uint64_t bytes = 0;                               // of files written
     double seconds = 0;                                    // in all
     double solve_seconds = 0, disk_seconds = 0;            // while a chunk was solved; was read or written
-    std::vector<Difference> differences;                   // of chunks compared; they were written again
+    std::vector<Difference> differences;                   // of chunks compared; fill() has written them again
 };
 
 // The chunks of this shard, in the order of work: columns of characters, and the frames of each in order. Where state
@@ -43,5 +43,10 @@ std::vector<ChunkAt> chunks_of(const CachedCrowd& crowd, const Shard& shard);
 // Throws InputError for goals that are missing or damaged, for files that cannot be written, and if the memory is less
 // than one chunk takes. Chunks that were done before it failed stay done.
 FillReport fill(const Cache& cache, const FillOptions& options);
+
+// Solves all chunks of the shard and compares them with what is stored; writes nothing. Throws as fill() does.
+FillReport compare(const Cache& cache, const FillOptions& options);
+// Solves chunks that compare() found to differ, in its order, and writes them again. Throws as fill() does.
+FillReport mend(const Cache& cache, const FillOptions& options, const std::vector<Difference>& differences);
 
 }  // namespace swivel::tools

@@ -8,8 +8,8 @@
 namespace swivel::tools {
 
 // How many chunks may be on their way, by the memory that is left beside the program, the clip and the solvers.
-// threads: that solve. chunk_count: of all that the filling goes through.
+// compares: chunks that are done are read, too. threads: that solve.
 // Throws InputError, saying how much it takes, if the memory is less than one chunk and the solvers take.
-std::size_t chunks_in_flight(const Cache& cache, const FillOptions& options, unsigned threads, std::size_t chunk_count);
+std::size_t chunks_in_flight(const Cache& cache, std::uint64_t memory, bool compares, unsigned threads);
 
 }  // namespace swivel::tools

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 
 #ifdef SWIVEL_WITH_BLOSC
@@ -13,7 +14,6 @@
 #endif
 
 #include "tools/formats/error.h"
-#include "tools/formats/output_file.h"
 #include "tools/formats/text.h"
 
 namespace swivel::tools {
@@ -26,32 +26,52 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMeaning = "long_name";  // words for people, in which no two versions must agree
 constexpr const char* kChanged = "was changed or cut; take it from a copy, or make the cache anew";
+constexpr const char *kGroup = ".zgroup", *kArray = ".zarray", *kAttributes = ".zattrs";
+constexpr std::size_t kMostDescription = 65'536;  // bytes; a description has some hundred
+constexpr int kMostDepth = 8;                     // of lists within lists; a cache's have 6. Copies recurse that deep
 
-void write_json(const fs::path& path, const Json& json)
-{
-    formats::OutputFile file(path);
-    file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    file.commit();
-}
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Json read_json(const fs::path& path)
+Json read_json(const PlainFolder& folder, const std::string& name, std::size_t most)
 {
-    std::error_code reason;
-    if (!fs::exists(path, reason) && !reason)
-        throw InputError(path, "is missing; take it from a copy, or make the cache anew");
-    const Json json = Json::parse(formats::read_text(path), nullptr, false);
+    const fs::path path = folder.path() / name;
+    const std::optional<std::string> text = folder.read(name, most);
+    if (!text) throw InputError(path, "is missing; take it from a copy, or make the cache anew");
+    if (text->size() > most) throw InputError(path, fmt::format("is longer than {} bytes: it {}", most, kChanged));
+    const auto is_shallow = [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > kMostDepth) throw InputError(path, fmt::format("has too many lists within lists: it {}", kChanged));
+        return true;
+    };
+    Json json = Json::parse(*text, is_shallow, false);
     if (!json.is_object()) throw InputError(path, fmt::format("is no JSON object: it {}", kChanged));
     return json;
 }
 
-void make_folder(const fs::path& path)
+// A value for a message.
+std::string shown(const Json& json) { return formats::printable(json.dump(), 80); }
+
+// The file of a chunk within the store.
+std::string chunk_name(const ZarrArray& array, const ChunkPlace& place)
 {
-    std::error_code reason;
-    const bool is_new = fs::create_directory(path, reason);
-    if (reason)
-        throw InputError(path,
-                         fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
-    if (is_new) formats::sync_folder(path.parent_path());
+    ChunkPlace whole = place;
+    whole.resize(array.shape.size());
+    return fmt::format("{}/{}", array.name, fmt::join(whole, "."));
+}
+
+// The place that a file's name is, such as "0.0.3"; nothing: it is none within the array's shape.
+std::optional<ChunkPlace> place_of(const ZarrArray& array, const std::string& name)
+{
+    ChunkPlace place;
+    for (std::size_t begin = 0, end = 0; begin <= name.size(); begin = end + 1) {
+        end = std::min(name.find('.', begin), name.size());
+        const std::string part = name.substr(begin, end - begin);
+        const auto number = formats::parse_integer(part);
+        if (!number || *number < 0 || fmt::format("{}", *number) != part) return std::nullopt;
+        place.push_back(static_cast<std::uint64_t>(*number));
+    }
+    const auto counts = array.chunk_counts();
+    const bool fits = std::ranges::equal(place, counts, std::less<>());
+    return place.size() == counts.size() && fits ? std::optional(place) : std::nullopt;
 }
 
 #ifdef SWIVEL_WITH_BLOSC
@@ -105,11 +125,11 @@ std::size_t ZarrArray::chunk_index(const ChunkPlace& place) const
     return index;
 }
 
-ZarrStore::ZarrStore(fs::path folder, bool is_compressed) : folder_(std::move(folder)), is_compressed_(is_compressed)
+ZarrStore::ZarrStore(PlainFolder folder, bool is_compressed) : folder_(std::move(folder)), is_compressed_(is_compressed)
 {
 #ifndef SWIVEL_WITH_BLOSC
     if (is_compressed_)
-        throw InputError(folder_, "is compressed by Blosc, which this build lacks; build swivel with libblosc");
+        throw InputError(folder_.path(), "is compressed by Blosc, which this build lacks; build swivel with libblosc");
 #endif
 }
 
@@ -125,16 +145,14 @@ Json ZarrStore::description(const ZarrArray& array) const
 }
 
 // The files that describe an array, those of the groups that it is in first.
-std::vector<std::pair<fs::path, Json>> ZarrStore::metadata(const ZarrArray& array) const
+std::vector<std::pair<std::string, Json>> ZarrStore::metadata(const ZarrArray& array) const
 {
-    std::vector<std::pair<fs::path, Json>> files;
-    fs::path folder = folder_;
-    for (const fs::path& part : fs::path(array.name)) {
-        files.emplace_back(folder / ".zgroup", Json{{"zarr_format", 2}});
-        folder /= part;
-    }
-    files.emplace_back(folder / ".zarray", description(array));
-    files.emplace_back(folder / ".zattrs", Json{{"_ARRAY_DIMENSIONS", array.dimensions}, {kMeaning, array.meaning}});
+    std::vector<std::pair<std::string, Json>> files{{kGroup, Json{{"zarr_format", 2}}}};
+    for (std::size_t slash = array.name.find('/'); slash != std::string::npos; slash = array.name.find('/', slash + 1))
+        files.emplace_back(fmt::format("{}/{}", array.name.substr(0, slash), kGroup), Json{{"zarr_format", 2}});
+    files.emplace_back(fmt::format("{}/{}", array.name, kArray), description(array));
+    files.emplace_back(fmt::format("{}/{}", array.name, kAttributes),
+                       Json{{"_ARRAY_DIMENSIONS", array.dimensions}, {kMeaning, array.meaning}});
     return files;
 }
 
@@ -142,43 +160,56 @@ void ZarrStore::write_array(const ZarrArray& array) const
 {
 #ifdef SWIVEL_WITH_BLOSC
     if (is_compressed_ && array.chunk_bytes() > BLOSC_MAX_BUFFERSIZE)
-        throw InputError(folder_, fmt::format("chunks of {} have {} bytes, more than Blosc can pack; make them smaller",
-                                              array.name, array.chunk_bytes()));
+        throw InputError(
+            folder(), fmt::format("chunks of {} have {} bytes, more than Blosc can pack; make them smaller", array.name,
+                                  array.chunk_bytes()));
 #endif
-    for (const auto& [path, json] : metadata(array)) {
-        make_folder(path.parent_path());
-        const bool is_group = path.filename() == ".zgroup";  // of other arrays, too
-        if (std::error_code ignored; !is_group || !fs::exists(path, ignored)) write_json(path, json);
+    for (const auto& [name, json] : metadata(array)) {
+        if (const std::size_t slash = name.rfind('/'); slash != std::string::npos) folder_.make(name.substr(0, slash));
+        const bool is_group = name.ends_with(kGroup);  // of other arrays, too
+        if (!is_group || !folder_.has(name)) folder_.write(name, text_of(json));
     }
 }
 
-void ZarrStore::write_attributes(const Json& attributes) const { write_json(folder_ / ".zattrs", attributes); }
+void ZarrStore::write_attributes(const Json& attributes) const
+{
+    const std::string text = text_of(attributes);
+    if (text.size() > kMostAttributes)
+        throw InputError(folder(), fmt::format("its attributes would take {} bytes, more than {}; take a skeleton with "
+                                               "fewer joints, or shorter names",
+                                               text.size(), kMostAttributes));
+    folder_.write(kAttributes, text);
+}
 
-Json ZarrStore::attributes() const { return read_json(folder_ / ".zattrs"); }
+Json attributes_in(const PlainFolder& folder) { return read_json(folder, kAttributes, kMostAttributes); }
 
 void ZarrStore::require(const ZarrArray& array) const
 {
-    for (const auto& [path, wanted] : metadata(array)) {
-        const Json found = read_json(path);
+    for (const auto& [name, wanted] : metadata(array)) {
+        const Json found = read_json(folder_, name, kMostDescription);
         for (const auto& [key, value] : wanted.items())
             if (key != kMeaning && (!found.contains(key) || found[key] != value))
-                throw InputError(
-                    path, fmt::format("{} is {} instead of {}: it {}", key,
-                                      found.contains(key) ? found[key].dump() : "missing", value.dump(), kChanged));
+                throw InputError(folder() / name, fmt::format("{} is {} instead of {}: it {}", key,
+                                                              found.contains(key) ? shown(found[key]) : "missing",
+                                                              value.dump(), kChanged));
     }
 }
 
 fs::path ZarrStore::chunk_path(const ZarrArray& array, const ChunkPlace& place) const
 {
-    ChunkPlace whole = place;
-    whole.resize(array.shape.size());
-    return folder_ / array.name / fmt::format("{}", fmt::join(whole, "."));
+    return folder() / chunk_name(array, place);
+}
+
+void ZarrStore::for_chunks(const ZarrArray& array, const std::function<void(const ChunkPlace&)>& each) const
+{
+    folder_.for_names(array.name, [&](const std::string& name) {
+        if (const auto place = place_of(array, name)) each(*place);
+    });
 }
 
 std::size_t ZarrStore::write_chunk(const ZarrArray& array, const ChunkPlace& place,
                                    std::span<const std::byte> bytes) const
 {
-    formats::OutputFile file(chunk_path(array, place));
     std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 #ifdef SWIVEL_WITH_BLOSC
     std::vector<char> small;
@@ -187,24 +218,20 @@ std::size_t ZarrStore::write_chunk(const ZarrArray& array, const ChunkPlace& pla
         content = {small.data(), small.size()};
     }
 #endif
-    file.write(content);
-    file.commit();
+    folder_.write(chunk_name(array, place), content);
     return content.size();
 }
 
 ChunkRead ZarrStore::read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const
 {
-    const fs::path path = chunk_path(array, place);
-    std::error_code reason;
-    if (!fs::exists(path, reason) && !reason) return ChunkRead::missing;  // open_text() says any other reason
-    const auto file = formats::open_text(path);
-    std::string content;
-    formats::append_bytes(path, file.get(), bytes.size() + 64, content);  // more than a chunk, if it is too long
+    // Blosc may add 16 bytes to a chunk. One that is longer than that is damaged.
+    const std::optional<std::string> file = folder_.read(chunk_name(array, place), bytes.size() + 64);
+    if (!file) return ChunkRead::missing;
 #ifdef SWIVEL_WITH_BLOSC
-    if (is_compressed_) return unpack(content, bytes) ? ChunkRead::whole : ChunkRead::damaged;
+    if (is_compressed_) return unpack(*file, bytes) ? ChunkRead::whole : ChunkRead::damaged;
 #endif
-    if (content.size() != bytes.size()) return ChunkRead::damaged;
-    std::memcpy(bytes.data(), content.data(), bytes.size());
+    if (file->size() != bytes.size()) return ChunkRead::damaged;
+    std::memcpy(bytes.data(), file->data(), bytes.size());
     return ChunkRead::whole;
 }
 
@@ -220,15 +247,36 @@ std::optional<std::uint64_t> ZarrStore::read_number(const ZarrArray& array, cons
     return number;
 }
 
-std::uint64_t digest_of(std::span<const std::byte> bytes)
+void ZarrStore::remove_in(const std::string& folder, const std::function<bool(const std::string&)>& is_own) const
 {
-    std::uint64_t digest = 0xcbf29ce484222325u;
-    for (std::size_t at = 0; at < bytes.size(); at += 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, &bytes[at], std::min<std::size_t>(8, bytes.size() - at));
-        digest = (digest ^ word) * 0x100000001b3u;
+    const std::string before = folder.empty() ? "" : folder + "/";
+    for (bool is_new = true; is_new;) {  // some file systems leave names out while others are removed
+        is_new = false;
+        folder_.for_names(folder, [&](const std::string& name) {
+            if (!is_own(name)) return;
+            folder_.remove_file(before + name);
+            is_new = true;
+        });
     }
-    return digest == 0 ? 1 : digest;
+}
+
+void ZarrStore::remove_unfinished(const ZarrArray& array) const { remove_in(array.name, is_unfinished); }
+void ZarrStore::remove_unfinished_attributes() const { remove_in("", is_unfinished); }
+
+void ZarrStore::remove(const ZarrArray& array) const
+{
+    remove_in(array.name, [&](const std::string& name) {
+        return name == kArray || name == kAttributes || is_unfinished(name) || place_of(array, name);
+    });
+    folder_.remove_if_empty(array.name);
+    for (std::string group = array.name; group.find('/') != std::string::npos;) {
+        group.resize(group.rfind('/'));
+        bool has_others = false;
+        folder_.for_names(group, [&](const std::string& name) { has_others |= name != kGroup; });
+        if (has_others) return;
+        folder_.remove_file(fmt::format("{}/{}", group, kGroup));
+        folder_.remove_if_empty(group);
+    }
 }
 
 }  // namespace swivel::tools

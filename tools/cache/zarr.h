@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/cache/plain_folder.h"
+
 namespace swivel::tools {
 
 static_assert(std::endian::native == std::endian::little, "chunks hold numbers as this machine has them");
@@ -43,23 +45,25 @@ enum class ChunkRead { missing, damaged, whole };
 
 class ZarrStore {
 public:
-    // folder: is there. is_compressed: chunks are packed by Blosc (LZ4, level 5, bytes shuffled).
-    // Throws InputError if this build has no Blosc.
-    ZarrStore(std::filesystem::path folder, bool is_compressed);
+    // is_compressed: chunks are packed by Blosc (LZ4, level 5, bytes shuffled). Throws InputError if this build has no
+    // Blosc.
+    ZarrStore(PlainFolder folder, bool is_compressed);
 
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
 
     // Describes an array and the groups that it is in. Throws InputError if that cannot be written, and if its chunks
     // are more than Blosc can pack.
     void write_array(const ZarrArray& array) const;
-    // The attributes of the whole store. Throws InputError if they cannot be written; are missing or no JSON.
+    // The attributes of the whole store. Throws InputError if they cannot be written, or take more than
+    // kMostAttributes.
     void write_attributes(const nlohmann::ordered_json& attributes) const;
-    nlohmann::ordered_json attributes() const;
     // Throws InputError unless the store describes the array and its groups in this way.
     void require(const ZarrArray& array) const;
 
     // The file of a chunk.
     std::filesystem::path chunk_path(const ZarrArray& array, const ChunkPlace& place) const;
+    // Calls `each` with the chunks that have a file, in any order.
+    void for_chunks(const ZarrArray& array, const std::function<void(const ChunkPlace&)>& each) const;
     // Writes a whole chunk: under a name of its own, synced, renamed. Returns the bytes of the file. Throws InputError
     // as OutputFile does.
     std::size_t write_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes) const;
@@ -69,13 +73,25 @@ public:
     std::size_t write_number(const ZarrArray& array, const ChunkPlace& place, std::uint64_t number) const;
     std::optional<std::uint64_t> read_number(const ZarrArray& array, const ChunkPlace& place) const;
 
+    // Removes the files that writers of the array, or of the attributes, left when they were killed.
+    void remove_unfinished(const ZarrArray& array) const;
+    void remove_unfinished_attributes() const;
+    // Removes an array's chunks and description, and the groups that it is in if nothing else is in them. Files of
+    // other names stay, and so do their folders.
+    void remove(const ZarrArray& array) const;
+
 private:
     nlohmann::ordered_json description(const ZarrArray& array) const;
-    std::vector<std::pair<std::filesystem::path, nlohmann::ordered_json>> metadata(const ZarrArray& array) const;
+    std::vector<std::pair<std::string, nlohmann::ordered_json>> metadata(const ZarrArray& array) const;
+    void remove_in(const std::string& folder, const std::function<bool(const std::string&)>& is_own) const;
 
-    std::filesystem::path folder_;
+    PlainFolder folder_;
     bool is_compressed_;
 };
+
+constexpr std::size_t kMostAttributes = std::size_t{4} << 20;  // bytes: 50,000 joints; as JSON they take 100 MiB
+// The attributes of the store in a folder. Throws InputError if they are missing, too long or no JSON.
+nlohmann::ordered_json attributes_in(const PlainFolder& folder);
 
 // Numbers of a chunk as a store takes them.
 template <class Number>
@@ -83,8 +99,5 @@ std::span<const std::byte> bytes_in(const std::vector<Number>& numbers)
 {
     return std::as_bytes(std::span(numbers));
 }
-
-// A digest of bytes, never 0: FNV-1a of 64 bits, by words of 8 bytes instead of by bytes; zeros fill the last word.
-std::uint64_t digest_of(std::span<const std::byte> bytes);
 
 }  // namespace swivel::tools

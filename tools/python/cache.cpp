@@ -29,7 +29,7 @@ tools::FillReport fill_interruptibly(const std::filesystem::path& folder, tools:
         if (stops) throw Stopped();
     };
     std::future<tools::FillReport> filling =
-        std::async(std::launch::async, [&] { return tools::fill(tools::Cache(folder), options); });
+        std::async(std::launch::async, [&] { return tools::fill(tools::Cache(folder, options.memory), options); });
     for (;;) {
         {
             const py::gil_scoped_release released;

@@ -88,7 +88,8 @@ void add_check(CLI::App& app)
     add_json(*command, options->json);
     command->footer(
         "All chunks are solved again and compared. Those that differ are named and written again, with exit code 1; "
-        "run check again then. A closed cache of poses is compared with its digests.");
+        "run check again then. If more than half of them differ, the goals are suspected, and nothing is written. A "
+        "closed cache of poses is compared with its digests.");
     command->callback([options] { run_check(*options); });
 }
 
@@ -110,6 +111,7 @@ void add_replay(CLI::App& app)
                               "solve without its columns of clavicles; docs/cache.md says more. Without it the poses "
                               "are proved alone"),
           file_name());
+    add_memory(*command, options->memory);
     add_threads(*command, options->threads);
     add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
     add_json(*command, options->json);

@@ -54,6 +54,7 @@ CachedCrowd cached_clip(const ClipNames& names, const formats::Clip& clip, std::
     crowd.clip = names.clip;
     crowd.frame_seconds = clip.frame_time;
     crowd.frame_count = static_cast<std::uint32_t>(clip.frame_count);
+    crowd.clip_frames = crowd.frame_count;
     crowd.character_count = plan.characters;
     crowd.budget_blocks = plan.budget_blocks;
     for (const std::size_t n : drawn)

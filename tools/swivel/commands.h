@@ -73,6 +73,7 @@ void run_check(const CheckOptions& options);
 
 struct ReplayOptions {
     std::string folder, frames = ":", characters = ":", out;
+    std::string memory = "1G";
     bool quiet = false, json = false;
     unsigned threads = 0;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tools/cache/column.h"
@@ -37,26 +38,34 @@ Shard shard_of_option(const std::string& text)
     }
 }
 
-// Those that are not done.
-std::vector<ChunkAt> missing_of(const Cache& cache, std::span<const ChunkAt> chunks)
-{
-    std::vector<ChunkAt> missing;
-    for (const ChunkAt at : chunks)
-        if (cache.digest(at) == 0) missing.push_back(at);
-    return missing;
-}
+// In the order of chunks_of().
+std::pair<std::uint32_t, std::uint32_t> in_order(ChunkAt at) { return {at.column, at.time}; }
 
 void require_empty(const Cache& cache, std::span<const ChunkAt> chunks)
 {
-    const std::size_t done = chunks.size() - missing_of(cache, chunks).size();
+    const auto is_among = [&](ChunkAt at) { return std::ranges::binary_search(chunks, in_order(at), {}, in_order); };
+    const auto done = std::ranges::count_if(cache.done(), is_among);
     if (done > 0)
         throw formats::InputError(
             cache.folder(),
             fmt::format("{} of {} chunks are done already; add --resume to go on, or --verify", done, chunks.size()));
 }
 
-// Fills with progress on stderr, and stops for signals between chunks.
-FillReport fill_visibly(const Cache& cache, FillOptions options, std::size_t chunk_count, bool quiet)
+void require_done(const Cache& cache, std::span<const ChunkAt> chunks)
+{
+    const std::vector<ChunkAt> done = cache.done();
+    const auto first_missing = std::ranges::mismatch(chunks, done).in1;
+    if (first_missing != chunks.end())
+        throw formats::InputError(cache.folder(),
+                                  fmt::format("{} of {} chunks are not done, the first is {}; {}",
+                                              chunks.size() - done.size(), chunks.size(), chunk_name(*first_missing),
+                                              cache.crowd().has_goals() ? "run swivel fill --resume"
+                                                                        : "take the files in digest/ from a copy"));
+}
+
+// Fills, compares or mends with progress on stderr, and stops for signals between chunks.
+template <class Work>
+FillReport run_visibly(FillOptions options, std::size_t chunk_count, bool quiet, Work work)
 {
     const StopSignals signals;
     Progress progress("chunks", std::max<std::size_t>(chunk_count, 1), quiet);
@@ -64,7 +73,7 @@ FillReport fill_visibly(const Cache& cache, FillOptions options, std::size_t chu
         signals.check();
         progress.show(done);
     };
-    return fill(cache, options);
+    return work(options);
 }
 
 double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
@@ -76,11 +85,11 @@ Json json_of_differences(std::span<const Difference> differences)
     return list;
 }
 
-void print_differences(std::span<const Difference> differences)
+void print_differences(std::span<const Difference> differences, bool are_written)
 {
     for (const Difference& each : differences)
-        say(stdout, "again    chunk {} was not what its goals give: {}; it is written again\n", chunk_name(each.at),
-            each.what);
+        say(stdout, "{} chunk {} {} not what its goals give: {}{}\n", are_written ? "again   " : "differs ",
+            chunk_name(each.at), are_written ? "was" : "is", each.what, are_written ? "; it is written again" : "");
 }
 
 Json json_of_fill(const FillReport& report)
@@ -103,7 +112,7 @@ void print_fill(const FillReport& report)
         report.differences.empty() ? "" : fmt::format(" and {} of them written again", report.differences.size());
     say(stdout, "chunks   {} written, {} compared{}, {} were done\n", report.written, report.compared, again,
         report.skipped);
-    print_differences(report.differences);
+    print_differences(report.differences, true);
     if (report.limbs == 0) return;
     const bool is_disk = report.solve_seconds < report.disk_seconds;
     say(stdout, "speed    {:.2f} s: the solver took {:.2f} s, {:.1f} million limbs/s; the disk {:.2f} s{}\n",
@@ -139,6 +148,8 @@ std::vector<ChunkAt> damaged_poses(const Cache& cache, std::span<const ChunkAt> 
 // Of a cache that keeps no goals.
 void check_poses(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptions& options)
 {
+    require_memory(cache.folder(), bytes_to_replay(cache.crowd(), cache.arrays()), bytes_of(options.memory), "a chunk",
+                   "give more by --memory");
     const ThreadLimit limit(options.threads);
     const std::vector<ChunkAt> damaged = damaged_poses(cache, chunks, options.quiet);
     if (damaged.empty()) cache.close();  // what an interrupted check left
@@ -161,36 +172,58 @@ void check_poses(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptio
                                               damaged.size(), chunks.size(), chunk_name(damaged[0])));
 }
 
-void check_by_solving(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptions& options)
+// More than half of the chunks differ. Files of poses are damaged one by one, so then all of them are asked for
+// something else than when they were filled.
+bool suspects_goals(const FillReport& report) { return 2 * report.differences.size() > report.compared; }
+
+void print_check(const FillReport& report, std::size_t chunk_count, const CheckOptions& options)
 {
-    FillOptions how;
-    how.verifies = true;
-    how.memory = bytes_of(options.memory);
-    how.threads = options.threads;
-    const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
-    const bool is_right = report.differences.empty();
-    if (is_right) cache.close();
+    const bool is_right = report.differences.empty(), is_suspicious = suspects_goals(report);
+    const Json differences = json_of_differences(report.differences), none = Json::array();
     if (options.json)
         print_json({{"cache", options.folder},
-                    {"chunks", chunks.size()},
+                    {"chunks", chunk_count},
                     {"proved_by", "solving"},
                     {"limbs", report.limbs},
                     {"seconds", report.seconds},
-                    {"written_again", json_of_differences(report.differences)}});
-    else if (!options.quiet)
-        print_differences(report.differences);
-    if (!is_right) {
-        const Difference& first = report.differences[0];
-        throw formats::InputError(
-            cache.folder(), fmt::format("{} of {} chunks were damaged and are written again, the first is {}: {}; run "
-                                        "swivel check once more",
-                                        report.differences.size(), chunks.size(), chunk_name(first.at), first.what));
-    }
+                    {"suspects_goals", is_suspicious},
+                    {"left_different", is_suspicious ? differences : none},
+                    {"written_again", is_suspicious ? none : differences}});
     if (options.json || options.quiet) return;
-    say(stdout, "right    {} chunks: solved again, and all bits are equal\n", chunks.size());
+    print_differences(report.differences, !is_suspicious);
+    if (!is_right) return;
+    say(stdout, "right    {} chunks: solved again, and all bits are equal\n", chunk_count);
     say(stdout, "speed    {:.2f} s, {:.1f} million limbs/s\n", report.seconds,
         rate(static_cast<double>(report.limbs), report.seconds) / 1e6);
     say(stdout, "closed   {}\n", options.folder);
+}
+
+void check_by_solving(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptions& options)
+{
+    FillOptions how;
+    how.memory = bytes_of(options.memory);
+    how.threads = options.threads;
+    const FillReport report =
+        run_visibly(how, chunks.size(), options.quiet, [&](const FillOptions& each) { return compare(cache, each); });
+    const auto& differences = report.differences;
+    const bool is_suspicious = suspects_goals(report);
+    if (differences.empty())
+        cache.close();
+    else if (!is_suspicious)
+        run_visibly(how, differences.size(), options.quiet,
+                    [&](const FillOptions& each) { return mend(cache, each, differences); });
+    print_check(report, chunks.size(), options);
+    if (differences.empty()) return;
+    const std::string first = fmt::format("the first is {}: {}", chunk_name(differences[0].at), differences[0].what);
+    throw formats::InputError(
+        cache.folder(),
+        is_suspicious
+            ? fmt::format("{} of {} chunks differ from what the goals give, {}; the goals are suspected, or another "
+                          "swivel filled the cache, so nothing was written: take a copy, or run swivel fill --verify "
+                          "if the goals are right",
+                          differences.size(), chunks.size(), first)
+            : fmt::format("{} of {} chunks were damaged and are written again, {}; run swivel check once more",
+                          differences.size(), chunks.size(), first));
 }
 
 }  // namespace
@@ -202,13 +235,14 @@ void run_fill(const FillCommand& options)
     how.verifies = options.verifies;
     how.memory = bytes_of(options.memory);
     how.threads = options.threads;
-    const Cache cache(options.folder);
+    const Cache cache(options.folder, how.memory);
     const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), how.shard);
     if (!options.resumes && !options.verifies) require_empty(cache, chunks);
     if (!options.json && !options.quiet && !options.shard.empty())
         say(stdout, "shard    {} of the cache, by {}: {} chunks{}\n", how.shard.words(), how.shard.source,
             chunks.size(), chunks.empty() ? "; there are fewer pieces of work than shards" : "");
-    const FillReport report = fill_visibly(cache, how, chunks.size(), options.quiet);
+    const FillReport report =
+        run_visibly(how, chunks.size(), options.quiet, [&](const FillOptions& each) { return fill(cache, each); });
     if (options.json) {
         Json out{{"cache", options.folder}, {"shard", how.shard.words()}};
         out.update(json_of_fill(report));
@@ -220,15 +254,9 @@ void run_fill(const FillCommand& options)
 
 void run_check(const CheckOptions& options)
 {
-    Cache cache(options.folder);
+    Cache cache(options.folder, bytes_of(options.memory));
     const std::vector<ChunkAt> chunks = chunks_of(cache.crowd(), {});
-    const std::vector<ChunkAt> missing = missing_of(cache, chunks);
-    if (!missing.empty())
-        throw formats::InputError(cache.folder(),
-                                  fmt::format("{} of {} chunks are not done, the first is {}; {}", missing.size(),
-                                              chunks.size(), chunk_name(missing[0]),
-                                              cache.crowd().has_goals() ? "run swivel fill --resume"
-                                                                        : "take the files in digest/ from a copy"));
+    require_done(cache, chunks);
     if (!cache.crowd().has_goals())
         check_poses(cache, chunks, options);
     else

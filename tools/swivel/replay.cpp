@@ -10,6 +10,7 @@
 
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
+#include "tools/cli/option_checks.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
@@ -157,7 +158,7 @@ private:
         row.place = std::to_array(who.place);
         row.size = who.size;
         row.start = who.start;
-        const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frame_count();
+        const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frames;
         row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
         extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
         const std::size_t at = (held_frame * crowd_.limbs.size() + limb) * characters_.size() + n;
@@ -193,6 +194,15 @@ private:
     formats::PosesCsv csv_;
 };
 
+// What a table holds at once: the results of these frames, and who is in them.
+double bytes_of_rows(const CachedCrowd& crowd, std::uint32_t frame_count, Range characters)
+{
+    double bytes_of_limb = 0;
+    for (const ResultField& field : result_fields(crowd)) bytes_of_limb += 4.0 * static_cast<double>(field.count());
+    const double bytes_of_character = frame_count * bytes_of_limb * static_cast<double>(crowd.limbs.size());
+    return (characters.end - characters.begin) * (bytes_of_character + sizeof(goal_character));
+}
+
 // What of [whole.begin, whole.end) is in the piece of that many from first on, counted from first.
 Range within(Range whole, std::uint32_t first, std::uint32_t count)
 {
@@ -213,17 +223,22 @@ std::vector<ChunkAt> order_of(Range times, Range columns, bool is_by_time)
 
 void run_replay(const ReplayOptions& options)
 {
-    const Cache cache(options.folder);
+    const std::uint64_t memory = bytes_of(options.memory);
+    const Cache cache(options.folder, memory);
     cache.require_goals();
     const CachedCrowd& crowd = cache.crowd();
     const Range frames = range_of("--frames", options.frames, crowd.frame_count);
     const Range characters = range_of("--characters", options.characters, crowd.character_count);
+    const ChunkShape chunk = crowd.chunk;
+    const std::uint32_t held_frames = std::min(chunk.frames, frames.end - frames.begin);
+    double bytes = bytes_to_replay(crowd, cache.arrays());
+    if (!options.out.empty()) bytes += bytes_of_rows(crowd, held_frames, characters);
+    require_memory(cache.folder(), bytes, memory, options.out.empty() ? "a chunk" : "a chunk with the table's rows",
+                   "give more by --memory, or ask for fewer characters");
     const ThreadLimit limit(options.threads);
     const StopSignals signals;
     std::optional<TableWriter> table;
-    const ChunkShape chunk = crowd.chunk;
-    if (!options.out.empty())
-        table.emplace(options.out, crowd, std::min(chunk.frames, frames.end - frames.begin), characters);
+    if (!options.out.empty()) table.emplace(options.out, crowd, held_frames, characters);
     const Range times{frames.begin / chunk.frames, (frames.end - 1) / chunk.frames + 1};
     const Range columns{characters.begin / chunk.characters, (characters.end - 1) / chunk.characters + 1};
     const std::vector<ChunkAt> order = order_of(times, columns, table.has_value());

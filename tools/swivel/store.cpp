@@ -117,7 +117,7 @@ private:
 void write_characters(CacheMaker& maker, const CrowdJob& job, const StopSignals& signals, bool quiet)
 {
     const CachedCrowd& crowd = maker.crowd();
-    CharacterStream stream(job.plan, job.limbs, crowd.clip_frame_count());
+    CharacterStream stream(job.plan, job.limbs, crowd.clip_frames);
     Progress progress("characters", crowd.character_count, quiet);
     for (std::uint32_t column = 0; column < crowd.column_count(); ++column) {
         signals.check();
