@@ -114,10 +114,26 @@ class Maker:
         path.unlink(missing_ok=True)
         path.symlink_to(os.path.relpath(to, path.parent) if self.choose.random() < 0.3 else to)
 
+    def trap(self):
+        """A link or a pipe where commands write or remove."""
+        folder = self.cache / self.choose.choice(("shoulder", "elbow", "flags", "digest", "state", "clip", "goal_digest"))
+        if not folder.is_dir() or folder.is_symlink():
+            return
+        path = folder if self.choose.random() < 0.4 else folder / self.choose.choice(("0.0", "1.1", "0.0.0.0", "1.0.1.0", "1.0.0", ".swivel-1-0", "clip"))
+        self.said.append(f"trap {path}")
+        if path.is_dir():
+            path.symlink_to(self.away(path))
+            return
+        path.unlink(missing_ok=True)
+        if self.choose.random() < 0.4:
+            os.mkfifo(path)
+        else:
+            path.symlink_to(self.outside / self.choose.choice(("file", "folder", "nothing")))
+
     def other_kind(self):
         path = self.any_of(self.choose.random() < 0.2)
         shutil.rmtree(path) if path.is_dir() else path.unlink()
-        kind = self.choose.choice(("fifo", "folder", "socket", "loop", "file"))
+        kind = self.choose.choice(("fifo", "fifo", "folder", "socket", "loop", "file"))
         self.said.append(f"{kind} {path}")
         if kind == "fifo":
             os.mkfifo(path)
@@ -128,13 +144,11 @@ class Maker:
         elif kind == "file":
             path.write_bytes(b"\0" * 8)
         else:
-            place = os.getcwd()
             with socket.socket(socket.AF_UNIX) as made:
                 try:
                     made.bind(str(path))
                 except OSError:  # the path is too long for a socket
                     os.mkfifo(path)
-            assert place == os.getcwd()
 
     def bytes_(self):
         path = self.any_of(False)
@@ -236,7 +250,7 @@ class Maker:
 
     def make(self):
         first = [self.number, self.size] + ([self.goals] if not self.is_packed and (self.cache / "clip").is_dir() else [])
-        others = (lambda: self.link(False), lambda: self.link(True), self.other_kind, self.bytes_, self.long_file, self.garbage_json, self.wrong_name)
+        others = (self.trap, self.trap, lambda: self.link(False), lambda: self.link(True), self.other_kind, self.bytes_, self.long_file, self.garbage_json, self.wrong_name)
         if self.choose.random() < 0.5:
             self.choose.choice(first)()
         for _ in range(self.choose.randint(0 if self.said else 1, 2)):

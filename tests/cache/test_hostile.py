@@ -63,8 +63,8 @@ class Hostile(Stage):
         shape = dict(characters=20, frames=6, chunk="2,16")
         self.bases = [self.store("plain", **shape), self.fill(self.store("limited", toml=BUDGET, **shape)),
                       self.fill(self.store("packed", "--compress", toml=BUDGET, **shape)), self.fill(self.store("filled", **shape)),
-                      self.fill(self.store("poses", "--store", "poses", **shape))]
-        self.swivel("check", self.bases[-1], "--quiet")
+                      self.fill(self.store("poses", "--store", "poses", **shape)), self.fill(self.store("to close", "--store", "poses", toml=BUDGET, **shape))]
+        self.swivel("check", self.bases[-2], "--quiet")
         self.most = collections.Counter()
         self.codes = collections.Counter()
 

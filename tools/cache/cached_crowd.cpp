@@ -42,12 +42,12 @@ constexpr std::pair<const char*, float (swivel_binding::*)[4]> kBindingRotations
 std::uint32_t whole(const Json& json, const char* name, std::uint32_t least, std::uint32_t most)
 {
     const Json& value = json.at(name);
-    const bool is_whole =
-        value.is_number_unsigned() && value.get<std::uint64_t>() >= least && value.get<std::uint64_t>() <= most;
-    if (!is_whole)
+    // From 2^63 on it becomes negative, and is out of range as well.
+    const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
+    if (number < least || number > most)
         throw std::invalid_argument(
             fmt::format("{} is {}, not a number from {} to {}", name, formats::printable(value.dump()), least, most));
-    return value.get<std::uint32_t>();
+    return static_cast<std::uint32_t>(number);
 }
 bool yes_or_no(const Json& json, const char* name) { return whole(json, name, 0, 1) != 0; }
 template <class Enum>
