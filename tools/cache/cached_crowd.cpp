@@ -324,6 +324,8 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         for (const Json& limb : attributes.at("limbs")) crowd.limbs.push_back(limb_of(limb));
         require_sane(crowd);
         require_solvable(crowd, path);
+    } catch (const formats::InputError&) {
+        throw;
     } catch (const std::exception& error) {  // the digest holds, so another program wrote it
         refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store",
                            formats::printable(error.what(), 200)));
