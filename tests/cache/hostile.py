@@ -152,6 +152,8 @@ class Maker:
 
     def bytes_(self):
         path = self.any_of(False)
+        if path.stat().st_size > MOST_SPARSE:
+            return
         content = bytearray(path.read_bytes()) or bytearray(b"0")
         for _ in range(self.choose.randint(1, 4)):
             at = self.choose.randrange(len(content))
