@@ -258,3 +258,8 @@ class Maker:
         for _ in range(self.choose.randint(0 if self.said else 1, 2)):
             self.choose.choice(others)()
         return self.said
+
+
+def make(*arguments):
+    """Makes a hostile cache, and says how."""
+    return Maker(*arguments).make()

@@ -6,15 +6,16 @@ byte outside the cache.
     test_hostile.py --full                10,000
     test_hostile.py --count N --seed S    N of them, from seed S on; --keep leaves those that failed"""
 import collections
+import multiprocessing
 import os
 import shutil
 import subprocess
 import sys
 import threading
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
-from hostile import Maker
+from hostile import make
 from stage import BUDGET, CLIP, SWIVEL, Stage, files_of, unittest
 
 MEMORY = 128  # MiB, of --memory
@@ -70,6 +71,9 @@ class Hostile(Stage):
                       self.fill(self.store("packed", "--compress", toml=BUDGET, **shape)), self.fill(self.store("filled", **shape)),
                       self.fill(self.store("poses", "--store", "poses", **shape)), self.fill(self.store("to close", "--store", "poses", toml=BUDGET, **shape))]
         self.swivel("check", self.bases[-2], "--quiet")
+        # Makers read much. A command's memory begins with that of the process which starts it, so they are others.
+        self.makers = ProcessPoolExecutor(os.cpu_count(), multiprocessing.get_context("spawn"))
+        self.addCleanup(self.makers.shutdown)
         self.most = collections.Counter()
         self.codes = collections.Counter()
 
@@ -83,7 +87,7 @@ class Hostile(Stage):
         (outside / "folder").mkdir()
         (outside / "folder/0.0").write_bytes(b"eight by")
         (outside / "file").write_bytes(b"not swivel's")
-        said = Maker(work / "cache", outside, seed, base.name == "packed").make()
+        said = self.makers.submit(make, work / "cache", outside, seed, base.name == "packed").result()
         before, faults = kept(outside), []
         threads, memory = ("--threads", "2"), ("--memory", f"{MEMORY}M")
         for words in (("replay", "cache", *memory, "--out", "out.csv"), ("view", "cache"), ("check", "cache", *memory), ("fill", "cache", "--verify", *memory),
