@@ -12,6 +12,7 @@
 #include "tools/cache/busy_clock.h"
 #include "tools/cache/column.h"
 #include "tools/cache/fill_memory.h"
+#include "tools/crowd/parallel.h"
 
 #ifdef SWIVEL_WITH_TBB
 #include <oneapi/tbb/global_control.h>
@@ -78,7 +79,8 @@ private:
     void solve(Work& work);
     void write(Work& work);
     std::string difference(const Work& work) const;
-    void run_chunks(std::size_t most);
+    void run_in_turn();
+    void run_at_once(std::size_t most);
 
     const Cache& cache_;
     const FillOptions& options_;
@@ -198,10 +200,20 @@ void Filling::write(Work& work)
     if (options_.progress) options_.progress(through_);
 }
 
+// Reads, solves and writes one chunk after the other, all on this thread.
+void Filling::run_in_turn()
+{
+    const ThreadLimit limit(1);
+    while (Work* const work = read_next()) {
+        solve(*work);
+        write(*work);
+    }
+}
+
 #ifdef SWIVEL_WITH_TBB
 
 // Reads, solves and writes chunks at once, at most so many of them.
-void Filling::run_chunks(std::size_t most)
+void Filling::run_at_once(std::size_t most)
 {
     using namespace oneapi::tbb;
     const int threads = static_cast<int>(threads_);
@@ -230,20 +242,15 @@ void Filling::run_chunks(std::size_t most)
 
 #else
 
-void Filling::run_chunks(std::size_t)
-{
-    while (Work* const work = read_next()) {
-        solve(*work);
-        write(*work);
-    }
-}
+void Filling::run_at_once(std::size_t) { run_in_turn(); }
 
 #endif
 
 FillReport Filling::run()
 {
     const auto begin = std::chrono::steady_clock::now();
-    run_chunks(chunks_in_flight(cache_, options_.memory, compares_, threads_));
+    const std::size_t most = chunks_in_flight(cache_, options_.memory, compares_, threads_);
+    threads_ == 1 ? run_in_turn() : run_at_once(most);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     report_.solve_seconds = solving_.seconds();
     report_.disk_seconds = disk_.seconds();

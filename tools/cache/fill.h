@@ -16,7 +16,9 @@ struct FillOptions {
     // Chunks that are done: solve and compare them, and write those again that differ; or leave them as they are.
     bool verifies = false;
     std::uint64_t memory = std::uint64_t{1} << 30;  // bytes that the process may have resident
-    unsigned threads = 0;                           // that solve; 0: as many as the machine has
+    // That solve, beside two that wait for the disk; 1: this thread does all, and none is started; 0: as many as the
+    // machine has.
+    unsigned threads = 0;
     // Called after each chunk, by one thread at a time, with how many are through. What it throws ends the filling.
     std::function<void(std::uint64_t)> progress;
 };

@@ -20,7 +20,9 @@ void add_memory(CLI::App& command, std::string& memory)
 // Of a cache that is filled.
 CLI::Option* add_solving_threads(CLI::App& command, unsigned& threads)
 {
-    return add_threads(command, threads, "Threads that solve, up to 1024; 0 for all. Two more wait for the disk");
+    return add_threads(
+        command, threads,
+        "Threads that solve, up to 1024; 0 for all. Two more wait for the disk, but with 1 no thread is started");
 }
 
 // The positional CACHE.
