@@ -27,8 +27,21 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string kBefore = "<!doctype html><script>start(", kAfter = ")</script>\n";
+const std::string kBefore = "<!doctype html><script data-digest=\"", kBegin = "\">start(", kAfter = ")</script>\n";
 const std::string kEvil = "</script><img/src=x/onerror=alert(1)>\"'&";
+
+// FNV-1a of 64 bits, in words of 64 bits, little-endian; zeros fill the last.
+std::string digest_of_script(std::string script)
+{
+    script.resize((script.size() + 7) / 8 * 8);
+    std::uint64_t digest = 14695981039346656037u;
+    for (std::size_t at = 0; at < script.size(); at += 8) {
+        std::uint64_t word = 0;
+        for (std::size_t n = 8; n-- > 0;) word = word << 8 | static_cast<unsigned char>(script[at + n]);
+        digest = (digest ^ word) * 1099511628211u;
+    }
+    return fmt::format("{:016x}", digest);
+}
 
 // An installed command with a page's program beside it.
 struct Stage {
@@ -38,7 +51,7 @@ struct Stage {
     {
         for (const char* name : {"bin", "share", "share/swivel", "work"}) fs::create_directory(folder / name);
         fs::copy_file(SWIVEL_COMMAND, folder / "bin/swivel");
-        if (has_program) spill(folder / "share/swivel/view.html", kBefore + "/*crowd*/null" + kAfter);
+        if (has_program) spill(folder / "share/swivel/view.html", kBefore + kBegin + "/*crowd*/null" + kAfter);
         spill(folder / "work/clip.bvh", kTwoArms);
     }
     Outcome run(std::vector<std::string> words) const
@@ -53,8 +66,11 @@ struct Stage {
         const std::string text = slurp(at(name));
         REQUIRE(text.starts_with(kBefore));
         REQUIRE(text.ends_with(kAfter));
-        const std::string json = text.substr(kBefore.size(), text.size() - kBefore.size() - kAfter.size());
+        const std::size_t begin = kBefore.size() + 16 + kBegin.size();
+        REQUIRE(text.substr(kBefore.size() + 16, kBegin.size()) == kBegin);
+        const std::string json = text.substr(begin, text.size() - begin - kAfter.size());
         CHECK(json.find('<') == std::string::npos);
+        CHECK(text.substr(kBefore.size(), 16) == digest_of_script("start(" + json + ")"));
         return Json::parse(json);
     }
     Json view(std::vector<std::string> words, const std::string& name = "clip.bvh.html") const

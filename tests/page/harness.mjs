@@ -50,16 +50,26 @@ export async function visit(file, use, { before, hash = '', ...options } = {}) {
   }
 }
 
-/** What a page says in place of a crowd. before: as visit() has it. */
+/** What a page shows in place of a crowd. before: as visit() has it. */
 export async function refusal(place, { before } = {}) {
   const page = await browser.newPage();
   try {
     if (before) await page.addInitScript(before);
     await page.goto(`file://${encodeURI(place)}`);
-    return await page.textContent('.refusal');
+    await page.evaluate(() => document.getAnimations().forEach((each) => each.finish()));  // what comes after a second
+    return await page.innerText('.refusal', { timeout: 10_000 });
   } finally {
     await page.close();
   }
+}
+
+/** A page's text with the digest that its script has now: FNV-1a of 64 bits, in words of 64 bits. */
+export function signed(text) {
+  const begin = text.indexOf('data-digest="') + 13, script = Buffer.from(text.slice(begin + 18, text.indexOf('</script>')));
+  const words = new BigUint64Array(Math.ceil(script.length / 8));
+  script.copy(Buffer.from(words.buffer));
+  const digest = words.reduce((sum, word) => BigInt.asUintN(64, (sum ^ word) * 0x100000001b3n), 0xcbf29ce484222325n);
+  return text.slice(0, begin) + digest.toString(16).padStart(16, '0') + text.slice(begin + 16);
 }
 
 /** Where a part of the chosen limb is on the page: "target", "pole", "shoulder", "elbow" or "wrist". */

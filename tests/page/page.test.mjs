@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { clip, difference, file, refusal, run, visit, write } from './harness.mjs';
+import { clip, difference, file, refusal, run, signed, visit, write } from './harness.mjs';
 
 const state = (page, frames) => page.evaluate((list) => list.map((frame) => {
   swivelPage.setFrame(frame);
@@ -15,7 +15,7 @@ test('one classic inline script, no network, the command\'s digests, a picture t
   const demo = write('demo.html', 'demo', '--characters', '60');
   const text = readFileSync(demo, 'utf8');
   assert.equal(text.match(/<script/g).length, 1);
-  assert.ok(text.includes('<script>'));
+  assert.match(text, /<script data-digest="[0-9a-f]{16}">/);
   assert.equal(text.match(/<\/script/g).length, 1);
   assert.ok(text.includes('three.js authors') && text.includes('Permission is hereby granted'), "three's licence");
   await visit(demo, async (page) => {
@@ -167,8 +167,9 @@ test('a page\'s program and a command that do not fit get a sentence', async () 
   const text = readFileSync(write('fits.html', 'demo', '--characters', '2', '--frames', '3'), 'utf8');
   const refused = (name, from, to) => {
     assert.notEqual(text.replace(from, to), text);
-    return refusal(file(name, text.replace(from, to)));
+    return refusal(file(name, signed(text.replace(from, to))));
   };
+  assert.equal(signed(text), text);
   assert.match(await refused('version.html', /"version":"[\d.]+"/, '"version":"9.8.7"'), /the command is swivel 9\.8\.7, and the page's program is swivel \d/);
   assert.match(await refused('plan.html', /"plan":"..../, '"plan":"'), /wrote 117 bytes for the plan of left_arm, and the page's program expects 120/);
 });

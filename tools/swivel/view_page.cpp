@@ -10,6 +10,7 @@
 #include <span>
 
 #include "swivel/swivel.h"
+#include "tools/cache/zarr.h"
 #include "tools/cli/command_error.h"
 #include "tools/formats/base64.h"
 
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kPlace = "/*crowd*/null";  // the crowd's, in the page's program
+// Places in the page's program, of the script's digest and of the crowd.
+constexpr std::string_view kDigestPlace = "data-digest=\"\">", kPlace = "/*crowd*/null", kScriptEnd = "</script>";
 
 // Installed beside the command, or built in the folder of builds.
 std::string page_program()
@@ -29,7 +31,8 @@ std::string page_program()
     for (const char* place : {"../share/swivel/view.html", "../../view/view.html"}) {
         std::ifstream file(bin / place, std::ios::binary);
         std::string text{std::istreambuf_iterator<char>(file), {}};
-        if (text.find(kPlace) != std::string::npos) return text;
+        const std::size_t script = text.find(kDigestPlace), crowd = text.find(kPlace, script);
+        if (text.find(kScriptEnd, crowd) != std::string::npos) return text;
     }
     throw CommandError(1,
                        "the page's program, view.html, is missing; build it with tools/view/build, which takes npm and "
@@ -68,22 +71,24 @@ Json json_of(const LimbCrowds::Shape& shape)
             {"wrist_order", shape.wrist_order}};
 }
 
-// As a script may hold it: without the sign that could end it. Bytes that are no UTF-8 are replaced.
-std::string script_text(const Json& json)
+// Appends it as a script may hold it: without the sign that could end it. Bytes that are no UTF-8 are replaced.
+void append_script_text(std::string& text, const Json& json)
 {
-    std::string text;
     for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
         c == '<' ? text += "\\u003c" : text += c;
-    return text;
 }
 
 }  // namespace
 
 ViewPage::ViewPage(const fs::path& path) : before_(page_program()), out_(path)
 {
-    const std::size_t place = before_.find(kPlace);
-    after_ = before_.substr(place + kPlace.size());
-    before_.resize(place);
+    const std::string text = std::move(before_);
+    const std::size_t script = text.find(kDigestPlace) + kDigestPlace.size(), place = text.find(kPlace, script),
+                      after_place = place + kPlace.size(), end = text.find(kScriptEnd, after_place);
+    before_ = text.substr(0, script - std::string_view("\">").size());
+    script_begin_ = text.substr(script, place - script);
+    script_end_ = text.substr(after_place, end - after_place);
+    after_ = text.substr(end);
 }
 
 void ViewPage::add_frame(const GoalCrowd& crowd, std::span<const GivenPlace> places)
@@ -126,8 +131,11 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
         for (const std::uint64_t digest : of_frame) digests.push_back(fmt::format("{:016x}", digest));
         page["digests"].push_back(std::move(digests));
     }
-    out_.write(before_);
-    out_.write(script_text(page));
+    std::string script = std::move(script_begin_);
+    append_script_text(script, page);
+    script += script_end_;
+    out_.write(fmt::format("{}{:016x}\">", before_, digest_of(std::as_bytes(std::span(script)))));
+    out_.write(script);
     out_.write(after_);
     out_.commit();
 }

@@ -36,7 +36,8 @@ private:
     };
     static_assert(sizeof(Given) == 56);
 
-    std::string before_, after_;  // the program, around the crowd's place
+    // The program: up to the digest's place, around the crowd's, and from the script's end on.
+    std::string before_, script_begin_, script_end_, after_;
     formats::OutputFile out_;
     std::vector<std::vector<std::uint64_t>> digests_;  // [frame][crowd]
     std::vector<Given> given_;

@@ -22,6 +22,7 @@ import { readback } from "./readback.js";
 import { mostDrawn } from "./rows.js";
 import { View } from "./scene.js";
 import { makeStatus } from "./status.js";
+import { isWhole } from "./whole.js";
 import css from "./style.css";
 
 const DRAWN = 1000;  // characters at most, unless asked for more
@@ -195,6 +196,8 @@ export function start(data) {
     document.head.append(element("style", {}, css));
     const canvas = document.querySelector("canvas");
     if (data === null) return refuse("This page shows no crowd: it is the program that swivel view fills.");
+    if (!isWhole(document.currentScript)) return refuse("This page is damaged: its data are not those that swivel view wrote. Copy it again, or write it again.");
+    document.querySelector(".refusal")?.remove();
     document.title = `${data.title} – swivel`;
     const missing = lack();
     if (missing) return refuse(`This browser has no ${missing}, which the page needs. Current versions of Firefox, Chrome, Edge and Safari have it.`);
