@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::tools {

@@ -7,10 +7,46 @@
 
 #include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
+#include "tools/formats/printable.h"
 
 namespace swivel::tools {
 
 namespace {
+
+// One line on its way to standard error: in one write where it fits, so that those of several processes do not mix.
+// Takes no memory.
+class LineBuffer {
+public:
+    // As a terminal may have it, on one line.
+    void add(std::string_view text) noexcept
+    {
+        formats::EscapeRoom room;
+        while (!text.empty()) {
+            const bool is_end = text[0] == '\n';
+            const std::string_view next = is_end ? " " : formats::take_printable(text, room);
+            if (is_end) text.remove_prefix(1);
+            put(next);
+        }
+    }
+    void end() noexcept
+    {
+        put("\n");
+        say_text(stderr, {bytes_.data(), size_});
+    }
+
+private:
+    void put(std::string_view bytes) noexcept
+    {
+        if (size_ + bytes.size() > bytes_.size()) {
+            say_text(stderr, {bytes_.data(), size_});
+            size_ = 0;
+        }
+        size_ += bytes.copy(bytes_.data() + size_, bytes.size());
+    }
+
+    std::array<char, 8192> bytes_;
+    std::size_t size_ = 0;
+};
 
 // To be called where an exception is caught: says it.
 int tell()
@@ -45,17 +81,10 @@ int tell_of_end()
 
 int fail(int code, std::string_view line) noexcept
 {
-    constexpr std::string_view start = "swivel: ";
-    std::array<char, 8192> text;  // one write for one line: those of several processes do not mix
-    std::size_t size = start.copy(text.data(), start.size());
-    for (const char c : line) {
-        text[size++] = c == '\n' ? ' ' : c;
-        if (size < text.size()) continue;
-        say_text(stderr, {text.data(), size});
-        size = 0;
-    }
-    text[size++] = '\n';
-    say_text(stderr, {text.data(), size});
+    LineBuffer text;
+    text.add("swivel: ");
+    text.add(line);
+    text.end();
     return code;
 }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "tools/formats/printable.h"
 #include "tools/formats/suggestion.h"
 #include "tools/formats/text.h"
 

@@ -70,7 +70,7 @@ void Progress::show(std::uint64_t done)
     if (!visible_ || now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    say(stderr, "\r{}\x1b[K", progress_line(done, total_, what_, seconds, column_count()));
+    say_text(stderr, fmt::format("\r{}\x1b[K", progress_line(done, total_, what_, seconds, column_count())));
 }
 
 }  // namespace swivel::tools

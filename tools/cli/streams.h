@@ -11,18 +11,22 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/formats/printable.h"
+
 namespace swivel::tools {
 
 // Gives the numbers of closed standard streams to /dev/null, so that no file opened later gets them, and the stream's
 // text. They still cannot be read or written; messages get lost. False: that failed.
 bool open_closed_streams();
 
-// Writes text to stdout or stderr.
+// Writes text to stdout or stderr, as it is.
 void say_text(std::FILE* to, std::string_view text) noexcept;
+
+// Writes lines, which may quote anything: as printable_lines() lets them reach a terminal.
 template <class... Values>
 void say(std::FILE* to, fmt::format_string<Values...> text, Values&&... values)
 {
-    say_text(to, fmt::format(text, std::forward<Values>(values)...));
+    say_text(to, formats::printable_lines(fmt::format(text, std::forward<Values>(values)...)));
 }
 
 // Whether all that was said on standard output since the last call has been written.

@@ -8,7 +8,7 @@
 
 #include "tools/crowd/crowd_checks.h"
 #include "tools/formats/error.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 
 namespace swivel::tools {
 
@@ -192,7 +192,8 @@ void add_choice(const CrowdFile& file, LimbChoice& choice)
             (is_arm ? choice.arms : choice.legs)
                 .push_back({joints->value, name->side, {joints->key, file.path, joints->line}});
         if (const auto& bend = section.settings.bend)
-            choice.bends.push_back({*name, bend->value, bend->key, formats::printable(file.path.string(), 400),
+            choice.bends.push_back({*name, bend->value, bend->key,
+                                    formats::printable(file.path.string(), std::string::npos),
                                     bend->key.ends_with(".hinge")});
     }
 }

@@ -12,6 +12,7 @@
 #include "tools/formats/bvh_scanner.h"
 #include "tools/formats/euler.h"
 #include "tools/formats/limits.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

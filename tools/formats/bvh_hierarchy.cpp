@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/formats/limits.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

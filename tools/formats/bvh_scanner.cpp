@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tools/formats/error.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

@@ -11,6 +11,7 @@
 #include "tools/formats/error.h"
 #include "tools/formats/euler.h"
 #include "tools/formats/output_file.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

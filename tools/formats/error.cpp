@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -11,7 +12,8 @@ namespace {
 std::string message(const std::filesystem::path& path, std::size_t line, std::string_view cause)
 {
     const std::string name = is_standard_stream(path) ? "standard input" : printable(path.string(), std::string::npos);
-    return line == 0 ? fmt::format("{}: {}", name, cause) : fmt::format("{}:{}: {}", name, line, cause);
+    const std::string what = printable(cause, std::string::npos);
+    return line == 0 ? fmt::format("{}: {}", name, what) : fmt::format("{}:{}: {}", name, line, what);
 }
 
 }  // namespace

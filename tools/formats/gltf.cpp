@@ -20,6 +20,7 @@
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/gltf_nodes.h"
 #include "tools/formats/gltf_uri.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {
@@ -44,7 +45,8 @@ int choose_animation(const GltfFile& file, const std::string& wanted)
         all += fmt::format("{}{} {}", n ? ", " : "", n, printable(names[n]));
     refuse(file, named > 1 ? fmt::format("{} animations are called '{}'; give the index", named, printable(wanted))
                  : names.empty() ? std::string("it has no animation; leave out --clip to use its rest pose")
-                                 : fmt::format("it has no animation '{}'; it has {}", printable(wanted), all));
+                                 : fmt::format("it has no animation '{}'; it has {}", printable(wanted),
+                                               printable(all, kMostQuoted)));
 }
 
 Interpolation interpolation_of(const GltfFile& file, const Json& from)

@@ -14,7 +14,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_uri.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 
 namespace swivel::formats {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "tools/formats/error.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 
 namespace swivel::formats {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/formats/error.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 
 namespace swivel::formats {
 namespace {

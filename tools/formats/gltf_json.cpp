@@ -11,7 +11,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/gltf_check.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 
 namespace swivel::formats {
 namespace {

@@ -16,6 +16,7 @@
 
 #include "tools/formats/error.h"
 #include "tools/formats/limits.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::formats {

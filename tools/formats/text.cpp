@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <new>
 #include <system_error>
 
@@ -178,19 +177,5 @@ std::optional<double> parse_number(std::string_view text)
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view text) { return parse_whole<std::int64_t>(text); }
-
-std::string printable(std::string_view text, std::size_t max_size)
-{
-    std::string out;
-    for (const char c : text.substr(0, max_size)) {
-        const unsigned code = static_cast<unsigned char>(c);
-        if (code < 0x20 || code == 0x7f) {
-            fmt::format_to(std::back_inserter(out), "\\x{:02x}", code);
-        } else {
-            out += c;
-        }
-    }
-    return text.size() > max_size ? out + "..." : out;
-}
 
 }  // namespace swivel::formats

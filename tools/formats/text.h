@@ -1,6 +1,6 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// What every text format here needs: a file as one string, words of a line, numbers, and quoting for messages.
+// What every text format here needs: a file as one string, words of a line, and numbers.
 // Numbers are read by std::from_chars, so no locale can change them. Knows no format.
 
 #include <cstddef>
@@ -69,8 +69,5 @@ std::optional<double> parse_number(std::string_view text);
 
 // The whole of `text` as a whole decimal number. Nothing for anything else, 1.0 included.
 std::optional<std::int64_t> parse_integer(std::string_view text);
-
-// `text` for a message: control characters as \xNN, and cut to `max_size` bytes with "..." after them.
-std::string printable(std::string_view text, std::size_t max_size = 40);
 
 }  // namespace swivel::formats

@@ -9,6 +9,7 @@
 #include "tools/formats/bvh.h"
 #include "tools/formats/error.h"
 #include "tools/formats/limits.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/suggestion.h"
 #include "tools/formats/text.h"
 
@@ -75,7 +76,7 @@ toml::table read_toml(const std::filesystem::path& path)
     } catch (const toml::parse_error& error) {
         throw InputError(path, error.source().begin.line,
                          fmt::format("column {}: is no TOML: {}", error.source().begin.column,
-                                     printable(cause_of(error.description()), 200)));
+                                     printable(cause_of(error.description()), kMostQuoted)));
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tools/formats/printable.h"
 #include "tools/rig/limb_bend.h"
 #include "tools/rig/limb_scale.h"
 #include "tools/rig/limb_words.h"
@@ -106,8 +107,9 @@ void require_still_between(const Clip& clip, const LimbChain& chain, std::size_t
     std::string between;
     for (std::size_t n = first + 1; n < last; ++n) between += fmt::format("{}'{}'", n > first + 1 ? ", " : "", name(n));
     throw CannotBind(
-        fmt::format("{} between '{}' and '{}' {} the latter by {:.2g} of the bone in frame {}, more than {}", between,
-                    name(first), name(last), last - first > 2 ? "move" : "moves", most, worst, kMost),
+        fmt::format("{} between '{}' and '{}' {} the latter by {:.2g} of the bone in frame {}, more than {}",
+                    formats::printable(between, formats::kMostQuoted), name(first), name(last),
+                    last - first > 2 ? "move" : "moves", most, worst, kMost),
         "name other joints, or use a clip that does not move it");
 }
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 #include "tools/rig/limb_words.h"
 
 namespace swivel::tools {
@@ -34,7 +34,7 @@ std::string kinds_words(const LimbChoice& choice)
     const Source& source = choice.kinds_source;
     if (!source.is_file()) return fmt::format("{} {}", source.key, choice.kinds);
     return fmt::format("{} = \"{}\" in line {} of {}", source.key, choice.kinds, source.line,
-                       formats::printable(source.file.string(), 400));
+                       formats::printable(source.file.string(), std::string::npos));
 }
 
 }  // namespace swivel::tools

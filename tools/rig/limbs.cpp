@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "tools/formats/error.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/name_table.h"
 
@@ -20,16 +20,16 @@ using formats::LimbKind;
 using formats::LimbName;
 using formats::Side;
 
-constexpr std::size_t kShownName = 80;  // bytes of a joint's name in a message
+constexpr std::size_t kShownName = 80;  // characters of a joint's name in a message
 
 // A fault of what the user said of a clip, where it was said.
 [[noreturn]] void refuse(const Source& source, const std::filesystem::path& clip, std::string_view cause,
                          std::string_view advice)
 {
     if (source.is_file())
-        throw InputError(
-            source.file, source.line,
-            fmt::format("{}: {} in {}{}", source.key, cause, formats::printable(clip.string(), 400), advice));
+        throw InputError(source.file, source.line,
+                         fmt::format("{}: {} in {}{}", source.key, cause,
+                                     formats::printable(clip.string(), std::string::npos), advice));
     throw InputError(clip, fmt::format("{} ({}){}", cause, source.key, advice));
 }
 
@@ -52,13 +52,14 @@ struct NameReader {
         if (found.size() > 1)
             refuse(fmt::format("{} joints are called '{}'", found.size(), shown),
                    fmt::format("; name one by its path or number, such as {} or #{}",
-                               formats::printable(formats::joint_path(clip, found[0]), 400),
+                               formats::printable(formats::joint_path(clip, found[0]), formats::kMostQuoted),
                                formats::joint_at(clip, found[0]).number));
         return found[0];
     }
     LimbJoints joints() const
     {
-        const std::string text = formats::printable(fmt::format("{}", fmt::join(from.joints, ",")), 400);
+        const std::string text =
+            formats::printable(fmt::format("{}", fmt::join(from.joints, ",")), formats::kMostQuoted);
         if (from.joints.size() != 3)
             refuse(fmt::format("'{}' does not name three joints", text), fmt::format("; write {}", words.joints));
         const LimbJoints named{joint(from.joints[0]), joint(from.joints[1]), joint(from.joints[2])};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tools/formats/printable.h"
 #include "tools/rig/joint_names.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/name_table.h"
@@ -135,7 +136,7 @@ struct NameSearch {
                                 shown(at[2]), numbers(at));
         return {{},
                 {},
-                "more than one fits: " + list,
+                "more than one fits: " + formats::printable(list, formats::kMostQuoted),
                 fmt::format("name one, such as {} {}:{}", words_of(limb.kind).option, side_name(limb.side),
                             numbers(limbs[0]))};
     }

@@ -16,7 +16,7 @@
 #include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
 

@@ -5,6 +5,7 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/formats/error.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::tools {

@@ -17,6 +17,7 @@
 #include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
 #include "tools/formats/poses_csv.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"

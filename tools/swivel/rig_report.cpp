@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tools/cli/streams.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 #include "tools/rig/limb_axes.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
@@ -109,7 +109,7 @@ std::string shown_path(const Clip& clip, int joint)
         path = (path.size() < 200 ? joint_at(clip, up).name : "...") + '/' + path;
         if (path.starts_with("...")) break;
     }
-    return printable(path, 400);
+    return printable(path, formats::kMostQuoted);
 }
 
 void print_joints(const Clip& clip)
@@ -127,8 +127,8 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
     const Clip& clip = motion.clip();
     const Facing& facing = search.facing;
     const auto bones = std::count_if(clip.joints.begin(), clip.joints.end(), [](const auto& at) { return at.is_bone; });
-    say(stdout, "{}: {}, {} joints, {} of them bones, {} frame{}\n", file, motion.describe(), clip.joints.size(), bones,
-        clip.frame_count, clip.frame_count == 1 ? "" : "s");
+    say(stdout, "{}: {}, {} joints, {} of them bones, {} frame{}\n", printable(file, std::string::npos),
+        motion.describe(), clip.joints.size(), bones, clip.frame_count, clip.frame_count == 1 ? "" : "s");
     say(stdout, "faces {}, told by {}; up is {}, told by {}\n", vector_text(facing.forwards_w), facing.forwards_source,
         vector_text(facing.up_w), facing.up_source);
     for (const std::string& note : motion.notes()) say(stdout, "note: {}\n", note);
@@ -145,7 +145,7 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
 void print_crowd_file(const MotionFile& motion, const std::string& file, const LimbSearch& search)
 {
     const Clip& clip = motion.clip();
-    say(stdout, "{}\n", toml_comment("The limbs of " + printable(file, 400)));
+    say(stdout, "{}\n", toml_comment("The limbs of " + printable(file, std::string::npos)));
     for (const LimbFinding& finding : search.findings) {
         if (!finding.limb) {
             say(stdout, "\n{}\n",

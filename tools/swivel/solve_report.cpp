@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/streams.h"
-#include "tools/formats/text.h"
+#include "tools/formats/printable.h"
 #include "tools/rig/limb_words.h"
 #include "tools/rig/vectors.h"
 #include "tools/swivel/report.h"

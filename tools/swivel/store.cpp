@@ -16,6 +16,7 @@
 #include "tools/crowd/clip_crowd.h"
 #include "tools/crowd/limb_setups.h"
 #include "tools/formats/error.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/cached_clip.h"
 #include "tools/swivel/crowd_job.h"
