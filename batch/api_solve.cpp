@@ -40,8 +40,11 @@ swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* prior
     return status;
 }
 
-swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swivel_frame& frame)
+// A function of its own, so that the copy of a frame takes no stack while limbs are solved.
+[[gnu::noinline]] swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swivel_frame* frames)
 {
+    swivel_frame filled;
+    const swivel_frame& frame = frame_at(frames, g, filled);
     swivel_status status = SWIVEL_OK;
     const auto check_member = [&](Field field, const auto& values) {
         if (!values.data || status != SWIVEL_OK) return;
@@ -67,8 +70,7 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames
     swivel_status status = check_size<swivel_frame>("the first frame", size_of(frames));
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
         if (status == SWIVEL_OK) status = check_element("frame", frames, g);
-        swivel_frame filled;
-        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(frames, g, filled));
+        if (status == SWIVEL_OK) status = check_frame(crowd, g, frames);
     });
     return status;
 }

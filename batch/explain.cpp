@@ -53,27 +53,31 @@ private:
     std::size_t used_ = 0;
 };
 
-// A crowd of one limb, which takes a limb of another.
+// A crowd of one limb, which takes a limb of another. It is half of the stack that a call may take, so there is one,
+// which takes the limb again for each question.
 class Probe {
 public:
-    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb, std::uint32_t without = 0)
-        : from_(std::size_t{group.first_block} * SWIVEL_LANES + limb)
+    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb)
+        : of_(of), group_(group), crowd_(nullptr), from_(std::size_t{group.first_block} * SWIVEL_LANES + limb)
+    {
+        take();
+    }
+    // Takes the limb as it is, in a crowd without some of its features.
+    void take(FeatureSet without = 0)
     {
         swivel_group_def alone = swivel_default_group_def(1);
-        alone.binding = group.binding;
+        alone.binding = group_.binding;
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = of.features & ~(feature::budget | without);
+        def.features = of_.features & ~(feature::budget | without);
         def.groups = &alone;
         def.group_count = 1;
-        def.shoulder_order = of.shoulder_order;
-        def.wrist_order = of.wrist_order;
+        def.shoulder_order = of_.shoulder_order;
+        def.wrist_order = of_.wrist_order;
         crowd_ = place_crowd(def, arena_);
-        copy_lane(of.input, of.input_row_count, crowd_->input);
-        if (of.features & feature::most_swivel)  // the normal that the next step is from
-            copy_lane(of.results, of.result_row_count, crowd_->results);
+        copy_lane(of_.input, of_.input_row_count, crowd_->input);
+        if (of_.features & feature::most_swivel)  // the normal that the next step is from
+            copy_lane(of_.results, of_.result_row_count, crowd_->results);
     }
-
-    const swivel_crowd& crowd() const { return *crowd_; }
     LimbPose pose() const { return forward(*crowd_, crowd_->groups[0], 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the crowd has none.
     double violation(Field limit) const
@@ -109,12 +113,12 @@ public:
         return bit_cast<std::uint32_t>(crowd_->results[at]);
     }
     // Whether these are the results that the limb has.
-    bool has_bits_of(const swivel_crowd& of) const
+    bool has_bits_of_limb() const
     {
-        for (std::uint32_t row = 0; row < of.result_row_count; ++row) {
-            const std::size_t theirs = row_offset(from_, of.result_row_count, row), ours = row_offset(0, 0, row);
-            if (of.words ? of.words[theirs] != crowd_->words[ours]
-                         : std::memcmp(of.results + theirs, crowd_->results + ours, sizeof(float)) != 0)
+        for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
+            const std::size_t theirs = row_offset(from_, of_.result_row_count, row), ours = row_offset(0, 0, row);
+            if (of_.words ? of_.words[theirs] != crowd_->words[ours]
+                          : std::memcmp(of_.results + theirs, crowd_->results + ours, sizeof(float)) != 0)
                 return false;
         }
         return true;
@@ -142,6 +146,8 @@ private:
     static constexpr std::size_t kArenaBytes = 16 * 1024;
     static_assert(block_bytes(kEveryFeature) + 4096 <= kArenaBytes, "rows, and what stands before them");
     alignas(64) unsigned char arena_[kArenaBytes];
+    const swivel_crowd& of_;
+    const Group& group_;
     swivel_crowd* crowd_;
     std::size_t from_;
 };
@@ -164,14 +170,14 @@ void explain_lengths(const Probe& probe, Field field, Text& text)
 }
 
 // Inputs that are bad whatever the others are.
-void explain_bad_input(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+void explain_bad_input(Probe& probe, Text& text)
 {
     text.add("Bad input: ");
     bool is_found = false;
     for (std::size_t f = 0; f < kInputCount; ++f) {
         const auto field = static_cast<Field>(f);
-        Probe probe(crowd, group, limb);
         if (probe.component_count(field) == 0) continue;
+        probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
         text.add("%s%s (", is_found ? "; " : "", name_of(field));
@@ -263,12 +269,12 @@ constexpr Limit kLimits[] = {
 };
 
 // Whether this limit alone leaves the elbow no place.
-bool forbids_all(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Field limit)
+bool forbids_all(Probe& probe, Field limit)
 {
-    Probe only(crowd, group, limb);
+    probe.take();
     for (const Limit& other : kLimits)
-        if (other.field != limit) only.give_up(other.field);
-    return only.solve() & SWIVEL_INFEASIBLE;
+        if (other.field != limit) probe.give_up(other.field);
+    return probe.solve() & SWIVEL_INFEASIBLE;
 }
 
 // By how many degrees the elbow of one pose is turned from that of another, about the line to the wrist.
@@ -280,13 +286,13 @@ double swivel_between(const LimbPose& a, const LimbPose& b)
 }
 
 // How far the place that violates all limits least is outside of each.
-void explain_violations(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, Text& text)
+void explain_violations(Probe& probe, Text& text)
 {
-    Probe taken(crowd, group, limb, feature::compact);  // words of 16 bits are good to 0.009 degrees
-    taken.solve();
+    probe.take(feature::compact);  // words of 16 bits are good to 0.009 degrees
+    probe.solve();
     bool is_first = true;
     for (const Limit& limit : kLimits) {
-        const double degrees = taken.violation(limit.field);
+        const double degrees = probe.violation(limit.field);
         if (degrees < 0.005) continue;  // it would read 0.00
         text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", name_of(limit.field), degrees);
         is_first = false;
@@ -294,17 +300,15 @@ void explain_violations(const swivel_crowd& crowd, const Group& group, std::uint
     text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
 }
 
-void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, const Probe& solved,
-                    std::uint32_t flags, Text& text)
+// solved: the pose that the limb has.
+void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, Text& text)
 {
     char room[2][200];
     Text broken(room[0]), alone(room[1]);
-    Probe wished(crowd, group, limb);
     for (const Limit& limit : kLimits) {
-        wished.give_up(limit.field);
         if (!(flags & limit.flag)) continue;
         broken.add("%s%s", broken.is_empty() ? "" : " and ", name_of(limit.field));
-        if (flags & SWIVEL_INFEASIBLE && forbids_all(crowd, group, limb, limit.field))
+        if (flags & SWIVEL_INFEASIBLE && forbids_all(probe, limit.field))
             alone.add("%s%s", alone.is_empty() ? "" : " and ", name_of(limit.field));
     }
     if (broken.is_empty()) return;
@@ -315,13 +319,15 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
                  : is_step         ? "all limits at once, as the step's end breaks "
                                    : "all limits at once, as the wish breaks ",
                  alone.is_empty() ? room[0] : room[1]);
-        explain_violations(crowd, group, limb, text);
+        explain_violations(probe, text);
         return;
     }
-    wished.solve();
+    probe.take();
+    for (const Limit& limit : kLimits) probe.give_up(limit.field);
+    probe.solve();
     text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
              is_step ? "the step takes the elbow," : "the elbow was wished", room[0],
-             swivel_between(solved.pose(), wished.pose()));
+             swivel_between(solved, probe.pose()));
 }
 
 }  // namespace
@@ -329,14 +335,14 @@ void explain_limits(const swivel_crowd& crowd, const Group& group, std::uint32_t
 void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, std::span<char> room)
 {
     Text text(room);
-    Probe solved(crowd, group, limb);
-    const std::uint32_t flags = solved.solve();
+    Probe probe(crowd, group, limb);
+    const std::uint32_t flags = probe.solve();
     // A step's results are not those of the next one.
-    if (!(crowd.features & feature::most_swivel) && !solved.has_bits_of(crowd))
+    if (!(crowd.features & feature::most_swivel) && !probe.has_bits_of_limb())
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
-    if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(crowd, group, limb, text);
-    explain_reach(solved, flags, text);
-    explain_limits(crowd, group, limb, solved, flags, text);
+    if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, text);
+    explain_reach(probe, flags, text);
+    explain_limits(probe, probe.pose(), flags, text);
     if (flags & SWIVEL_JUMPED)
         text.add(" Joint limits turn the swivel further than a step may.");
     else if (flags & SWIVEL_LIMITED_STEP)

@@ -23,8 +23,6 @@ constexpr std::uint32_t kGroupsTogether = 4;
 // The blocks of a round. With fewer, more time goes into starting loops; with more, fewer rows stay in the nearest
 // cache. 16 and 64 blocks took 1.02 to 1.04 times as long.
 constexpr std::uint32_t kRoundBlocks = 32;
-// With chosen limbs, runs are longer, so that single limbs of several blocks are solved together.
-constexpr std::uint32_t kChosenRunBlocks = 64;
 // The fields of a limb often share cache lines. Values that are a multiple of half a kilobyte apart fall on few places
 // of a cache. The lines of a whole run then do not stay there, so two blocks of all fields are copied at a time. That
 // took 0.8 of the time there, and 1.06 where it is not needed.
@@ -32,10 +30,7 @@ constexpr std::size_t kCrowdedStride = 512;
 constexpr std::uint32_t kCrowdedBlocks = 2;
 
 // Blocks of each group in a round.
-std::uint32_t run_blocks(const Work& work, std::uint32_t group_count)
-{
-    return (work.mask ? kChosenRunBlocks : kRoundBlocks) / group_count;
-}
+std::uint32_t run_blocks(std::uint32_t group_count) { return kRoundBlocks / group_count; }
 
 // Streams of a frame that has every field, or of four ordinary ones.
 constexpr std::uint32_t kMostStreams = [] {
@@ -45,9 +40,12 @@ constexpr std::uint32_t kMostStreams = [] {
     return count;
 }();
 
-// Streams of a group's frame.
-std::uint32_t stream_count_of(const swivel_crowd& crowd, const swivel_frame& frame)
+// Streams of a group's frame. This and Share::set() are functions of their own, so that the copy of a frame takes no
+// stack while limbs are solved.
+[[gnu::noinline]] std::uint32_t stream_count_of(const swivel_crowd& crowd, const Work& work, std::uint32_t g)
 {
+    swivel_frame filled;
+    const swivel_frame& frame = frame_at(work.frames, g, filled);
     std::uint32_t count = 0;
     const auto add = [&](Field field, const void* data) {
         if (data) count += stream_count(field_row_count(crowd.features, field));
@@ -98,13 +96,12 @@ void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks 
     std::uint32_t count = 0, most = 0, streams = 0;
     const auto flush = [&] {
         if (count == 0) return;
-        const std::uint32_t run = run_blocks(work, count);
+        const std::uint32_t run = run_blocks(count);
         take(blocks, count, (most + run - 1) / run);
         count = most = streams = 0;
     };
     for_each_group(crowd, all, [&](std::uint32_t g, std::uint32_t first, std::uint32_t block_count) {
-        swivel_frame filled;
-        const std::uint32_t more = stream_count_of(crowd, frame_at(work.frames, g, filled));
+        const std::uint32_t more = stream_count_of(crowd, work, g);
         if (count == kGroupsTogether || streams + more > kMostStreams) flush();
         blocks[count++] = {g, first, block_count};
         most = std::max(most, block_count);
@@ -121,8 +118,11 @@ struct Share {
     Stream *streams, *in_end, *out_end;  // inputs come first
 
     // Stores the streams from `to` on, and returns their end.
-    Stream* set(const swivel_crowd& crowd, const swivel_frame& frame, const Blocks& of, std::uint32_t run, Stream* to)
+    [[gnu::noinline]] Stream* set(const swivel_crowd& crowd, const Work& work, const Blocks& of, std::uint32_t run,
+                                  Stream* to)
     {
+        swivel_frame filled;
+        const swivel_frame& frame = frame_at(work.frames, of.group, filled);
         group = crowd.groups + of.group;
         blocks = of;
         streams = in_end = to;
@@ -163,12 +163,9 @@ struct Bundle {
     void set(const Blocks* blocks, std::uint32_t group_count)
     {
         count = group_count;
-        run = run_blocks(work, count);
+        run = run_blocks(count);
         Stream* to = streams;
-        for (std::uint32_t n = 0; n < count; ++n) {
-            swivel_frame filled;
-            to = shares[n].set(crowd, frame_at(work.frames, blocks[n].group, filled), blocks[n], run, to);
-        }
+        for (std::uint32_t n = 0; n < count; ++n) to = shares[n].set(crowd, work, blocks[n], run, to);
     }
     void solve(std::uint32_t round) const
     {

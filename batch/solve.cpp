@@ -4,7 +4,9 @@
 #include "batch/solve.h"
 
 #include <algorithm>
+#include <bit>
 
+#include "batch/lane_mask.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -23,13 +25,15 @@ constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 // Result rows of a compact crowd are on the stack until they are packed. Those of so many blocks stay in the nearest
 // cache.
 constexpr std::uint32_t kPackBlocks = 4;
-constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand);
+constexpr std::uint32_t kMostResultRows = result_row_count(feature::joints | feature::hand),
+                        kMostWordRows = result_row_count(feature::joints | feature::hand | feature::compact);
 
-SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* input, float* results,
-                std::uint32_t block_count, bool from_memory)
+SolveRun run_of(const swivel_crowd& crowd, const Group& group, std::uint32_t first_block, std::uint32_t block_count,
+                bool from_memory, const std::uint32_t* mask)
 {
-    return {input,
-            results,
+    const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
+    return {crowd.input + row_offset(limb, crowd.input_row_count, 0),
+            crowd.words ? nullptr : crowd.results + row_offset(limb, crowd.result_row_count, 0),
             crowd.input_row_count,
             result_row_count(crowd.features & ~feature::compact),
             std::size_t{block_count} * SWIVEL_LANES,
@@ -38,49 +42,88 @@ SolveRun run_of(const swivel_crowd& crowd, const Group& group, const float* inpu
             static_cast<std::uint32_t>(crowd.wrist_order),
             &group.frames,
             crowd.first_row,
-            from_memory};
+            from_memory,
+            mask,
+            limb,
+            group.limb_count - (limb - std::size_t{group.first_block} * SWIVEL_LANES)};
+}
+
+void solve_run(const Kernels& kernels, const SolveRun& run)
+{
+    if (run.features & kLimbFeatures)
+        kernels.limbs.solve(run);
+    else
+        kernels.arms.solve[run.features & kFormulaFeatures](run);
+}
+
+// Packs a block's results into words and copies those of some lanes to where they belong.
+void pack_lanes(const swivel_crowd& crowd, void (*pack)(const PackRun&), const float* results, LaneMask lanes,
+                std::uint16_t* to)
+{
+    std::uint16_t words[kMostWordRows * SWIVEL_LANES];
+    pack({results, words, 1});
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        copy_lane(crowd.result_row_count, words + lane, to + lane);
+    }
 }
 
 void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                   std::uint32_t block_count, bool from_memory)
+                   std::uint32_t block_count, bool from_memory, const std::uint32_t* mask)
 {
     alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
+    void (*const pack)(const PackRun&) =
+        kernels.arms.pack[(crowd.features & (feature::joints | feature::hand)) / feature::joints];
     for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {
         const std::uint32_t block = first_block + done, count = std::min(kPackBlocks, block_count - done);
-        const std::size_t limb = std::size_t{block} * SWIVEL_LANES;
-        solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0), results, count,
-                   from_memory);
-        pack_rows(crowd, kernels, results, crowd.words + row_offset(limb, crowd.result_row_count, 0), count);
+        SolveRun run = run_of(crowd, group, block, count, from_memory, mask);
+        run.results = results;
+        solve_run(kernels, run);
+        const auto words = [&](std::uint32_t of) {
+            return crowd.words + row_offset(std::size_t{of} * SWIVEL_LANES, crowd.result_row_count, 0);
+        };
+        if (!mask) {
+            pack({results, words(block), count});
+            continue;
+        }
+        for (std::uint32_t n = 0; n < count; ++n)
+            if (const LaneMask lanes = lanes_of(mask, block + n) & lanes_of_limbs(group, block + n))
+                pack_lanes(crowd, pack, results + row_offset(std::size_t{n} * SWIVEL_LANES, run.result_row_count, 0),
+                           lanes, words(block + n));
     }
 }
 
 }  // namespace
 
-void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
-                float* results, std::uint32_t block_count, bool from_memory)
-{
-    const SolveRun run = run_of(crowd, group, input, results, block_count, from_memory);
-    if (crowd.features & kLimbFeatures)
-        kernels.limbs.solve(run);
-    else
-        kernels.arms.solve[crowd.features & kFormulaFeatures](run);
-}
-
-void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
-               std::uint32_t block_count)
-{
-    kernels.arms.pack[(crowd.features & (feature::joints | feature::hand)) / feature::joints](
-        {results, words, block_count});
-}
-
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                 std::uint32_t block_count, bool from_memory)
+                 std::uint32_t block_count, bool from_memory, const std::uint32_t* mask)
 {
-    if (crowd.features & feature::compact)
-        return solve_compact(crowd, kernels, group, first_block, block_count, from_memory);
-    const std::size_t limb = std::size_t{first_block} * SWIVEL_LANES;
-    solve_rows(crowd, kernels, group, crowd.input + row_offset(limb, crowd.input_row_count, 0),
-               crowd.results + row_offset(limb, crowd.result_row_count, 0), block_count, from_memory);
+    if (crowd.words) return solve_compact(crowd, kernels, group, first_block, block_count, from_memory, mask);
+    solve_run(kernels, run_of(crowd, group, first_block, block_count, from_memory, mask));
+}
+
+void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
+                        const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count,
+                        bool from_memory)
+{
+    const std::uint32_t end = first_block + block_count;
+    // Blocks from one on that are all chosen whole, or all not.
+    const auto run_from = [&](std::uint32_t block, bool whole) {
+        std::uint32_t count = 0;
+        for (; block < end; ++block, ++count) {
+            const LaneMask all = lanes_of_limbs(group, block);
+            if (((lanes_of(mask, block) & all) == all) != whole) break;
+        }
+        return count;
+    };
+    for (std::uint32_t block = first_block; block < end;) {
+        const std::uint32_t whole = run_from(block, true);
+        if (whole > 0) solve_group(crowd, kernels, group, block, whole, from_memory);
+        block += whole;
+        const std::uint32_t part = run_from(block, false);
+        if (part > 0) solve_group(crowd, kernels, group, block, part, from_memory, mask);
+        block += part;
+    }
 }
 
 bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
@@ -91,13 +134,9 @@ bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
                            swivel_arc* arcs, std::uint32_t capacity)
 {
-    const std::size_t first = std::size_t{group.first_block} * SWIVEL_LANES;
-    // The normal of the last solve counts; compact crowds have none.
-    float* const results = crowd.words ? nullptr : crowd.results + row_offset(first, crowd.result_row_count, 0);
-    const float* const input = crowd.input + row_offset(first, crowd.input_row_count, 0);
     ArcEnds ends[kMostArcs];
-    const std::uint32_t count =
-        scalar.limbs.allowed_arcs(run_of(crowd, group, input, results, group.block_count, false), limb, ends);
+    const std::uint32_t count = scalar.limbs.allowed_arcs(
+        run_of(crowd, group, group.first_block, group.block_count, false, nullptr), limb, ends);
     for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
         arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
     return count;
@@ -110,7 +149,7 @@ void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& w
     for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
         const Group& group = crowd.groups[g];
         if (work.mask)
-            solve_chosen_group(crowd, kernels, group, work.mask, first, count);
+            solve_chosen_group(crowd, kernels, group, work.mask, first, count, work.from_memory);
         else
             solve_group(crowd, kernels, group, first, count, work.from_memory);
     });

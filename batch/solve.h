@@ -24,25 +24,19 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
 }
 
 // These solve blocks of one group on this thread. The caller has set the floating-point environment (FloatEnv).
-// solve_group() solves every limb; from_memory says that the job's rows do not fit the caches. solve_chosen_group()
-// solves the limbs whose bits are set in mask, which has one bit for each lane of the crowd. It ignores the bits of
-// padding lanes. Other limbs keep their results.
+// solve_group() solves every limb, or those whose bits are set in mask, which has one bit for each lane of the crowd.
+// Other limbs keep their results. solve_chosen_group() does so, and solves runs of blocks that are chosen whole as if
+// there were no mask, which is faster. from_memory: the job's rows do not fit the caches.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                 std::uint32_t block_count, bool from_memory = false);
+                 std::uint32_t block_count, bool from_memory = false, const std::uint32_t* mask = nullptr);
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
-                        const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count);
+                        const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count,
+                        bool from_memory = false);
 
 // The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
 // build's kernels.
 std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
                            swivel_arc* arcs, std::uint32_t capacity);
-
-// The two steps of solve_group, on rows anywhere in memory. The first makes result rows of floats from blocks of input
-// rows. The second makes words from these, in a compact crowd.
-void solve_rows(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, const float* input,
-                float* results, std::uint32_t block_count, bool from_memory = false);
-void pack_rows(const swivel_crowd& crowd, const Kernels& kernels, const float* results, std::uint16_t* words,
-               std::uint32_t block_count);
 
 // Checked members of a swivel_job. mask: which limbs are solved, null for all. frames: where values come from, null for
 // rows. from_memory: the job's rows do not fit the caches.

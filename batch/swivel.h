@@ -36,6 +36,9 @@
 // writes its line in the usual environment, and restores the caller's with its sticky flags. Callbacks run in the
 // caller's. No exception of C++ leaves a call.
 //
+// STACK. Every call takes at most 32 KiB of stack, so a fibre or thread of 64 KiB is enough for any job. Calls of the
+// caller's own functions come on top. So does what oneTBB takes on its own threads.
+//
 // SIZES. Structures that may grow start with their size. Start each from its swivel_default_ function. A library
 // accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
 // first.
@@ -640,10 +643,10 @@ static inline swivel_job swivel_default_job(void)
 //     job.frames = &frame;
 //     status = swivel_solve(crowd, &job);
 //
-// The cost of some limbs goes with their blocks. A block chosen whole takes its usual time. A block chosen in part
-// takes 1.2 to 3 times that; one or two limbs of it take at most that. So neighbours cost their share of a solve of
-// all, or little more. Half of a crowd, picked at random, costs more than all of it. A random tenth costs 0.5 to 1
-// times as much as all, up to 2.5 times where rows are in cache. A random hundredth costs 0.1 to 0.4 times.
+// The cost of some limbs goes with their blocks. A block of which some limbs are chosen takes about its usual time;
+// others take none. So neighbours cost their share of a solve of all, or little more. Half of a crowd, picked at
+// random, costs as much as all of it. A random tenth costs 0.5 to 1 times as much as all, a random hundredth 0.1 to 0.4
+// times.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
 // Chooses limbs by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Whole blocks are picked, because one limb

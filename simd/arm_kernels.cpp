@@ -125,7 +125,7 @@ SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
 // Solves whole steps from block on, and returns the first block that is left. Arms for which the formula does not hold
 // go to `others`; it returns early when that list is full. It is a function of its own for each T, so that its
 // constants do not take registers from another loop.
-template <class T, FeatureSet Features>
+template <class T, FeatureSet Features, bool Masked>
 SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block,
                                                            WaitingLimbs& others)
 {
@@ -139,9 +139,12 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
         if (has(Features, feature::world) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
         std::uint32_t fails = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
-            const Mask<T> holds = solve_step(Rows<T, Features>{run, input + lane, results + lane}, shared);
+            std::uint32_t chosen = kEveryLane;
+            if constexpr (Masked) chosen = chosen_lanes(run, std::size_t{block} * kLanes + lane, lanes);
+            if (chosen == 0) continue;
+            const Mask<T> holds = solve_step(Rows<T, Features>{run, input + lane, results + lane, chosen}, shared);
             if (!all(holds)) [[unlikely]]
-                fails |= lane_bits(!holds) << lane;
+                fails |= (lane_bits(!holds) & chosen) << lane;
         }
         if (fails != 0) [[unlikely]] {
             others.add(std::size_t{block} * kLanes, fails);
@@ -162,8 +165,12 @@ void solve(const SolveRun& run)
     const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
     WaitingLimbs others;
     for (std::uint32_t block = 0; block < block_count;) {
-        block = solve_steps<Wide, Features>(run, block, others);
-        if (!others.is_full()) block = solve_steps<Narrow, Features>(run, block, others);
+        if (run.mask) {
+            block = solve_steps<Narrow, Features, true>(run, block, others);
+        } else {
+            block = solve_steps<Wide, Features, false>(run, block, others);
+            if (!others.is_full()) block = solve_steps<Narrow, Features, false>(run, block, others);
+        }
         while (others.is_full()) solve_others(run, others);
     }
     if (others.count > 0) solve_others(run, others);

@@ -23,6 +23,8 @@ inline SolveRun block_of(SolveRun run, std::uint32_t block)
     run.input += row_offset(limb, run.input_row_count, 0);
     run.results += row_offset(limb, run.result_row_count, 0);
     run.limb_count = kLanes;
+    run.first_lane += limb;
+    run.padding -= limb;
     return run;
 }
 
@@ -74,6 +76,7 @@ struct BlockAside {
         aside.input = input;
         aside.results = results;
         aside.limb_count = count;
+        aside.mask = nullptr;
         return aside;
     }
     void give_back(const SolveRun& run, const WaitingLimbs& list) const

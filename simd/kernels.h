@@ -34,7 +34,22 @@ struct SolveRun {
     const RestFrames* frames;
     const std::uint16_t* first_row;  // of each field, among input or result rows
     bool from_memory;                // the job's rows do not fit the caches
+    const std::uint32_t* mask;       // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
+    std::size_t first_lane;          // of the run, in the mask
+    std::size_t padding;             // the first lane of the run that is padding, which no mask chooses
 };
+
+// Bits of the lanes of a step that are chosen. limb: the step's first, in the run. All bits are set if there is no
+// mask.
+inline constexpr std::uint32_t kEveryLane = ~0u;
+[[gnu::always_inline]] inline std::uint32_t chosen_lanes(const SolveRun& run, std::size_t limb, std::size_t lane_count)
+{
+    if (!run.mask) return kEveryLane;
+    if (limb >= run.padding) return 0;
+    const std::size_t lane = run.first_lane + limb, left = run.padding - limb,
+                      count = left < lane_count ? left : lane_count;
+    return run.mask[lane / 32] >> lane % 32 & ((1u << count) - 1);
+}
 
 // Results of a run of blocks, to be packed into the words of a compact crowd.
 struct PackRun {

@@ -33,8 +33,17 @@ SWIVEL_INLINE void store_lanes(Address address, std::uint32_t bits)
 {
     *address(0) = bit_cast<float>(bits);
 }
-// A bit for each lane, the first lane's lowest.
+// Stores some of the lanes. The places of the others keep what they hold.
+template <class Address, class Value>
+requires(std::is_same_v<Value, float> || std::is_same_v<Value, std::uint32_t>) SWIVEL_INLINE
+    void store_lanes(Address address, Value x, bool where)
+{
+    if (where) store_lanes(address, x);
+}
+// A bit for each lane, the first lane's lowest; and the mask that has these bits.
 SWIVEL_INLINE std::uint32_t lane_bits(bool mask) { return mask; }
+template <class T>
+requires std::is_same_v<T, float> SWIVEL_INLINE bool lanes_where(std::uint32_t bits) { return bits & 1; }
 
 // The number type of a kernel built for Arch: lanes, or plain float for the scalar build.
 template <class Arch, int Registers>
@@ -285,6 +294,29 @@ template <class Address, template <class, int> class L, class A, int R>
 SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x)
 {
     for (std::size_t n = 0; n < R; ++n) x.r[n].store_aligned(address(n * Lanes<A, R>::width));
+}
+
+template <class Address, template <class, int> class L, class A, int R>
+SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x, const LanesMask<A, R>& where)
+{
+    for (std::size_t n = 0; n < R; ++n) {
+        float* const to = address(n * Lanes<A, R>::width);
+        xsimd::select(where.r[n], x.r[n], xsimd::batch<float, A>::load_aligned(to)).store_aligned(to);
+    }
+}
+// The bits of one register's lanes, as floats. They are denormals, which the environment of every kernel keeps.
+template <class T>
+requires(lane_count<T> > 1) SWIVEL_INLINE Mask<T> lanes_where(std::uint32_t bits)
+{
+    using Batch = typename T::Batch;
+    alignas(64) static constexpr std::uint32_t bit[16] = {1u << 0,  1u << 1,  1u << 2,  1u << 3, 1u << 4,  1u << 5,
+                                                          1u << 6,  1u << 7,  1u << 8,  1u << 9, 1u << 10, 1u << 11,
+                                                          1u << 12, 1u << 13, 1u << 14, 1u << 15};
+    const Batch each = Batch::load_aligned(reinterpret_cast<const float*>(bit));
+    return each_register<Mask<T>>([&](std::size_t n) SWIVEL_INLINE_LAMBDA {
+        const std::uint32_t of_register = bits >> n * T::width & ((1u << T::width) - 1);
+        return (Batch(bit_cast<float>(of_register)) & each) > Batch(0.0f);
+    });
 }
 
 template <class Arch, int Registers>

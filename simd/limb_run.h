@@ -24,14 +24,15 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& ru
     const Binding bind = binding_of<Features>(run);
     bool is_enough = false;
     for (; limb < run.limb_count && !is_enough; limb += lane_count<T>)
-        is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb)));
+        if (const std::uint32_t chosen = chosen_lanes(run, limb, lane_count<T>))
+            is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb, chosen)));
     return limb;
 }
 template <class T, FeatureSet Features, bool Aims, class Policy = SearchNow>
 void search_limbs(const SolveRun& run)
 {
-    solve_limb_steps<T, Features, Aims, Policy>(
-        run, 0, [](std::size_t, const Waiting<T>&) SWIVEL_INLINE_LAMBDA { return false; });
+    solve_limb_steps<T, Features, Aims, Policy>(run, 0,
+                                                [](std::size_t, const Waiting&) SWIVEL_INLINE_LAMBDA { return false; });
 }
 
 // Aside, a limb is copied and solved again, which takes about as long as two limbs without a search. The nearest end
@@ -50,12 +51,11 @@ struct SearchForMany {
 struct WaitingLists {
     WaitingLimbs for_end, for_least;
 
-    template <class T>
-    SWIVEL_INLINE bool put(std::size_t first, const Waiting<T>& waiting)
+    SWIVEL_INLINE bool put(std::size_t first, const Waiting& waiting)
     {
-        if (!any(waiting.lanes)) return false;
+        if (waiting.lanes == 0) return false;
         WaitingLimbs& list = waiting.search == Search::nearest_end ? for_end : for_least;
-        list.add(first, lane_bits(waiting.lanes));
+        list.add(first, waiting.lanes);
         return list.is_full();
     }
 };
@@ -81,7 +81,7 @@ struct BoxedLimbs {
     static std::size_t solve_until_full(const SolveRun& steps, std::size_t limb, WaitingLists& lists)
     {
         return solve_limb_steps<T, kToldFeatures, Aims, SearchForMany>(
-            steps, limb, [&lists](std::size_t first, const Waiting<T>& of_step) SWIVEL_INLINE_LAMBDA {
+            steps, limb, [&lists](std::size_t first, const Waiting& of_step) SWIVEL_INLINE_LAMBDA {
                 return lists.put(first, of_step);
             });
     }
@@ -134,7 +134,7 @@ inline AllowedArcs<float> allowed_arcs_of(const SolveRun& run, std::size_t limb)
     const LimbUse use = limb_use<kToldFeatures>(run);
     LimbGoal<float> goal;
     const LimbEntry<float> entry =
-        load_limb(use, binding_of<kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb), goal);
+        load_limb(use, binding_of<kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb, kEveryLane), goal);
     if (!entry.valid || !is_valid(use, goal)) return {};
     if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
     return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);

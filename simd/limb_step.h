@@ -213,31 +213,32 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding& bind, const Row
 
 // The rows of the step that starts with a limb of a run.
 template <class T, FeatureSet Features>
-SWIVEL_INLINE Rows<T, Features> rows_of(const SolveRun& run, std::size_t limb)
+SWIVEL_INLINE Rows<T, Features> rows_of(const SolveRun& run, std::size_t limb, std::uint32_t chosen)
 {
     const bool told = Features & kTold;
     const std::uint32_t inputs = told ? run.input_row_count : input_row_count(Features);
     const std::uint32_t results = told ? run.result_row_count : result_row_count(Features);
     return {run, run.input + row_offset(limb, inputs, 0),
-            run.results ? run.results + row_offset(limb, results, 0) : nullptr};
+            run.results ? run.results + row_offset(limb, results, 0) : nullptr, chosen};
 }
 
-// Lanes of a step that wait for a search: their results mean nothing yet.
-template <class T>
+// Lanes of a step that wait for a search, a bit for each: their results mean nothing yet.
 struct Waiting {
-    Mask<T> lanes;
+    std::uint32_t lanes;
     Search search;
 };
 // Solves one step.
 template <bool Aims, class Policy, class T, FeatureSet Features>
-SWIVEL_INLINE Waiting<T> solve_limb_step(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows)
+SWIVEL_INLINE Waiting solve_limb_step(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows)
 {
     LimbGoal<T> goal;
-    const LimbEntry<T> entry = load_limb(use, bind, rows, goal);
+    LimbEntry<T> entry = load_limb(use, bind, rows, goal);
+    if (rows.chosen != kEveryLane)
+        entry.valid = entry.valid & lanes_where<T>(rows.chosen);  // others search for nothing
     constexpr int boxes = Features & (feature::shoulder_box | feature::wrist_box) ? kMostBoxes : 0;
     const SolvedLimb<T> pose = solve_limb<Aims, Policy, boxes>(use, goal, entry.valid);
     store_limb(use, bind, rows, entry, pose);
-    return {!pose.settled, pose.next};
+    return {all(pose.settled) ? 0 : lane_bits(!pose.settled) & rows.chosen, pose.next};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

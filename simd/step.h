@@ -33,6 +33,7 @@ struct Rows {
     const SolveRun& run;
     const float* input;
     float* results;
+    std::uint32_t chosen;  // bits of the lanes whose results are stored: see chosen_lanes()
 
     SWIVEL_INLINE bool has(FeatureSet features) const { return (features_of<Features>(run) & features) != 0; }
     SWIVEL_INLINE std::uint32_t row(Field field, int component) const
@@ -81,9 +82,13 @@ struct Rows {
     SWIVEL_INLINE void store(Field field, int component, const Value& value) const
     {
         const std::uint32_t to = row(field, component);
-        store_lanes([&](std::size_t lane)
-                        SWIVEL_INLINE_LAMBDA { return results + row_offset(lane, result_row_count(Features), to); },
-                    value);
+        const auto place = [&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
+            return results + row_offset(lane, result_row_count(Features), to);
+        };
+        if (chosen == kEveryLane)
+            store_lanes(place, value);
+        else
+            store_lanes(place, value, lanes_where<T>(chosen));
     }
     SWIVEL_INLINE void store_rotor(Field field, const Rotor<T>& q, int first = 0) const
     {

@@ -108,7 +108,7 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/swivel[.]h$" "<(std(def|int)|string)[.]h>")
 may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
-may_include(batch "batch/(api_solve|api_pose|sized|chosen|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/(api_solve|api_pose|sized|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
 may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
 may_include(batch "batch/(rig|skeleton|angles|budget|check|edge|explain|joint_angles|steps|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")

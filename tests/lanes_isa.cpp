@@ -15,8 +15,13 @@ void run(Op op, const float* a, const float* b, const float* c, float* out, std:
         const auto load = [n](const float* from) {
             return load_lanes<T>([=](std::size_t lane) { return from + n + lane; });
         };
-        apply<T>(op, load(a), load(b), load(c),
-                 [&](const auto& result) { store_lanes([=](std::size_t lane) { return out + n + lane; }, result); });
+        const auto place = [=](std::size_t lane) { return out + n + lane; };
+        if (op == Op::store_some) {
+            store_lanes(place, load(c));
+            store_lanes(place, load(a), lanes_where<T>(lane_bits(load(a) < load(b))));
+        } else {
+            apply<T>(op, load(a), load(b), load(c), [&](const auto& result) { store_lanes(place, result); });
+        }
     }
 }
 

@@ -42,6 +42,7 @@ enum class Op {
     constant,
     any_less,  // over all lanes of a step, the same word in each
     all_less,
+    store_some,  // over c, where a is less
     count
 };
 
@@ -122,6 +123,8 @@ SWIVEL_INLINE void apply(Op op, const T& a, const T& b, const T& c, Store store)
             return store(T(any(a < b) ? 1.0 : 0.0));
         case Op::all_less:
             return store(T(all(a < b) ? 1.0 : 0.0));
+        case Op::store_some:
+            return store(select(a < b, a, c));
         case Op::count:
             return;
     }
