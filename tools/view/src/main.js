@@ -196,7 +196,8 @@ export function start(data) {
     document.head.append(element("style", {}, css));
     const canvas = document.querySelector("canvas");
     if (data === null) return refuse("This page shows no crowd: it is the program that swivel view fills.");
-    if (!isWhole(document.currentScript)) return refuse("This page is damaged: its data are not those that swivel view wrote. Copy it again, or write it again.");
+    const script = document.currentScript;  // null for a later call, when the page was judged already
+    if (script && !isWhole(script)) return refuse("This page is damaged: its data are not those that swivel view wrote. Copy it again, or write it again.");
     document.querySelector(".refusal")?.remove();
     document.title = `${data.title} – swivel`;
     const missing = lack();
