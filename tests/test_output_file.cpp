@@ -6,12 +6,15 @@
 #include <unistd.h>
 #include <catch2/catch.hpp>
 
+#include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <tuple>
 
 #include "tests/test_data.h"
 #include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
+#include "tools/formats/partial.h"
 
 using namespace swivel::formats;
 using namespace swivel::test;
@@ -104,6 +107,41 @@ TEST_CASE("two files of one folder, and the rest of a killed run, are not mixed 
     CHECK(folder.file_count() == 3);
 }
 
+TEST_CASE("an unfinished folder goes with all in it, and with nothing outside")
+{
+    const TempFolder folder;
+    fs::create_directory(folder / "outside");
+    spill(folder / "outside/kept", "kept");
+    {
+        Partial partial;
+        REQUIRE(partial.make(folder.path, [](const char* name) { return ::mkdir(name, 0777); }) == 0);
+        const fs::path at = partial.name();
+        CHECK(at.filename().string().starts_with(".swivel-"));
+        fs::create_directories(at / "a/b/c");
+        for (int n = 0; n < 1000; ++n) spill(at / ("a/b/" + std::to_string(n)), "x");  // several readings of a folder
+        fs::create_directory_symlink(folder / "outside", at / "link");
+    }
+    CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+    CHECK(slurp(folder / "outside/kept") == "kept");
+}
+
+TEST_CASE("what cannot be removed is named")
+{
+    const TempFolder folder;
+    fs::permissions(folder.path, fs::perms(0777));
+    CHECK(Partial::unremoved().empty());
+    auto partial = std::make_unique<Partial>();
+    REQUIRE(partial->make(folder.path, [](const char* name) { return ::mkdir(name, 0777); }) == 0);
+    const std::string name = partial->name();
+    fs::permissions(folder.path, fs::perms(0555));
+    {
+        const AsNobody nobody;
+        partial.reset();
+    }
+    CHECK(Partial::unremoved() == name + " cannot be removed: Permission denied");
+    fs::permissions(folder.path, fs::perms(0755));
+}
+
 TEST_CASE("a process that cannot unwind removes all its partial files")
 {
     const TempFolder folder;
@@ -114,7 +152,7 @@ TEST_CASE("a process that cannot unwind removes all its partial files")
     }
     OutputFile b(folder / "b.txt");
     CHECK(folder.file_count() == 3);
-    OutputFile::discard_all();
+    Partial::remove_all();
     CHECK(folder.file_count() == 1);
     CHECK(slurp(folder / "b.txt") == "old");
 }

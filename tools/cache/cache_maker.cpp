@@ -2,7 +2,9 @@
 #include "tools/cache/cache_maker.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <sys/stat.h>
+
+#include <cerrno>
 
 #include "tools/cache/digest.h"
 #include "tools/cache/members.h"
@@ -35,33 +37,19 @@ void require_new(const fs::path& folder)
 PartialFolder::PartialFolder(const fs::path& target) : target_(target)
 {
     require_new(target_);
-    std::error_code reason;
-    const fs::path parent = target_.parent_path();
-    bool is_new = false;
-    for (int n = 0; !is_new; ++n) {
-        partial_ = parent / fmt::format(".swivel-{}-{}", ::getpid(), n);
-        is_new = fs::create_directory(partial_, reason);
-        if (reason && reason != std::errc::file_exists) {
-            partial_.clear();
-            throw InputError(
-                target_, fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
-        }
-    }
-}
-
-PartialFolder::~PartialFolder()
-{
-    std::error_code ignored;
-    if (!partial_.empty()) fs::remove_all(partial_, ignored);
+    if (partial_.make(target_.parent_path(), [](const char* name) { return ::mkdir(name, 0777); }) == 0) return;
+    const std::error_code reason(errno, std::generic_category());
+    throw InputError(target_,
+                     fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
 }
 
 void PartialFolder::commit()
 {
     require_new(target_);
-    std::error_code reason;
-    fs::rename(partial_, target_, reason);
-    if (reason) throw InputError(target_, fmt::format("cannot be made: {}; name another folder", reason.message()));
-    partial_.clear();
+    if (!partial_.rename(target_)) {
+        const std::error_code reason(errno, std::generic_category());
+        throw InputError(target_, fmt::format("cannot be made: {}; name another folder", reason.message()));
+    }
     formats::sync_folder(target_.parent_path());
 }
 

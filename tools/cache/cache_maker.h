@@ -7,6 +7,7 @@
 #include <span>
 
 #include "tools/cache/cache.h"
+#include "tools/formats/partial.h"
 
 namespace swivel::tools {
 
@@ -18,16 +19,14 @@ class PartialFolder {
 public:
     // Throws InputError as require_new() does, and if the folder cannot be made.
     explicit PartialFolder(const std::filesystem::path& target);
-    ~PartialFolder();
-    PartialFolder(const PartialFolder&) = delete;
-    PartialFolder& operator=(const PartialFolder&) = delete;
 
-    const std::filesystem::path& path() const { return partial_; }
+    std::filesystem::path path() const { return partial_.name(); }
     // Throws InputError if something has got the target's name meanwhile, or it cannot be renamed.
     void commit();
 
 private:
-    std::filesystem::path target_, partial_;
+    std::filesystem::path target_;
+    formats::Partial partial_;
 };
 
 // All calls throw InputError where a file cannot be written. One object belongs to one thread.

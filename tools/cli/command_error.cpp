@@ -7,11 +7,15 @@
 
 #include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
+#include "tools/formats/partial.h"
 #include "tools/formats/printable.h"
 
 namespace swivel::tools {
 
 namespace {
+
+std::array<char, 200> noted_advice;
+std::size_t noted_advice_size = 0;
 
 // One line on its way to standard error: in one write where it fits, so that those of several processes do not mix.
 // Takes no memory.
@@ -72,6 +76,7 @@ int tell_of_end()
 {
     const bool is_whole = is_output_whole();
     if (const int signal = noted_stop_signal()) return fail(exit_code_of_signal(signal), kInterrupted);
+    if (!formats::Partial::unremoved().empty()) return fail(1, "an unfinished file stays");
     if (is_whole) return 0;
     if (has_lost_its_reader()) return exit_code_of_signal(SIGPIPE);
     return fail(1, "standard output could not be written in full");
@@ -79,11 +84,24 @@ int tell_of_end()
 
 }  // namespace
 
-int fail(int code, std::string_view line) noexcept
+void note_memory_advice(std::string_view advice) noexcept
+{
+    noted_advice_size = advice.copy(noted_advice.data(), noted_advice.size());
+}
+
+std::string_view memory_advice() noexcept { return {noted_advice.data(), noted_advice_size}; }
+
+int fail(int code, std::string_view line, std::string_view advice) noexcept
 {
     LineBuffer text;
     text.add("swivel: ");
     text.add(line);
+    text.add(advice);
+    if (const std::string_view rest = formats::Partial::unremoved(); !rest.empty()) {
+        text.add("; ");
+        text.add(rest);
+        text.add("; remove it");
+    }
     text.end();
     return code;
 }

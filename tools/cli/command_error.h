@@ -18,10 +18,15 @@ struct CommandError : std::runtime_error {
     int exit_code;
 };
 
-// Says a failure as one line on stderr and returns its exit code. Takes no memory.
-int fail(int code, std::string_view line) noexcept;
+// Says a failure as one line on stderr and returns its exit code. The line ends with the advice. Takes no memory.
+int fail(int code, std::string_view line, std::string_view advice = {}) noexcept;
 
 constexpr std::string_view kNotEnoughMemory = "not enough memory";
+
+// What to do about a lack of memory, such as "; try a shorter clip"; empty: nothing is known. It is noted before memory
+// lacks, by one thread before others read it, and cut to 200 bytes.
+void note_memory_advice(std::string_view advice) noexcept;
+std::string_view memory_advice() noexcept;
 
 // Does the work of a run and returns its exit code. What is thrown, a noted signal, and a standard output that could
 // not be written in full become one line on stderr. Where that is a pipe that nobody reads any more, the code is

@@ -8,45 +8,53 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "tools/cli/command_error.h"
 #include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
-#include "tools/formats/output_file.h"
+#include "tools/formats/partial.h"
 
 namespace swivel::tools {
 
 namespace {
 
-std::atomic<bool> memory_has_run_out = false;  // set from any thread
+std::atomic_flag is_ending;
 
-// As without it, and leaves a note: with no memory at all there is no exception either, see __cxa_allocate_exception().
-void note_lack_of_memory()
+// One line, whichever threads fail. What is unfinished is removed without memory, and nothing else needs an owner.
+[[noreturn]] void end(std::string_view cause, std::string_view advice) noexcept
 {
-    memory_has_run_out = true;
-    throw std::bad_alloc();
+    while (is_ending.test_and_set()) ::pause();  // another thread ends the process
+    formats::Partial::remove_all();
+    std::fflush(stdout);
+    ::_exit(fail(1, cause, advice));
 }
+
+// Where memory lacks, no exception is thrown. Unwinding would run destructors that ask for memory, or that find an
+// object half made: those of nlohmann's JSON do both.
+[[noreturn]] void end_without_memory() { end(kNotEnoughMemory, memory_advice()); }
 
 [[noreturn]] void end_in_one_line() noexcept
 {
-    formats::OutputFile::discard_all();
-    std::fflush(stdout);
-    if (memory_has_run_out) ::_exit(fail(1, kNotEnoughMemory));
     if (std::current_exception()) {
         try {
             throw;
+        } catch (const std::bad_alloc&) {  // of those who ask malloc(), such as oneTBB
+            end_without_memory();
         } catch (const std::exception& error) {
-            ::_exit(fail(1, error.what()));
+            end(error.what(), "");
         } catch (...) {
         }
     }
+    formats::Partial::remove_all();
+    std::fflush(stdout);
     std::abort();
 }
 
 // Before the constructors of variables in the program's own libraries, some of which take memory.
 [[gnu::constructor(101)]] void expect_lack_of_memory()
 {
-    std::set_new_handler(note_lack_of_memory);
+    std::set_new_handler(end_without_memory);
     std::set_terminate(end_in_one_line);
 }
 

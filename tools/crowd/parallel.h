@@ -30,14 +30,15 @@ inline unsigned thread_count()
 // Then oneTBB is not called: it starts threads of its own even where none of them may work.
 inline bool is_one_thread() { return thread_count() == 1; }
 
-// Calls work(begin, end) for pieces of 0 ... count-1, on several threads at once.
+// Calls work(begin, end) for pieces of 0 ... count-1, on several threads at once. A single piece takes no oneTBB.
 template <class Work>
 void for_ranges(std::uint32_t count, Work work)
 {
 #ifdef SWIVEL_WITH_TBB
     using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+    constexpr std::uint32_t piece = 256;
     const auto on_range = [&](const Range& range) { work(range.begin(), range.end()); };
-    if (!is_one_thread()) return oneapi::tbb::parallel_for(Range(0, count, 256), on_range);
+    if (count > piece && !is_one_thread()) return oneapi::tbb::parallel_for(Range(0, count, piece), on_range);
 #endif
     if (count > 0) work(std::uint32_t{0}, count);
 }

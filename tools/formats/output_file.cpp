@@ -7,10 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <mutex>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include "tools/formats/error.h"
 #include "tools/formats/text.h"
@@ -75,9 +73,6 @@ struct CloseAtEnd {
     ~CloseAtEnd() { ::close(descriptor); }
 };
 
-std::mutex list_mutex;
-OutputFile* all_files = nullptr;
-
 }  // namespace
 
 OutputFile::OutputFile(const fs::path& path)
@@ -98,21 +93,13 @@ OutputFile::OutputFile(const fs::path& path)
         target_ = follow_links(path);
         open_partial(0);
     }
-    enlist();
 }
 
 OutputFile::OutputFile(int folder, const std::string& name, const fs::path& path)
-    : named_(path), folder_(folder), target_(name)
+    : named_(path), folder_(folder), target_(name), partial_(folder)
 {
     buffer_.reserve(kBufferBytes);
     open_partial(AT_SYMLINK_NOFOLLOW);
-    enlist();
-}
-
-void OutputFile::enlist()
-{
-    const std::lock_guard lock(list_mutex);
-    next_ = std::exchange(all_files, this);
 }
 
 // A short name of its own: the target's may be as long as a name can be.
@@ -126,32 +113,16 @@ void OutputFile::open_partial(int follows)
     if (is_there && S_ISDIR(before.st_mode)) throw InputError(named_, "is a directory; name a file in it");
     is_there = is_there && S_ISREG(before.st_mode);
     if (is_there && ::faccessat(folder_, target_.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be replaced");
-    for (int n = 0; descriptor_ < 0; ++n) {
-        partial_ = target_.parent_path() / fmt::format(".swivel-{}-{}", ::getpid(), n);
-        // What others may not read in the old file they may not read in the new one at any moment.
-        descriptor_ =
-            ::openat(folder_, partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, is_there ? 0600 : 0666);
-        if (descriptor_ >= 0 || errno == EEXIST) continue;
-        partial_.clear();
-        fail("cannot be created");
-    }
+    // What others may not read in the old file they may not read in the new one at any moment.
+    const mode_t mode = is_there ? 0600 : 0666;
+    descriptor_ = partial_.make(target_.parent_path(), [this, mode](const char* name) {
+        return ::openat(folder_, name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    });
+    if (descriptor_ < 0) fail("cannot be created");
     if (is_there) keep_rights(descriptor_, before);
 }
 
-OutputFile::~OutputFile()
-{
-    discard();
-    const std::lock_guard lock(list_mutex);
-    OutputFile** place = &all_files;
-    while (*place != this) place = &(*place)->next_;
-    *place = next_;
-}
-
-void OutputFile::discard_all() noexcept
-{
-    const std::unique_lock lock(list_mutex, std::try_to_lock);  // the thread that has it may never go on
-    for (OutputFile* file = lock ? all_files : nullptr; file; file = file->next_) file->discard();
-}
+OutputFile::~OutputFile() { discard(); }
 
 void OutputFile::write(std::string_view bytes)
 {
@@ -171,15 +142,14 @@ void OutputFile::commit()
 {
     if (descriptor_ < 0) throw std::invalid_argument("OutputFile: commit after commit or after a failure");
     flush(buffer_);
-    if (!partial_.empty() && ::fsync(descriptor_) != 0) fail("cannot be written");
+    const bool is_partial = !target_.empty();
+    if (is_partial && ::fsync(descriptor_) != 0) fail("cannot be written");
     const int status = ::close(descriptor_);
     descriptor_ = -1;
     if (status != 0) fail("cannot be written");
-    if (!partial_.empty() && ::renameat(folder_, partial_.c_str(), folder_, target_.c_str()) != 0)
-        fail("cannot be renamed to");
-    if (!partial_.empty())
-        folder_ == AT_FDCWD ? sync_folder(target_.parent_path()) : sync_folder(folder_, named_.parent_path());
-    partial_.clear();
+    if (!is_partial) return;
+    if (!partial_.rename(target_)) fail("cannot be renamed to");
+    folder_ == AT_FDCWD ? sync_folder(target_.parent_path()) : sync_folder(folder_, named_.parent_path());
 }
 
 void OutputFile::flush(std::string_view bytes)
@@ -195,8 +165,7 @@ void OutputFile::discard() noexcept
 {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
-    if (!partial_.empty()) ::unlinkat(folder_, partial_.c_str(), 0);
-    partial_.clear();
+    partial_.remove();
 }
 
 void OutputFile::fail(std::string_view action)

@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 
+#include "tools/formats/partial.h"
+
 namespace swivel::formats {
 
 class OutputFile {
@@ -40,23 +42,18 @@ public:
     // fails; the file of that name is then what it was before. To be called once, last.
     void commit();
 
-    // Removes all partial files of the process. For its last moments: their objects are of no use then.
-    static void discard_all() noexcept;
-
 private:
     void open_partial(int follows);
-    void enlist();
     void flush(std::string_view bytes);
     void discard() noexcept;
     [[noreturn]] void fail(std::string_view action);
 
-    std::filesystem::path named_;    // as the caller wrote it: for messages
-    int folder_;                     // where relative names begin
-    std::filesystem::path target_;   // links followed
-    std::filesystem::path partial_;  // empty: written straight, or renamed already
+    std::filesystem::path named_;   // as the caller wrote it: for messages
+    int folder_;                    // where relative names begin
+    std::filesystem::path target_;  // links followed; empty: written straight
+    Partial partial_;
     std::string buffer_;
     int descriptor_ = -1;
-    OutputFile* next_;  // of all that live
 };
 
 // Waits until the disk has the names in a folder; "" is the working folder. Some file systems cannot do that, and then

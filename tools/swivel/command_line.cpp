@@ -204,18 +204,14 @@ void add_info(CLI::App& app)
 // ---- the run
 
 // What takes less memory, by the options that the command has.
-std::string memory_advice(const CLI::App& app, bool is_thread)
+std::string memory_advice_for(const CLI::App& command, bool is_thread)
 {
-    const std::vector<CLI::App*> commands = app.get_subcommands();
-    const auto has = [&](const char* option) {
-        return !commands.empty() && commands[0]->get_option_no_throw(option) != nullptr;
-    };
+    const auto has = [&](const char* option) { return command.get_option_no_throw(option) != nullptr; };
     std::vector<std::string> ways;
     if (is_thread && has("--threads")) ways.push_back("--threads 1");
     if (has("--characters")) ways.push_back("fewer --characters");
     if (has("FILE")) ways.push_back("a shorter clip");
-    return fmt::format("{}{}{}{}", kNotEnoughMemory, is_thread ? " to start a thread" : "",
-                       ways.empty() ? "" : "; try ", fmt::join(ways, " or "));
+    return fmt::format("{}{}", ways.empty() ? "" : "; try ", fmt::join(ways, " or "));
 }
 
 // Lets the words do what they say. Throws whatever fails.
@@ -230,13 +226,14 @@ void parse(CLI::App& app, int argc, const char* const* argv)
     } catch (const CLI::ParseError& error) {
         throw CommandError(2, cause_of(app, error));
     } catch (const std::bad_alloc&) {
-        throw CommandError(1, memory_advice(app, false));
+        throw CommandError(1, fmt::format("{}{}", kNotEnoughMemory, memory_advice()));
     } catch (const Error& error) {
         if (error.status != SWIVEL_OUT_OF_MEMORY) throw;
-        throw CommandError(1, memory_advice(app, false));
+        throw CommandError(1, fmt::format("{}{}", kNotEnoughMemory, memory_advice()));
     } catch (const std::runtime_error& error) {
         if (!std::string_view(error.what()).starts_with("pthread_create ")) throw;  // so oneTBB begins
-        throw CommandError(1, memory_advice(app, true));
+        throw CommandError(1, fmt::format("{} to start a thread{}", kNotEnoughMemory,
+                                          memory_advice_for(*app.get_subcommands().at(0), true)));
     }
 }
 
@@ -263,6 +260,8 @@ void run(int argc, const char* const* argv)
     add_info(app);
     add_completion(app);
     add_help(app);
+    for (CLI::App* command : app.get_subcommands({}))
+        command->preparse_callback([command](std::size_t) { note_memory_advice(memory_advice_for(*command, false)); });
     parse(app, argc, argv);
 }
 
