@@ -30,15 +30,13 @@ namespace {
 const std::string kBefore = "<!doctype html><script data-digest=\"", kBegin = "\">start(", kAfter = ")</script>\n";
 const std::string kEvil = "</script><img/src=x/onerror=alert(1)>\"'&";
 
-// FNV-1a of 64 bits, in words of 64 bits, little-endian; zeros fill the last.
-std::string digest_of_script(std::string script)
+// FNV-1a of 64 bits.
+std::string digest_of_script(const std::string& script)
 {
-    script.resize((script.size() + 7) / 8 * 8);
     std::uint64_t digest = 14695981039346656037u;
-    for (std::size_t at = 0; at < script.size(); at += 8) {
-        std::uint64_t word = 0;
-        for (std::size_t n = 8; n-- > 0;) word = word << 8 | static_cast<unsigned char>(script[at + n]);
-        digest = (digest ^ word) * 1099511628211u;
+    for (const char byte : script) {
+        digest ^= static_cast<unsigned char>(byte);
+        digest *= 1099511628211u;
     }
     return fmt::format("{:016x}", digest);
 }

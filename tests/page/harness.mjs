@@ -63,12 +63,10 @@ export async function refusal(place, { before } = {}) {
   }
 }
 
-/** A page's text with the digest that its script has now: FNV-1a of 64 bits, in words of 64 bits. */
+/** A page's text with the digest that its script has now: FNV-1a of 64 bits. */
 export function signed(text) {
   const begin = text.indexOf('data-digest="') + 13, script = Buffer.from(text.slice(begin + 18, text.indexOf('</script>')));
-  const words = new BigUint64Array(Math.ceil(script.length / 8));
-  script.copy(Buffer.from(words.buffer));
-  const digest = words.reduce((sum, word) => BigInt.asUintN(64, (sum ^ word) * 0x100000001b3n), 0xcbf29ce484222325n);
+  const digest = script.reduce((sum, byte) => BigInt.asUintN(64, (sum ^ BigInt(byte)) * 0x100000001b3n), 0xcbf29ce484222325n);
   return text.slice(0, begin) + digest.toString(16).padStart(16, '0') + text.slice(begin + 16);
 }
 

@@ -11,6 +11,7 @@
 #include "tools/cache/digest.h"
 #include "tools/crowd/limb_crowds.h"
 #include "tools/formats/error.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::tools {

@@ -14,6 +14,7 @@
 #endif
 
 #include "tools/formats/error.h"
+#include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 
 namespace swivel::tools {

@@ -10,7 +10,6 @@
 #include <span>
 
 #include "swivel/swivel.h"
-#include "tools/cache/zarr.h"
 #include "tools/cli/command_error.h"
 #include "tools/formats/base64.h"
 
@@ -23,6 +22,14 @@ using Json = nlohmann::ordered_json;
 
 // Places in the page's program, of the script's digest and of the crowd.
 constexpr std::string_view kDigestPlace = "data-digest=\"\">", kPlace = "/*crowd*/null", kScriptEnd = "</script>";
+
+// FNV-1a of 64 bits, which the page computes again (tools/view/src/whole.js).
+std::uint64_t script_digest(std::string_view script)
+{
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char byte : script) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+    return hash;
+}
 
 // Installed beside the command, or built in the folder of builds.
 std::string page_program()
@@ -134,7 +141,7 @@ void ViewPage::commit(const CachedCrowd& cached, const GoalCrowd& crowd)
     std::string script = std::move(script_begin_);
     append_script_text(script, page);
     script += script_end_;
-    out_.write(fmt::format("{}{:016x}\">", before_, digest_of(std::as_bytes(std::span(script)))));
+    out_.write(fmt::format("{}{:016x}\">", before_, script_digest(script)));
     out_.write(script);
     out_.write(after_);
     out_.commit();

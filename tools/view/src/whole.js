@@ -3,15 +3,12 @@
 // Whether the page's script is the one that `swivel view` wrote. A script that is cut off does not run at all; page.html
 // has a sentence for that.
 
-/** The digest of docs/cache.md over UTF-8: FNV-1a of 64 bits, in words of 64 bits. Two halves of 32 bits make a word. */
+/** FNV-1a of 64 bits over UTF-8, byte by byte, as 16 hexadecimal digits. Two halves of 32 bits make the number. */
 export function digestOf(text) {
-    const bytes = new TextEncoder().encode(text), padded = new Uint8Array(Math.ceil(bytes.length / 8) * 8);
-    padded.set(bytes);
-    const words = new Uint32Array(padded.buffer), half = 2 ** 32;
+    const half = 2 ** 32;
     let low = 0x84222325, high = 0xcbf29ce4;
-    for (let n = 0; n < words.length; n += 2) {
-        low = (low ^ words[n]) >>> 0;
-        high = (high ^ words[n + 1]) >>> 0;
+    for (const byte of new TextEncoder().encode(text)) {
+        low = (low ^ byte) >>> 0;
         const product = low * 0x1b3;  // the prime is 2^40 + 0x1b3; all sums are below 2^53
         high = (high * 0x1b3 + Math.floor(product / half) + low * 0x100) % half;
         low = product % half;
