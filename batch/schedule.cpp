@@ -8,11 +8,6 @@
 #include "batch/solve.h"
 
 #include <algorithm>
-#include <atomic>
-#include <latch>
-#include <new>
-#include <thread>
-#include <vector>
 
 #include "simd/float_env.h"
 #include "simd/rows.h"
@@ -23,6 +18,13 @@
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
+
+#include <atomic>
+#include <latch>
+#include <limits>
+#include <new>
+#include <thread>
+#include <vector>
 #endif
 
 namespace swivel {
@@ -105,6 +107,8 @@ bool can_start(std::size_t thread_count)
 
 // oneTBB's state is the process's, and so is what is known of it.
 std::atomic<int> most_threads{0};  // that could be started, the calling thread among them; 0: nothing has used oneTBB
+std::atomic<int> too_many_threads{
+    std::numeric_limits<int>::max()};  // the least that could not: trying takes the host's
 std::atomic<bool> has_failed{false};  // it has thrown: what it left unfinished then, its later calls may await for ever
 
 // Whether all threads of the caller's arena can be started. oneTBB's threads start each other, and one that cannot ends
@@ -113,7 +117,11 @@ bool has_threads()
 {
     const int wanted = oneapi::tbb::this_task_arena::max_concurrency();
     if (wanted <= most_threads) return true;
-    if (!can_start(static_cast<std::size_t>(wanted - 1))) return false;
+    if (wanted >= too_many_threads) return false;
+    if (!can_start(static_cast<std::size_t>(wanted - 1))) {
+        too_many_threads = wanted;
+        return false;
+    }
     most_threads = wanted;
     return true;
 }

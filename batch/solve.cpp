@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "batch/lane_mask.h"
 #include "simd/float_env.h"
@@ -72,6 +73,7 @@ void solve_compact(const swivel_crowd& crowd, const Kernels& kernels, const Grou
                    std::uint32_t block_count, bool from_memory, const std::uint32_t* mask)
 {
     alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
+    if (mask) std::fill_n(results, std::size(results), 0.0f);  // lanes that are not chosen are packed, too
     void (*const pack)(const PackRun&) =
         kernels.arms.pack[(crowd.features & (feature::joints | feature::hand)) / feature::joints];
     for (std::uint32_t done = 0; done < block_count; done += kPackBlocks) {

@@ -353,15 +353,13 @@ public:
         return swivel_find(crowd_, flags, &from.group, &from.limb) ? std::optional(from) : std::nullopt;
     }
 
-    // swivel_explain(): why a limb is as it is, in words, however many.
+    // swivel_explain(): why a limb is as it is, in words.
     std::string explain(std::uint32_t group, std::uint32_t limb) const
     {
-        // Most texts fit; that of a limb whose inputs are all bad has 3,135 bytes.
-        for (std::string text(1024, '\0');; text.resize(2 * text.size())) {
-            check(swivel_explain(crowd_, group, limb, text.data(), text.size()));
-            const std::size_t length = text.find('\0');
-            if (length + 1 < text.size()) return text.substr(0, length);  // a text that fills its room may be cut
-        }
+        std::string text(SWIVEL_EXPLANATION_BYTES, '\0');
+        check(swivel_explain(crowd_, group, limb, text.data(), text.size()));
+        text.resize(text.find('\0'));
+        return text;
     }
 
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }

@@ -13,7 +13,8 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Less room than this is a violation. Rounding leaves about half of it at the end of an allowed arc.
+// Less room than this is a violation. At the end of an allowed arc, rounding leaves about half of it in
+// random limbs; docs/howto/limits.md has the worst.
 inline constexpr double kNoRoom = -5e-7;
 
 // A range of angles: its middle and half its width, which is 0 to pi.

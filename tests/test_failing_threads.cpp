@@ -9,11 +9,15 @@
 #include <oneapi/tbb/task_group.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <cstring>
+#include <utility>
 
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/failing_resources.h"

@@ -64,7 +64,7 @@ class Hostile(Stage):
         # The command, with a page's program beside it.
         (self.folder / "bin").mkdir()
         (self.folder / "share/swivel").mkdir(parents=True)
-        (self.folder / "share/swivel/view.html").write_text("<script>start(/*crowd*/null)</script>")
+        (self.folder / "share/swivel/view.html").write_text('<script data-digest="">start(/*crowd*/null)</script>')
         self.program = shutil.copy(SWIVEL, self.folder / "bin/swivel")
         shape = dict(characters=20, frames=6, chunk="2,16")
         self.bases = [self.store("plain", **shape), self.fill(self.store("limited", toml=BUDGET, **shape)),

@@ -10,7 +10,8 @@
 
 namespace swivel::tools {
 
-// Bytes that a process may have resident; and those of code, libraries, threads and attributes among them.
+// Bytes that a process may have resident; and those of code, libraries, threads and usual
+// attributes among them. The longest attributes take 100 MiB more for a moment (zarr.h).
 constexpr std::uint64_t kUsualMemory = std::uint64_t{1} << 30;
 constexpr double kProgramBytes = 48 * 1048576.0;
 

@@ -329,7 +329,7 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         throw;
     } catch (const std::exception& error) {  // the digest holds, so another program wrote it
         refuse(fmt::format("cannot be understood: {}; make the cache anew by swivel store",
-                           formats::printable(error.what(), 200)));
+                           formats::printable(error.what(), formats::kMostQuoted)));
     }
     return crowd;
 }

@@ -15,7 +15,7 @@ struct FillOptions {
     Shard shard;
     // Chunks that are done: solve and compare them, and write those again that differ; or leave them as they are.
     bool verifies = false;
-    std::uint64_t memory = std::uint64_t{1} << 30;  // bytes that the process may have resident
+    std::uint64_t memory = kUsualMemory;  // bytes that the process may have resident
     // That solve, beside two that wait for the disk; 1: this thread does all, and none is started; 0: as many as the
     // machine has.
     unsigned threads = 0;

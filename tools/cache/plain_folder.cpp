@@ -25,11 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using formats::InputError;
 
-#ifdef O_PATH
 constexpr int kToPassThrough = O_PATH;  // a folder that may be searched, and need not be read
-#else
-constexpr int kToPassThrough = O_RDONLY;
-#endif
 constexpr const char* kNoLinks =
     "is a link, a pipe or a device, and a cache has plain files and folders alone; take it from a copy, or make the "
     "cache anew";
@@ -153,8 +149,13 @@ void PlainFolder::for_names(const std::string& name, const std::function<void(co
     const std::unique_ptr<DIR, int (*)(DIR*)> list(::fdopendir(readable.get()), ::closedir);
     if (!list) refuse(name, "cannot be read", errno);
     readable.release();
-    while (const dirent* const entry = ::readdir(list.get()))
+    const auto next = [&] {
+        errno = 0;  // the end and an error are both null
+        return ::readdir(list.get());
+    };
+    while (const dirent* const entry = next())
         if (const std::string found = entry->d_name; found != "." && found != "..") each(found);
+    if (errno != 0) refuse(name, "cannot be read", errno);
 }
 
 void PlainFolder::remove_file(const std::string& name) const

@@ -29,8 +29,9 @@ private:
     int number_;
 };
 
-// Names are those of files and folders within it, such as "clip/wrist/0.0.0". All calls throw InputError, naming the
-// path, for what is a link, a pipe or a device. So they do for what the process may not reach, read or write. Objects
+// Names are those of files and folders within it, such as "clip/wrist/0.0.0". Calls that read, or go
+// through folders, throw InputError, naming the path, for what is a link, a pipe or a device. All throw it for what the
+// process may not reach, read or write. Objects
 // may be used by several threads at once.
 class PlainFolder {
 public:

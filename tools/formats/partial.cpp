@@ -15,8 +15,9 @@
 namespace swivel::formats {
 namespace {
 
-std::mutex list_mutex;  // nothing throws or waits while it is held
+std::mutex list_mutex;  // nothing takes memory while it is held
 Partial* all_partials = nullptr;
+constexpr int kMostRounds = 100;
 std::array<char, 512> unremoved_text;  // empty, or cut to this
 
 bool remove_at(int folder, const char* name) noexcept;
@@ -26,7 +27,8 @@ void empty_folder(int folder) noexcept
 {
     alignas(dirent64) std::array<char, 4096> entries;
     bool is_going_on = true;
-    while (is_going_on) {  // removing may move entries past the place of reading
+    // Removing may move entries past the place of reading. A listing that lags behind must not keep the process.
+    for (int round = 0; is_going_on && round < kMostRounds; ++round) {
         is_going_on = false;
         ::lseek(folder, 0, SEEK_SET);
         for (ssize_t size; (size = ::getdents64(folder, entries.data(), entries.size())) > 0;)
@@ -43,9 +45,13 @@ void empty_folder(int folder) noexcept
 bool remove_at(int folder, const char* name) noexcept
 {
     if (::unlinkat(folder, name, 0) == 0 || errno == ENOENT) return true;
-    if (errno != EISDIR && errno != EPERM) return false;
+    const int reason = errno;
+    if (reason != EISDIR && reason != EPERM) return false;
     const int inner = ::openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (inner < 0) return false;
+    if (inner < 0) {
+        errno = reason;  // of a plain file that may not be removed
+        return false;
+    }
     empty_folder(inner);
     ::close(inner);
     return ::unlinkat(folder, name, AT_REMOVEDIR) == 0;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // What of a text from anywhere may reach a terminal: the one rule of it. A terminal obeys control characters, and it
 // draws a line in another order where the line has Unicode's marks and overrides of direction. Here they become
-// escapes, as \x1b and \u202e. All else stays, bytes that are no UTF-8, too.
+// escapes, as \x1b and \u202e. All else stays; of bytes that are no UTF-8, those
+// from 0x80 to 0x9f become escapes, too.
 
 #include <array>
 #include <cstddef>

@@ -172,9 +172,12 @@ void check_poses(Cache& cache, std::span<const ChunkAt> chunks, const CheckOptio
                                               damaged.size(), chunks.size(), chunk_name(damaged[0])));
 }
 
-// More than half of the chunks differ. Files of poses are damaged one by one, so then all of them are asked for
-// something else than when they were filled.
-bool suspects_goals(const FillReport& report) { return 2 * report.differences.size() > report.compared; }
+// More than one chunk differs, and more than half of all. Files of poses are damaged one by one, so then all of them
+// are asked for something else than when they were filled.
+bool suspects_goals(const FillReport& report)
+{
+    return report.differences.size() > 1 && 2 * report.differences.size() > report.compared;
+}
 
 void print_check(const FillReport& report, std::size_t chunk_count, const CheckOptions& options)
 {
