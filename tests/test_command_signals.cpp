@@ -248,6 +248,22 @@ TEST_CASE("process: a signal that asks a run to end leaves no partial file, and 
     }
 }
 
+TEST_CASE("process: a fault leaves no partial file, says so, and is what the run ends by")
+{
+    if (is_sanitized()) return;  // they report faults themselves
+    const LongRun stage;
+    Surroundings plain;
+    plain.before = [] { limit(RLIMIT_CORE, 0); };
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+        const Outcome outcome = stage.run(plain, 100, [&](pid_t process) { ::kill(process, signal); });
+        CHECK(outcome.exit_code == -signal);
+        CHECK(outcome.err ==
+              "swivel: a fault in swivel or in a library ends this run; unfinished files are removed; please report "
+              "it\n");
+        CHECK(stage.folder.file_count() == 1);
+    }
+}
+
 TEST_CASE("process: a signal after the last frame ends the run, too, and no further file is written")
 {
     const LongRun stage(2'000);

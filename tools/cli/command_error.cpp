@@ -63,9 +63,10 @@ int tell()
         return fail(error.exit_code, error.what());
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::broken_pipe) return exit_code_of_signal(SIGPIPE);
+        if (error.code() == std::errc::not_enough_memory) return fail(1, kNotEnoughMemory, memory_advice());
         return fail(1, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(1, kNotEnoughMemory);
+        return fail(1, kNotEnoughMemory, memory_advice());
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }

@@ -46,14 +46,20 @@ std::atomic_flag is_ending;
         } catch (...) {
         }
     }
-    formats::Partial::remove_all();
     std::fflush(stdout);
     std::abort();
 }
 
-// Before the constructors of variables in the program's own libraries, some of which take memory.
-[[gnu::constructor(101)]] void expect_lack_of_memory()
+void end_by_fault()
 {
+    formats::Partial::remove_all();
+    fail(1, "a fault in swivel or in a library ends this run; unfinished files are removed; please report it");
+}
+
+// Before the constructors of variables in the program's own libraries, some of which take memory.
+[[gnu::constructor(101)]] void expect_the_worst()
+{
+    set_last_words(end_by_fault);
     std::set_new_handler(end_without_memory);
     std::set_terminate(end_in_one_line);
 }

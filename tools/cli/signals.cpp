@@ -9,8 +9,10 @@ namespace {
 
 constexpr std::array kStops = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU};
 constexpr std::array kWrites = {SIGPIPE, SIGXFSZ};
+constexpr std::array kFaults = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 volatile std::sig_atomic_t noted = 0;
+void (*say_last_words)() = nullptr;
 
 template <std::size_t count>
 void set_all(const std::array<int, count>& signals, const struct sigaction& wanted,
@@ -56,6 +58,20 @@ WriteSignals::WriteSignals()
 }
 
 WriteSignals::~WriteSignals() { restore_all(kWrites, before_); }
+
+void set_last_words(void (*last_words)())
+{
+    say_last_words = last_words;
+    struct sigaction once = {}, before = {};
+    once.sa_handler = [](int fault) {
+        say_last_words();
+        ::raise(fault);  // ends the process when this returns
+    };
+    once.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (const int fault : kFaults)
+        if (::sigaction(fault, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
+            ::sigaction(fault, &once, nullptr);
+}
 
 int end_as(int exit_code)
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What signals do to a run. Those that ask the process to end are noted while a file is half written, so that it is
-// removed on the way out. Those about a write become an error of that write. Nothing else here knows signals.
+// removed on the way out. Those about a write become an error of that write. Faults get last words. Nothing else here
+// knows signals.
 #pragma once
 
 #include <array>
@@ -42,6 +43,10 @@ public:
 private:
     std::array<struct sigaction, 2> before_;
 };
+
+// From now on last_words() runs before a fault ends the process: SIGSEGV, SIGBUS, SIGFPE, SIGILL or SIGABRT. It runs
+// within the signal. A fault that something else waits for, such as a sanitizer, is left to that.
+void set_last_words(void (*last_words)());
 
 // The exit code by which shells name a process that a signal ended.
 constexpr int exit_code_of_signal(int signal) { return 128 + signal; }

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "swivel/swivel.h"
 #include "tools/cli/command_error.h"
 #include "tools/formats/base64.h"
+#include "tools/formats/text.h"
 
 namespace swivel::tools {
 
@@ -36,8 +35,8 @@ std::string page_program()
 {
     const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
     for (const char* place : {"../share/swivel/view.html", "../../view/view.html"}) {
-        std::ifstream file(bin / place, std::ios::binary);
-        std::string text{std::istreambuf_iterator<char>(file), {}};
+        if (std::error_code missing; !fs::exists(bin / place, missing)) continue;
+        std::string text = formats::read_text(bin / place);
         const std::size_t script = text.find(kDigestPlace), crowd = text.find(kPlace, script);
         if (text.find(kScriptEnd, crowd) != std::string::npos) return text;
     }
