@@ -10,14 +10,14 @@ using namespace swivel::test;
 namespace {
 
 // Consecutive numbers of a field that must have unit length together.
-struct Part {
+struct UnitPart {
     swivel_field field;
     swivel_features features;
     std::uint32_t first, size;
 };
-std::vector<Part> every_part()
+std::vector<UnitPart> every_part()
 {
-    std::vector<Part> parts = {
+    std::vector<UnitPart> parts = {
         {SWIVEL_SHOULDER_CONE, SWIVEL_WITH_SHOULDER_CONE, 0, 3},
         {SWIVEL_HAND_CONE, SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_CONE, 0, 3},
         {SWIVEL_HAND_TWIST, SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_TWIST, 0, 3},
@@ -86,7 +86,7 @@ Float12 made_value(Random& random, swivel_field field)
     return value;
 }
 
-std::vector<std::uint32_t> flags_of(const Part& part, const std::vector<Float12>& values,
+std::vector<std::uint32_t> flags_of(const UnitPart& part, const std::vector<Float12>& values,
                                     const swivel_binding& binding = {})
 {
     const auto count = static_cast<std::uint32_t>(values.size());
@@ -103,7 +103,7 @@ std::vector<std::uint32_t> flags_of(const Part& part, const std::vector<Float12>
 TEST_CASE("an axis or pair whose squared length is not 1 within 1e-6 is bad input")
 {
     Random random{1};
-    for (const Part& part : every_part()) {
+    for (const UnitPart& part : every_part()) {
         INFO("field " << part.field << ", from " << part.first);
         std::vector<Float12> values;
         std::vector<double> off;
@@ -136,7 +136,7 @@ TEST_CASE("axes and pairs that the library makes from angles are valid, for join
 {
     Random random{2};
     constexpr std::size_t count = 20'000;
-    for (const Part& part : every_part()) {
+    for (const UnitPart& part : every_part()) {
         if (part.first != 0) continue;  // once for each field
         INFO("field " << part.field);
         for (const bool joints : {false, true}) {
@@ -190,7 +190,7 @@ TEST_CASE("a cone about an axis that is too long or too short is bad input, and 
 TEST_CASE("explain says how long each pair of cosine and sine is that is not of unit length, and no other")
 {
     Random random{3};
-    for (const Part& part : every_part()) {
+    for (const UnitPart& part : every_part()) {
         if (part.size != 2) continue;
         Float12 value = made_value(random, part.field);
         value[part.first] *= 1.5f, value[part.first + 1] *= 1.5f;
