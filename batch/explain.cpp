@@ -5,6 +5,7 @@
 // wished to. Degrees are for people. Trigonometry is allowed here, because no solve sees it.
 #include "batch/explain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
