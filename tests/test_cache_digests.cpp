@@ -27,7 +27,7 @@ std::size_t unnoticed_among(std::size_t count, std::uint32_t seed)
 {
     std::mt19937_64 random(seed);
     std::size_t unnoticed = 0;
-    for (const std::size_t size : {2, 30, 31, 48, 130, 384}) {  // words; XXH3 has other formulas for each length
+    for (const std::size_t size : {2u, 30u, 31u, 48u, 130u, 384u}) {  // words; XXH3 has other formulas for each length
         std::vector<std::uint64_t> words(size);
         for (std::uint64_t& word : words) word = random();
         const std::uint64_t before = digest_of_words(words);
