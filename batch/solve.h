@@ -25,10 +25,10 @@ void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& 
 
 // These solve blocks of one group on this thread. The caller has set the floating-point environment (FloatEnv).
 // solve_group() solves every limb, or those whose bits are set in mask, which has one bit for each lane of the crowd.
-// Other limbs keep their results. solve_chosen_group() does so, and solves runs of blocks that are chosen whole as if
-// there were no mask, which is faster. from_memory: the job's rows do not fit the caches.
+// Other limbs keep their results. from_memory: the job's rows do not fit the caches.
 void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
                  std::uint32_t block_count, bool from_memory = false, const std::uint32_t* mask = nullptr);
+// The limbs of a mask. Blocks that are chosen whole are solved as if there were none, which is faster.
 void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
                         const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count,
                         bool from_memory = false);

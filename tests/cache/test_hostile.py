@@ -123,6 +123,8 @@ class Hostile(Stage):
         self.assertGreater(self.codes["check", 1], self.codes["check", 0] // 4)
         if COUNT >= 300:  # some get through, so what is behind the first checks is reached, too
             self.assertGreater(self.codes["check", 0], COUNT // 20)
+            for command in ("fill", "replay", "view"):
+                self.assertGreater(self.codes[command, 0], COUNT // 40, command)
 
 
 if __name__ == "__main__":
