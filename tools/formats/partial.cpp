@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// getdents64() and strerrordesc_np() take no memory; they need glibc 2.32.
 #include "tools/formats/partial.h"
 
 #include <dirent.h>
@@ -6,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,7 +20,8 @@ namespace {
 std::mutex list_mutex;  // nothing takes memory while it is held
 Partial* all_partials = nullptr;
 constexpr int kMostRounds = 100;
-std::array<char, 512> unremoved_text;  // empty, or cut to this
+std::array<char, 512> unremoved_buffer;
+std::atomic<const char*> unremoved_text{""};  // set once, so any thread may read it at any time
 
 bool remove_at(int folder, const char* name) noexcept;
 
@@ -102,9 +105,11 @@ void Partial::remove() noexcept
 
 void Partial::remove_locked() noexcept
 {
-    if (!name_.empty() && !remove_at(folder_, name_.c_str()))
-        std::snprintf(unremoved_text.data(), unremoved_text.size(), "%s cannot be removed: %s", name_.c_str(),
+    if (!name_.empty() && !remove_at(folder_, name_.c_str()) && unremoved().empty()) {
+        std::snprintf(unremoved_buffer.data(), unremoved_buffer.size(), "%s cannot be removed: %s", name_.c_str(),
                       ::strerrordesc_np(errno));
+        unremoved_text = unremoved_buffer.data();
+    }
     name_.clear();
 }
 
@@ -114,6 +119,6 @@ void Partial::remove_all() noexcept
     for (Partial* each = all_partials; each; each = each->next_) each->remove_locked();
 }
 
-std::string_view Partial::unremoved() noexcept { return unremoved_text.data(); }
+std::string_view Partial::unremoved() noexcept { return unremoved_text.load(); }
 
 }  // namespace swivel::formats

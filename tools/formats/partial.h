@@ -39,7 +39,8 @@ public:
     // call it, whatever others do.
     static void remove_all() noexcept;
 
-    // What the process could last not remove, and why; empty: it has removed all. The text stays where it is.
+    // What the process first could not remove, and why, cut to 511 bytes; empty: it has removed all. The text stays
+    // where it is. Any thread.
     static std::string_view unremoved() noexcept;
 
 private:

@@ -124,7 +124,7 @@ private:
         race_.add(name, kThreadArms, [this, most] {
             const ThreadLimit limit(most);
             check(swivel_use_isa(isa_.c_str()));
-            shared_.solve();
+            shared_.solve({.on_this_thread = is_one_thread()});
         });
     }
     void add_cached()

@@ -78,7 +78,7 @@ void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
 // The corpus on one instruction set, every way there is to run it.
 void add_digests(const char* isa, std::vector<Digest>& digests)
 {
-    const auto solve = [](Crowd& crowd) { crowd.solve(); };
+    const auto solve = [](Crowd& crowd) { crowd.solve({.on_this_thread = is_one_thread()}); };
     digests.push_back(digest_of(isa, "whole", solve));
     for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u})
         digests.push_back(digest_of(isa, fmt::format("chunks of {}", chunk),
