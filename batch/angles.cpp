@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "batch/check.h"
-#include "batch/numbers.h"
 #include "batch/status.h"
 #include "core/limits.h"
 #include "simd/float_env.h"
@@ -115,37 +114,36 @@ void swivel_turn(double angle, float turn[2])
 
 // The arm frame of the other side is the mirror image with its hinge turned over. So coordinates of vectors change sign
 // along the hinge, and turns about the two other axes change their sense.
-swivel_status swivel_mirror(swivel_field number, swivel_euler_order order, const float* from, float* to)
+swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const float* from, float* to)
 {
     const FloatEnv env;
     if (!from || !to) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is null", from ? "to" : "from");
-    if (const swivel_status status = check_field(number); status != SWIVEL_OK) return status;
-    const Field field = field_of(number);
+    if (const swivel_status status = check_field(field); status != SWIVEL_OK) return status;
     if (!is_input(field))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", name_of(field));
     if (static_cast<unsigned>(order) > SWIVEL_ZYX)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
     float value[12] = {};
-    const std::uint32_t count = layout_of(field).row_count;
+    const std::uint32_t count = row_of(field).component_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
     switch (field) {
-        case Field::angle:
+        case SWIVEL_ANGLE:
             value[1] = -value[1];
             break;
-        case Field::shoulder_cone:
-        case Field::hand_cone:
+        case SWIVEL_SHOULDER_CONE:
+        case SWIVEL_HAND_CONE:
             value[0] = -value[0];
             break;
-        case Field::humeral_twist:
-        case Field::forearm_twist:
+        case SWIVEL_HUMERAL_TWIST:
+        case SWIVEL_FOREARM_TWIST:
             mirror_range(value, value);
             break;
-        case Field::hand_twist:  // a turn about the axis becomes one the other way about the axis' mirror image
+        case SWIVEL_HAND_TWIST:  // a turn about the axis becomes one the other way about the axis' mirror image
             value[0] = -value[0];
             mirror_range(value + 3, value + 3);
             break;
-        case Field::shoulder_box:
-        case Field::wrist_box:
+        case SWIVEL_SHOULDER_BOX:
+        case SWIVEL_WRIST_BOX:
             if (kEulerOrders[order].first != 0) mirror_range(value, value);
             if (kEulerOrders[order].middle != 0) mirror_range(value + 4, value + 4);
             if (kEulerOrders[order].last != 0) mirror_range(value + 8, value + 8);

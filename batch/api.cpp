@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "batch/check.h"
-#include "batch/numbers.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/skeleton.h"
@@ -14,30 +13,21 @@
 #include "batch/status.h"
 #include "batch/streams.h"
 #include "batch/unpack.h"
-#include "core/arm.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
 using namespace swivel;
 
-static_assert(flag::reached == SWIVEL_REACHED && flag::softened == SWIVEL_SOFTENED &&
-              flag::stretched == SWIVEL_STRETCHED && flag::clamped_far == SWIVEL_CLAMPED_FAR &&
-              flag::clamped_near == SWIVEL_CLAMPED_NEAR && flag::swivel_undefined == SWIVEL_SWIVEL_UNDEFINED &&
-              flag::limited_flexion == SWIVEL_LIMITED_FLEXION &&
-              flag::limited_shoulder_cone == SWIVEL_LIMITED_SHOULDER_CONE &&
-              flag::limited_humeral_twist == SWIVEL_LIMITED_HUMERAL_TWIST &&
-              flag::limited_shoulder_box == SWIVEL_LIMITED_SHOULDER_BOX &&
-              flag::limited_hand_cone == SWIVEL_LIMITED_HAND_CONE &&
-              flag::limited_forearm_twist == SWIVEL_LIMITED_FOREARM_TWIST &&
-              flag::limited_hand_twist == SWIVEL_LIMITED_HAND_TWIST &&
-              flag::limited_wrist_box == SWIVEL_LIMITED_WRIST_BOX && flag::limited_step == SWIVEL_LIMITED_STEP &&
-              flag::infeasible == SWIVEL_INFEASIBLE && flag::jumped == SWIVEL_JUMPED &&
-              flag::bad_input == SWIVEL_BAD_INPUT);
-
 namespace {
 
 constexpr std::size_t kArenaAlignment = 64;
+
+// A crowd's group; null if there is none.
+const Group* group_of(const swivel_crowd* crowd, std::uint32_t group)
+{
+    return crowd && group < crowd->group_count ? crowd->groups + group : nullptr;
+}
 
 }  // namespace
 
@@ -154,37 +144,47 @@ swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_
     return status;
 }
 
+uint32_t swivel_group_count(const swivel_crowd* crowd) { return crowd ? crowd->group_count : 0; }
 uint32_t swivel_block_count(const swivel_crowd* crowd) { return crowd ? crowd->block_count : 0; }
 uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group)
 {
-    return crowd && group < crowd->group_count ? crowd->groups[group].first_block * SWIVEL_LANES : 0;
+    const Group* const of = group_of(crowd, group);
+    return of ? of->first_block * SWIVEL_LANES : 0;
 }
 uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group)
 {
-    return crowd && group < crowd->group_count ? crowd->groups[group].limb_count : 0;
+    const Group* const of = group_of(crowd, group);
+    return of ? of->limb_count : 0;
 }
-uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field)
+swivel_features swivel_group_features(const swivel_crowd* crowd, uint32_t group)
 {
-    return crowd && is_field(field) ? field_first_row(crowd->features, field_of(field)) : 0;
+    const Group* const of = group_of(crowd, group);
+    return of ? of->features : 0;
 }
-uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field)
+uint32_t swivel_field_first_row(const swivel_crowd* crowd, uint32_t group, swivel_field field)
 {
-    return crowd && is_field(field) ? field_row_count(crowd->features, field_of(field)) : 0;
+    const Group* const of = group_of(crowd, group);
+    return of && is_field(field) && field_row_count(of->features, field) > 0 ? field_first_row(of->features, field) : 0;
 }
-swivel_rows swivel_input_rows(swivel_crowd* crowd)
+uint32_t swivel_field_row_count(const swivel_crowd* crowd, uint32_t group, swivel_field field)
 {
-    if (!crowd) return {};
-    return {crowd->input, crowd->block_count, crowd->input_row_count};
+    const Group* const of = group_of(crowd, group);
+    return of && is_field(field) ? field_row_count(of->features, field) : 0;
 }
-swivel_rows swivel_result_rows(swivel_crowd* crowd)
+swivel_rows swivel_input_rows(swivel_crowd* crowd, uint32_t group)
 {
-    if (!crowd) return {};
-    return {crowd->results, crowd->block_count, crowd->results ? crowd->result_row_count : 0};
+    const Group* const of = group_of(crowd, group);
+    return of ? swivel_rows{of->input, of->block_count, of->input_row_count} : swivel_rows{};
 }
-swivel_words swivel_compact_rows(swivel_crowd* crowd)
+swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group)
 {
-    if (!crowd) return {};
-    return {crowd->words, crowd->block_count, crowd->words ? crowd->result_row_count : 0};
+    const Group* const of = group_of(crowd, group);
+    return of ? swivel_rows{of->results, of->block_count, of->results ? of->result_row_count : 0} : swivel_rows{};
+}
+swivel_words swivel_compact_rows(swivel_crowd* crowd, uint32_t group)
+{
+    const Group* const of = group_of(crowd, group);
+    return of ? swivel_words{of->words, of->block_count, of->words ? of->result_row_count : 0} : swivel_words{};
 }
 
 void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4])
@@ -195,58 +195,51 @@ void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyz
 }
 float swivel_unpack_half(uint16_t word) { return unpack_half(word); }
 
-swivel_status swivel_write(swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
-                           uint32_t limb_count, swivel_in values)
+swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
+                           swivel_in values)
 {
     swivel_status status = check(crowd, group, first, limb_count);
-    if (status == SWIVEL_OK) status = check_field(number);
+    if (status == SWIVEL_OK) status = check_values(*crowd, group, field, values.data, values.stride, true);
     if (status != SWIVEL_OK) return status;
-    const Field field = field_of(number);
-    status = check_values(*crowd, group, field, values.data, values.stride, true);
-    if (status != SWIVEL_OK) return status;
-    copy_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
+    copy_in(rows_of(crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 
-swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
+swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                    uint32_t limb_count, swivel_in values, swivel_in origins)
 {
     const FloatEnv env;
     swivel_status status = check(crowd, group, first, limb_count);
-    if (status == SWIVEL_OK) status = check_field(number);
+    if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
     if (status != SWIVEL_OK) return status;
-    const Field field = field_of(number);
-    status = check_field(*crowd, group, field, true);
-    if (status != SWIVEL_OK) return status;
+    const Group& of = crowd->groups[group];
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u, %s: not a position; doubles are for target, pole and shoulder_position", group,
                     name_of(field));
-    if (origins.data && !has_origin(crowd->features, field))
+    if (origins.data && !has_origin(of.features, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",
                     group, name_of(field));
     status = check_values(*crowd, group, field, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
         status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
     if (status != SWIVEL_OK) return status;
-    copy_doubles_in(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values, origins);
+    copy_doubles_in(rows_of(of, field), first, limb_count, values, origins);
     return SWIVEL_OK;
 }
 
-swivel_status swivel_read(const swivel_crowd* crowd, swivel_field number, uint32_t group, uint32_t first,
+swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                           uint32_t limb_count, swivel_out values)
 {
     const FloatEnv env;
     swivel_status status = check(crowd, group, first, limb_count);
-    if (status == SWIVEL_OK) status = check_field(number);
+    if (status == SWIVEL_OK) status = check_values(*crowd, group, field, values.data, values.stride, false);
     if (status != SWIVEL_OK) return status;
-    const Field field = field_of(number);
-    status = check_values(*crowd, group, field, values.data, values.stride, false);
-    if (status != SWIVEL_OK) return status;
-    if (is_packed(*crowd, field))
-        unpack_out(*crowd, crowd->groups[group], field, first, limb_count, values);
+    const Group& of = crowd->groups[group];
+    if (is_packed(of, field))
+        unpack_out(of, field, first, limb_count, values);
     else
-        copy_out(rows_of(*crowd, crowd->groups[group], field), first, limb_count, values);
+        copy_out(rows_of(of, field), first, limb_count, values);
     return SWIVEL_OK;
 }
 

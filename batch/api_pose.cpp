@@ -30,13 +30,12 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
-std::uint32_t flags_of(const swivel_crowd& crowd, std::size_t limb)
+std::uint32_t flags_of(const Group& group, std::size_t limb)
 {
-    const std::uint32_t row = field_first_row(crowd.features, Field::flags);
-    const std::size_t at = row_offset(limb, crowd.result_row_count, row);
-    if (crowd.words) return crowd.words[at] | std::uint32_t{crowd.words[at + SWIVEL_LANES]} << 16;
+    const std::size_t at = row_offset(limb, group.result_row_count, field_first_row(group.features, SWIVEL_FLAGS));
+    if (group.words) return group.words[at] | std::uint32_t{group.words[at + SWIVEL_LANES]} << 16;
     std::uint32_t flags = 0;
-    std::memcpy(&flags, crowd.results + at, sizeof flags);
+    std::memcpy(&flags, group.results + at, sizeof flags);
     return flags;
 }
 
@@ -45,16 +44,14 @@ std::uint32_t flags_of(const swivel_crowd& crowd, std::size_t limb)
 int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint32_t* limb)
 {
     if (!crowd || !group || !limb) return 0;
-    std::size_t from = *limb;
-    for (std::uint32_t g = *group; g < crowd->group_count; ++g, from = 0) {
-        const Group& at = crowd->groups[g];
-        for (std::size_t n = from; n < at.limb_count; ++n) {
-            if (!(flags_of(*crowd, std::size_t{at.first_block} * SWIVEL_LANES + n) & flags)) continue;
+    std::uint32_t n = *limb;
+    for (std::uint32_t g = *group; g < crowd->group_count; ++g, n = 0)
+        for (; n < crowd->groups[g].limb_count; ++n) {
+            if (!(flags_of(crowd->groups[g], n) & flags)) continue;
             *group = g;
-            *limb = static_cast<std::uint32_t>(n);
+            *limb = n;
             return 1;
         }
-    }
     return 0;
 }
 
@@ -63,16 +60,18 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
-    explain(*crowd, crowd->groups[group], limb, {text, size});
+    explain(crowd->groups[group], limb, {text, size});
     return SWIVEL_OK;
 }
 
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (!(crowd->features & feature::most_swivel)) return SWIVEL_OK;
-    const float zero[3] = {};
-    copy_in(rows_of(*crowd, crowd->groups[group], Field::normal), first, limb_count, {zero, 0});
+    const Group& of = crowd->groups[group];
+    constexpr float zeros[12] = {};
+    for (const FieldRow& row : kFields)
+        if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(of.features, row.field) > 0)
+            copy_in(rows_of(of, row.field), first, limb_count, {zeros, 0});
     return SWIVEL_OK;
 }
 
@@ -83,7 +82,7 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
     if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
-    *arc_count = allowed_arcs(*crowd, find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
+    *arc_count = allowed_arcs(find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
     return SWIVEL_OK;
 }
 
@@ -106,8 +105,7 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
         return status;
     const Group& g = crowd->groups[group];
     for (std::uint32_t n = 0; n < limb_count; ++n) {
-        const std::size_t limb = std::size_t{g.first_block} * SWIVEL_LANES + first + n;
-        const JointAngles seven = joint_angles(arm_rotors(*crowd, g, limb), shoulder_order, wrist_order, family);
+        const JointAngles seven = joint_angles(arm_rotors(g, first + n), shoulder_order, wrist_order, family);
         std::memcpy(static_cast<char*>(angles.data) + n * angles.stride, &seven, sizeof seven);
     }
     return SWIVEL_OK;
@@ -118,9 +116,9 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
 {
     const FloatEnv env;
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
-    if (hand.data && !(crowd->features & feature::hand))
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "swivel_forward: this crowd has no hands; create it with SWIVEL_WITH_HAND");
+    if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
+                    group);
     for (const auto& [name, out, component_count] :
          {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
         if (out.data)
@@ -130,7 +128,7 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
                 return status;
     const Group& of = crowd->groups[group];
     for (uint32_t n = 0; n < limb_count; ++n) {
-        const LimbPose pose = forward(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
+        const LimbPose pose = forward(of, first + n);
         store(elbow, n, pose.elbow);
         store(wrist, n, pose.wrist);
         store(hand, n, pose.hand);
@@ -149,7 +147,7 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
         return status;
     const Group& of = crowd->groups[group];
     for (uint32_t n = 0; n < limb_count; ++n) {
-        const double value = residual(*crowd, of, std::size_t{of.first_block} * SWIVEL_LANES + first + n);
+        const double value = residual(of, first + n);
         std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
     }
     return SWIVEL_OK;

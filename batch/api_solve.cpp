@@ -29,8 +29,6 @@ swivel_status check_mask(const swivel_crowd& crowd, const std::uint32_t* mask, s
 
 swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* priorities)
 {
-    if (!crowd.urgency)
-        return fail(SWIVEL_INVALID_ARGUMENT, "this crowd remembers no urgency; create it with SWIVEL_BUDGET");
     if (!priorities)
         return fail(SWIVEL_INVALID_ARGUMENT, "priorities are missing; give one for each of this crowd's %u groups",
                     crowd.group_count);
@@ -40,46 +38,63 @@ swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* prior
     return status;
 }
 
-// A function of its own, so that the copy of a frame takes no stack while limbs are solved.
-[[gnu::noinline]] swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swivel_frame* frames)
+swivel_status check_groups(const swivel_crowd& crowd, const swivel_job& job)
 {
-    swivel_frame filled;
-    const swivel_frame& frame = frame_at(frames, g, filled);
+    if (!job.groups && job.group_word_count > 0) return fail(SWIVEL_INVALID_ARGUMENT, "the job's groups are null");
+    const std::uint32_t needed = group_word_count(crowd.group_count);
+    if (job.groups && job.group_word_count != needed)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%u words of groups; this crowd of %u groups has %u, a bit for each",
+                    job.group_word_count, crowd.group_count, needed);
+    return SWIVEL_OK;
+}
+
+swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swivel_frame& frame)
+{
+    if (!frame.fields && frame.field_count > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: its %u fields are null", g, frame.field_count);
     swivel_status status = SWIVEL_OK;
-    const auto check_member = [&](Field field, const auto& values) {
-        if (!values.data || status != SWIVEL_OK) return;
-        if (is_packed(crowd, field))
-            status = fail(SWIVEL_INVALID_ARGUMENT,
-                          "group %u, %s: a frame does not take results out of a crowd with SWIVEL_COMPACT; use "
-                          "swivel_read() or swivel_compact_rows()",
-                          g, name_of(field));
-        else
-            status = check_values(crowd, g, field, values.data, values.stride, is_input(field),
-                                  frame.origin.data && is_position(field) ? sizeof(double) : sizeof(float));
-    };
     if (frame.origin.data)
         status = check_stride(g, "origin", frame.origin.data, frame.origin.stride, 3 * sizeof(double), true);
-    for (const FrameInput& input : kFrameInputs) check_member(input.field, frame.*input.member);
-    for (const FrameOutput& output : kFrameOutputs) check_member(output.field, frame.*output.member);
+    std::uint64_t seen = 0;
+    static_assert(kFieldCount <= 64, "a bit for each");
+    for (const swivel_frame_field& each : fields_of(frame)) {
+        if (status == SWIVEL_OK) status = check_field(each.field);
+        if (status != SWIVEL_OK) return status;
+        const std::uint64_t bit = std::uint64_t{1} << index_of(each.field);
+        if (seen & bit)
+            return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u lists %s twice; list it once", g,
+                        name_of(each.field));
+        seen |= bit;
+        if (!each.data) continue;
+        if (is_packed(crowd.groups[g], each.field))
+            return fail(SWIVEL_INVALID_ARGUMENT,
+                        "group %u, %s: a frame does not take results out of a group with SWIVEL_COMPACT; use "
+                        "swivel_read() or swivel_compact_rows()",
+                        g, name_of(each.field));
+        const bool is_double = frame.origin.data && is_position(each.field);
+        status = check_values(crowd, g, each.field, each.data, each.stride, is_input(each.field),
+                              is_double ? sizeof(double) : sizeof(float));
+    }
     return status;
 }
 
 // Checks the frames of the groups that the blocks touch, and not those of other groups.
-swivel_status check_frames(const swivel_crowd& crowd, const swivel_frame* frames, swivel_blocks blocks)
+swivel_status check_frames(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
 {
-    swivel_status status = check_size<swivel_frame>("the first frame", size_of(frames));
-    for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t, std::uint32_t) {
-        if (status == SWIVEL_OK) status = check_element("frame", frames, g);
-        if (status == SWIVEL_OK) status = check_frame(crowd, g, frames);
+    swivel_status status = check_size<swivel_frame>("the first frame", size_of(job.frames));
+    for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
+        if (status == SWIVEL_OK) status = check_element("frame", job.frames, n);
+        const auto g = static_cast<std::uint32_t>(&group - crowd.groups);
+        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(job.frames, n));
     });
     return status;
 }
 
 swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
 {
-    if (job.most_blocks > 0 && !job.priorities)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "most_blocks goes with priorities; give one for each of this crowd's %u groups", crowd.group_count);
+    if ((job.most_blocks > 0 || job.urgency) && !job.priorities)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s priorities; give one for each of this crowd's %u groups",
+                    job.urgency ? "urgency goes with" : "most_blocks goes with", crowd.group_count);
     if ((job.mask != nullptr) + (job.limbs != nullptr) + (job.priorities != nullptr) > 1)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a job chooses limbs by a mask, by a list or by priorities; give one of them");
@@ -87,6 +102,10 @@ swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a job with %s is for the whole crowd and cannot be one of several; leave %s out, or give a mask",
                     job.limbs ? "a list of limbs" : "priorities", job.blocks ? "blocks" : "on_this_thread");
+    if (job.priorities && job.groups)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "a job with priorities is for the whole crowd; leave groups out, and give those that are not "
+                    "wanted priority 0");
     if (job.limbs && !job.limbs->indices && job.limbs->count > 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "a list of %u limbs is null", job.limbs->count);
     if (job.mask || job.mask_word_count > 0) return check_mask(crowd, job.mask, job.mask_word_count);
@@ -130,19 +149,17 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
     return SWIVEL_OK;
 }
 
-std::uint32_t count_limbs(const swivel_crowd& crowd, const std::uint32_t* mask, swivel_blocks blocks)
+std::uint32_t count_limbs(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
 {
     std::uint32_t limb_count = 0;
-    for_each_group(crowd, blocks, [&](std::uint32_t g, std::uint32_t first, std::uint32_t count) {
-        const Group& group = crowd.groups[g];
-        const std::uint32_t last = first + count - 1;
-        if (!mask) {
-            limb_count += (count - 1) * SWIVEL_LANES + limb_count_of(group, last);
+    for_each_group(crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+        const std::uint32_t last = part.first + part.count - 1;
+        if (!work.mask) {
+            limb_count += (part.count - 1) * SWIVEL_LANES + limb_count_of(group, last);
             return;
         }
-        for (std::uint32_t block = first; block <= last; ++block)
-            limb_count +=
-                static_cast<std::uint32_t>(std::popcount(lanes_of_limbs(group, block) & lanes_of(mask, block)));
+        for (std::uint32_t block = part.first; block <= last; ++block)
+            limb_count += static_cast<std::uint32_t>(std::popcount(chosen_limbs(group, block, work.mask)));
     });
     return limb_count;
 }
@@ -162,35 +179,36 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     const swivel_job& job = whole(given, swivel_default_job, filled);
     if (job.blocks) status = check_blocks(*crowd, *job.blocks);
     const swivel_blocks blocks = job.blocks ? *job.blocks : swivel_blocks{0, crowd->block_count};
+    if (status == SWIVEL_OK) status = check_groups(*crowd, job);
     if (status == SWIVEL_OK) status = check_choice(*crowd, job);
-    if (status == SWIVEL_OK && job.frames) status = check_frames(*crowd, job.frames, blocks);
+    if (status == SWIVEL_OK && job.frames) status = check_frames(*crowd, job, blocks);
     if (status != SWIVEL_OK) return status;
     const Isa* const isa = usable_isa(status);
     if (!isa) return status;
     if (job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
     if (status != SWIVEL_OK) return status;
-    if (job.priorities) choose(*crowd, job.priorities, job.most_blocks, crowd->chosen);
+    if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
-    const Work work{job.limbs || job.priorities ? crowd->chosen : job.mask, job.frames,
+    const Work work{job.groups, job.limbs || job.priorities ? crowd->chosen : job.mask, job.frames,
                     is_from_memory(*crowd, blocks.count)};
     if (job.on_this_thread)
         solve_here(*crowd, isa->kernels, work, blocks);
     else
         solve_in_chunks(*crowd, isa->kernels, work, blocks);
-    if (job.solved_count) *job.solved_count = count_limbs(*crowd, work.mask, blocks);
+    if (job.solved_count) *job.solved_count = count_limbs(*crowd, work, blocks);
     if (job.limbs) clear(crowd->chosen, job.limbs->indices, job.limbs->count);
     if (job.priorities) std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
     return SWIVEL_OK;
 }
 
-swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks, uint32_t* mask,
-                            uint32_t word_count, uint32_t* chosen_count)
+swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,
+                            uint32_t* mask, uint32_t word_count, uint32_t* chosen_count)
 {
     if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_choose: crowd is null");
     swivel_status status = check_priorities(*crowd, priorities);
     if (status == SWIVEL_OK) status = check_mask(*crowd, mask, word_count);
     if (status != SWIVEL_OK) return status;
-    const uint32_t picked = choose(*crowd, priorities, most_blocks, mask);
+    const uint32_t picked = choose(*crowd, priorities, urgency, most_blocks, mask);
     if (chosen_count) *chosen_count = picked;
     return SWIVEL_OK;
 }

@@ -16,7 +16,8 @@ namespace swivel {
 
 namespace {
 
-constexpr float kMostPriority = 1e15f;  // as for lengths; urgency stays finite for 3e23 calls
+constexpr float kMostPriority = 1e15f;  // as for lengths
+constexpr float kMostUrgency = 3e38f;   // reached after 3e23 calls; more than that is not finite, or the caller's
 
 // The largest priority of a block's limbs, within 0 ... kMostPriority. NaN fails every comparison.
 float largest(const char* priority, std::size_t stride, std::uint32_t limb_count)
@@ -36,10 +37,10 @@ std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& p
 {
     const char* at = static_cast<const char*>(priorities.data);
     std::uint32_t wanted = 0;
-    for (std::uint32_t block = group.first_block; block < group.first_block + group.block_count; ++block) {
+    for (std::uint32_t block = 0; block < group.block_count; ++block, ++urgency) {
         const float priority = largest(at, priorities.stride, limb_count_of(group, block));
-        const float waited = urgency[block] < 0 ? -urgency[block] : urgency[block];
-        urgency[block] = priority > 0 ? waited + priority : -waited;
+        const float size = *urgency < 0 ? -*urgency : *urgency, waited = size <= kMostUrgency ? size : 0;
+        *urgency = priority > 0 ? waited + priority : -waited;
         wanted += priority > 0;
         at += SWIVEL_LANES * priorities.stride;
     }
@@ -55,14 +56,14 @@ struct Limit {
 };
 
 // Finds the most_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
-Limit find_limit(const swivel_crowd& crowd, std::uint32_t most_blocks)
+Limit find_limit(const float* urgency, std::uint32_t block_count, std::uint32_t most_blocks)
 {
     constexpr std::uint32_t kMostBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
     std::uint32_t prefix = 0, left = most_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
     for (const std::uint32_t shift : {20u, 10u, 0u}) {
         std::uint32_t counts[1u << kMostBits] = {}, digit = (1u << (known - shift)) - 1;
-        for (std::uint32_t block = 0; block < crowd.block_count; ++block) {
-            const std::uint32_t key = key_of(crowd.urgency[block]);
+        for (std::uint32_t block = 0; block < block_count; ++block) {
+            const std::uint32_t key = key_of(urgency[block]);
             if (key >> known == prefix) ++counts[key >> shift & digit];
         }
         for (; counts[digit] < left; --digit) left -= counts[digit];
@@ -74,25 +75,27 @@ Limit find_limit(const swivel_crowd& crowd, std::uint32_t most_blocks)
 
 }  // namespace
 
-std::uint32_t choose(swivel_crowd& crowd, const swivel_in* priorities, std::uint32_t most_blocks, std::uint32_t* words)
+std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, float* urgency, std::uint32_t most_blocks,
+                     std::uint32_t* words)
 {
     const FloatEnv env;
+    if (!urgency) std::fill_n(urgency = crowd.urgency, crowd.block_count, 0.0f);
     std::uint32_t wanted = 0, limb_count = 0;
     for (std::uint32_t g = 0; g < crowd.group_count; ++g)
-        wanted += add_urgency(crowd.urgency, crowd.groups[g], priorities[g]);
+        wanted += add_urgency(urgency + crowd.groups[g].first_block, crowd.groups[g], priorities[g]);
     std::fill_n(words, mask_word_count(crowd.block_count), 0u);
     if (most_blocks == 0) return 0;
-    Limit limit = wanted > most_blocks ? find_limit(crowd, most_blocks) : Limit{0, 0};
+    Limit limit = wanted > most_blocks ? find_limit(urgency, crowd.block_count, most_blocks) : Limit{0, 0};
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const Group& group = crowd.groups[g];
-        for (std::uint32_t block = group.first_block; block < group.first_block + group.block_count; ++block) {
-            const std::uint32_t key = key_of(crowd.urgency[block]);
+        for (std::uint32_t n = 0, block = group.first_block; n < group.block_count; ++n, ++block) {
+            const std::uint32_t key = key_of(urgency[block]);
             const bool equal = key == limit.key && limit.equal_count > 0;
             if (key <= limit.key && !equal) continue;
             limit.equal_count -= equal;
-            add_lanes(words, block, lanes_of_limbs(group, block));
-            limb_count += limb_count_of(group, block);
-            crowd.urgency[block] = 0;
+            add_lanes(words, block, lanes_of_limbs(group, n));
+            limb_count += limb_count_of(group, n);
+            urgency[block] = 0;
         }
     }
     return limb_count;

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <utility>
 
-#include "batch/numbers.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/status.h"
@@ -20,48 +19,6 @@ namespace swivel {
 
 namespace {
 
-// Features that need another feature, or exclude another one.
-struct FeatureRule {
-    FeatureSet feature, other;
-    bool together;
-    const char* text;
-};
-constexpr FeatureRule kFeatureRules[] = {
-    {feature::pole_direction, feature::world, true,
-     "SWIVEL_POLE_DIRECTION needs SWIVEL_WORLD; in the arm frame a pole is both"},
-    {feature::pole_normal, feature::pole_direction, false,
-     "SWIVEL_POLE_NORMAL and SWIVEL_POLE_DIRECTION exclude each other; a pole is one of them"},
-    {feature::pole_incoming, feature::pole_direction, false,
-     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_DIRECTION exclude each other; with the first there are no poles"},
-    {feature::pole_incoming, feature::pole_normal, false,
-     "SWIVEL_POLE_INCOMING and SWIVEL_POLE_NORMAL exclude each other; with the first there are no poles"},
-    {feature::pole_incoming, feature::incoming, true, "SWIVEL_POLE_INCOMING needs SWIVEL_WITH_INCOMING"},
-    {feature::weights, feature::incoming, true,
-     "SWIVEL_WITH_WEIGHTS needs SWIVEL_WITH_INCOMING, the pose to blend with"},
-    {feature::effector, feature::hand, true, "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it"},
-    {feature::hand_cone, feature::hand, true, "SWIVEL_WITH_HAND_CONE needs SWIVEL_WITH_HAND"},
-    {feature::forearm_twist, feature::hand, true, "SWIVEL_WITH_FOREARM_TWIST needs SWIVEL_WITH_HAND"},
-    {feature::hand_twist, feature::hand, true, "SWIVEL_WITH_HAND_TWIST needs SWIVEL_WITH_HAND"},
-    {feature::wrist_box, feature::hand, true, "SWIVEL_WITH_WRIST_BOX needs SWIVEL_WITH_HAND"},
-    {kMostTwistBones * feature::twist_bones, feature::hand, true,
-     "SWIVEL_WITH_TWIST_BONES needs SWIVEL_WITH_HAND, whose twist is shared"},
-    {feature::aim, feature::weights, false,
-     "SWIVEL_WITH_AIM and SWIVEL_WITH_WEIGHTS exclude each other; blend the poses instead"},
-    {feature::aim, feature::reach, false,
-     "SWIVEL_WITH_AIM and SWIVEL_WITH_REACH exclude each other; an aim's distance is its flexion's"},
-    {feature::aim, feature::flexion_limit, false,
-     "SWIVEL_WITH_AIM and SWIVEL_WITH_FLEXION_LIMIT exclude each other; give a flexion within the limit"},
-    {feature::aim, feature::hand_cone | feature::forearm_twist | feature::hand_twist | feature::wrist_box, false,
-     "SWIVEL_WITH_AIM excludes limits of the hand; give a wrist rotation within them"},
-    {feature::clavicle, feature::world, true, "SWIVEL_WITH_CLAVICLE needs SWIVEL_WORLD, where the parent joint is"},
-    {feature::compact, feature::clavicle, false,
-     "SWIVEL_COMPACT and SWIVEL_WITH_CLAVICLE exclude each other; leave one out"},
-    {feature::compact, kMostTwistBones* feature::twist_bones, false,
-     "SWIVEL_COMPACT and SWIVEL_WITH_TWIST_BONES exclude each other; leave one out"},
-    {feature::compact, feature::reach, false, "SWIVEL_COMPACT and SWIVEL_WITH_REACH exclude each other; leave one out"},
-    {feature::compact, feature::most_swivel, false,
-     "SWIVEL_COMPACT and SWIVEL_WITH_MOST_SWIVEL exclude each other; leave one out"},
-};
 constexpr std::uint64_t kMostLimbs = 1u << 31;
 
 bool is_zero(float x) { return x == 0; }
@@ -81,10 +38,46 @@ swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, 
             group);
     if (twist_bones > 0 && binding.twist_bone_count > 0 && binding.twist_bone_count != twist_bones)
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u's binding has %u twist bones, this crowd has %u; bind that many, or create the crowd "
-                    "with as many as are bound",
+                    "group %u's binding has %u twist bones, its features %u; bind that many, or give it as many as "
+                    "are bound",
                     group, binding.twist_bone_count, twist_bones);
     return SWIVEL_OK;
+}
+
+// Features that go together, each at most once and known.
+swivel_status check_features(std::uint32_t group, swivel_features features)
+{
+    if (const swivel_features unknown = features & ~kKnownFeatures)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u asks for unknown features: bits 0x%llx", group,
+                    static_cast<unsigned long long>(unknown));
+    for (const FeatureRow& row : kFeatures) {
+        if (!(features & bits_of(row))) continue;
+        if (const swivel_features missing = row.needs & ~features)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s needs SWIVEL_%s; add it", group, row.name,
+                        feature_name(missing));
+        if (const swivel_features excluded = row.excludes & features)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_%s excludes SWIVEL_%s; leave one out", group,
+                        row.name, feature_name(excluded));
+    }
+    return SWIVEL_OK;
+}
+
+swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
+{
+    if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
+    if (const swivel_status status = check_features(g, group.features); status != SWIVEL_OK) return status;
+    if (static_cast<unsigned>(group.on_bad_input) > SWIVEL_KEEP_POSE)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: on_bad_input is %d; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE",
+                    g, static_cast<int>(group.on_bad_input));
+    if (group.on_bad_input == SWIVEL_KEEP_POSE && (group.features & SWIVEL_COMPACT))
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_COMPACT excludes SWIVEL_KEEP_POSE; leave one out", g);
+    for (const auto& [order, name] :
+         {std::pair{group.shoulder_order, "shoulder_order"}, std::pair{group.wrist_order, "wrist_order"}})
+        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u: %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", g, name,
+                        static_cast<int>(order));
+    return group.features & SWIVEL_JOINTS ? check_binding(g, group.binding, twist_bone_count(group.features))
+                                          : SWIVEL_OK;
 }
 
 }  // namespace
@@ -98,22 +91,10 @@ swivel_status check(const swivel_crowd_def* given)
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;
     const swivel_crowd_def def = full_def(given);
-    if (const FeatureSet unknown = def.features & ~kKnownFeatures)
-        return fail(SWIVEL_INVALID_ARGUMENT,
-                    "crowd def asks for more than 7 twist bones, or has unknown feature bits: 0x%llx",
-                    static_cast<unsigned long long>(unknown));
-    for (const FeatureRule& rule : kFeatureRules)
-        if ((def.features & rule.feature) && !(def.features & rule.other) == rule.together)
-            return fail(SWIVEL_INVALID_ARGUMENT, "%s", rule.text);
     if (def.group_count == 0 || !def.groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def.allocate != !def.release)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has one of allocate and release; give both or none");
-    for (const auto& [order, name] :
-         {std::pair{def.shoulder_order, "shoulder_order"}, std::pair{def.wrist_order, "wrist_order"}})
-        if (static_cast<unsigned>(order) > SWIVEL_ZYX)
-            return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's %s is %d; it is one of SWIVEL_XYZ to SWIVEL_ZYX", name,
-                        static_cast<int>(order));
     if (const swivel_status status = check_size<swivel_group_def>("the first group def", size_of(def.groups));
         status != SWIVEL_OK)
         return status;
@@ -121,11 +102,7 @@ swivel_status check(const swivel_crowd_def* given)
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         if (const swivel_status status = check_element("group def", def.groups, g); status != SWIVEL_OK) return status;
         const swivel_group_def group = group_at(def, g);
-        if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
-        if (def.features & feature::joints)
-            if (const swivel_status status = check_binding(g, group.binding, twist_bone_count(def.features));
-                status != SWIVEL_OK)
-                return status;
+        if (const swivel_status status = check_group(g, group); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
     if (limb_count > kMostLimbs)
@@ -164,23 +141,25 @@ swivel_status check_field(swivel_field field)
     return is_field(field) ? SWIVEL_OK : fail(SWIVEL_INVALID_ARGUMENT, "there is no field %d", static_cast<int>(field));
 }
 
-swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, Field field, bool input)
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input)
 {
-    const auto& [name, row_count, needs, without] = layout_of(field);
+    if (const swivel_status status = check_field(field); status != SWIVEL_OK) return status;
+    const FieldRow& row = row_of(field);
     if (input && !is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", name);
-    if (field_component_count(crowd.features, field) != 0) return SWIVEL_OK;
-    const FeatureSet wrong = without ? without : needs & ~crowd.features;
-    return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this crowd; create it with%s %s", group, name,
-                without ? "out" : "", feature_name(wrong));
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", row.name);
+    const swivel_features features = crowd.groups[group].features;
+    if (field_component_count(features, field) != 0) return SWIVEL_OK;
+    const swivel_features missing = row.needs & ~features;
+    return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this group; create it with%s SWIVEL_%s", group,
+                row.name, missing ? "" : "out", feature_name(missing ? missing : row.excludes));
 }
 
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, Field field, const void* data,
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
                            std::size_t stride, bool input, std::size_t component_bytes)
 {
     if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
-    return check_stride(group, name_of(field), data, stride,
-                        field_component_count(crowd.features, field) * component_bytes, input);
+    const std::uint32_t count = field_component_count(crowd.groups[group].features, field);
+    return check_stride(group, name_of(field), data, stride, count * component_bytes, input);
 }
 
 swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks)

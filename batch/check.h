@@ -23,10 +23,10 @@ swivel_status check_stride(std::uint32_t group, const char* name, const void* da
 
 // A number that is a field's; and a field that the crowd has and, if input, that goes into it.
 swivel_status check_field(swivel_field field);
-swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, Field field, bool input);
+swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);
 
 // The caller's values of a field, to be read if they are input: components of component_bytes each.
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, Field field, const void* data,
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
                            std::size_t stride, bool input, std::size_t component_bytes = sizeof(float));
 
 // A range of blocks.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd in memory. It has one arena, laid out when the crowd is created: the crowd itself, its groups, its input
-// rows, its result rows.
+// A crowd in memory. It has one arena, laid out when the crowd is created: the crowd itself, its groups, and the rows
+// of each.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "batch/swivel.h"
+#include "include/swivel/swivel.h"
 #include "simd/kernels.h"
 #include "simd/rows.h"
 
@@ -15,41 +15,37 @@ namespace swivel {
 
 struct Group {
     std::uint32_t first_block, block_count, limb_count;
+    swivel_features features;
+    bool keeps;  // SWIVEL_KEEP_POSE
+    swivel_euler_order shoulder_order, wrist_order;
+    std::uint32_t input_row_count, result_row_count;
+    std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows of floats
+    float *input, *results;                // rows; results: null with SWIVEL_COMPACT, which has words instead
+    std::uint16_t* words;
     swivel_binding binding;
-    RestFrames frames;  // the binding's, for kernels
 };
 
 }  // namespace swivel
 
 struct swivel_crowd {
-    swivel::FeatureSet features;
     std::uint32_t group_count, block_count;
-    std::uint32_t input_row_count, result_row_count;
-    std::uint16_t first_row[swivel::kFieldCount];  // of each field, among input or result rows of floats
-    swivel_euler_order shoulder_order, wrist_order;
+    std::size_t block_bytes;  // of a block's rows, on average
     swivel::Group* groups;
-    float *input, *results;  // results: null in a compact crowd, which has words instead
-    std::uint16_t* words;
     void* arena;
     std::size_t arena_bytes;
     void (*release)(void* memory, std::size_t bytes, void* user);  // null: the caller keeps the memory
     void* user;
     alignas(16) unsigned char schedule[64];  // what threads remember from one solve to the next (schedule.cpp)
     std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (api_solve.cpp)
-    float* urgency;                          // of each block; null without SWIVEL_BUDGET (budget.cpp)
+    float* urgency;                          // of each block, where the caller keeps none (budget.cpp)
     std::uint8_t* done;                      // a byte for each block, of a solve on threads (schedule.cpp)
 };
 
 namespace swivel {
 
-// Bytes of a block's rows, from the counts that the crowd keeps: jobs ask for this in each call.
-inline std::size_t block_bytes(const swivel_crowd& crowd)
-{
-    return crowd.input_row_count * kInputRowBytes + crowd.result_row_count * result_row_bytes(crowd.features);
-}
-
-// Words of one bit for each lane.
+// Words of one bit for each lane; and of one for each group.
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }
+inline std::uint32_t group_word_count(std::uint32_t group_count) { return (group_count + 31) / 32; }
 
 // A group of a def that full_def() has filled.
 swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g);

@@ -32,25 +32,16 @@ std::uint32_t bits_of(float number)
 std::uint32_t bits_of(std::uint16_t word) { return word; }
 
 // A hash for each lane, so that sixteen products are under way at once.
+using Hashes = std::array<std::uint64_t, kLanes>;
+
 template <class Number>
-std::uint64_t digest(const swivel_crowd& crowd, const Number* results)
+void add(Hashes& hashes, const Group& group, const Number* rows)
 {
-    std::array<std::uint64_t, kLanes> hashes;
-    hashes.fill(0);
-    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
-        const Group& group = crowd.groups[g];
-        for (std::uint32_t first = 0; first < group.limb_count; first += kLanes) {
-            const std::uint32_t lane_count = std::min(group.limb_count - first, kLanes);
-            const std::size_t block = group.first_block + first / kLanes;
-            const Number* const rows = results + block * crowd.result_row_count * kLanes;
-            for (std::uint32_t row = 0; row < crowd.result_row_count; ++row)
-                for (std::uint32_t lane = 0; lane < lane_count; ++lane)
-                    add(hashes[lane], bits_of(rows[row * kLanes + lane]));
-        }
+    for (std::uint32_t first = 0; first < group.limb_count; first += kLanes) {
+        const std::uint32_t lane_count = std::min(group.limb_count - first, kLanes);
+        for (std::uint32_t row = 0; row < group.result_row_count; ++row, rows += kLanes)
+            for (std::uint32_t lane = 0; lane < lane_count; ++lane) add(hashes[lane], bits_of(rows[lane]));
     }
-    std::uint64_t whole = 0;
-    for (const std::uint64_t hash : hashes) add(whole, hash);
-    return whole;
 }
 
 }  // namespace
@@ -58,5 +49,10 @@ std::uint64_t digest(const swivel_crowd& crowd, const Number* results)
 uint64_t swivel_digest(const swivel_crowd* crowd)
 {
     if (!crowd) return 0;
-    return crowd->words ? digest(*crowd, crowd->words) : digest(*crowd, crowd->results);
+    Hashes hashes{};
+    for (const Group* group = crowd->groups; group != crowd->groups + crowd->group_count; ++group)
+        group->words ? add(hashes, *group, group->words) : add(hashes, *group, group->results);
+    std::uint64_t whole = 0;
+    for (const std::uint64_t hash : hashes) add(whole, hash);
+    return whole;
 }

@@ -14,7 +14,6 @@
 #include <numbers>
 
 #include "batch/edge.h"
-#include "batch/input_ranges.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "core/bit_cast.h"
@@ -58,110 +57,106 @@ private:
 // which takes the limb again for each question.
 class Probe {
 public:
-    Probe(const swivel_crowd& of, const Group& group, std::uint32_t limb)
-        : of_(of), group_(group), crowd_(nullptr), from_(std::size_t{group.first_block} * SWIVEL_LANES + limb)
-    {
-        take();
-    }
-    // Takes the limb as it is, in a crowd without some of its features.
-    void take(FeatureSet without = 0)
+    Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), crowd_(nullptr) { take(); }
+    // Takes the limb as it is, in a group without some of its features.
+    void take(swivel_features without = 0)
     {
         swivel_group_def alone = swivel_default_group_def(1);
-        alone.binding = group_.binding;
+        alone.features = of_.features & ~without;
+        alone.shoulder_order = of_.shoulder_order;
+        alone.wrist_order = of_.wrist_order;
+        alone.binding = of_.binding;
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = of_.features & ~(feature::budget | without);
         def.groups = &alone;
         def.group_count = 1;
-        def.shoulder_order = of_.shoulder_order;
-        def.wrist_order = of_.wrist_order;
         crowd_ = place_crowd(def, arena_);
-        copy_lane(of_.input, of_.input_row_count, crowd_->input);
-        if (of_.features & feature::most_swivel)  // the normal that the next step is from
-            copy_lane(of_.results, of_.result_row_count, crowd_->results);
+        copy_lane(of_.input, of_.input_row_count, group().input);
+        if (of_.features & SWIVEL_WITH_MOST_SWIVEL)  // the normal that the next step is from
+            copy_lane(of_.results, of_.result_row_count, group().results);
     }
-    LimbPose pose() const { return forward(*crowd_, crowd_->groups[0], 0); }
-    // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the crowd has none.
-    double violation(Field limit) const
+    LimbPose pose() const { return forward(group(), 0); }
+    // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
+    double violation(swivel_field limit) const
     {
         float values[12] = {};
         const std::uint32_t count = component_count(limit);
         for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
-        const swivel_euler_order order = limit == Field::wrist_box ? crowd_->wrist_order : crowd_->shoulder_order;
-        const ArmRotors arm = arm_rotors(*crowd_, crowd_->groups[0], 0);
-        return count == 0 ? 0 : outside_limit(arm, limit, values, order) * 180 / std::numbers::pi;
+        const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
+        return count == 0 ? 0 : outside_limit(arm_rotors(group(), 0), limit, values, order) * 180 / std::numbers::pi;
     }
-    double missed() const { return distance_missed(*crowd_, crowd_->groups[0], 0); }
-    double missed_share() const { return residual(*crowd_, crowd_->groups[0], 0); }
-    bool is(Field field, std::initializer_list<float> wanted) const
+    double missed() const { return distance_missed(group(), 0); }
+    double missed_share() const { return residual(group(), 0); }
+    bool is(swivel_field field, std::initializer_list<float> wanted) const
     {
         std::uint32_t c = 0;
         for (const float x : wanted)
             if (component_count(field) == 0 || value(field, c++) != x) return false;
         return true;
     }
-    std::uint32_t component_count(Field field) const { return field_row_count(crowd_->features, field); }
-    float value(Field field, std::uint32_t component) const
+    std::uint32_t component_count(swivel_field field) const { return field_row_count(group().features, field); }
+    float value(swivel_field field, std::uint32_t component) const
     {
-        return crowd_->input[row_offset(0, 0, field_first_row(crowd_->features, field) + component)];
+        return group().input[row_offset(0, 0, field_first_row(group().features, field) + component)];
     }
 
     // Solves the limb and gives its flags.
     std::uint32_t solve()
     {
-        solve_group(*crowd_, find_isa("scalar")->kernels, crowd_->groups[0], 0, 1);
-        const std::size_t at = std::size_t{field_first_row(crowd_->features, Field::flags)} * SWIVEL_LANES;
-        if (crowd_->words) return crowd_->words[at] | std::uint32_t{crowd_->words[at + SWIVEL_LANES]} << 16;
-        return bit_cast<std::uint32_t>(crowd_->results[at]);
+        const Group& of = group();
+        solve_group(find_isa("scalar")->kernels, of, {0, 1});
+        const std::size_t at = std::size_t{field_first_row(of.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
+        if (of.words) return of.words[at] | std::uint32_t{of.words[at + SWIVEL_LANES]} << 16;
+        return bit_cast<std::uint32_t>(of.results[at]);
     }
     // Whether these are the results that the limb has.
     bool has_bits_of_limb() const
     {
         for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
-            const std::size_t theirs = row_offset(from_, of_.result_row_count, row), ours = row_offset(0, 0, row);
-            if (of_.words ? of_.words[theirs] != crowd_->words[ours]
-                          : std::memcmp(of_.results + theirs, crowd_->results + ours, sizeof(float)) != 0)
+            const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
+            if (of_.words ? of_.words[theirs] != group().words[ours]
+                          : std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0)
                 return false;
         }
         return true;
     }
     // Makes the field ask for nothing. It gets the padding's value, from an ordinary arm without limits.
-    void give_up(Field field)
+    void give_up(swivel_field field)
     {
-        float* const rows = crowd_->input + row_offset(0, 0, field_first_row(crowd_->features, field));
+        float* const rows = group().input + row_offset(0, 0, field_first_row(group().features, field));
         for (std::uint32_t row = 0; row < component_count(field); ++row)
             rows[row * SWIVEL_LANES] = rows[row * SWIVEL_LANES + 1];
     }
-    void give_up_all_but(Field kept)
+    void give_up_all_but(swivel_field kept)
     {
-        for (std::size_t f = 0; f < kInputCount; ++f)
-            if (f != index_of(kept)) give_up(static_cast<Field>(f));
+        for (const FieldRow& row : kFields)
+            if (row.kind == SWIVEL_FIELD_INPUT && row.field != kept) give_up(row.field);
     }
 
 private:
+    const Group& group() const { return crowd_->groups[0]; }
     void copy_lane(const float* rows, std::uint32_t row_count, float* to) const
     {
         for (std::uint32_t row = 0; row < row_count; ++row)
-            to[row_offset(0, 0, row)] = rows[row_offset(from_, row_count, row)];
+            to[row_offset(0, 0, row)] = rows[row_offset(limb_, row_count, row)];
     }
 
     static constexpr std::size_t kArenaBytes = 16 * 1024;
     static_assert(block_bytes(kEveryFeature) + 4096 <= kArenaBytes, "rows, and what stands before them");
     alignas(64) unsigned char arena_[kArenaBytes];
-    const swivel_crowd& of_;
-    const Group& group_;
+    const Group& of_;
+    std::uint32_t limb_;
     swivel_crowd* crowd_;
-    std::size_t from_;
 };
 
 // The lengths of a field's axis and pairs that must be 1 and are not.
-void explain_lengths(const Probe& probe, Field field, Text& text)
+void explain_lengths(const Probe& probe, swivel_field field, Text& text)
 {
     const auto length2 = [&](std::uint32_t first, std::uint32_t count) {
         float sum = 0;  // of floats and in their order, as a solve sums them
         for (std::uint32_t c = first; c < first + count; ++c) sum += probe.value(field, c) * probe.value(field, c);
         return sum;
     };
-    const auto [axis_size, pair_count] = unit_parts(field);
+    const auto [axis_size, pair_count] = row_of(field).unit;
     if (const float axis2 = length2(0, axis_size); axis_size > 0 && !is_unit2(axis2))
         text.add(" (its axis is %.8g long)", std::sqrt(double{axis2}));
     for (std::uint32_t c = axis_size; c < axis_size + 2 * pair_count; c += 2)
@@ -171,17 +166,17 @@ void explain_lengths(const Probe& probe, Field field, Text& text)
 }
 
 // Inputs that are bad whatever the others are.
-void explain_bad_input(Probe& probe, Text& text)
+void explain_bad_input(Probe& probe, bool keeps, Text& text)
 {
     text.add("Bad input: ");
     bool is_found = false;
-    for (std::size_t f = 0; f < kInputCount; ++f) {
-        const auto field = static_cast<Field>(f);
-        if (probe.component_count(field) == 0) continue;
+    for (const FieldRow& row : kFields) {
+        const swivel_field field = row.field;
+        if (row.kind != SWIVEL_FIELD_INPUT || probe.component_count(field) == 0) continue;
         probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
-        text.add("%s%s (", is_found ? "; " : "", name_of(field));
+        text.add("%s%s (", is_found ? "; " : "", row.name);
         bool is_number = true;
         for (std::uint32_t c = 0; c < probe.component_count(field); ++c) {
             const double x = double{probe.value(field, c)};
@@ -190,22 +185,20 @@ void explain_bad_input(Probe& probe, Text& text)
         }
         is_found = true;
         if (is_number) {
-            text.add(") is out of its range, %s", range_of(field));
+            text.add(") is out of its range, %s", row.range);
             explain_lengths(probe, field, text);
         } else {
             text.add(") is not a number: it may never have been written");
         }
     }
-    text.add("%s", is_found
-                       ? ". The limb has its rest pose."
-                       : "each input is in its range, but not as the parent's rotation and scale have it. The limb "
-                         "has its rest pose.");
+    if (!is_found) text.add("each input is in its range, but not as the parent's rotation and scale have it");
+    text.add(". The limb %s.", keeps ? "keeps the pose it had" : "has its rest pose");
 }
 
 // What goes to the target.
 const char* end_of(const Probe& solved)
 {
-    const bool has_effector = solved.component_count(Field::effector) > 0 && !solved.is(Field::effector, {0, 0, 0});
+    const bool has_effector = solved.component_count(SWIVEL_EFFECTOR) > 0 && !solved.is(SWIVEL_EFFECTOR, {0, 0, 0});
     return has_effector ? "effector" : "wrist";
 }
 
@@ -222,7 +215,7 @@ void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reac
         text.add("The blended target is reached.");
     }
     text.add(" With a position weight of %.3g, the %s is %.4g from the target itself.",
-             double{solved.value(Field::weights, 0)}, end_of(solved), solved.missed());
+             double{solved.value(SWIVEL_WEIGHTS, 0)}, end_of(solved), solved.missed());
 }
 
 void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
@@ -230,8 +223,8 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     const double missed = solved.missed();
     const LimbPose pose = solved.pose();
     const double reached = std::sqrt(len2(pose.wrist - pose.shoulder));
-    const bool aims = solved.component_count(Field::aim) > 0, has_length = !solved.is(Field::lengths, {0, 0});
-    const bool blends = solved.component_count(Field::weights) > 0 && solved.value(Field::weights, 0) < 1;
+    const bool aims = solved.component_count(SWIVEL_AIM) > 0, has_length = !solved.is(SWIVEL_LENGTHS, {0, 0});
+    const bool blends = solved.component_count(SWIVEL_WEIGHTS) > 0 && solved.value(SWIVEL_WEIGHTS, 0) < 1;
     const char* const by = !has_length                      ? "bones of no length"
                            : flags & SWIVEL_LIMITED_FLEXION ? "its bones and its flexion limit"
                                                             : "its bones";
@@ -254,23 +247,23 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
     if (flags & SWIVEL_SWIVEL_UNDEFINED)
         text.add(" The pole does not say where the elbow goes: it is of no length or on the target's line.");
-    for (const Field field : {Field::parent_rotation, Field::hand})
+    for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})
         if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
 }
 
 struct Limit {
     std::uint32_t flag;
-    Field field;
+    swivel_field field;
 };
 constexpr Limit kLimits[] = {
-    {SWIVEL_LIMITED_SHOULDER_CONE, Field::shoulder_cone}, {SWIVEL_LIMITED_HUMERAL_TWIST, Field::humeral_twist},
-    {SWIVEL_LIMITED_SHOULDER_BOX, Field::shoulder_box},   {SWIVEL_LIMITED_HAND_CONE, Field::hand_cone},
-    {SWIVEL_LIMITED_FOREARM_TWIST, Field::forearm_twist}, {SWIVEL_LIMITED_HAND_TWIST, Field::hand_twist},
-    {SWIVEL_LIMITED_WRIST_BOX, Field::wrist_box},
+    {SWIVEL_LIMITED_SHOULDER_CONE, SWIVEL_SHOULDER_CONE}, {SWIVEL_LIMITED_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST},
+    {SWIVEL_LIMITED_SHOULDER_BOX, SWIVEL_SHOULDER_BOX},   {SWIVEL_LIMITED_HAND_CONE, SWIVEL_HAND_CONE},
+    {SWIVEL_LIMITED_FOREARM_TWIST, SWIVEL_FOREARM_TWIST}, {SWIVEL_LIMITED_HAND_TWIST, SWIVEL_HAND_TWIST},
+    {SWIVEL_LIMITED_WRIST_BOX, SWIVEL_WRIST_BOX},
 };
 
 // Whether this limit alone leaves the elbow no place.
-bool forbids_all(Probe& probe, Field limit)
+bool forbids_all(Probe& probe, swivel_field limit)
 {
     probe.take();
     for (const Limit& other : kLimits)
@@ -289,7 +282,7 @@ double swivel_between(const LimbPose& a, const LimbPose& b)
 // How far the place that violates all limits least is outside of each.
 void explain_violations(Probe& probe, Text& text)
 {
-    probe.take(feature::compact);  // words of 16 bits are good to 0.009 degrees
+    probe.take(SWIVEL_COMPACT);  // words of 16 bits are good to 0.009 degrees
     probe.solve();
     bool is_first = true;
     for (const Limit& limit : kLimits) {
@@ -333,15 +326,16 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
 
 }  // namespace
 
-void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, std::span<char> room)
+void explain(const Group& group, std::uint32_t limb, std::span<char> room)
 {
     Text text(room);
-    Probe probe(crowd, group, limb);
+    Probe probe(group, limb);
     const std::uint32_t flags = probe.solve();
-    // A step's results are not those of the next one.
-    if (!(crowd.features & feature::most_swivel) && !probe.has_bits_of_limb())
+    const bool is_kept = group.keeps && flags & SWIVEL_BAD_INPUT;
+    // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
+    if (!(group.features & SWIVEL_WITH_MOST_SWIVEL) && !is_kept && !probe.has_bits_of_limb())
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
-    if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, text);
+    if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, group.keeps, text);
     explain_reach(probe, flags, text);
     explain_limits(probe, probe.pose(), flags, text);
     if (flags & SWIVEL_JUMPED)

@@ -11,6 +11,6 @@
 namespace swivel {
 
 // What swivel_explain() promises. limb: counted within the group; text: a byte at least.
-void explain(const swivel_crowd& crowd, const Group& group, std::uint32_t limb, std::span<char> text);
+void explain(const Group& group, std::uint32_t limb, std::span<char> text);
 
 }  // namespace swivel

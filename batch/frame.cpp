@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "batch/lane_mask.h"
 #include "batch/solve.h"
@@ -35,40 +36,34 @@ std::uint32_t run_blocks(std::uint32_t group_count) { return kRoundBlocks / grou
 // Streams of a frame that has every field, or of four ordinary ones.
 constexpr std::uint32_t kMostStreams = [] {
     std::uint32_t count = 0;
-    for (std::size_t n = 0; n < kFieldCount; ++n)
-        count += stream_count(field_row_count(kEveryFeature, static_cast<Field>(n)));
+    for (const FieldRow& row : kFields) count += stream_count(field_row_count(kEveryFeature, row.field));
     return count;
 }();
 
-// Streams of a group's frame. This and Share::set() are functions of their own, so that the copy of a frame takes no
-// stack while limbs are solved.
-[[gnu::noinline]] std::uint32_t stream_count_of(const swivel_crowd& crowd, const Work& work, std::uint32_t g)
+std::uint32_t stream_count_of(const Group& group, const swivel_frame& frame)
 {
-    swivel_frame filled;
-    const swivel_frame& frame = frame_at(work.frames, g, filled);
     std::uint32_t count = 0;
-    const auto add = [&](Field field, const void* data) {
-        if (data) count += stream_count(field_row_count(crowd.features, field));
-    };
-    for (const auto& [field, member] : kFrameInputs) add(field, (frame.*member).data);
-    for (const auto& [field, member] : kFrameOutputs) add(field, (frame.*member).data);
+    for (const swivel_frame_field& each : fields_of(frame))
+        if (each.data) count += stream_count(field_row_count(group.features, each.field));
     return count;
 }
 
 // Calls copy(first, limb_count) for a group's limbs in some blocks, counted within the group: all of them, or those of
-// the mask.
+// lanes(block).
 template <class Copy>
-void for_each_limbs(const Group& group, const std::uint32_t* mask, std::uint32_t block, std::uint32_t block_count,
-                    const Copy& copy)
+void for_all_limbs(const Group& group, GroupBlocks blocks, const Copy& copy)
 {
-    std::size_t first = std::size_t{block - group.first_block} * SWIVEL_LANES;
-    if (!mask) {
-        const std::size_t end = first + std::size_t{block_count} * SWIVEL_LANES;
-        return copy(first, std::min(end, std::size_t{group.limb_count}) - first);
-    }
-    std::size_t from = first, to = first;  // chosen limbs that lie side by side, not yet copied
-    for (const std::uint32_t end = block + block_count; block < end; ++block, first += SWIVEL_LANES) {
-        LaneMask lanes = lanes_of(mask, block) & lanes_of_limbs(group, block);
+    const std::size_t first = std::size_t{blocks.first} * SWIVEL_LANES,
+                      end = first + std::size_t{blocks.count} * SWIVEL_LANES;
+    copy(first, std::min(end, std::size_t{group.limb_count}) - first);
+}
+template <class Lanes, class Copy>
+void for_some_limbs(GroupBlocks blocks, const Lanes& lanes_in, const Copy& copy)
+{
+    std::size_t first = std::size_t{blocks.first} * SWIVEL_LANES;
+    std::size_t from = first, to = first;  // limbs that lie side by side, not yet copied
+    for (std::uint32_t block = blocks.first; block < blocks.first + blocks.count; ++block, first += SWIVEL_LANES) {
+        LaneMask lanes = lanes_in(block);
         for (std::size_t limb = first; lanes != 0;) {
             const int skipped = std::countr_zero(lanes), taken = std::countr_one(lanes >> skipped);
             limb += static_cast<std::size_t>(skipped);
@@ -83,113 +78,151 @@ void for_each_limbs(const Group& group, const std::uint32_t* mask, std::uint32_t
     if (from < to) copy(from, to - from);
 }
 
-// A group's blocks among those of the job.
-struct Blocks {
-    std::uint32_t group, first, count;
+// The lanes of a group's block whose limbs have bad input.
+LaneMask bad_lanes(const Group& group, std::uint32_t block)
+{
+    const float* const flags = group.results + row_offset(std::size_t{block} * SWIVEL_LANES, group.result_row_count,
+                                                          group.first_row[index_of(SWIVEL_FLAGS)]);
+    LaneMask lanes = 0;
+    for (std::uint32_t lane = 0; lane < SWIVEL_LANES; ++lane) {
+        std::uint32_t word;
+        std::memcpy(&word, flags + lane, sizeof word);
+        lanes |= (word & SWIVEL_BAD_INPUT ? 1u : 0u) << lane;
+    }
+    return lanes;
+}
+
+// A group's blocks among those of the job, and its frame.
+struct GroupFrame {
+    const Group* group;
+    GroupBlocks blocks;
+    swivel_frame frame;
 };
 
-// Calls take(blocks, group_count, round_count) for the groups that a job's blocks touch, a few at a time.
+// Calls take(frames, group_count, round_count) for the groups that a job's blocks touch, a few at a time.
 template <class Take>
 void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks all, const Take& take)
 {
-    Blocks blocks[kGroupsTogether];
+    GroupFrame frames[kGroupsTogether];
     std::uint32_t count = 0, most = 0, streams = 0;
     const auto flush = [&] {
         if (count == 0) return;
         const std::uint32_t run = run_blocks(count);
-        take(blocks, count, (most + run - 1) / run);
+        take(frames, count, (most + run - 1) / run);
         count = most = streams = 0;
     };
-    for_each_group(crowd, all, [&](std::uint32_t g, std::uint32_t first, std::uint32_t block_count) {
-        const std::uint32_t more = stream_count_of(crowd, work, g);
+    for_each_group(crowd, work.groups, all, [&](const Group& group, GroupBlocks blocks, std::uint32_t n) {
+        const swivel_frame frame = frame_at(work.frames, n);
+        const std::uint32_t more = stream_count_of(group, frame);
         if (count == kGroupsTogether || streams + more > kMostStreams) flush();
-        blocks[count++] = {g, first, block_count};
-        most = std::max(most, block_count);
+        frames[count++] = {&group, blocks, frame};
+        most = std::max(most, blocks.count);
         streams += more;
     });
     flush();
 }
 
-// One group's share of the rounds: its blocks, and the copies of its frame, null members left out.
+// One group's share of the rounds: its blocks, and the copies of its frame. Inputs come first; then results, of which
+// limbs that keep their pose get only the last, the flags.
 struct Share {
     const Group* group;
-    Blocks blocks;
-    std::uint32_t copied_blocks;         // at a time
-    Stream *streams, *in_end, *out_end;  // inputs come first
+    GroupBlocks blocks;
+    std::uint32_t copied_blocks;  // at a time
+    Stream *streams, *in_end, *kept_end, *out_end;
 
     // Stores the streams from `to` on, and returns their end.
-    [[gnu::noinline]] Stream* set(const swivel_crowd& crowd, const Work& work, const Blocks& of, std::uint32_t run,
-                                  Stream* to)
+    Stream* set(const GroupFrame& of, std::uint32_t run, Stream* to)
     {
-        swivel_frame filled;
-        const swivel_frame& frame = frame_at(work.frames, of.group, filled);
-        group = crowd.groups + of.group;
-        blocks = of;
-        streams = in_end = to;
-        for (const auto& [field, member] : kFrameInputs) {
-            const swivel_in& values = frame.*member;
-            if (!values.data) continue;
-            const FieldRows rows = rows_of(crowd, *group, field);
-            const swivel_in origin = has_origin(crowd.features, field) ? frame.origin : swivel_in{};
-            const bool has_doubles = frame.origin.data && is_position(field);
-            in_end =
-                has_doubles ? streams_of_doubles(rows, 0, values, origin, in_end) : streams_in(rows, 0, values, in_end);
+        group = of.group;
+        blocks = of.blocks;
+        streams = to;
+        for (const swivel_frame_field& each : fields_of(of.frame))
+            if (each.data && is_input(each.field)) to = add_input(of.frame, each, to);
+        in_end = to;
+        for (const bool is_flags : {false, true}) {
+            for (const swivel_frame_field& each : fields_of(of.frame))
+                if (each.data && !is_input(each.field) && (each.field == SWIVEL_FLAGS) == is_flags)
+                    to = streams_out(rows_of(*group, each.field), 0, {each.data, each.stride}, to);
+            (is_flags ? out_end : kept_end) = to;
         }
-        out_end = in_end;
-        for (const auto& [field, member] : kFrameOutputs)
-            if (const swivel_out& values = frame.*member; values.data)
-                out_end = streams_out(rows_of(crowd, *group, field), 0, values, out_end);
         const bool is_crowded = std::any_of(streams, out_end, [](const Stream& stream) {
             return stream.stride > 0 && stream.stride % kCrowdedStride == 0;
         });
         copied_blocks = is_crowded ? kCrowdedBlocks : run;
         return out_end;
     }
-    void read(std::size_t first, std::size_t limb_count) const { copy(streams, in_end, first, limb_count); }
-    void write(std::size_t first, std::size_t limb_count) const { copy(in_end, out_end, first, limb_count); }
+    void copy_in(const std::uint32_t* mask, GroupBlocks some) const { copy_chosen(streams, in_end, mask, some); }
+    void copy_out(const std::uint32_t* mask, GroupBlocks some) const
+    {
+        if (!group->keeps) return copy_chosen(in_end, out_end, mask, some);
+        const auto good = [&](std::uint32_t block) {
+            return (mask ? chosen_limbs(*group, block, mask) : lanes_of_limbs(*group, block)) &
+                   ~bad_lanes(*group, block);
+        };
+        for_some_limbs(some, good,
+                       [&](std::size_t limb, std::size_t limb_count) { copy(in_end, kept_end, limb, limb_count); });
+        copy_chosen(kept_end, out_end, mask, some);
+    }
+
+private:
+    Stream* add_input(const swivel_frame& frame, const swivel_frame_field& each, Stream* to) const
+    {
+        const FieldRows rows = rows_of(*group, each.field);
+        const swivel_in values{each.data, each.stride};
+        if (!frame.origin.data || !is_position(each.field)) return streams_in(rows, 0, values, to);
+        const swivel_in origin = has_origin(group->features, each.field) ? frame.origin : swivel_in{};
+        return streams_of_doubles(rows, 0, values, origin, to);
+    }
+    void copy_chosen(const Stream* from, const Stream* end, const std::uint32_t* mask, GroupBlocks some) const
+    {
+        const auto copy_limbs = [&](std::size_t limb, std::size_t limb_count) { copy(from, end, limb, limb_count); };
+        if (mask)
+            for_some_limbs(
+                some, [&](std::uint32_t block) { return chosen_limbs(*group, block, mask); }, copy_limbs);
+        else
+            for_all_limbs(*group, some, copy_limbs);
+    }
 };
 
 // Groups whose runs make the same rounds.
 struct Bundle {
-    const swivel_crowd& crowd;
     const Kernels& kernels;
     const Work& work;
     std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
     Share shares[kGroupsTogether];
     Stream streams[kMostStreams];  // of all shares
 
-    Bundle(const swivel_crowd& of, const Kernels& with, const Work& todo) : crowd(of), kernels(with), work(todo) {}
+    Bundle(const Kernels& with, const Work& todo) : kernels(with), work(todo) {}
 
-    void set(const Blocks* blocks, std::uint32_t group_count)
+    void set(const GroupFrame* frames, std::uint32_t group_count)
     {
         count = group_count;
         run = run_blocks(count);
         Stream* to = streams;
-        for (std::uint32_t n = 0; n < count; ++n) to = shares[n].set(crowd, work, blocks[n], run, to);
+        for (std::uint32_t n = 0; n < count; ++n) to = shares[n].set(frames[n], run, to);
     }
     void solve(std::uint32_t round) const
     {
         for (const Share* share = shares; share != shares + count; ++share)
             if (const std::uint32_t first = round * run; first < share->blocks.count)
-                solve_run(*share, share->blocks.first + first, std::min(run, share->blocks.count - first));
+                solve_run(*share, {share->blocks.first + first, std::min(run, share->blocks.count - first)});
     }
 
 private:
-    void solve_run(const Share& share, std::uint32_t block, std::uint32_t block_count) const
+    void solve_run(const Share& share, GroupBlocks blocks) const
     {
-        copy_run(share, block, block_count, &Share::read);
+        copy_run(share, blocks, &Share::copy_in);
         if (work.mask)
-            solve_chosen_group(crowd, kernels, *share.group, work.mask, block, block_count);
+            solve_chosen_group(kernels, *share.group, work.mask, blocks);
         else
-            solve_group(crowd, kernels, *share.group, block, block_count);
-        copy_run(share, block, block_count, &Share::write);
+            solve_group(kernels, *share.group, blocks);
+        copy_run(share, blocks, &Share::copy_out);
     }
-    void copy_run(const Share& share, std::uint32_t block, std::uint32_t block_count,
-                  void (Share::*copy)(std::size_t, std::size_t) const) const
+    void copy_run(const Share& share, GroupBlocks blocks,
+                  void (Share::*copy)(const std::uint32_t* mask, GroupBlocks) const) const
     {
-        for (std::uint32_t done = 0; done < block_count; done += share.copied_blocks)
-            for_each_limbs(*share.group, work.mask, block + done, std::min(share.copied_blocks, block_count - done),
-                           [&](std::size_t limb, std::size_t limb_count) { (share.*copy)(limb, limb_count); });
+        for (std::uint32_t done = 0; done < blocks.count; done += share.copied_blocks)
+            (share.*copy)(work.mask, {blocks.first + done, std::min(share.copied_blocks, blocks.count - done)});
     }
 };
 
@@ -198,7 +231,8 @@ private:
 std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
 {
     std::uint32_t all = 0;
-    for_each_bundle(crowd, work, blocks, [&](const Blocks*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
+    for_each_bundle(crowd, work, blocks,
+                    [&](const GroupFrame*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
     return all;
 }
 
@@ -206,9 +240,9 @@ void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work&
                   std::uint32_t first, std::uint32_t end)
 {
     const FloatEnv env;
-    Bundle bundle(crowd, kernels, work);
+    Bundle bundle(kernels, work);
     std::uint32_t before = 0;  // rounds of earlier bundles
-    const auto solve = [&](const Blocks* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
+    const auto solve = [&](const GroupFrame* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
         const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
         if (from < to) bundle.set(of_groups, group_count);
         for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);

@@ -75,23 +75,23 @@ double outside_box(const Rotor<double>& q, const float* ranges, const EulerOrder
 
 }  // namespace
 
-double outside_limit(const ArmRotors& arm, Field limit, const float* value, swivel_euler_order order)
+double outside_limit(const ArmRotors& arm, swivel_field limit, const float* value, swivel_euler_order order)
 {
     const Vector<double> bone = vector(0.0, 0.0, 1.0), axis = vector<double>(value[0], value[1], value[2]);
     switch (limit) {
-        case Field::shoulder_cone:
+        case SWIVEL_SHOULDER_CONE:
             return outside_cone(axis, sandwich(arm.shoulder, bone), double{value[3]});
-        case Field::hand_cone:
+        case SWIVEL_HAND_CONE:
             return outside_cone(bone, sandwich(arm.wrist, axis), double{value[3]});
-        case Field::humeral_twist:
+        case SWIVEL_HUMERAL_TWIST:
             return outside_twist(arm.shoulder, bone, value);
-        case Field::forearm_twist:
+        case SWIVEL_FOREARM_TWIST:
             return outside_twist(arm.wrist, bone, value);
-        case Field::hand_twist:
+        case SWIVEL_HAND_TWIST:
             return outside_twist(arm.wrist, axis, value + 3);
-        case Field::shoulder_box:
+        case SWIVEL_SHOULDER_BOX:
             return outside_box(arm.shoulder, value, kEulerOrders[order]);
-        case Field::wrist_box:
+        case SWIVEL_WRIST_BOX:
             return outside_box(arm.wrist, value, kEulerOrders[order]);
         default:
             return 0;

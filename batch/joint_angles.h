@@ -15,6 +15,6 @@ JointAngles joint_angles(const ArmRotors& arm, swivel_euler_order shoulder_order
 
 // By how many radians a pose is outside of a limit on the swivel; 0 or less where it keeps it. value: as the limit's
 // rows hold it. order: a box's.
-double outside_limit(const ArmRotors& arm, Field limit, const float* value, swivel_euler_order order);
+double outside_limit(const ArmRotors& arm, swivel_field limit, const float* value, swivel_euler_order order);
 
 }  // namespace swivel

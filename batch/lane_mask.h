@@ -20,15 +20,20 @@ inline void add_lanes(std::uint32_t* words, std::uint32_t block, LaneMask lanes)
     words[block / 2] |= lanes << block % 2 * SWIVEL_LANES;
 }
 
-// How many lanes of a group's block are limbs, the others padding; and which.
+// How many lanes of a group's block, counted within the group, are limbs, the others padding; which; and those of them
+// that a mask chooses.
 inline std::uint32_t limb_count_of(const Group& group, std::uint32_t block)
 {
-    const std::uint32_t left = group.limb_count - (block - group.first_block) * SWIVEL_LANES;
+    const std::uint32_t left = group.limb_count - block * SWIVEL_LANES;
     return left < SWIVEL_LANES ? left : std::uint32_t{SWIVEL_LANES};
 }
 inline LaneMask lanes_of_limbs(const Group& group, std::uint32_t block)
 {
     return kAllLanes >> (SWIVEL_LANES - limb_count_of(group, block));
+}
+inline LaneMask chosen_limbs(const Group& group, std::uint32_t block, const std::uint32_t* mask)
+{
+    return lanes_of(mask, group.first_block + block) & lanes_of_limbs(group, block);
 }
 
 }  // namespace swivel

@@ -6,8 +6,8 @@
 
 #include <optional>
 
-#include "batch/swivel.h"
 #include "core/conformal.h"
+#include "include/swivel/swivel.h"
 
 namespace swivel {
 

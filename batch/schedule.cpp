@@ -161,7 +161,7 @@ void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& wo
     // The rows of a chunk fill a quarter of a level 2 cache of 512 KiB, which is some microseconds of work. A crowd of
     // one chunk stays on one thread. Up to 2,000 arms, two threads were no faster than one, with chunks of any size.
     constexpr std::size_t kChunkBytes = 128 * 1024;
-    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / block_bytes(crowd));
+    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / crowd.block_bytes);
     if (busy_block_count(work, blocks) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         const Parts parts(crowd, kernels, work, blocks);

@@ -10,41 +10,52 @@
 
 namespace swivel {
 
-// Calls run(g, first_block, block_count) for each group's share of a range of blocks.
-template <class Run>
-void for_each_group(const swivel_crowd& crowd, swivel_blocks blocks, const Run& run)
-{
-    const std::uint32_t first_block = blocks.first, end_block = blocks.first + blocks.count;
-    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
-        const Group& group = crowd.groups[g];
-        const std::uint32_t from = std::max(first_block, group.first_block);
-        const std::uint32_t to = std::min(end_block, group.first_block + group.block_count);
-        if (from < to) run(g, from, to - from);
-    }
-}
+// Some of a group's blocks, counted within it.
+struct GroupBlocks {
+    std::uint32_t first, count;
+};
 
 // These solve blocks of one group on this thread. The caller has set the floating-point environment (FloatEnv).
 // solve_group() solves every limb, or those whose bits are set in mask, which has one bit for each lane of the crowd.
 // Other limbs keep their results. from_memory: the job's rows do not fit the caches.
-void solve_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group, std::uint32_t first_block,
-                 std::uint32_t block_count, bool from_memory = false, const std::uint32_t* mask = nullptr);
+void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, bool from_memory = false,
+                 const std::uint32_t* mask = nullptr);
 // The limbs of a mask. Blocks that are chosen whole are solved as if there were none, which is faster.
-void solve_chosen_group(const swivel_crowd& crowd, const Kernels& kernels, const Group& group,
-                        const std::uint32_t* mask, std::uint32_t first_block, std::uint32_t block_count,
+void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         bool from_memory = false);
 
 // The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
 // build's kernels.
-std::uint32_t allowed_arcs(const swivel_crowd& crowd, const Kernels& scalar, const Group& group, std::uint32_t limb,
-                           swivel_arc* arcs, std::uint32_t capacity);
+std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint32_t limb, swivel_arc* arcs,
+                           std::uint32_t capacity);
 
-// Checked members of a swivel_job. mask: which limbs are solved, null for all. frames: where values come from, null for
-// rows. from_memory: the job's rows do not fit the caches.
+// Checked members of a swivel_job. groups: bits of those that are named, null for all. mask: which limbs are solved,
+// null for all. frames: where values come from, one for each group that is named, null for rows. from_memory: the job's
+// rows do not fit the caches.
 struct Work {
+    const std::uint32_t* groups = nullptr;
     const std::uint32_t* mask = nullptr;
     const swivel_frame* frames = nullptr;
     bool from_memory = false;
 };
+inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
+
+// Calls run(group, its blocks, n) for each group's share of a range of the crowd's blocks, if it is named; n counts
+// all groups that are named before it.
+template <class Run>
+void for_each_group(const swivel_crowd& crowd, const std::uint32_t* groups, swivel_blocks blocks, const Run& run)
+{
+    const std::uint32_t first_block = blocks.first, end_block = blocks.first + blocks.count;
+    for (std::uint32_t g = 0, n = 0; g < crowd.group_count; ++g) {
+        if (!is_named(groups, g)) continue;
+        const Group& group = crowd.groups[g];
+        const std::uint32_t from = std::max(first_block, group.first_block);
+        const std::uint32_t to = std::min(end_block, group.first_block + group.block_count);
+        if (from < to) run(group, GroupBlocks{from - group.first_block, to - from}, n);
+        ++n;
+    }
+}
+
 bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 
 // Work with frames goes in rounds, because limbs of one character often share cache lines. Round n is the nth run of

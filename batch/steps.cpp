@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "batch/status.h"
-#include "batch/swivel.h"
 #include "core/pipeline.h"
+#include "include/swivel/swivel.h"
 #include "simd/float_env.h"
 
 using namespace swivel;

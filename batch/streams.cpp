@@ -89,7 +89,7 @@ void copy_doubles(const Stream& stream, std::size_t first, std::size_t limb_coun
 }
 
 // Of the field with the most components.
-constexpr std::uint32_t kMostFieldStreams = stream_count(field_row_count(kEveryFeature, Field::twist_bones));
+constexpr std::uint32_t kMostFieldStreams = stream_count(field_row_count(kEveryFeature, SWIVEL_TWIST_BONES));
 
 // Streams in only read the caller's values.
 char* bytes_of(swivel_in values) { return static_cast<char*>(const_cast<void*>(values.data)); }
@@ -114,13 +114,12 @@ Stream* streams(FieldRows rows, std::size_t first, char* values, std::size_t str
 
 }  // namespace
 
-FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field)
+FieldRows rows_of(const Group& group, swivel_field field)
 {
     const bool input = is_input(field);
-    const std::uint32_t row_count = input ? crowd.input_row_count : crowd.result_row_count;
-    const std::size_t offset =
-        row_offset(std::size_t{group.first_block} * SWIVEL_LANES, row_count, crowd.first_row[index_of(field)]);
-    return {(input ? crowd.input : crowd.results) + offset, row_count, field_row_count(crowd.features, field)};
+    float* const base = input ? group.input : group.results;
+    return {base + row_offset(0, 0, group.first_row[index_of(field)]),
+            input ? group.input_row_count : group.result_row_count, field_row_count(group.features, field)};
 }
 
 Stream* streams_in(const FieldRows& rows, std::size_t first, swivel_in values, Stream* to)

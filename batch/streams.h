@@ -13,7 +13,7 @@ struct FieldRows {
     std::uint32_t row_count;  // of a block
     std::uint32_t component_count;
 };
-FieldRows rows_of(const swivel_crowd& crowd, const Group& group, Field field);
+FieldRows rows_of(const Group& group, swivel_field field);
 
 // At most four components of a field on their way between rows and values. It knows its loop, which is chosen once.
 struct Stream {

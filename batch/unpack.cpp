@@ -18,10 +18,7 @@ double component(std::uint32_t word)
 
 }  // namespace
 
-bool is_packed(const swivel_crowd& crowd, Field field)
-{
-    return (crowd.features & feature::compact) && !is_input(field);
-}
+bool is_packed(const Group& group, swivel_field field) { return (group.features & SWIVEL_COMPACT) && !is_input(field); }
 
 std::array<float, 4> unpack_rotation(const std::uint16_t* words, std::size_t word_stride)
 {
@@ -54,23 +51,21 @@ float unpack_half(std::uint16_t word)
     return bit_cast<float>(sign | of_float << 23 | digits << 13);
 }
 
-std::array<float, 4> unpack_value(const swivel_crowd& crowd, Field field, std::size_t limb)
+std::array<float, 4> unpack_value(const Group& group, swivel_field field, std::size_t limb)
 {
     const std::uint16_t* const words =
-        crowd.words + row_offset(limb, crowd.result_row_count, field_first_row(crowd.features, field));
-    if (field == Field::flags) return {bit_cast<float>(words[0] | std::uint32_t{words[SWIVEL_LANES]} << 16), 0, 0, 0};
-    if (field == Field::elbow && !(crowd.features & feature::joints))
+        group.words + row_offset(limb, group.result_row_count, field_first_row(group.features, field));
+    if (field == SWIVEL_FLAGS) return {bit_cast<float>(words[0] | std::uint32_t{words[SWIVEL_LANES]} << 16), 0, 0, 0};
+    if (field == SWIVEL_ELBOW && !(group.features & SWIVEL_JOINTS))
         return {unpack_half(words[0]), unpack_half(words[SWIVEL_LANES]), 0, 0};
     return unpack_rotation(words, SWIVEL_LANES);
 }
 
-void unpack_out(const swivel_crowd& crowd, const Group& group, Field field, std::size_t first, std::size_t limb_count,
-                swivel_out values)
+void unpack_out(const Group& group, swivel_field field, std::size_t first, std::size_t limb_count, swivel_out values)
 {
-    const std::size_t bytes = field_component_count(crowd.features, field) * sizeof(float);
-    const std::size_t limb = std::size_t{group.first_block} * SWIVEL_LANES + first;
+    const std::size_t bytes = field_component_count(group.features, field) * sizeof(float);
     for (std::size_t n = 0; n < limb_count; ++n) {
-        const std::array<float, 4> value = unpack_value(crowd, field, limb + n);
+        const std::array<float, 4> value = unpack_value(group, field, first + n);
         std::memcpy(static_cast<char*>(values.data) + n * values.stride, value.data(), bytes);
     }
 }

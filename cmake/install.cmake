@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(FILES batch/swivel.h batch/swivel.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
+install(FILES include/swivel/swivel.h include/swivel/swivel.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 target_include_directories(swivel INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 install(TARGETS swivel EXPORT swivelTargets)

@@ -5,30 +5,9 @@
 #pragma once
 
 #include "core/conformal.h"
+#include "include/swivel/swivel.h"
 
 namespace swivel {
-
-// The flag word's bits; batch/swivel.h publishes the same values.
-namespace flag {
-inline constexpr std::uint32_t reached = 1u << 0;
-inline constexpr std::uint32_t softened = 1u << 1;
-inline constexpr std::uint32_t stretched = 1u << 2;
-inline constexpr std::uint32_t clamped_far = 1u << 3;
-inline constexpr std::uint32_t clamped_near = 1u << 4;
-inline constexpr std::uint32_t swivel_undefined = 1u << 5;
-inline constexpr std::uint32_t limited_flexion = 1u << 6;
-inline constexpr std::uint32_t limited_shoulder_cone = 1u << 7;
-inline constexpr std::uint32_t limited_humeral_twist = 1u << 8;
-inline constexpr std::uint32_t limited_shoulder_box = 1u << 9;
-inline constexpr std::uint32_t limited_hand_cone = 1u << 10;
-inline constexpr std::uint32_t limited_forearm_twist = 1u << 11;
-inline constexpr std::uint32_t limited_hand_twist = 1u << 12;
-inline constexpr std::uint32_t limited_wrist_box = 1u << 13;
-inline constexpr std::uint32_t limited_step = 1u << 14;
-inline constexpr std::uint32_t infeasible = 1u << 15;
-inline constexpr std::uint32_t jumped = 1u << 16;
-inline constexpr std::uint32_t bad_input = 1u << 30;
-}  // namespace flag
 
 inline namespace SWIVEL_ISA {
 

@@ -119,7 +119,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T, Boxes> swivel_limits(const LimitUse& use
     if (use.shoulder_cone)
         add(cone_limit(cosine(in_line(limits.shoulder_cone.axis), sandwich(to_arm, e3)),
                        limits.shoulder_cone.cos_opening),
-            flag::limited_shoulder_cone);
+            SWIVEL_LIMITED_SHOULDER_CONE);
     // Twists come from products of a rotor's components. Near a swing of half a turn all of them are small, and sums of
     // a matrix's entries would leave their rounding errors.
     const Rotor<T> from_line =
@@ -135,13 +135,13 @@ SWIVEL_INLINE constexpr SwivelLimits<T, Boxes> swivel_limits(const LimitUse& use
     };
     if (use.humeral_twist) {
         const Rotor<T> at_0 = from_line * to_arm, at_pi = from_line * k * to_arm;
-        add(twist(limits.humeral_twist, at_0, at_pi, along_e3(at_0, at_pi)), flag::limited_humeral_twist);
+        add(twist(limits.humeral_twist, at_0, at_pi, along_e3(at_0, at_pi)), SWIVEL_LIMITED_HUMERAL_TWIST);
     }
     if (use.shoulder_box)
         add_box(euler_box<T>(use.shoulder_order,
                              matrix(in_line(unit<T, kE1>()), in_line(unit<T, kE2>()), in_line(unit<T, kE3>()), to_arm),
                              limits.shoulder_box[0], limits.shoulder_box[1], limits.shoulder_box[2]),
-                flag::limited_shoulder_box);
+                SWIVEL_LIMITED_SHOULDER_BOX);
     if (!(use.hand_cone || use.forearm_twist || use.hand_twist || use.wrist_box)) return out;
 
     // The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
@@ -149,16 +149,16 @@ SWIVEL_INLINE constexpr SwivelLimits<T, Boxes> swivel_limits(const LimitUse& use
     if (use.hand_cone)
         add(cone_limit(cosine(in_line(sandwich(arm.hand, limits.hand_cone.axis)), sandwich(forearm, e3)),
                        limits.hand_cone.cos_opening),
-            flag::limited_hand_cone);
+            SWIVEL_LIMITED_HAND_CONE);
     if (use.forearm_twist || use.hand_twist) {
         const Rotor<T> hand = ~from_line * arm.hand;
         const Rotor<T> at_0 = ~forearm * hand, at_pi = ~forearm * ~k * hand;
         if (use.forearm_twist)
-            add(twist(limits.forearm_twist, at_0, at_pi, along_e3(at_0, at_pi)), flag::limited_forearm_twist);
+            add(twist(limits.forearm_twist, at_0, at_pi, along_e3(at_0, at_pi)), SWIVEL_LIMITED_FOREARM_TWIST);
         if (use.hand_twist) {
             const Vector<T>& axis = limits.hand_twist.axis;
             add(twist(limits.hand_twist.range, at_0, at_pi, {about(axis, at_0), about(axis, at_pi)}),
-                flag::limited_hand_twist);
+                SWIVEL_LIMITED_HAND_TWIST);
         }
     }
     if (use.wrist_box) {  // its matrix has the forearm's axes in its rows, so what moves belongs to the row
@@ -167,7 +167,7 @@ SWIVEL_INLINE constexpr SwivelLimits<T, Boxes> swivel_limits(const LimitUse& use
         add_box(euler_box<T>(
                     use.wrist_order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); },
                     limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),
-                flag::limited_wrist_box);
+                SWIVEL_LIMITED_WRIST_BOX);
     }
     return out;
 }

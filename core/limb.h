@@ -121,11 +121,11 @@ SWIVEL_INLINE constexpr auto place_limb(const LimbUse& use, const LimbGoal<T>& g
 
     const WishedNormal<T> wish = wished_normal(use, goal, limb.line);
     limb.normal = wish.normal;
-    limb.flags = limb.bones.flags | bits_where(wish.undefined | on_shoulder, flag::swivel_undefined);
+    limb.flags = limb.bones.flags | bits_where(wish.undefined | on_shoulder, SWIVEL_SWIVEL_UNDEFINED);
     if (use.continuity) {
         limb.step = stepped_normal(goal.continuity, limb.normal, limb.line);
         limb.normal = limb.step.normal;
-        limb.flags = limb.flags | bits_where(limb.step.limited, flag::limited_step);
+        limb.flags = limb.flags | bits_where(limb.step.limited, SWIVEL_LIMITED_STEP);
     }
     // Once more: of a wish close to the line, rounding has left some of the line. What this shortens is less than
     // rounding.
@@ -153,18 +153,18 @@ SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbG
         const ChosenSwivel<T> chosen = choose_swivel<Policy>(limits.limits, valid);
         pose.settled = chosen.settled;
         pose.next = chosen.next;
-        flags = flags | broken(limits) | bits_where(!chosen.allowed, flag::infeasible);
+        flags = flags | broken(limits) | bits_where(!chosen.allowed, SWIVEL_INFEASIBLE);
         normal = chosen.swivel.cos * normal + chosen.swivel.sin * cross(limb.line, normal);
         if (use.continuity) {
             const Mask<T> beyond = is_beyond(limb.step.previous, normal, limb.line, goal.continuity.most, 1e-6);
-            flags = flags | bits_where(limb.step.has_previous & beyond, flag::jumped);
+            flags = flags | bits_where(limb.step.has_previous & beyond, SWIVEL_JUMPED);
         }
     }
     // Steps 3 to 5: the frame along the line, its e1 the swivel plane's normal.
     const Rotor<T> shoulder = normalise(frame_along(limb.line, normal) * limb.arm.to_arm);
 
     pose.arm = {select(valid, shoulder, one<T>()), select(valid, limb.bones.cos_half, T(1)),
-                select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(flag::bad_input)), valid};
+                select(valid, limb.bones.sin_half, T(0)), select(valid, flags, bits<T>(SWIVEL_BAD_INPUT)), valid};
     pose.stretch = select(valid, limb.bones.stretch, T(1));
     if (use.continuity) {
         pose.normal = select(valid, normalise(normal), vector(T(0), T(0), T(0)));

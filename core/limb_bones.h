@@ -51,13 +51,13 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
     }
     const SoftReach<T> reach = use.reach ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
     const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
-    Bits<T> flags = bits_where(reach.too_far, flag::clamped_far) | bits_where(reach.too_near, flag::clamped_near) |
-                    bits_where(reach.softened, flag::softened) | bits_where(reach.stretch > T(1), flag::stretched) |
-                    bits_where(!missed, flag::reached);
+    Bits<T> flags = bits_where(reach.too_far, SWIVEL_CLAMPED_FAR) | bits_where(reach.too_near, SWIVEL_CLAMPED_NEAR) |
+                    bits_where(reach.softened, SWIVEL_SOFTENED) | bits_where(reach.stretch > T(1), SWIVEL_STRETCHED) |
+                    bits_where(!missed, SWIVEL_REACHED);
     if (use.limits.flexion) {
         const Mask<T> too_straight = (distance > range.far) & (range.far < far),
                       too_bent = (distance < range.near) & (range.near > near);
-        flags = flags | bits_where(missed & (too_straight | too_bent), flag::limited_flexion);
+        flags = flags | bits_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);
     }
 
     // Steps 1 and 2 of the lecture: the triangle of the bones. A bone that is lost in the other's digits is straight

@@ -73,8 +73,8 @@ SWIVEL_INLINE constexpr BentElbow<T> bend_elbow(const FrameStart<T>& start, cons
             triangle.sin_half,
             hinge(flip_sign(first, start.side), second),
             triangle.lift2,
-            select(reach.too_far, bits<T>(flag::clamped_far),
-                   select(reach.too_near, bits<T>(flag::clamped_near), bits<T>(flag::reached))),
+            select(reach.too_far, bits<T>(SWIVEL_CLAMPED_FAR),
+                   select(reach.too_near, bits<T>(SWIVEL_CLAMPED_NEAR), bits<T>(SWIVEL_REACHED))),
             holds};
 }
 

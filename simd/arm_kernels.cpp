@@ -22,7 +22,7 @@ struct Shared {
     Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm, elbow_straight, elbow_hinge;
     T pole_is_point;
 };
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
 {
     const Binding bind = binding_of<Features>(run);
@@ -31,20 +31,20 @@ SWIVEL_INLINE Shared<T> shared_by(const SolveRun& run)
             broadcast<T>(bind.wrist_parent_from_arm),
             broadcast<T>(bind.elbow_parent_from_arm) * ~broadcast<T>(bind.fore_from_arm),
             times_blade<kI>(broadcast<T>(bind.elbow_parent_from_arm)) * ~broadcast<T>(bind.fore_from_arm),
-            T(run.features & feature::pole_direction ? 0 : 1)};
+            T(run.features & SWIVEL_POLE_DIRECTION ? 0 : 1)};
 }
 
-constexpr bool has(FeatureSet features, FeatureSet one) { return features & one; }
+constexpr bool has(swivel_features features, swivel_features one) { return features & one; }
 
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 SWIVEL_INLINE ArmGoal<T> load_goal(const Rows<T, Features>& rows)
 {
-    return {rows.load_vector(Field::target), rows.load_vector(Field::pole), rows.load(Field::lengths, 0),
-            rows.load(Field::lengths, 1)};
+    return {rows.load_vector(SWIVEL_TARGET), rows.load_vector(SWIVEL_POLE), rows.load(SWIVEL_LENGTHS, 0),
+            rows.load(SWIVEL_LENGTHS, 1)};
 }
 // Stores a rotation as its quaternion with w > 0. Returns false where w is 0 or NaN: there the result means nothing.
-template <class T, FeatureSet Features>
-SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, Field field, const Rotor<T>& q)
+template <class T, swivel_features Features>
+SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, swivel_field field, const Rotor<T>& q)
 {
     const T w = q.template at<kScalar>();
     rows.store_rotor(field, with_sign_of(w, q));
@@ -52,40 +52,40 @@ SWIVEL_INLINE Mask<T> store_rotation(const Rows<T, Features>& rows, Field field,
 }
 
 // Stores the rotations and flags of a pose. Returns false where the hand is bad, or a joint turns by half a turn.
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Shared<T>& shared, const ArmPose<T>& pose)
 {
-    constexpr bool world = has(Features, feature::world), joints = has(Features, feature::joints);
+    constexpr bool world = has(Features, SWIVEL_WORLD), joints = has(Features, SWIVEL_JOINTS);
     Rotor<T> shoulder = pose.shoulder;
     if constexpr (joints) {
         shoulder = pose.shoulder * shared.arm_from_upper;
         const Rotor<T> elbow = pose.cos_half * shared.elbow_straight - pose.sin_half * shared.elbow_hinge;
-        rows.store_rotor(Field::elbow, hemisphere(elbow));  // folded arms turn by pi
+        rows.store_rotor(SWIVEL_ELBOW, hemisphere(elbow));  // folded arms turn by pi
     } else {
-        rows.store(Field::elbow, 0, pose.cos_half);
-        rows.store(Field::elbow, 1, pose.sin_half);
+        rows.store(SWIVEL_ELBOW, 0, pose.cos_half);
+        rows.store(SWIVEL_ELBOW, 1, pose.sin_half);
     }
     if constexpr (joints && !world) shoulder = shared.parent_from_arm * shoulder;
-    rows.store(Field::flags, 0, pose.flags);
-    Mask<T> holds = store_rotation(rows, Field::shoulder, shoulder);
-    if constexpr (has(Features, feature::hand)) {
-        const Rotor<T> given = rows.load_rotor(Field::hand);
+    rows.store(SWIVEL_FLAGS, 0, pose.flags);
+    Mask<T> holds = store_rotation(rows, SWIVEL_SHOULDER, shoulder);
+    if constexpr (has(Features, SWIVEL_WITH_HAND)) {
+        const Rotor<T> given = rows.load_rotor(SWIVEL_HAND);
         Rotor<T> hand = given;
-        if constexpr (world) hand = ~rows.load_rotor(Field::parent_rotation) * given;
+        if constexpr (world) hand = ~rows.load_rotor(SWIVEL_PARENT_ROTATION) * given;
         Rotor<T> wrist = wrist_rotor(pose, hand);
         if constexpr (joints) wrist = shared.wrist_parent_from_arm * wrist;
-        holds = holds & store_rotation(rows, Field::wrist, wrist) & is_orientation(given);
+        holds = holds & store_rotation(rows, SWIVEL_WRIST, wrist) & is_orientation(given);
     }
     return holds;
 }
 
 // Solves a step of arms. Returns false where the formula does not hold; there the results mean nothing.
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>& shared)
 {
     ArmGoal<T> goal = load_goal(rows);
     Mask<T> ordinary = T(0) == T(0);
-    if constexpr (has(Features, feature::world)) {
+    if constexpr (has(Features, SWIVEL_WORLD)) {
         const ParentFrame<T> parent = rows.load_parent();
         const SeenGoal<T> seen = seen_by(parent, goal.wrist, goal.pole, shared.pole_is_point);
         goal = {seen.wrist, seen.pole, seen.size * goal.upper, seen.size * goal.fore};
@@ -93,12 +93,12 @@ SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>&
     }
     const PlainArm<T> arm = solve_plain(goal);
     const Mask<T> holds = arm.holds & store_pose(rows, shared, arm.pose);
-    if constexpr (!has(Features, feature::world)) return holds;
+    if constexpr (!has(Features, SWIVEL_WORLD)) return holds;
     return holds & ordinary;
 }
 
 // The features of plain arms that change their rows.
-inline constexpr FeatureSet kPlainRows = feature::world | feature::joints | feature::hand;
+inline constexpr swivel_features kPlainRows = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
 
 // Solves the first limbs of a list, up to a block, as whole limbs. If they are a block of the run, that is done where
 // they lie.
@@ -122,10 +122,28 @@ SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
     for (std::uint32_t row = 0; row < row_count; ++row) __builtin_prefetch(input + std::size_t{row} * kLanes);
 }
 
+// The results of a step on their way to the rows, where limbs with bad input keep theirs.
+template <class T, swivel_features Features>
+struct StepAside {
+    static constexpr std::uint32_t kRows = result_row_count(Features);
+    alignas(64) float results[kRows * kLanes];
+
+    SWIVEL_INLINE void store(float* to, std::uint32_t lanes) const
+    {
+        const Mask<T> where = lanes_where<T>(lanes);
+        for (std::uint32_t row = 0; row < kRows; ++row) {
+            const auto in = [&](auto* rows) SWIVEL_INLINE_LAMBDA {
+                return [=](std::size_t lane) SWIVEL_INLINE_LAMBDA { return rows + row_offset(lane, kRows, row); };
+            };
+            store_lanes(in(to), load_lanes<T>(in(results)), where);
+        }
+    }
+};
+
 // Solves whole steps from block on, and returns the first block that is left. Arms for which the formula does not hold
-// go to `others`; it returns early when that list is full. It is a function of its own for each T, so that its
-// constants do not take registers from another loop.
-template <class T, FeatureSet Features, bool Masked>
+// go to `others`; it returns early when that list is full. Selective: there is a mask, or limbs keep results. It is a
+// function of its own for each T, so that its constants do not take registers from another loop.
+template <class T, swivel_features Features, bool Selective>
 SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block,
                                                            WaitingLimbs& others)
 {
@@ -136,15 +154,25 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     const float* input = run.input + row_offset(from, input_row_count(Features), 0);
     float* results = run.results + row_offset(from, result_row_count(Features), 0);
     for (; block + blocks <= block_count; block += blocks) {
-        if (has(Features, feature::world) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
+        if (has(Features, SWIVEL_WORLD) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
         std::uint32_t fails = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
-            std::uint32_t chosen = kEveryLane;
-            if constexpr (Masked) chosen = chosen_lanes(run, std::size_t{block} * kLanes + lane, lanes);
+            const auto solve_to = [&](float* to, std::uint32_t chosen) SWIVEL_INLINE_LAMBDA {
+                return solve_step(Rows<T, Features>{run, input + lane, to, chosen}, shared);
+            };
+            std::uint32_t chosen = kEveryLane, failed = 0;
+            if constexpr (Selective) chosen = chosen_lanes(run, std::size_t{block} * kLanes + lane, lanes);
             if (chosen == 0) continue;
-            const Mask<T> holds = solve_step(Rows<T, Features>{run, input + lane, results + lane, chosen}, shared);
-            if (!all(holds)) [[unlikely]]
-                fails |= (lane_bits(!holds) & chosen) << lane;
+            if (Selective && run.keeps) {
+                StepAside<T, Features> aside;
+                failed = lane_bits(!solve_to(aside.results, kEveryLane));
+                aside.store(results + lane, chosen & ~failed);
+            } else {
+                const Mask<T> holds = solve_to(results + lane, chosen);
+                if (!all(holds)) [[unlikely]]
+                    failed = lane_bits(!holds);
+            }
+            fails |= (failed & chosen) << lane;
         }
         if (fails != 0) [[unlikely]] {
             others.add(std::size_t{block} * kLanes, fails);
@@ -157,7 +185,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
 }
 
 // Solves steps of several registers, and then the rest with one register. The formula and the bits are the same.
-template <FeatureSet Features>
+template <swivel_features Features>
 void solve(const SolveRun& run)
 {
     using Wide = typename KernelNumber<SWIVEL_ARCH, SWIVEL_REGISTERS>::type;
@@ -165,7 +193,7 @@ void solve(const SolveRun& run)
     const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
     WaitingLimbs others;
     for (std::uint32_t block = 0; block < block_count;) {
-        if (run.mask) {
+        if (run.mask || run.keeps) {
             block = solve_steps<Narrow, Features, true>(run, block, others);
         } else {
             block = solve_steps<Wide, Features, false>(run, block, others);
@@ -182,7 +210,7 @@ using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;
 
 extern const ArmKernels arm_kernels;
 const ArmKernels arm_kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>},
-                             {pack<PackNumber, 0>, pack<PackNumber, feature::joints>, pack<PackNumber, feature::hand>,
-                              pack<PackNumber, feature::joints | feature::hand>}};
+                             {pack<PackNumber, 0>, pack<PackNumber, SWIVEL_JOINTS>, pack<PackNumber, SWIVEL_WITH_HAND>,
+                              pack<PackNumber, SWIVEL_JOINTS | SWIVEL_WITH_HAND>}};
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -55,7 +55,7 @@ struct WaitingLimbs {
 };
 
 // Room for a block of limbs that have these features.
-template <FeatureSet Features>
+template <swivel_features Features>
 struct BlockAside {
     alignas(64) float input[input_row_count(Features) * kLanes];
     alignas(64) float results[result_row_count(Features) * kLanes];
@@ -69,7 +69,8 @@ struct BlockAside {
         for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
             const std::size_t from = list.limb[lane < count ? lane : 0];
             copy_lane(rows, run.input + row_offset(from, rows, 0), input + lane);
-            if (run.features & feature::most_swivel)  // what is carried from solve to solve is read from the results
+            // What is carried from solve to solve, and what bad input keeps, is in the results.
+            if (run.features & SWIVEL_WITH_MOST_SWIVEL || run.keeps)
                 copy_lane(result_rows, run.results + row_offset(from, result_rows, 0), results + lane);
         }
         SolveRun aside = run;

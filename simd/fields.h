@@ -1,70 +1,289 @@
 // SPDX-License-Identifier: MIT
 //
-// The kernels' own numbers: what a crowd can be asked for, and the fields of its limbs in the order of their rows.
-// Knows nothing of the public ones, which batch/numbers.h maps.
+// The table of features and fields. A row is all that the library knows of one, except its meaning (swivel.h) and its
+// formula. Layout, checks, messages, frames and swivel_describe_field() read it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "include/swivel/swivel.h"
+
 namespace swivel {
 
-inline constexpr std::uint32_t kLanes = 16;  // limbs in a block
-inline constexpr std::uint32_t kMostTwistBones = 7;
+inline constexpr std::uint32_t kLanes = SWIVEL_LANES;  // limbs in a block
 
-// Inputs, then results.
-enum class Field : std::uint8_t {
-    target,
-    pole,
-    lengths,
-    shoulder_position,
-    parent_rotation,
-    parent_scale,
-    hand,
-    effector,
-    angle,
-    incoming_shoulder,
-    incoming_elbow,
-    incoming_wrist,
-    weights,
-    reach,
-    most_swivel,
-    flexion_limit,
-    shoulder_cone,
-    humeral_twist,
-    shoulder_box,
-    hand_cone,
-    forearm_twist,
-    hand_twist,
-    wrist_box,
-    aim,
-    clavicle,
-    shoulder,
-    elbow,
-    wrist,
-    flags,
-    stretch,
-    normal,
-    twist_bones,
-    clavicle_turn,
+// ---- features: which others each needs, and which it excludes
+inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES,
+                                 kHandLimits = SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
+                                               SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
+struct FeatureRow {
+    swivel_features feature;
+    const char* name;
+    swivel_features needs = 0, excludes = 0;
 };
-inline constexpr std::size_t kInputCount = std::size_t(Field::shoulder),
-                             kFieldCount = std::size_t(Field::clavicle_turn) + 1;
-constexpr std::size_t index_of(Field field) { return static_cast<std::size_t>(field); }
-constexpr bool is_input(Field field) { return field < Field::shoulder; }
+constexpr FeatureRow kFeatures[] = {
+    {SWIVEL_WORLD, "WORLD"},
+    {SWIVEL_JOINTS, "JOINTS"},
+    {SWIVEL_WITH_HAND, "WITH_HAND"},
+    {SWIVEL_POLE_DIRECTION, "POLE_DIRECTION", SWIVEL_WORLD, SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING},
+    {SWIVEL_COMPACT, "COMPACT", 0, SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_CLAVICLE | kTwistBones},
+    {SWIVEL_WITH_EFFECTOR, "WITH_EFFECTOR", SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_ANGLE, "WITH_ANGLE"},
+    {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING},
+    {SWIVEL_WITH_INCOMING, "WITH_INCOMING"},
+    {SWIVEL_POLE_INCOMING, "POLE_INCOMING", SWIVEL_WITH_INCOMING, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL},
+    {SWIVEL_WITH_WEIGHTS, "WITH_WEIGHTS", SWIVEL_WITH_INCOMING},
+    {SWIVEL_WITH_REACH, "WITH_REACH"},
+    {SWIVEL_WITH_MOST_SWIVEL, "WITH_MOST_SWIVEL"},
+    {SWIVEL_WITH_FLEXION_LIMIT, "WITH_FLEXION_LIMIT"},
+    {SWIVEL_WITH_SHOULDER_CONE, "WITH_SHOULDER_CONE"},
+    {SWIVEL_WITH_HUMERAL_TWIST, "WITH_HUMERAL_TWIST"},
+    {SWIVEL_WITH_SHOULDER_BOX, "WITH_SHOULDER_BOX"},
+    {SWIVEL_WITH_HAND_CONE, "WITH_HAND_CONE", SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_FOREARM_TWIST, "WITH_FOREARM_TWIST", SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_HAND_TWIST, "WITH_HAND_TWIST", SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_WRIST_BOX, "WITH_WRIST_BOX", SWIVEL_WITH_HAND},
+    {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits},
+    {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
+    {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
+};
+inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
 
-// A set of features, with the number of twist bones, 0 to 7, times feature::twist_bones.
-using FeatureSet = std::uint64_t;
-namespace feature {
-constexpr FeatureSet bit(int n) { return FeatureSet{1} << n; }
-// The three that change the formula of plain arms come first: they number its kernels.
-inline constexpr FeatureSet world = bit(0), joints = bit(1), hand = bit(2), pole_direction = bit(3), compact = bit(4);
-inline constexpr FeatureSet effector = bit(5), angle = bit(6), pole_normal = bit(7), incoming = bit(8);
-inline constexpr FeatureSet pole_incoming = bit(9), weights = bit(10), reach = bit(11), most_swivel = bit(12);
-inline constexpr FeatureSet flexion_limit = bit(13), shoulder_cone = bit(14), humeral_twist = bit(15);
-inline constexpr FeatureSet shoulder_box = bit(16), hand_cone = bit(17), forearm_twist = bit(18), hand_twist = bit(19);
-inline constexpr FeatureSet wrist_box = bit(20), aim = bit(21), clavicle = bit(22), budget = bit(23);
-inline constexpr FeatureSet twist_bones = bit(40);
-}  // namespace feature
+// All bits of a row's feature: the number of twist bones has three.
+constexpr swivel_features bits_of(const FeatureRow& row)
+{
+    return row.feature == SWIVEL_WITH_TWIST_BONES ? kTwistBones : row.feature;
+}
+// Every feature, with the number of twist bones at its largest.
+inline constexpr swivel_features kKnownFeatures = [] {
+    swivel_features known = 0;
+    for (const FeatureRow& row : kFeatures) known |= bits_of(row);
+    return known;
+}();
+// The name of the first feature of a set that is not empty.
+constexpr const char* feature_name(swivel_features features)
+{
+    const FeatureRow* row = kFeatures;
+    while (!(features & bits_of(*row))) ++row;
+    return row->name;
+}
+
+// ---- fields, in the order of their rows: inputs, then results
+struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
+    std::uint32_t axis_size = 0, pair_count = 0;
+};
+enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
+enum class Place : std::uint8_t { no, yes };           // a position: it may be given in double, from an origin
+struct FieldRow {
+    swivel_field field;
+    const char* name;
+    std::uint32_t component_count;  // see field_component_count()
+    swivel_field_kind kind;
+    swivel_features needs = 0, excludes = 0;
+    const char* range = "";  // what a value must be to be in its range
+    float start[12] = {};    // what padding starts with, and limbs unless unknown
+    Start starts = Start::neutral;
+    Place place = Place::no;
+    UnitParts unit = {};
+};
+constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_RESULT, kCarried = SWIVEL_FIELD_CARRIED;
+constexpr const char kPlace[] = "no further than 1e15", kQuaternion[] = "a quaternion of length 1e-9 to 1e9",
+                     kCone[] = "a unit axis and a cosine; swivel_cone() makes them",
+                     kRanges[] = "ranges of angles; swivel_range() makes them";
+constexpr FieldRow kFields[] = {
+    {SWIVEL_TARGET, "target", 3, kInput, 0, 0, kPlace, {0, 0, 2}, Start::unknown, Place::yes},
+    {SWIVEL_POLE, "pole", 3, kInput, 0, SWIVEL_POLE_INCOMING, kPlace, {0, -1, 0}, Start::neutral, Place::yes},
+    {SWIVEL_LENGTHS, "lengths", 2, kInput, 0, 0, "0 or 1e-15 to 1e15 each", {1, 1}, Start::unknown},
+    {SWIVEL_SHOULDER_POSITION, "shoulder_position", 3, kInput, SWIVEL_WORLD, 0, kPlace, {}, Start::unknown, Place::yes},
+    {SWIVEL_PARENT_ROTATION, "parent_rotation", 4, kInput, SWIVEL_WORLD, 0, kQuaternion, {0, 0, 0, 1}},
+    {SWIVEL_PARENT_SCALE, "parent_scale", 1, kInput, SWIVEL_WORLD, 0, "1e-15 to 1e15", {1}},
+    {SWIVEL_HAND, "hand", 4, kInput, SWIVEL_WITH_HAND, 0, kQuaternion, {0, 0, 0, 1}},
+    {SWIVEL_EFFECTOR, "effector", 3, kInput, SWIVEL_WITH_EFFECTOR, 0, kPlace},
+    {SWIVEL_ANGLE,
+     "angle",
+     2,
+     kInput,
+     SWIVEL_WITH_ANGLE,
+     0,
+     "cos and sin, 1e-9 to 1e9 long; swivel_turn() makes them",
+     {1, 0}},
+    {SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", 4, kInput, SWIVEL_WITH_INCOMING, 0, kQuaternion, {0, 0, 0, 1}},
+    {SWIVEL_INCOMING_ELBOW, "incoming_elbow", 4, kInput, SWIVEL_WITH_INCOMING, 0, kQuaternion, {0, 0, 0, 1}},
+    {SWIVEL_INCOMING_WRIST,
+     "incoming_wrist",
+     4,
+     kInput,
+     SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND,
+     0,
+     kQuaternion,
+     {0, 0, 0, 1}},
+    {SWIVEL_WEIGHTS, "weights", 3, kInput, SWIVEL_WITH_WEIGHTS, 0, "0 to 1 each", {1, 1, 1}},
+    {SWIVEL_REACH, "reach", 4, kInput, SWIVEL_WITH_REACH, 0, "0 to 1 each, the stretch 1 to 1000", {0, 0, 1, 0}},
+    {SWIVEL_MOST_SWIVEL,
+     "most_swivel",
+     2,
+     kInput,
+     SWIVEL_WITH_MOST_SWIVEL,
+     0,
+     "cos and sin of 0 to pi; swivel_turn() makes them",
+     {-1, 0},
+     Start::neutral,
+     Place::no,
+     {0, 1}},
+    {SWIVEL_FLEXION_LIMIT,
+     "flexion_limit",
+     2,
+     kInput,
+     SWIVEL_WITH_FLEXION_LIMIT,
+     0,
+     "cosines of half angles; swivel_flexion() makes them",
+     {1, 0}},
+    {SWIVEL_SHOULDER_CONE,
+     "shoulder_cone",
+     4,
+     kInput,
+     SWIVEL_WITH_SHOULDER_CONE,
+     0,
+     kCone,
+     {0, 0, 1, -1},
+     Start::neutral,
+     Place::no,
+     {3, 0}},
+    // A range wide open: its middle 0, half its width pi.
+    {SWIVEL_HUMERAL_TWIST,
+     "humeral_twist",
+     4,
+     kInput,
+     SWIVEL_WITH_HUMERAL_TWIST,
+     0,
+     kRanges,
+     {1, 0, -1, 0},
+     Start::neutral,
+     Place::no,
+     {0, 2}},
+    {SWIVEL_SHOULDER_BOX,
+     "shoulder_box",
+     12,
+     kInput,
+     SWIVEL_WITH_SHOULDER_BOX,
+     0,
+     kRanges,
+     {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0},
+     Start::neutral,
+     Place::no,
+     {0, 6}},
+    {SWIVEL_HAND_CONE,
+     "hand_cone",
+     4,
+     kInput,
+     SWIVEL_WITH_HAND_CONE,
+     0,
+     kCone,
+     {0, 0, 1, -1},
+     Start::neutral,
+     Place::no,
+     {3, 0}},
+    {SWIVEL_FOREARM_TWIST,
+     "forearm_twist",
+     4,
+     kInput,
+     SWIVEL_WITH_FOREARM_TWIST,
+     0,
+     kRanges,
+     {1, 0, -1, 0},
+     Start::neutral,
+     Place::no,
+     {0, 2}},
+    {SWIVEL_HAND_TWIST,
+     "hand_twist",
+     7,
+     kInput,
+     SWIVEL_WITH_HAND_TWIST,
+     0,
+     "a unit axis and a range of angles; swivel_range() makes it",
+     {0, 0, 1, 1, 0, -1, 0},
+     Start::neutral,
+     Place::no,
+     {3, 2}},
+    {SWIVEL_WRIST_BOX,
+     "wrist_box",
+     12,
+     kInput,
+     SWIVEL_WITH_WRIST_BOX,
+     0,
+     kRanges,
+     {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0},
+     Start::neutral,
+     Place::no,
+     {0, 6}},
+    {SWIVEL_AIM,
+     "aim",
+     5,
+     kInput,
+     SWIVEL_WITH_AIM,
+     0,
+     "a unit axis, cos and sin; swivel_aim() makes them",
+     {0, 0, 1, 1, 0},
+     Start::neutral,
+     Place::no,
+     {3, 1}},
+    {SWIVEL_CLAVICLE, "clavicle", 4, kInput, SWIVEL_WITH_CLAVICLE, 0,
+     "a place no further than 1e15 and a share of 0 to 1"},
+    {SWIVEL_SHOULDER, "shoulder", 4, kResult},
+    {SWIVEL_ELBOW, "elbow", 2, kResult},
+    {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND},
+    {SWIVEL_FLAGS, "flags", 1, kResult},
+    {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH},
+    {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MOST_SWIVEL},
+    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES},
+    {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE},
+};
+inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
+
+// Results have a range of numbers of their own, so that a new input moves none.
+constexpr bool is_field(swivel_field field)
+{
+    return static_cast<std::size_t>(field) < kInputCount || (field >= SWIVEL_SHOULDER && field < SWIVEL_RESULT_END);
+}
+constexpr bool is_input(swivel_field field) { return field < SWIVEL_INPUT_END; }
+// A field's place in the table.
+constexpr std::size_t index_of(swivel_field field)
+{
+    return static_cast<std::size_t>(field) - (is_input(field) ? 0 : SWIVEL_SHOULDER - kInputCount);
+}
+constexpr const FieldRow& row_of(swivel_field field) { return kFields[index_of(field)]; }
+constexpr const char* name_of(swivel_field field) { return row_of(field).name; }
+static_assert([] {
+    for (std::size_t n = 0; n < kFieldCount; ++n)
+        if (index_of(kFields[n].field) != n || is_input(kFields[n].field) != (kFields[n].kind == kInput)) return false;
+    return kFieldCount == kInputCount + SWIVEL_RESULT_END - SWIVEL_SHOULDER;
+}());
+
+// ---- flags
+struct FlagRow {
+    swivel_flag flag;
+    const char* name;
+};
+constexpr FlagRow kFlags[] = {
+    {SWIVEL_REACHED, "REACHED"},
+    {SWIVEL_SOFTENED, "SOFTENED"},
+    {SWIVEL_STRETCHED, "STRETCHED"},
+    {SWIVEL_CLAMPED_FAR, "CLAMPED_FAR"},
+    {SWIVEL_CLAMPED_NEAR, "CLAMPED_NEAR"},
+    {SWIVEL_SWIVEL_UNDEFINED, "SWIVEL_UNDEFINED"},
+    {SWIVEL_LIMITED_FLEXION, "LIMITED_FLEXION"},
+    {SWIVEL_LIMITED_SHOULDER_CONE, "LIMITED_SHOULDER_CONE"},
+    {SWIVEL_LIMITED_HUMERAL_TWIST, "LIMITED_HUMERAL_TWIST"},
+    {SWIVEL_LIMITED_SHOULDER_BOX, "LIMITED_SHOULDER_BOX"},
+    {SWIVEL_LIMITED_HAND_CONE, "LIMITED_HAND_CONE"},
+    {SWIVEL_LIMITED_FOREARM_TWIST, "LIMITED_FOREARM_TWIST"},
+    {SWIVEL_LIMITED_HAND_TWIST, "LIMITED_HAND_TWIST"},
+    {SWIVEL_LIMITED_WRIST_BOX, "LIMITED_WRIST_BOX"},
+    {SWIVEL_LIMITED_STEP, "LIMITED_STEP"},
+    {SWIVEL_INFEASIBLE, "INFEASIBLE"},
+    {SWIVEL_JUMPED, "JUMPED"},
+    {SWIVEL_BAD_INPUT, "BAD_INPUT"},
+};
 
 }  // namespace swivel

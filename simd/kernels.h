@@ -10,33 +10,21 @@
 
 namespace swivel {
 
-// How the arm frame lies in a skeleton's joints, and their rest pose: unit quaternions, x, y, z, w. Used with
-// feature::joints.
-struct RestFrames {
-    float parent_from_arm[4];                              // arm frame to the shoulder's parent joint
-    float upper_from_arm[4];                               // arm frame at rest to the shoulder joint's own
-    float elbow_parent_from_arm[4];                        // the same, to the elbow's parent joint
-    float fore_from_arm[4];                                // the same, to the elbow joint's own
-    float wrist_parent_from_arm[4];                        // the same, to the wrist's parent joint
-    float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations
-    float twist_parent_from_arm[kMostTwistBones][4];       // the same, to each twist bone's parent joint and its own
-    float twist_from_arm[kMostTwistBones][4];
-};
-
-// A run of blocks that share their features and frames.
+// A run of blocks that share their features and binding.
 struct SolveRun {
     const float* input;  // input rows of the run's first block
     float* results;      // result rows of the same block, floats
     std::uint32_t input_row_count, result_row_count;
     std::size_t limb_count;  // padding included, but gathered limbs may end within their block
-    FeatureSet features;
+    swivel_features features;
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
-    const RestFrames* frames;
-    const std::uint16_t* first_row;  // of each field, among input or result rows
-    bool from_memory;                // the job's rows do not fit the caches
-    const std::uint32_t* mask;       // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
-    std::size_t first_lane;          // of the run, in the mask
-    std::size_t padding;             // the first lane of the run that is padding, which no mask chooses
+    const swivel_binding* binding;              // used with SWIVEL_JOINTS
+    const std::uint16_t* first_row;             // of each field, among input or result rows
+    bool from_memory;                           // the job's rows do not fit the caches
+    bool keeps;                                 // of limbs with bad input only the flags are written
+    const std::uint32_t* mask;  // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
+    std::size_t first_lane;     // of the run, in the mask
+    std::size_t padding;        // the first lane of the run that is padding, which no mask chooses
 };
 
 // Bits of the lanes of a step that are chosen. limb: the step's first, in the run. All bits are set if there is no
@@ -60,9 +48,9 @@ struct PackRun {
 
 // Of plain arms: simd/arm_kernels.cpp.
 struct ArmKernels {
-    // By the features that change the formula: feature::world, joints and hand.
+    // By the features that change the formula: SWIVEL_WORLD, joints and hand.
     void (*solve[8])(const SolveRun& run);
-    // By the features that change the result rows: feature::joints and hand, over feature::joints.
+    // By the features that change the result rows: SWIVEL_JOINTS and hand, over SWIVEL_JOINTS.
     void (*pack[4])(const PackRun& run);
 };
 

@@ -16,7 +16,7 @@ namespace swivel::inline SWIVEL_ISA {
 // Solves the steps of a run from a limb on, and calls left(first limb, Waiting) after each, until that returns true.
 // Returns the first limb that is left. A step has one register. Two were no faster, because their values do not stay in
 // registers.
-template <class T, FeatureSet Features, bool Aims, class Policy, class Left>
+template <class T, swivel_features Features, bool Aims, class Policy, class Left>
 SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& run, std::size_t limb, Left left)
 {
     LimbUse use = limb_use<Features>(run);
@@ -28,7 +28,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& ru
             is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb, chosen)));
     return limb;
 }
-template <class T, FeatureSet Features, bool Aims, class Policy = SearchNow>
+template <class T, swivel_features Features, bool Aims, class Policy = SearchNow>
 void search_limbs(const SolveRun& run)
 {
     solve_limb_steps<T, Features, Aims, Policy>(run, 0,
@@ -109,7 +109,7 @@ struct BoxedLimbs {
 template <class T, class Boxed, bool Aims>
 void solve_told(const SolveRun& run)
 {
-    if (!(run.features & (feature::shoulder_box | feature::wrist_box)))
+    if (!(run.features & (SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX)))
         search_limbs<T, kToldWithoutBoxes, Aims>(run);
     else if (lane_count<Boxed> == 1 || run.limb_count <= kLanes)
         search_limbs<Boxed, kToldFeatures, Aims>(run);
@@ -119,10 +119,10 @@ void solve_told(const SolveRun& run)
 template <class T, class Boxed>
 void solve_limbs(const SolveRun& run)
 {
-    const FeatureSet seen = run.features & ~(feature::compact | feature::budget);  // kernels do not see these
+    const swivel_features seen = run.features & ~SWIVEL_COMPACT;  // kernels do not see it
     if (seen == kConeAndTwist)
         search_limbs<T, kConeAndTwist, false, ShortSearch>(run);
-    else if (run.features & feature::aim)
+    else if (run.features & SWIVEL_WITH_AIM)
         solve_told<T, Boxed, true>(run);
     else
         solve_told<T, Boxed, false>(run);

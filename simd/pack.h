@@ -14,31 +14,34 @@
 namespace swivel::inline SWIVEL_ISA {
 
 // The rows of one step of T's lanes in a block: its results, and floats that hold a word each. Features without
-// feature::compact.
-template <class T, FeatureSet Features>
+// SWIVEL_COMPACT.
+template <class T, swivel_features Features>
 struct PackStep {
     const float* results;
     float* held;
     std::size_t first_lane;
 
-    static constexpr std::uint32_t word_row(Field field) { return field_first_row(Features | feature::compact, field); }
-    SWIVEL_INLINE T load(Field field, std::uint32_t component) const
+    static constexpr std::uint32_t word_row(swivel_field field)
+    {
+        return field_first_row(Features | SWIVEL_COMPACT, field);
+    }
+    SWIVEL_INLINE T load(swivel_field field, std::uint32_t component) const
     {
         const std::uint32_t row = field_first_row(Features, field) + component;
         return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
             return results + row_offset(first_lane + lane, result_row_count(Features), row);
         });
     }
-    SWIVEL_INLINE void hold(Field field, std::uint32_t word, const T& value) const
+    SWIVEL_INLINE void hold(swivel_field field, std::uint32_t word, const T& value) const
     {
         const std::uint32_t row = word_row(field) + word;
         store_lanes(
             [&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-                return held + row_offset(first_lane + lane, result_row_count(Features | feature::compact), row);
+                return held + row_offset(first_lane + lane, result_row_count(Features | SWIVEL_COMPACT), row);
             },
             value);
     }
-    SWIVEL_INLINE void hold_rotation(Field field) const
+    SWIVEL_INLINE void hold_rotation(swivel_field field) const
     {
         const CompactRotation<T> words =
             compact_rotation(rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3)));
@@ -60,41 +63,41 @@ SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_
     }
 }
 
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 SWIVEL_INLINE void pack_block(const float* results, std::uint16_t* words)
 {
-    constexpr FeatureSet compact = Features | feature::compact;
+    constexpr swivel_features compact = Features | SWIVEL_COMPACT;
     constexpr std::uint32_t row_count = result_row_count(compact);
-    constexpr std::uint32_t elbow = field_first_row(compact, Field::elbow) * kLanes,
-                            wrist = field_first_row(compact, Field::wrist) * kLanes,
-                            flags = field_first_row(compact, Field::flags) * kLanes;
-    constexpr bool joints = Features & feature::joints, with_hand = Features & feature::hand;
+    constexpr std::uint32_t elbow = field_first_row(compact, SWIVEL_ELBOW) * kLanes,
+                            wrist = field_first_row(compact, SWIVEL_WRIST) * kLanes,
+                            flags = field_first_row(compact, SWIVEL_FLAGS) * kLanes;
+    constexpr bool joints = Features & SWIVEL_JOINTS, with_hand = Features & SWIVEL_WITH_HAND;
     alignas(64) float held[row_count * kLanes];
     for (std::size_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const PackStep<T, Features> step{results, held, lane};
-        step.hold_rotation(Field::shoulder);
+        step.hold_rotation(SWIVEL_SHOULDER);
         if constexpr (joints) {
-            step.hold_rotation(Field::elbow);
+            step.hold_rotation(SWIVEL_ELBOW);
         } else {
-            step.hold(Field::elbow, 0, compact_half(step.load(Field::elbow, 0)));
-            step.hold(Field::elbow, 1, compact_half(step.load(Field::elbow, 1)));
+            step.hold(SWIVEL_ELBOW, 0, compact_half(step.load(SWIVEL_ELBOW, 0)));
+            step.hold(SWIVEL_ELBOW, 1, compact_half(step.load(SWIVEL_ELBOW, 1)));
         }
-        if constexpr (with_hand) step.hold_rotation(Field::wrist);
-        step.hold(Field::flags, 0, step.load(Field::flags, 0));
+        if constexpr (with_hand) step.hold_rotation(SWIVEL_WRIST);
+        step.hold(SWIVEL_FLAGS, 0, step.load(SWIVEL_FLAGS, 0));
     }
-    cut_words(held, 0, field_row_count(compact, Field::shoulder), words);
-    cut_words(held + elbow, joints ? 0 : kHalfBit, field_row_count(compact, Field::elbow), words + elbow);
-    if constexpr (with_hand) cut_words(held + wrist, 0, field_row_count(compact, Field::wrist), words + wrist);
+    cut_words(held, 0, field_row_count(compact, SWIVEL_SHOULDER), words);
+    cut_words(held + elbow, joints ? 0 : kHalfBit, field_row_count(compact, SWIVEL_ELBOW), words + elbow);
+    if constexpr (with_hand) cut_words(held + wrist, 0, field_row_count(compact, SWIVEL_WRIST), words + wrist);
     cut_words(held + flags, 0, 1, words + flags);
     cut_words(held + flags, 16, 1, words + flags + kLanes);
 }
 
 // T's lanes fit a block.
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 SWIVEL_FLATTEN void pack(const PackRun& run)
 {
     constexpr std::uint32_t row_count = result_row_count(Features),
-                            word_count = result_row_count(Features | feature::compact);
+                            word_count = result_row_count(Features | SWIVEL_COMPACT);
     for (std::size_t block = 0; block < run.block_count; ++block)
         pack_block<T, Features>(run.results + row_offset(block * kLanes, row_count, 0),
                                 run.words + row_offset(block * kLanes, word_count, 0));

@@ -14,12 +14,13 @@ namespace swivel::inline SWIVEL_ISA {
 
 // A kernel is compiled for one set of features, or for every set of some features. It is then told the features with
 // each run. A limb without boxes takes a third of the stack.
-inline constexpr FeatureSet kTold = feature::bit(63);
-inline constexpr FeatureSet kToldFeatures = ~FeatureSet{0};
-inline constexpr FeatureSet kToldWithoutBoxes = kToldFeatures & ~(feature::shoulder_box | feature::wrist_box);
+inline constexpr swivel_features kTold = swivel_features{1} << 63;
+inline constexpr swivel_features kToldFeatures = ~swivel_features{0};
+inline constexpr swivel_features kToldWithoutBoxes =
+    kToldFeatures & ~(SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX);
 
-template <FeatureSet Features>
-SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
+template <swivel_features Features>
+SWIVEL_INLINE constexpr swivel_features features_of(const SolveRun& run)
 {
     return Features & kTold ? run.features & Features : Features;
 }
@@ -27,7 +28,7 @@ SWIVEL_INLINE constexpr FeatureSet features_of(const SolveRun& run)
 // The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
 // step covers whole blocks or lies in one. So every other place is a constant away. A step whose features are told lies
 // in one.
-template <class T, FeatureSet Features>
+template <class T, swivel_features Features>
 struct Rows {
     static_assert(!(Features & kTold) || lane_count<T> <= kLanes);
     const SolveRun& run;
@@ -35,18 +36,18 @@ struct Rows {
     float* results;
     std::uint32_t chosen;  // bits of the lanes whose results are stored: see chosen_lanes()
 
-    SWIVEL_INLINE bool has(FeatureSet features) const { return (features_of<Features>(run) & features) != 0; }
-    SWIVEL_INLINE std::uint32_t row(Field field, int component) const
+    SWIVEL_INLINE bool has(swivel_features features) const { return (features_of<Features>(run) & features) != 0; }
+    SWIVEL_INLINE std::uint32_t row(swivel_field field, int component) const
     {
         const std::uint32_t first =
             Features & kTold ? run.first_row[index_of(field)] : field_first_row(Features, field);
         return first + static_cast<std::uint32_t>(component);
     }
-    SWIVEL_INLINE T load(Field field, int component) const
+    SWIVEL_INLINE T load(swivel_field field, int component) const
     {
         return lanes(input, input_row_count(Features), row(field, component));
     }
-    SWIVEL_INLINE T load_result(Field field, int component) const
+    SWIVEL_INLINE T load_result(swivel_field field, int component) const
     {
         return lanes(results, result_row_count(Features), row(field, component));
     }
@@ -55,31 +56,31 @@ struct Rows {
         return load_lanes<T>([&](std::size_t lane)
                                  SWIVEL_INLINE_LAMBDA { return rows + row_offset(lane, row_count, row); });
     }
-    SWIVEL_INLINE Vector<T> load_vector(Field field) const
+    SWIVEL_INLINE Vector<T> load_vector(swivel_field field) const
     {
         return vector(load(field, 0), load(field, 1), load(field, 2));
     }
-    SWIVEL_INLINE Rotor<T> load_rotor(Field field) const
+    SWIVEL_INLINE Rotor<T> load_rotor(swivel_field field) const
     {
         return rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3));
     }
-    SWIVEL_INLINE Turned<T> load_turned(Field field, int first = 0) const
+    SWIVEL_INLINE Turned<T> load_turned(swivel_field field, int first = 0) const
     {
         return {load(field, first), load(field, first + 1)};
     }
-    SWIVEL_INLINE Range<T> load_range(Field field, int first = 0) const
+    SWIVEL_INLINE Range<T> load_range(swivel_field field, int first = 0) const
     {
         return {load_turned(field, first), load_turned(field, first + 2)};
     }
-    SWIVEL_INLINE Cone<T> load_cone(Field field) const { return {load_vector(field), load(field, 3)}; }
+    SWIVEL_INLINE Cone<T> load_cone(swivel_field field) const { return {load_vector(field), load(field, 3)}; }
     SWIVEL_INLINE ParentFrame<T> load_parent() const
     {
-        return {load_vector(Field::shoulder_position), load_rotor(Field::parent_rotation),
-                load(Field::parent_scale, 0)};
+        return {load_vector(SWIVEL_SHOULDER_POSITION), load_rotor(SWIVEL_PARENT_ROTATION),
+                load(SWIVEL_PARENT_SCALE, 0)};
     }
 
     template <class Value>
-    SWIVEL_INLINE void store(Field field, int component, const Value& value) const
+    SWIVEL_INLINE void store(swivel_field field, int component, const Value& value) const
     {
         const std::uint32_t to = row(field, component);
         const auto place = [&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
@@ -90,7 +91,7 @@ struct Rows {
         else
             store_lanes(place, value, lanes_where<T>(chosen));
     }
-    SWIVEL_INLINE void store_rotor(Field field, const Rotor<T>& q, int first = 0) const
+    SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
     {
         store(field, first, q.template at<kI>());
         store(field, first + 1, q.template at<kJ>());
@@ -105,12 +106,12 @@ struct Binding {
     Rotor<float> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;
     Rotor<float> hand_from_arm;  // the hand joint's own frame when the arm lies in the arm frame at rest
 };
-template <FeatureSet Features>
+template <swivel_features Features>
 SWIVEL_INLINE Binding binding_of(const SolveRun& run)
 {
     const Rotor<float> q = rotor(0.0f, 0.0f, 0.0f, 1.0f);
-    if (!(features_of<Features>(run) & feature::joints)) return {q, q, q, q, q, q};
-    const RestFrames& b = *run.frames;
+    if (!(features_of<Features>(run) & SWIVEL_JOINTS)) return {q, q, q, q, q, q};
+    const swivel_binding& b = *run.binding;
     const Rotor<float> wrist_parent = broadcast<float>(b.wrist_parent_from_arm);
     return {broadcast<float>(b.parent_from_arm),
             broadcast<float>(b.upper_from_arm),

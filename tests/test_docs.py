@@ -126,7 +126,7 @@ class Docs(unittest.TestCase):
         if result.returncode or re.search("WARNING|ERROR", result.stderr):  # nothing else is worth a look then
             raise RuntimeError("the pages do not build without a warning:\n" + result.stderr)
         cls.pages = {path: Page(path.read_text(encoding="utf-8")) for path in cls.folder.rglob("*.html")}
-        cls.header = (ROOT / "batch/swivel.h").read_text(encoding="utf-8")
+        cls.header = (ROOT / "include/swivel/swivel.h").read_text(encoding="utf-8")
 
     @classmethod
     def tearDownClass(cls):

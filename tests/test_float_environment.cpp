@@ -430,7 +430,7 @@ Control control()
 
 TEST_CASE("the lists name every function of swivel.h once")
 {
-    std::ifstream file(SWIVEL_SOURCE_DIR "/batch/swivel.h");
+    std::ifstream file(SWIVEL_SOURCE_DIR "/include/swivel/swivel.h");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     const std::regex declaration(R"(\nSWIVEL_API [^(;]*?\b(swivel_\w+)\()");
     std::set<std::string> declared, listed = kWithoutFloats;

@@ -66,7 +66,7 @@ Images compare_with_mirror(int arms, Make make)
         const SolvedLimb<float> pose = solve<float>(a), image = solve<float>(mirrored(a));
         CHECK(pose.arm.flags == image.arm.flags);
         const Quaterniond q = eigen(image.arm.shoulder).normalized(), back(q.w(), q.x(), -q.y(), -q.z());
-        seen.infeasible += (pose.arm.flags & flag::infeasible) != 0;
+        seen.infeasible += (pose.arm.flags & SWIVEL_INFEASIBLE) != 0;
         seen.apart += back.angularDistance(eigen(pose.arm.shoulder).normalized()) > 1e-3;
     }
     return seen;
@@ -145,7 +145,7 @@ TEST_CASE("of nearly straight arms the violation is least for the elbow that flo
         const SolvedLimb<float> pose = solve<float>(a);
         const SwivelCircle exact(a), own(a, pose);
         CHECK(std::fabs(own.away - exact.away) <= elbow_error(exact));
-        if (!(pose.arm.flags & flag::infeasible)) continue;
+        if (!(pose.arm.flags & SWIVEL_INFEASIBLE)) continue;
         ++infeasible;
         double least = 2;
         for (int step = 0; step < 1000; ++step) least = std::min(least, violation(a, own.at(step * kPi / 500)));
@@ -170,7 +170,7 @@ TEST_CASE("a middle angle near a right angle is held to 1e-6 of its sine, and to
             LimbGoal<float> goal = limb_goal<float>(arm);
             goal.limits.shoulder_box[1] = {turned<float>(0), turned<float>(end)};
             const Solved<float> got = solve(use, goal);
-            if (got.pose.arm.flags & flag::infeasible) continue;
+            if (got.pose.arm.flags & SWIVEL_INFEASIBLE) continue;
             ++feasible;
             const double sine = (eigen(got.pose.arm.shoulder).normalized() * Vector3d::UnitZ()).x();
             const double most = std::atan2(double{turned<float>(end).sin}, double{turned<float>(end).cos});

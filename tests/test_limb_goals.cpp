@@ -66,7 +66,7 @@ TEST_CASE("everything on and at rest changes nothing")
             RC_ASSERT(std::fabs(across) <= 1e-6 / sine * arm.upper);
             RC_ASSERT((apart - across * arm.normal()).norm() <= 1e-6 * arm.length());
             RC_ASSERT((got.wrist - wrist_place(plain, arm)).norm() <= 1e-6 * arm.length());
-            RC_ASSERT(got.pose.arm.flags == flag::reached);
+            RC_ASSERT(got.pose.arm.flags == SWIVEL_REACHED);
         });
     });
 }
@@ -139,7 +139,7 @@ TEST_CASE("where the elbow goes")
             goal.incoming = incoming_of<float>(pose);
             const Solved<float> by_pose = solve(use, goal);
             RC_ASSERT(off(by_pose.hinge, across.normalized()) <= 1e-5);
-            RC_ASSERT(by_pose.pose.arm.flags == (flag::reached | flag::swivel_undefined));
+            RC_ASSERT(by_pose.pose.arm.flags == (SWIVEL_REACHED | SWIVEL_SWIVEL_UNDEFINED));
             use.continuity = true;
             goal.continuity.previous_normal = mv<float>(previous);
             RC_ASSERT(off(solve(use, goal).hinge, previous) <= 1e-5);
@@ -192,7 +192,7 @@ TEST_CASE("weights blend with the incoming pose")
                      goal.weights = {static_cast<float>(w), static_cast<float>(w), 1};
                      const Solved<float> got = solve(use, goal);
                      const Vector3d was = pose.wrist_place(arm), place = was + w * (arm.wrist - was);
-                     if (got.pose.arm.flags & flag::reached)
+                     if (got.pose.arm.flags & SWIVEL_REACHED)
                          RC_ASSERT((got.wrist - place).norm() <= 3e-6 * arm.length());
                      const double whole = hand_was.angularDistance(hand);
                      if (whole > 3) return;
@@ -228,12 +228,12 @@ TEST_CASE("the elbow's flexion stays within its limit")
             RC_ASSERT(flexion >= least - 1e-3 && flexion <= most + 1e-3);
             const double free = 2 * std::atan2(double{solve<float>(arm).sin_half}, double{solve<float>(arm).cos_half});
             const bool inside = free > least + 1e-3 && free < most - 1e-3;
-            if (inside) RC_ASSERT(got.pose.arm.flags == flag::reached);
+            if (inside) RC_ASSERT(got.pose.arm.flags == SWIVEL_REACHED);
             if (free < least - 1e-3)
-                RC_ASSERT(got.pose.arm.flags == (flag::clamped_far | flag::limited_flexion) &&
+                RC_ASSERT(got.pose.arm.flags == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION) &&
                           std::fabs(flexion - least) <= 1e-3);
             if (free > most + 1e-3)
-                RC_ASSERT(got.pose.arm.flags == (flag::clamped_near | flag::limited_flexion) &&
+                RC_ASSERT(got.pose.arm.flags == (SWIVEL_CLAMPED_NEAR | SWIVEL_LIMITED_FLEXION) &&
                           std::fabs(flexion - most) <= 1e-3);
         });
     });
@@ -245,12 +245,12 @@ TEST_CASE("a limit of flexion that stretching makes up for is not said; an arm o
     use.reach = use.limits.flexion = true;
     LimbGoal<float> goal = limb_goal<float>(rounded(Arm{{0, 0, 1.95}, {0, -1, 0}, 1, 1}));
     goal.limits.flexion = {0.9f, 0};
-    CHECK(solve(use, goal).pose.arm.flags == (flag::clamped_far | flag::limited_flexion));
+    CHECK(solve(use, goal).pose.arm.flags == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION));
     goal.reach.most_stretch = 3;
-    CHECK(solve(use, goal).pose.arm.flags == (flag::reached | flag::stretched));
+    CHECK(solve(use, goal).pose.arm.flags == (SWIVEL_REACHED | SWIVEL_STRETCHED));
     goal = limb_goal<float>(rounded(Arm{{0, 0, 10}, {0, -1, 0}, 0, 0}));
     goal.reach.most_stretch = 100;
     const Solved<float> nothing = solve(use, goal);
-    CHECK(nothing.pose.arm.flags == flag::clamped_far);
+    CHECK(nothing.pose.arm.flags == SWIVEL_CLAMPED_FAR);
     CHECK(nothing.pose.stretch == 1);
 }

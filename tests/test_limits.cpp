@@ -67,7 +67,7 @@ Tally judge(std::uint64_t seed, int arms, int often)
         const LimitedArm a = random_limited_arm(random);
         const SwivelCircle circle(a);
         const SolvedLimb<T> pose = solve<T>(a);
-        const bool allowed = !(pose.arm.flags & flag::infeasible);
+        const bool allowed = !(pose.arm.flags & SWIVEL_INFEASIBLE);
         const double swivel = swivel_of(a, pose);
         const double by = violation(a, pose);
         tally.allowed += allowed, tally.none += !allowed;
@@ -134,7 +134,7 @@ TEST_CASE("limits hold, too, where the wished normal is close to the target's li
         const double along = random.spread(1, 900) * (random.below(2) ? 1 : -1);
         goal.arm.pole = mv<float>(Vector3d(a.arm.normal() + along * a.arm.wrist.normalized()));
         const SolvedLimb<float> pose = solve(a, goal, Wish::normal);
-        if (pose.arm.flags & flag::infeasible) continue;
+        if (pose.arm.flags & SWIVEL_INFEASIBLE) continue;
         moved += std::fabs(swivel_of(a, pose)) > 1e-2;
         CAPTURE(n, along);
         REQUIRE(violation(a, pose) <= 1e-6);
@@ -161,7 +161,7 @@ TEST_CASE("where no middle angle is allowed, the one nearest its range is taken"
     LimbGoal<float> goal = limb_goal<float>(arm);
     goal.limits.shoulder_box[1] = {turned<float>(-1.3963), turned<float>(0.0873)};
     const Solved<float> got = solve(use, goal);
-    REQUIRE((got.pose.arm.flags & flag::infeasible) != 0);
+    REQUIRE((got.pose.arm.flags & SWIVEL_INFEASIBLE) != 0);
     const auto sine_at = [&](double angle) {  // of the middle angle, the swivel turned on by an angle
         const Quaterniond shoulder = eigen(got.pose.arm.shoulder).normalized();
         return (Eigen::AngleAxisd(angle, arm.wrist.normalized()) * shoulder).toRotationMatrix()(0, 2);

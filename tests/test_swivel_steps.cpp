@@ -85,10 +85,10 @@ Run run(const Path& arms, LimbUse use, double most, const JointLimits<float>* li
         if (n > 0) {
             const double by = step(before, got.hinge, arms[n].wrist.normalized());
             if (by > out.largest) out.largest = by, out.largest_frame = static_cast<int>(n);
-            out.limited += (got.pose.arm.flags & flag::limited_step) != 0;
-            out.jumped += (got.pose.arm.flags & flag::jumped) != 0;
+            out.limited += (got.pose.arm.flags & SWIVEL_LIMITED_STEP) != 0;
+            out.jumped += (got.pose.arm.flags & SWIVEL_JUMPED) != 0;
         }
-        out.undefined += (got.pose.arm.flags & flag::swivel_undefined) != 0;
+        out.undefined += (got.pose.arm.flags & SWIVEL_SWIVEL_UNDEFINED) != 0;
         before = got.hinge, normal = got.pose.normal;
     }
     return out;
@@ -164,10 +164,10 @@ TEST_CASE("joint limits win over the largest swivel, and say so")
     goal.continuity = {free.pose.normal, turned<float>(0.1)};
     goal.limits.shoulder_cone = {vector(-1.0f, 0.0f, 0.0f), 0.5f};  // the elbow has to go to the other side
     const Solved<float> got = solve(use, goal);
-    CHECK((got.pose.arm.flags & flag::jumped) != 0);
-    CHECK((got.pose.arm.flags & flag::limited_shoulder_cone) != 0);
+    CHECK((got.pose.arm.flags & SWIVEL_JUMPED) != 0);
+    CHECK((got.pose.arm.flags & SWIVEL_LIMITED_SHOULDER_CONE) != 0);
     CHECK(got.elbow.normalized().x() <= -0.5 + 1e-6);
-    CHECK((free.pose.arm.flags & flag::jumped) == 0);
+    CHECK((free.pose.arm.flags & SWIVEL_JUMPED) == 0);
 }
 
 TEST_CASE("an angle is not turned on while the pole does not say where the elbow goes")
@@ -201,17 +201,17 @@ TEST_CASE("steps of any size are told from larger ones: 1e-4 rad, and half a tur
         const Solved<float> free = solve(LimbUse{}, goal);
         const double most = random.spread(1e-4, 3);
         goal.continuity = {mv<float>(free.hinge), turned<float>(most)};
-        CHECK(solve(use, goal).pose.arm.flags == flag::reached);  // it is there already
+        CHECK(solve(use, goal).pose.arm.flags == SWIVEL_REACHED);  // it is there already
         const Vector3d far = Eigen::AngleAxisd(random.between(most + 1e-3, kPi), line) * free.hinge;
         goal.continuity.previous_normal = mv<float>(far);
         const Solved<float> got = solve(use, goal);
         INFO("most " << most);
         CHECK(step(far, got.hinge, line) <= most * (1 + 1e-5) + 2e-6);
-        CHECK((got.pose.arm.flags & flag::limited_step) != 0);
+        CHECK((got.pose.arm.flags & SWIVEL_LIMITED_STEP) != 0);
         // Half a turn is no limit, however it is rounded.
         for (const double half_turn : {kPi, double{3.14159274f}}) {
             goal.continuity = {mv<float>(Vector3d(-free.hinge)), turned<float>(half_turn)};
-            CHECK(solve(use, goal).pose.arm.flags == flag::reached);
+            CHECK(solve(use, goal).pose.arm.flags == SWIVEL_REACHED);
         }
     }
 }

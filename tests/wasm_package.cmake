@@ -23,4 +23,4 @@ run(${NPM} install --offline --no-audit --no-fund ${BUILD}/tools/wasm/swivel-was
 file(GLOB tests ${SOURCE}/tests/wasm/*)
 file(COPY ${tests} DESTINATION ${WORK})
 run(${TSC} --noEmit --strict --target es2022 --module node16 --moduleResolution node16 types.ts)
-run(${CMAKE_COMMAND} -E env ARM=${ARM} HEADER=${SOURCE}/batch/swivel.h node --test)
+run(${CMAKE_COMMAND} -E env ARM=${ARM} HEADER=${SOURCE}/include/swivel/swivel.h node --test)

@@ -20,7 +20,7 @@ const { Binding } = await import(`${PACKAGE}/binding.js`);
 const folder = mkdtempSync(join(tmpdir(), 'swivel-cache-'));
 after(() => rmSync(folder, { recursive: true }));
 
-// ---- structures of C, as tools/crowd/goals.h and batch/swivel.h have them, from the cache's numbers
+// ---- structures of C, as tools/crowd/goals.h and include/swivel/swivel.h have them, from the cache's numbers
 
 const doubles = (...numbers) => Buffer.from(new Float64Array(numbers.flat()).buffer);
 const floats = (...numbers) => Buffer.from(new Float32Array(numbers.flat(2).map((number) => number ?? NaN)).buffer);

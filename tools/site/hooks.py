@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What mkdocs does beyond mkdocs.yml. It compares programs on pages with docs/snippets, makes the reference from batch/swivel.h, and
+"""What mkdocs does beyond mkdocs.yml. It compares programs on pages with docs/snippets, makes the reference from include/swivel/swivel.h, and
 treats links that leave docs/. KaTeX sets the formulas during the build, so pages fetch nothing and need no scripts."""
 import json
 import posixpath
@@ -18,7 +18,7 @@ import snippets  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 KATEX = Path("/usr/share/javascript/katex")  # Debian's libjs-katex
-HEADER = "batch/swivel.h"
+HEADER = "include/swivel/swivel.h"
 
 # Sets every formula of standard input, a JSON list of [TeX, whether it stands alone].
 SET_FORMULAS = f"""

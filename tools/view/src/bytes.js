@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The page's binary data: base64 of C structures, as tools/crowd/goals.h and batch/swivel.h lay them out.
+// The page's binary data: base64 of C structures, as tools/crowd/goals.h and include/swivel/swivel.h lay them out.
 
 /** Bytes of each structure. */
 export const SIZE = { character: 40, source: 184, input: 124, plan: 120, given: 56 };

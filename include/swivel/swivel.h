@@ -8,7 +8,7 @@
 //     float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.0f, 0.2f, 9.0f}};  // for the wrists; the second is out of reach
 //     float pole[3] = {0, -1, 0}, lengths[2] = {0.30f, 0.26f};         // upper arm, forearm
 //     float shoulder[2][4];                                            // x, y, z, w
-//     swivel_group_def arms = swivel_default_group_def(2);
+//     swivel_group_def arms = swivel_default_group_def(2);             // group 0
 //     swivel_crowd_def def = swivel_default_crowd_def();
 //     swivel_crowd* crowd;
 //     def.groups = &arms, def.group_count = 1;
@@ -104,11 +104,11 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's
     SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
-    SWIVEL_BAD_INPUT = 1u << 30,     // an input is not valid or was never given; the limb has its rest pose
+    SWIVEL_BAD_INPUT = 1u << 30,     // an input is not valid or was never given: see swivel_on_bad_input
     // bits 17 to 29 are kept for later releases and are 0
 } swivel_flag;
 
-// The features of a crowd: a combination of these bits, fixed at creation. Whatever is off costs neither memory nor
+// The features of a group: a combination of these bits, fixed at creation. Whatever is off costs neither memory nor
 // time. SWIVEL_WITH_F adds the field F. SWIVEL_WITH_INCOMING adds the three fields of the incoming pose.
 // - POLE_DIRECTION and WITH_CLAVICLE need WORLD. POLE_INCOMING and WITH_WEIGHTS need WITH_INCOMING. WITH_EFFECTOR,
 //   WITH_TWIST_BONES and limits of the hand need WITH_HAND. At most one of the three kinds of pole is given.
@@ -139,17 +139,16 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_WRIST_BOX (UINT64_C(1) << 20)
 #define SWIVEL_WITH_AIM (UINT64_C(1) << 21)          // the flexion is given, and the hand points at the target
 #define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)     // the shoulder's parent joint shares the reach
-#define SWIVEL_BUDGET (UINT64_C(1) << 23)            // for swivel_choose() and jobs with priorities
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
 // has its own value of each field. A wish is the swivel that pole, angle and incoming pose ask for.
 //
-// VALID INPUT. A limb with any value that is not valid gets its rest pose and SWIVEL_BAD_INPUT. No other limb changes
-// by a bit. The magnitude of positions and poles is at most 1e15, in the world as given and in the arm frame. The norm
-// of a quaternion is 1e-9..1e9; it need not be normalised. The squared length of an axis is 1 within 1e-6, summed in
-// floats, and so is that of each pair of cosine and sine, but SWIVEL_ANGLE's. They are used as they are. Weights and
-// shares are 0..1. Other bounds are given at their fields.
+// VALID INPUT. A limb with any value that is not valid gets SWIVEL_BAD_INPUT, and its rest pose or the pose it had: see
+// swivel_on_bad_input. No other limb changes by a bit. The magnitude of positions and poles is at most 1e15, in the
+// world as given and in the arm frame. The norm of a quaternion is 1e-9..1e9; it need not be normalised. The squared
+// length of an axis is 1 within 1e-6, summed in floats, and so is that of each pair of cosine and sine, but
+// SWIVEL_ANGLE's. They are used as they are. Weights and shares are 0..1. Other bounds are given at their fields.
 //
 // RANGES. A range of angles is four numbers: cos and sin of its middle, cos and sin of its half-width. The half-width
 // is 0..pi. swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make values from angles.
@@ -224,7 +223,7 @@ typedef enum swivel_field {
     SWIVEL_SHOULDER_CONE,
     // 4, WITH_HUMERAL_TWIST: range of the upper arm's twist about itself.
     SWIVEL_HUMERAL_TWIST,
-    // 12, WITH_SHOULDER_BOX: ranges of the shoulder's three Euler angles, in the crowd's shoulder_order.
+    // 12, WITH_SHOULDER_BOX: ranges of the shoulder's three Euler angles, in the group's shoulder_order.
     SWIVEL_SHOULDER_BOX,
     // 4, WITH_HAND_CONE: unit axis of the hand; cos of its largest angle to the forearm.
     SWIVEL_HAND_CONE,
@@ -232,7 +231,7 @@ typedef enum swivel_field {
     SWIVEL_FOREARM_TWIST,
     // 7, WITH_HAND_TWIST: unit axis of the hand; range of its twist about it.
     SWIVEL_HAND_TWIST,
-    // 12, WITH_WRIST_BOX: ranges of the wrist's three Euler angles, in the crowd's wrist_order.
+    // 12, WITH_WRIST_BOX: ranges of the wrist's three Euler angles, in the group's wrist_order.
     SWIVEL_WRIST_BOX,
     // 5, WITH_AIM: unit axis of the hand, in the effector's frame; cos and sin of half the flexion.
     // - The elbow keeps that flexion. SWIVEL_HAND is then relative to the forearm, or with JOINTS the wrist's local
@@ -282,6 +281,41 @@ typedef enum swivel_field {
 
 enum { SWIVEL_MOST_TWIST_BONES = 7 };  // of one limb
 
+// What becomes of a field.
+typedef enum swivel_field_kind {
+    SWIVEL_FIELD_INPUT,    // the caller writes it
+    SWIVEL_FIELD_RESULT,   // a solve writes it
+    SWIVEL_FIELD_CARRIED,  // a result that the next solve of the limb starts from; swivel_reset() clears it
+} swivel_field_kind;
+
+// A feature and a field as the library has them in its table.
+typedef struct swivel_feature_info {
+    swivel_features feature;   // SWIVEL_WITH_TWIST_BONES stands for any number of them
+    const char* name;          // such as "WITH_HAND"; a constant
+    swivel_features needs;     // a group with the feature must have all of these
+    swivel_features excludes;  // and none of these
+} swivel_feature_info;
+typedef struct swivel_field_info {
+    swivel_field field;
+    swivel_field_kind kind;
+    const char* name;          // such as "shoulder_position"; a constant, as is the next
+    const char* range;         // what a value of an input must be, in words; empty for results
+    swivel_features needs;     // a group has the field if it has all of these features
+    swivel_features excludes;  // and none of these
+    uint32_t is_position;      // 1: it may be given in double, from an origin
+    uint32_t reserved;         // 0
+} swivel_field_info;
+
+// Describes a feature or a field: number `index`, from 0, in the order of their numbers. Returns 1; or returns 0 and
+// changes nothing: there is none, or info is null. For bindings and tools that know all of them. Any thread.
+SWIVEL_API int swivel_describe_feature(uint32_t index, swivel_feature_info* info);
+SWIVEL_API int swivel_describe_field(uint32_t index, swivel_field_info* info);
+// The numbers in a value of a field, in groups with these features: floats, or the one uint32_t of SWIVEL_FLAGS. 0 if
+// they do not have it, or there is no such field. Any thread.
+SWIVEL_API uint32_t swivel_component_count(swivel_field field, swivel_features features);
+// The name of the lowest bit of a flag word, such as "REACHED"; null for a bit that is none. Any thread.
+SWIVEL_API const char* swivel_flag_name(uint32_t flags);
+
 // Maps the arm frame to a skeleton's joints. It holds unit quaternions (x, y, z, w), the rest pose and the bone
 // lengths. Made by swivel_bind() or swivel_bind_joints().
 typedef struct swivel_binding {
@@ -330,15 +364,24 @@ typedef enum swivel_euler_order {
     SWIVEL_ZYX,
 } swivel_euler_order;
 
-// Limbs that share one binding, such as the left arms of one skeleton.
+// What a limb with bad input gets, besides SWIVEL_BAD_INPUT.
+typedef enum swivel_on_bad_input {
+    SWIVEL_REST_POSE,  // its rest pose; what it carries from solve to solve is cleared
+    // Its results stay as they are, and so do its values in frames: only its flags are written. What it carries stays.
+    SWIVEL_KEEP_POSE,
+} swivel_on_bad_input;
+
+// Limbs that share features and a binding, such as the left arms of one skeleton.
 typedef struct swivel_group_def {
-    size_t size;             // sizeof(swivel_group_def), set by swivel_default_group_def()
-    uint32_t limb_count;     // 1 or more
-    uint32_t reserved;       // 0
+    size_t size;               // sizeof(swivel_group_def), set by swivel_default_group_def()
+    swivel_features features;  // 0: all is in the arm frame
+    uint32_t limb_count;       // 1 or more
+    swivel_on_bad_input on_bad_input;
+    swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
     swivel_binding binding;  // with SWIVEL_JOINTS every limb uses it, and starts with its lengths; ignored without
 } swivel_group_def;
 
-// Limbs without a binding: in the arm frame.
+// Plain limbs in the arm frame.
 static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
 {
     swivel_group_def group;
@@ -350,7 +393,6 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
 
 typedef struct swivel_crowd_def {
     size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
-    swivel_features features;        // 0: all is in the arm frame
     uint32_t group_count;            // 1 or more
     uint32_t reserved;               // 0
     const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
@@ -361,7 +403,6 @@ typedef struct swivel_crowd_def {
     void* (*allocate)(size_t bytes, size_t alignment, void* user);
     void (*release)(void* memory, size_t bytes, void* user);
     void* user;
-    swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
 } swivel_crowd_def;
 
 typedef struct swivel_crowd swivel_crowd;
@@ -376,17 +417,16 @@ typedef struct swivel_out {
     size_t stride;  // bytes; at least the value's size. Any alignment.
 } swivel_out;
 
-// A crowd's memory. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes,
-// aligned to 64. Row r of limb i is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows lie in the order
-// of swivel_field. Fields that the crowd lacks have no rows. A crowd is made of groups: limbs that share one binding,
-// such as the left arms of one skeleton. Each group starts a block; lanes past its end are padding.
+// A group's memory. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes,
+// aligned to 64. Row r of limb i of the group is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows lie
+// in the order of swivel_field. Fields that the group lacks have no rows. Lanes past the group's end are padding.
 typedef struct swivel_rows {
-    float* base;  // borrowed from the crowd, valid until it is destroyed
-    uint32_t block_count;
+    float* base;           // borrowed from the crowd, valid until it is destroyed
+    uint32_t block_count;  // of the group
     uint32_t row_count;
 } swivel_rows;
 
-// Result rows of a crowd with SWIVEL_COMPACT: 16 uint16_t, 32 bytes; word r of limb i is base[((i / 16) * row_count +
+// Result rows of a group with SWIVEL_COMPACT: 16 uint16_t, 32 bytes; word r of limb i is base[((i / 16) * row_count +
 // r) * 16 + i % 16]. The fields have the same order.
 // - SWIVEL_SHOULDER, SWIVEL_WRIST, and SWIVEL_ELBOW with JOINTS: 3 words, the quaternion's smallest three components.
 //   The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is word0 >> 15 |
@@ -411,11 +451,10 @@ SWIVEL_API const char* swivel_status_text(swivel_status status);
 // One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
 SWIVEL_API const char* swivel_last_error(void);
 
-// One group must still be given; no features; the C library's memory.
+// One group must still be given; the C library's memory.
 static inline swivel_crowd_def swivel_default_crowd_def(void)
 {
-    const swivel_crowd_def def = {
-        sizeof(swivel_crowd_def), 0, 0, 0, NULL, NULL, 0, NULL, NULL, NULL, SWIVEL_XYZ, SWIVEL_XYZ};
+    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 0, NULL, NULL, 0, NULL, NULL, NULL};
     return def;
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
@@ -483,22 +522,26 @@ static inline swivel_limb_joints swivel_default_limb_joints(uint32_t shoulder, u
 SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                             swivel_binding* binding);
 
-// The crowd's shape. A group's first limb is a multiple of SWIVEL_LANES; limb indices count padding lanes. A group that
-// does not exist has 0 limbs. For a null crowd these three calls and the next five give 0. Any thread.
+// The crowd's shape. Each group starts a block. Masks and lists count limbs through the whole crowd, padding lanes,
+// too: limb n of a group is number swivel_group_first_limb() + n, and a group's first is a multiple of SWIVEL_LANES. A
+// group that does not exist has 0 limbs and no features. For a null crowd these calls and the next five give 0. Any
+// thread.
+SWIVEL_API uint32_t swivel_group_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
-// The first row of a field within each block, and its number of rows. Both are 0 if this crowd does not have the field.
-// For results of a crowd with SWIVEL_COMPACT these are rows of words.
-SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, swivel_field field);
-SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, swivel_field field);
+SWIVEL_API swivel_features swivel_group_features(const swivel_crowd* crowd, uint32_t group);
+// The first row of a field within each block of a group, and its number of rows. Both are 0 if the group does not have
+// the field. For results of a group with SWIVEL_COMPACT these are rows of words.
+SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, uint32_t group, swivel_field field);
+SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, uint32_t group, swivel_field field);
 
-// Direct access to rows: the fast way in and out. Padding lanes of inputs may hold anything and are left alone; those
-// of results are overwritten and mean nothing. Results are in swivel_compact_rows() with SWIVEL_COMPACT, otherwise in
-// swivel_result_rows(). The other one has a null base and no rows.
-SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd);
-SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd);
-SWIVEL_API swivel_words swivel_compact_rows(swivel_crowd* crowd);
+// Direct access to a group's rows: the fast way in and out. Padding lanes of inputs may hold anything and are left
+// alone; those of results are overwritten and mean nothing. Results are in swivel_compact_rows() with SWIVEL_COMPACT,
+// otherwise in swivel_result_rows(). The other one has a null base and no rows.
+SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd, uint32_t group);
+SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group);
+SWIVEL_API swivel_words swivel_compact_rows(swivel_crowd* crowd, uint32_t group);
 
 // Words of swivel_words as numbers, the same as swivel_read() gives. A rotation's three words lie word_stride words
 // apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0, or four zeros. Words that no solve wrote
@@ -511,7 +554,7 @@ SWIVEL_API float swivel_unpack_half(uint16_t word);
 // it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write
 // takes input fields, read takes any. Values must not overlap the crowd's own memory. Copying all fields takes up to
 // about as long as a solve, less while the values are in cache. Writing to rows needs no copy, and a solve with frames
-// fetches each value once. Results of a crowd with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb
+// fetches each value once. Results of a group with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb
 // after the other.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
@@ -534,24 +577,27 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
-// One group's values in the caller's own arrays, as engines keep them. The group's first limb's value is at `data`,
-// each next one `stride` bytes further. A value is consecutive floats, a uint32_t for flags, of any alignment. Units
-// and meanings are the fields'. A stride beside null data is ignored.
+// One field in the caller's own array: the group's first limb's value is at `data`, each next one `stride` bytes
+// further. A value is consecutive floats, a uint32_t for flags, of any alignment. Units and meanings are the fields'.
+typedef struct swivel_frame_field {
+    swivel_field field;
+    void* data;     // inputs are only read; null: as if the field were not listed
+    size_t stride;  // bytes; for an input 0 is one value for the group, otherwise at least the value's size
+} swivel_frame_field;
+
+// One group's values as engines keep them. An input that is not listed keeps its rows; a result that is not listed is
+// not written. A field may be listed once.
 typedef struct swivel_frame {
     size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
-    // Null data: positions are floats. With data, target, pole and shoulder_position are 3 doubles each, and this
+    const swivel_frame_field* fields;
+    uint32_t field_count;
+    uint32_t reserved;  // 0
+    // Null data: positions are floats. With data, target, pole and shoulder position are 3 doubles each, and this
     // origin, 3 doubles as well, is subtracted as by swivel_write_doubles(). A pole that is a direction is doubles,
-    // too, but has no origin. A position with null data keeps its rows, which must be from the same origin. origin may
-    // be the same array as shoulder_position; all is then relative to the shoulder. Stride 0: one origin for the whole
-    // group.
+    // too, but has no origin. A position that is not listed keeps its rows, which must be from the same origin. origin
+    // may be the same array as the shoulder positions; all is then relative to the shoulder. Stride 0: one origin for
+    // the whole group.
     swivel_in origin;
-    // Inputs, in the order of the fields. Null data: the rows keep what they hold. Stride 0: one value for the group.
-    swivel_in target, pole, lengths, shoulder_position, parent_rotation, parent_scale, hand;
-    swivel_in effector, angle, incoming_shoulder, incoming_elbow, incoming_wrist, weights, reach, most_swivel;
-    swivel_in flexion_limit, shoulder_cone, humeral_twist, shoulder_box;
-    swivel_in hand_cone, forearm_twist, hand_twist, wrist_box, aim, clavicle;
-    // Results, in the order of the fields. Null data: not written.
-    swivel_out shoulder, elbow, wrist, flags, stretch, normal, twist_bones, clavicle_turn;
 } swivel_frame;
 
 // Nothing in and nothing out.
@@ -582,10 +628,16 @@ typedef struct swivel_job {
     // Which blocks; null for all. Other blocks are neither read nor written. Frames of groups outside these blocks are
     // ignored, but for the first one's size.
     const swivel_blocks* blocks;
+    // Which groups, by bits: group g is bit g % 32 of groups[g / 32]; null for all. group_word_count must be
+    // (swivel_group_count() + 31) / 32, and bits past the last group are ignored. What solves is in these groups, in
+    // these blocks, and chosen below.
+    const uint32_t* groups;
+    uint32_t group_word_count;
 
     // Which limbs: by at most one of mask, limbs and priorities; without any, all limbs of these blocks. Chosen limbs
     // get the same bits as in a solve of all. Other limbs keep their results, and their values in frames are neither
     // read nor written. limbs and priorities are for the whole crowd, so they exclude blocks and on_this_thread.
+    // Priorities exclude groups, too: a group that is not wanted has priority 0.
     //
     // By bits: limb i of swivel_rows is bit i % 32 of mask[i / 32]. mask_word_count must be (swivel_block_count() + 1)
     // / 2. Bits of padding lanes, and past the last block, are ignored.
@@ -595,12 +647,13 @@ typedef struct swivel_job {
     // solved once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before
     // anything is solved. A list in no order costs some nanoseconds an entry more than bits.
     const swivel_limbs* limbs;
-    // The most urgent blocks, at most most_blocks of them, as swivel_choose() picks them.
+    // The most urgent blocks, at most most_blocks of them, as swivel_choose() picks them; urgency is its, or null.
     const swivel_in* priorities;
+    float* urgency;
     uint32_t most_blocks;
 
-    // The caller's own arrays: one frame for each group, in the crowd's order, as far apart as the first one's size.
-    // Null: values are in the crowd's rows.
+    // The caller's own arrays: one frame for each group that is named, in the crowd's order, as far apart as the first
+    // one's size. Null: values are in the crowd's rows.
     const swivel_frame* frames;
 
     // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Several threads may make such calls
@@ -631,14 +684,18 @@ static inline swivel_job swivel_default_job(void)
 // Inputs may overlap each other. A limb's inputs are read before its results are written, so its results may overlap
 // its own inputs: a pose may be read and written in place. Inputs of other limbs may be read later, by any thread. So a
 // limb's result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each other.
-// No value may overlap the crowd's own memory. It fails for a field that this crowd does not have and for a stride
-// smaller than a value. It also fails for results of a crowd with SWIVEL_COMPACT: those are read with swivel_read() or
+// No value may overlap the crowd's own memory. It fails for a field that the group does not have and for a stride
+// smaller than a value. It also fails for results of a group with SWIVEL_COMPACT: those are read with swivel_read() or
 // where they lie. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
+//     const size_t stride = sizeof characters[0];
+//     const swivel_frame_field fields[] = {
+//         {SWIVEL_TARGET, &characters[0].grip, stride},
+//         {SWIVEL_POLE, &characters[0].elbow_hint, stride},
+//         {SWIVEL_SHOULDER, &characters[0].joints[UPPER_ARM].rotation, stride},
+//         {SWIVEL_ELBOW, &characters[0].joints[FOREARM].rotation, stride},
+//     };
 //     swivel_frame frame = swivel_default_frame();
-//     frame.target = (swivel_in){&characters[0].grip, sizeof characters[0]};
-//     frame.pole = (swivel_in){&characters[0].elbow_hint, sizeof characters[0]};
-//     frame.shoulder = (swivel_out){&characters[0].joints[UPPER_ARM].rotation, sizeof characters[0]};
-//     frame.elbow = (swivel_out){&characters[0].joints[FOREARM].rotation, sizeof characters[0]};
+//     frame.fields = fields, frame.field_count = 4;
 //     swivel_job job = swivel_default_job();
 //     job.frames = &frame;
 //     status = swivel_solve(crowd, &job);
@@ -649,28 +706,31 @@ static inline swivel_job swivel_default_job(void)
 // times.
 SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job);
 
-// Chooses limbs by urgency, within a budget; for a crowd with SWIVEL_BUDGET. Whole blocks are picked, because one limb
-// costs about as much as its block: at most most_blocks of them. Each call adds the largest priority among a block's
-// limbs to the block's urgency, which starts at 0. It picks the most urgent blocks, of equals the lower index. The
-// urgency of a picked block returns to 0. So over time a block is picked about as often as its priority says, and
-// blocks of equal priority take turns. No block with a priority starves, because its urgency grows until it is picked.
-// Place limbs of equal importance side by side. A block whose limbs all have priority 0 is not picked in this call and
-// keeps its urgency. Solves without priorities change no urgency.
+// Chooses limbs by urgency, within a budget. Whole blocks are picked, because one limb costs about as much as its
+// block: at most most_blocks of them. Each call adds the largest priority among a block's limbs to the block's urgency.
+// It picks the most urgent blocks, of equals the lower index. The urgency of a picked block returns to 0. So over time
+// a block is picked about as often as its priority says, and blocks of equal priority take turns. No block with a
+// priority starves, because its urgency grows until it is picked. Place limbs of equal importance side by side. A block
+// whose limbs all have priority 0 is not picked in this call and keeps its urgency.
 //
 // priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
 // one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
-// and NaN as 0. Not kept; must not overlap the crowd's own memory.
+// and NaN as 0.
+//
+// urgency: a float for each block, the caller's, 0 at first, kept from call to call. Only its magnitude counts: the
+// sign is the library's. One that is not finite counts as 0. Null: each call starts from 0, so priorities alone decide.
 //
 // It sets the bits of the picked blocks' limbs in mask and clears all others. Give that mask to jobs on your own
 // threads. A job with priorities does both steps in one call. *chosen_count, unless null, becomes how many limbs these
-// are. The choice depends on the priorities of this and earlier calls alone, not on CPU, threads or time. On the
-// calling thread, which takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Fails
-// without SWIVEL_BUDGET, for missing priorities and for a stride below 4 other than 0.
-SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, uint32_t most_blocks,
-                                       uint32_t* mask, uint32_t mask_word_count, uint32_t* chosen_count);
+// are. The choice depends on priorities and urgency alone, not on CPU, threads or time. On the calling thread, which
+// takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Arrays must not overlap each
+// other or the crowd's own memory. Fails for missing priorities and for a stride below 4 other than 0.
+SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency,
+                                       uint32_t most_blocks, uint32_t* mask, uint32_t mask_word_count,
+                                       uint32_t* chosen_count);
 
 // Clears the swivel that these limbs keep between solves. SWIVEL_MOST_SWIVEL then does not limit their next solve.
-// Nothing to do in crowds without SWIVEL_WITH_MOST_SWIVEL.
+// Nothing to do in groups without SWIVEL_WITH_MOST_SWIVEL.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
 // The first limb with any of these flags, looked for from limb *limb of group *group on, through all later groups.
@@ -759,12 +819,13 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
-// A digest of all results, to compare machines by. Crowds with the same features and groups have equal digests if their
-// results are equal, and almost surely other ones if not, also in their low 32 bits. Padding lanes do not count. Each
-// of the SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. It takes the lane's number of every row, in the
-// order of rows: a float's bits, or a word of SWIVEL_COMPACT. To take a number, h becomes (h ^ number) *
-// 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the lanes, lane 0 first. 0 for a
-// null crowd. It protects from accidents, not from forgers. On the calling thread; no allocation.
+// A digest of all results, to compare machines by. Crowds with the same groups have equal digests if their results are
+// equal, and almost surely other ones if not, also in their low 32 bits. Padding lanes do not count. Each of the
+// SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. Group after group and block after block, it takes the
+// lane's number of every row, in the order of the group's rows: a float's bits, or a word of SWIVEL_COMPACT. To take a
+// number, h becomes (h ^ number) * 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the
+// lanes, lane 0 first. 0 for a null crowd. It protects from accidents, not from forgers. On the calling thread; no
+// allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // One entity of the lecture's five steps. Coefficients are of the 32 blades of G(4,1): bits 0 to 4 of a blade's number

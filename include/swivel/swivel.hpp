@@ -14,6 +14,7 @@
 #else
 
 #include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -62,14 +63,19 @@ inline void check(swivel_status status)
     if (status != SWIVEL_OK) fail(status, swivel_last_error());
 }
 
-// Limbs that share a binding, for a crowd with SWIVEL_JOINTS; or limbs in the arm frame.
-inline swivel_group_def group(std::uint32_t limb_count, const swivel_binding& binding)
+// Limbs that share features; those with SWIVEL_JOINTS share a binding, too.
+inline swivel_group_def group(std::uint32_t limb_count, swivel_features features = 0)
 {
     swivel_group_def made = swivel_default_group_def(limb_count);
+    made.features = features;
+    return made;
+}
+inline swivel_group_def group(std::uint32_t limb_count, const swivel_binding& binding, swivel_features features)
+{
+    swivel_group_def made = group(limb_count, features);
     made.binding = binding;
     return made;
 }
-inline swivel_group_def group(std::uint32_t limb_count) { return swivel_default_group_def(limb_count); }
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind().
 inline swivel_binding bind(const swivel_chain& chain)
@@ -189,7 +195,8 @@ concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ran
 template <class Range>
 concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
-// A member of the caller's structures as a frame takes it: swivel_in, or swivel_out unless it is const.
+// A member of the caller's structures as frames take it: for a field of a frame, swivel_in, or swivel_out unless it is
+// const.
 template <class Byte>
 struct Stream {
     Byte* data;
@@ -206,8 +213,8 @@ auto stream_of(Range&& values, Value Struct::*member)
     const auto data = std::ranges::data(values);
     return Stream<Byte>{std::ranges::empty(values) ? nullptr : &(data->*member), sizeof(Element)};
 }
-// frame.target = swivel::stream(characters, &Character::grip): where the first one's member is, and the stride. Of no
-// characters it is null, which leaves the field out.
+// swivel::stream(characters, &Character::grip): where the first one's member is, and the stride. Of no characters it is
+// null, which leaves the field out.
 template <class Range, class Struct, StreamValue Value>
 requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
 auto stream(Range&& values, Value Struct::*member) { return stream_of(values, member); }
@@ -215,6 +222,43 @@ auto stream(Range&& values, Value Struct::*member) { return stream_of(values, me
 template <class Range, class Struct, DoubleValue Value>
 requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
 auto stream_doubles(Range&& values, Value Struct::*member) { return stream_of(values, member); }
+
+// A group's values in the caller's own arrays, as swivel_frame. The arrays must outlive it. It can be kept from solve
+// to solve while they stay where they are.
+//     swivel::Frame frame;
+//     frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+//     frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
+class Frame {
+public:
+    Frame& in(swivel_field field, const swivel_in& values)
+    {
+        fields_.push_back({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
+        return *this;
+    }
+    Frame& out(swivel_field field, const swivel_out& values)
+    {
+        fields_.push_back({field, values.data, values.stride});
+        return *this;
+    }
+    // Positions are doubles, and this is subtracted.
+    Frame& origin(const swivel_in& values)
+    {
+        origin_ = values;
+        return *this;
+    }
+    operator swivel_frame() const
+    {
+        swivel_frame frame = swivel_default_frame();
+        frame.fields = fields_.data();
+        frame.field_count = static_cast<std::uint32_t>(fields_.size());
+        frame.origin = origin_;
+        return frame;
+    }
+
+private:
+    std::vector<swivel_frame_field> fields_;
+    swivel_in origin_ = {};
+};
 
 // A range that was given, empty or not; or none. It views a std::span, or a range that has a name, and that range must
 // outlive it. Values in braces and other ranges without a name end with their line. It keeps copies of those, which
@@ -249,10 +293,12 @@ private:
 // priorities at most one is given.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
+    Given<std::uint32_t> groups = {};  // their numbers
     Given<std::uint32_t> mask = {}, limbs = {};
     Given<swivel_in> priorities = {};  // one for each group
+    std::span<float> urgency = {};     // with priorities: one for each block, kept by the caller
     std::uint32_t most_blocks = 0;     // with priorities
-    Given<swivel_frame> frames = {};   // one for each group
+    Given<Frame> frames = {};          // one for each group that is named
     bool on_this_thread = false;
 };
 
@@ -261,20 +307,16 @@ struct Job {
 // larger values are stepped over by size.
 class Crowd {
 public:
-    Crowd(swivel_features features, std::span<const swivel_group_def> groups)
+    explicit Crowd(std::span<const swivel_group_def> groups)
     {
         swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = features;
         def.group_count = static_cast<std::uint32_t>(groups.size());
         def.groups = groups.data();
         check(swivel_crowd_create(&def, &crowd_));
     }
     // Groups in braces: {left_arms, right_arms}. Their addresses would be taken for the ends of a range.
-    Crowd(swivel_features features, std::initializer_list<swivel_group_def> groups)
-        : Crowd(features, std::span(groups.begin(), groups.size()))
-    {
-    }
-    Crowd(swivel_features features, std::initializer_list<const swivel_group_def*> groups) = delete;
+    Crowd(std::initializer_list<swivel_group_def> groups) : Crowd(std::span(groups.begin(), groups.size())) {}
+    Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
     Crowd& operator=(Crowd&& other) noexcept
@@ -312,21 +354,34 @@ public:
         check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, count(values), first), out(values)));
     }
 
-    // swivel_solve(): crowd.solve(), or crowd.solve({.frames = {&frame, 1}}). Returns how many limbs were solved.
+    // swivel_solve(): crowd.solve(), or crowd.solve({.frames = {frame}}). Returns how many limbs were solved.
     std::uint32_t solve(const Job& wanted = {})
     {
         swivel_job job = swivel_default_job();
         const swivel_limbs limbs =
             wanted.limbs ? swivel_limbs{(*wanted.limbs).data(), count(*wanted.limbs)} : swivel_limbs{};
+        const std::uint32_t group_count = swivel_group_count(crowd_);
+        std::vector<std::uint32_t> named;
+        std::vector<swivel_frame> frames;
         if (wanted.blocks) job.blocks = &*wanted.blocks;
+        if (wanted.groups) {
+            named = bits_of(*wanted.groups);
+            job.groups = named.data();
+            job.group_word_count = count(named);
+        }
         if (wanted.mask) {
             job.mask = data(*wanted.mask);
             job.mask_word_count = count(*wanted.mask);
         }
         if (wanted.limbs) job.limbs = &limbs;
-        if (wanted.priorities) job.priorities = for_all_groups("priorities", *wanted.priorities);
+        if (wanted.priorities) job.priorities = for_groups("priorities", *wanted.priorities, group_count).data();
+        if (!wanted.urgency.empty()) job.urgency = for_blocks(wanted.urgency);
         job.most_blocks = wanted.most_blocks;
-        if (wanted.frames) job.frames = for_all_groups("frames", *wanted.frames);
+        if (wanted.frames) {
+            const auto given = for_groups("frames", *wanted.frames, wanted.groups ? bit_count(named) : group_count);
+            frames.assign(given.begin(), given.end());
+            job.frames = frames.data();
+        }
         job.on_this_thread = wanted.on_this_thread;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
@@ -334,11 +389,12 @@ public:
         return solved;
     }
     // swivel_choose(): marks limbs in a mask and returns how many.
-    std::uint32_t choose(std::span<const swivel_in> priorities, std::uint32_t most_blocks,
+    std::uint32_t choose(std::span<const swivel_in> priorities, std::span<float> urgency, std::uint32_t most_blocks,
                          std::span<std::uint32_t> mask)
     {
         std::uint32_t chosen = 0;
-        check(swivel_choose(crowd_, for_all_groups("priorities", priorities), most_blocks, mask.data(), count(mask),
+        check(swivel_choose(crowd_, for_groups("priorities", priorities, swivel_group_count(crowd_)).data(),
+                            urgency.empty() ? nullptr : for_blocks(urgency), most_blocks, mask.data(), count(mask),
                             &chosen));
         return chosen;
     }
@@ -439,17 +495,40 @@ private:
         return static_cast<std::uint32_t>(std::ranges::size(values));
     }
 
-    // One entry for each group of the crowd. A group that does not exist has no limbs.
     template <class Each>
-    const Each* for_all_groups(const char* what, std::span<const Each> each) const
+    static std::span<const Each> for_groups(const char* what, std::span<const Each> each, std::uint32_t groups)
     {
-        const std::uint32_t given = count(each);
-        std::uint32_t groups = 0;
-        while (swivel_group_limb_count(crowd_, groups) > 0) ++groups;
-        if (given != groups)
-            fail(SWIVEL_INVALID_ARGUMENT,
-                 std::to_string(given) + " " + what + " for " + std::to_string(groups) + " groups; give one for each");
-        return each.data();
+        if (each.size() != groups)
+            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(each.size()) + " " + what + " for " + std::to_string(groups) +
+                                              " groups; give one for each");
+        return each;
+    }
+    float* for_blocks(std::span<float> urgency) const
+    {
+        const std::uint32_t blocks = swivel_block_count(crowd_);
+        if (urgency.size() != blocks)
+            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(urgency.size()) + " urgencies for " + std::to_string(blocks) +
+                                              " blocks; give one for each");
+        return urgency.data();
+    }
+    // A bit for each group, set for these.
+    std::vector<std::uint32_t> bits_of(std::span<const std::uint32_t> groups) const
+    {
+        const std::uint32_t group_count = swivel_group_count(crowd_);
+        std::vector<std::uint32_t> words((group_count + 31) / 32);
+        for (const std::uint32_t group : groups) {
+            if (group >= group_count)
+                fail(SWIVEL_INVALID_ARGUMENT, "group " + std::to_string(group) + " does not exist; this crowd has " +
+                                                  std::to_string(group_count));
+            words[group / 32] |= 1u << group % 32;
+        }
+        return words;
+    }
+    static std::uint32_t bit_count(std::span<const std::uint32_t> words)
+    {
+        int bits = 0;
+        for (const std::uint32_t word : words) bits += std::popcount(word);
+        return static_cast<std::uint32_t>(bits);
     }
 
     swivel_crowd* crowd_ = nullptr;
