@@ -27,7 +27,7 @@ void add_calls(Suite& suite)
 {
     for (const std::size_t arm_count : {1u, 16u, 64u, 256u}) {
         const auto crowd = std::make_shared<swivel::Crowd>(make_crowd(0, arm_count, random_limbs(arm_count)));
-        const swivel_rows in = swivel_input_rows(crowd->get()), out = swivel_result_rows(crowd->get());
+        const swivel_rows in = swivel_input_rows(crowd->get(), 0), out = swivel_result_rows(crowd->get(), 0);
         for (const std::string& isa : suite.isas) {
             if (isa == "scalar" && suite.isas.size() > 1) continue;
             swivel_job here = swivel_default_job();

@@ -17,7 +17,7 @@ void add_copies(Suite& suite)
         const std::size_t arm_count = arms_within(3, features);
         const auto prepare = [&suite, features = features, arm_count]() -> Work {
             swivel::Crowd& crowd = suite.crowds.get(features, arm_count);
-            const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+            const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
             const Probe& probe = probe_of(suite.best_isa().c_str());
             return
                 [=, copy = probe.copy_rows] { copy(in.base, in.row_count, out.base, out.row_count, in.block_count); };

@@ -28,7 +28,7 @@ void require_right(const std::string& name, std::span<const Limb> limbs, const P
 void add_by_hand(const std::string& name, bool (*by_hand)(const float*, float*, std::size_t),
                  const std::shared_ptr<swivel::Crowd>& crowd)
 {
-    const swivel_rows in = swivel_input_rows(crowd->get()), own = swivel_result_rows(crowd->get());
+    const swivel_rows in = swivel_input_rows(crowd->get(), 0), own = swivel_result_rows(crowd->get(), 0);
     const auto rows = std::make_shared<Columns<1>>(std::size_t{own.block_count} * own.row_count * SWIVEL_LANES);
     const auto solve = [crowd, in, rows, by_hand] { return by_hand(in.base, (*rows)[0], in.block_count); };
     if (!solve() || std::memcmp((*rows)[0], own.base, rows->count() * sizeof(float)) != 0)

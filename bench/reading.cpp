@@ -36,9 +36,9 @@ void solve(swivel::Crowd& crowd)
 // Reads every whole cache line of the results, which are floats or words.
 Work reader(const swivel::Crowd& crowd, const Probe& probe)
 {
-    const swivel_rows rows = swivel_result_rows(crowd.get());
+    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
     if (rows.row_count > 0) return [&probe, rows] { probe.read_rows(rows.base, rows.row_count, rows.block_count); };
-    const swivel_words words = swivel_compact_rows(crowd.get());
+    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
     const std::size_t lines = std::size_t{words.block_count} * words.row_count / 2;
     return [&probe, words, lines] { probe.read_rows(reinterpret_cast<const float*>(words.base), 1, lines); };
 }

@@ -79,7 +79,7 @@ std::shared_ptr<swivel::Crowd> mixed_crowd(const Pool& pool, std::size_t arm_cou
     for (std::size_t n = arm_count; n > 1; --n) std::swap(kinds[n - 1], kinds[random(n)]);
 
     const auto crowd = std::make_shared<swivel::Crowd>(make_crowd(pool.features, arm_count, random_limbs(arm_count)));
-    const swivel_rows from = swivel_input_rows(pool.crowd.get()), to = swivel_input_rows(crowd->get());
+    const swivel_rows from = swivel_input_rows(pool.crowd.get(), 0), to = swivel_input_rows(crowd->get(), 0);
     for (std::size_t n = 0; n < arm_count; ++n) {
         const std::vector<std::uint32_t>& limbs = pool.limbs[static_cast<std::size_t>(kinds[n])];
         copy_limb(from, limbs[random(limbs.size())], to, n);

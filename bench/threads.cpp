@@ -60,7 +60,7 @@ Work solve_on(int threads, swivel::Crowd& crowd, Frames frames)
 Work copy_on(int threads, const swivel::Crowd& crowd, const Probe& probe)
 {
     const auto team = std::make_shared<Team>(threads);
-    const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+    const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
     return [team, in, out, &probe] {
         team->run([&](int part) {
             const auto [first, end] = share_of(in.block_count, part, team->size());

@@ -53,8 +53,7 @@ inline bool is_unit(const Float4& q) { return std::abs(quat(q).norm() - 1) <= 1e
 
 inline Crowd crowd_of(swivel_features features, std::uint32_t limb_count, const swivel_binding& binding = {})
 {
-    const swivel_group_def group = swivel::group(limb_count, binding);
-    Crowd crowd(features, std::span(&group, 1));
+    Crowd crowd({swivel::group(limb_count, binding, features)});
     if (!(features & SWIVEL_JOINTS)) crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     return crowd;
 }
@@ -70,7 +69,7 @@ std::vector<Value> read(const Crowd& crowd, swivel_field field, std::uint32_t gr
 // All bits of one limb's results.
 inline std::vector<std::uint32_t> result_words(const Crowd& crowd, std::uint32_t limb)
 {
-    const swivel_rows rows = swivel_result_rows(crowd.get());
+    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
     std::vector<std::uint32_t> words(rows.row_count);
     for (std::uint32_t row = 0; row < rows.row_count; ++row)
         std::memcpy(&words[row], rows.base + (std::size_t{limb / 16} * rows.row_count + row) * 16 + limb % 16, 4);

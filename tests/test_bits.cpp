@@ -152,7 +152,7 @@ TEST_CASE("a limb has the same bits wherever it stands in the crowd")
           &recipe_of(Part::limbs, "set-both-boxes"), &recipe_of(Part::limbs, "set-world-hand-twists")}) {
         Crowd crowd = make_crowd(*recipe, count);
         crowd.solve();
-        const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+        const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
         const std::vector<std::uint32_t> inputs = words_of(in), results = words_of(out);
         for (std::uint32_t shift = 1; shift < 64; shift += 5) {  // limb n goes to lane n + shift, round the first group
             const auto place = [](const swivel_rows& rows, std::uint32_t limb, std::uint32_t row) {
@@ -199,13 +199,13 @@ TEST_CASE("blocks outside the range are not written, and what lies in them does 
         if (recipe.features & corpus::kCompact) continue;  // see test_compact
         Crowd whole = make_crowd(recipe, 200);
         whole.solve();
-        const swivel_rows whole_out = swivel_result_rows(whole.get());
+        const swivel_rows whole_out = swivel_result_rows(whole.get(), 0);
         const std::vector<std::uint32_t> expected = words_of(whole_out);
         REQUIRE(whole_out.block_count == 21);
         for (const auto& [first, count] :
              {std::pair{0u, 1u}, {1u, 4u}, {3u, 9u}, {12u, 2u}, {13u, 8u}, {5u, 0u}, {0u, 21u}}) {
             Crowd crowd = make_crowd(recipe, 200);
-            const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+            const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
             poison(out);
             const std::size_t block_in = std::size_t{in.row_count} * SWIVEL_LANES;
             for (std::size_t n = 0; n < word_count(in); ++n)
@@ -247,7 +247,7 @@ TEST_CASE("blocks outside the range are not even read")
     def.memory_bytes = bytes;
     swivel_crowd* crowd = nullptr;
     REQUIRE(swivel_crowd_create(&def, &crowd) == SWIVEL_OK);
-    const swivel_rows in = swivel_input_rows(crowd), out = swivel_result_rows(crowd);
+    const swivel_rows in = swivel_input_rows(crowd, 0), out = swivel_result_rows(crowd, 0);
     REQUIRE(in.row_count == 8);
     REQUIRE(out.row_count == 7);
     REQUIRE(reinterpret_cast<char*>(in.base) == pages + 2 * page);
@@ -281,7 +281,7 @@ TEST_CASE("padding lanes may hold anything, stay as they are and change nothing"
         for (const std::uint32_t word : {0x7fc00000u, kPoison, 0xffffffffu, 0x7f800000u, 0x00000001u, 0x00000000u}) {
             INFO(full_name(*recipe) << ", padding of " << word);
             const auto fill_and_solve = [&](Crowd& crowd) {
-                const swivel_rows rows = swivel_input_rows(crowd.get());
+                const swivel_rows rows = swivel_input_rows(crowd.get(), 0);
                 for_each_padding_lane(crowd, rows, 3, [&](float* lane) { std::memcpy(lane, &word, sizeof word); });
                 const std::vector<std::uint32_t> before = words_of(rows);
                 crowd.solve();
@@ -296,7 +296,7 @@ TEST_CASE("solving twice, and over poisoned results, gives the same bits")
     for (const Recipe& recipe : recipes_of(Part::hard)) {
         INFO(full_name(recipe));
         const std::uint64_t digest = digest_of(recipe, [](Crowd& crowd) {
-            poison(swivel_result_rows(crowd.get()));
+            poison(swivel_result_rows(crowd.get(), 0));
             crowd.solve();
             crowd.solve();
         });

@@ -39,8 +39,8 @@ struct Results {
 
     explicit Results(const Crowd& crowd)
     {
-        const swivel_rows rows = swivel_result_rows(crowd.get());
-        const swivel_words compact = swivel_compact_rows(crowd.get());
+        const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
+        const swivel_words compact = swivel_compact_rows(crowd.get(), 0);
         row_count = compact.base ? compact.row_count : rows.row_count;
         for (std::size_t limb = 0; limb < lane_count(crowd); ++limb)
             for (std::uint32_t row = 0; row < row_count; ++row) {
@@ -63,12 +63,12 @@ struct Results {
 // Fills all results with what no solve leaves, a new pattern for each word.
 inline void poison_results(Crowd& crowd)
 {
-    const swivel_rows rows = swivel_result_rows(crowd.get());
+    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
     for (std::uint32_t n = 0; n < rows.block_count * rows.row_count * SWIVEL_LANES; ++n) {
         const std::uint32_t word = 0x7fa00000u + n;  // a signalling NaN
         std::memcpy(rows.base + n, &word, sizeof word);
     }
-    const swivel_words compact = swivel_compact_rows(crowd.get());
+    const swivel_words compact = swivel_compact_rows(crowd.get(), 0);
     for (std::uint32_t n = 0; n < compact.block_count * compact.row_count * SWIVEL_LANES; ++n)
         compact.base[n] = static_cast<std::uint16_t>(0x8000u + n);
 }

@@ -42,13 +42,17 @@ std::size_t word_count(const swivel_words& rows)
 }
 Words words_of(const Crowd& crowd)
 {
-    const swivel_words rows = swivel_compact_rows(crowd.get());
-    return {rows.base, rows.base + word_count(rows)};
+    Words words;
+    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+        const swivel_words rows = swivel_compact_rows(crowd.get(), group);
+        words.insert(words.end(), rows.base, rows.base + word_count(rows));
+    }
+    return words;
 }
 std::uint16_t word_of(const Crowd& crowd, swivel_field field, std::uint32_t limb, std::uint32_t word)
 {
-    const swivel_words rows = swivel_compact_rows(crowd.get());
-    const std::uint32_t row = swivel_field_first_row(crowd.get(), field) + word;
+    const swivel_words rows = swivel_compact_rows(crowd.get(), 0);
+    const std::uint32_t row = swivel_field_first_row(crowd.get(), 0, field) + word;
     return rows.base[(std::size_t{limb / 16} * rows.row_count + row) * 16 + limb % 16];
 }
 
@@ -138,7 +142,7 @@ struct Twins {
     Twins(const Recipe& recipe, std::uint32_t limb_count)
         : floats(make_crowd(recipe, limb_count)), compact(make_crowd(compacted(recipe), limb_count))
     {
-        const swivel_rows from = swivel_input_rows(floats.get()), to = swivel_input_rows(compact.get());
+        const swivel_rows from = swivel_input_rows(floats.get(), 0), to = swivel_input_rows(compact.get(), 0);
         REQUIRE(from.row_count == to.row_count);
         REQUIRE(from.block_count == to.block_count);
     }
@@ -321,7 +325,7 @@ TEST_CASE("the words are the scalar build's, in every block range, and no other 
         for (const auto& [first, count] :
              {std::pair{0u, 1u}, {1u, 3u}, {2u, 8u}, {3u, 9u}, {12u, 2u}, {4u, 17u}, {5u, 0u}, {0u, blocks}}) {
             INFO("blocks " << first << " + " << count);
-            const swivel_words rows = swivel_compact_rows(crowd.get());
+            const swivel_words rows = swivel_compact_rows(crowd.get(), 0);
             std::fill_n(rows.base, expected.size(), std::uint16_t{0xa5c3});
             crowd.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true});
             const Words words = words_of(crowd);
@@ -442,38 +446,38 @@ TEST_CASE("rows of a compact crowd: words for results, floats for inputs, half t
     const swivel_group_def groups[] = {group_of(1), group_of(16), group_of(17), group_of(40)};
     for_each_feature_set([&](const Recipe& recipe) {
         const swivel_features features = library_features(recipe);
-        const Crowd crowd(features | SWIVEL_COMPACT, groups), floats(features, groups);
+        const Crowd crowd = crowd_with(features | SWIVEL_COMPACT, groups), floats = crowd_with(features, groups);
         const bool joints = features & SWIVEL_JOINTS, hand = features & SWIVEL_WITH_HAND;
         const std::uint32_t sizes[] = {3, joints ? 3u : 2u, hand ? 3u : 0u, 2};
         std::uint32_t row = 0;
         for (const swivel_field field : every_field()) {
             if (field < SWIVEL_SHOULDER) {
-                CHECK(swivel_field_row_count(crowd.get(), field) == swivel_field_row_count(floats.get(), field));
+                CHECK(swivel_field_row_count(crowd.get(), 0, field) == swivel_field_row_count(floats.get(), 0, field));
                 continue;
             }
             const std::uint32_t size = field <= SWIVEL_FLAGS ? sizes[field - SWIVEL_SHOULDER] : 0;
-            CHECK(swivel_field_row_count(crowd.get(), field) == size);
-            if (size) CHECK(swivel_field_first_row(crowd.get(), field) == row);
+            CHECK(swivel_field_row_count(crowd.get(), 0, field) == size);
+            if (size) CHECK(swivel_field_first_row(crowd.get(), 0, field) == row);
             row += size;
         }
-        const swivel_words rows = swivel_compact_rows(crowd.get());
+        const swivel_words rows = swivel_compact_rows(crowd.get(), 0);
         CHECK(rows.row_count == row);
         CHECK(rows.block_count == 7);
         CHECK(reinterpret_cast<std::uintptr_t>(rows.base) % 64 == 0);
-        CHECK(swivel_result_rows(crowd.get()).base == nullptr);
-        CHECK(swivel_result_rows(crowd.get()).row_count == 0);
-        CHECK(swivel_compact_rows(floats.get()).base == nullptr);
-        CHECK(swivel_compact_rows(floats.get()).row_count == 0);
+        CHECK(swivel_result_rows(crowd.get(), 0).base == nullptr);
+        CHECK(swivel_result_rows(crowd.get(), 0).row_count == 0);
+        CHECK(swivel_compact_rows(floats.get(), 0).base == nullptr);
+        CHECK(swivel_compact_rows(floats.get(), 0).row_count == 0);
 
-        swivel_crowd_def def = def_of(groups[0]);
-        def.groups = groups;
+        swivel_group_def own[] = {groups[0], groups[1], groups[2], groups[3]};
+        swivel_crowd_def def = def_of(own[0]);
         def.group_count = 4;
-        def.features = features;
+        for (swivel_group_def& group : own) group.features = features;
         const std::size_t float_bytes = swivel_crowd_bytes(&def);
-        def.features |= SWIVEL_COMPACT;
+        for (swivel_group_def& group : own) group.features |= SWIVEL_COMPACT;
         const std::size_t bytes = swivel_crowd_bytes(&def), blocks = 7;
         CHECK(bytes % 64 == 0);
-        const std::size_t saved = blocks * SWIVEL_LANES * (swivel_result_rows(floats.get()).row_count * 4 - row * 2);
+        const std::size_t saved = blocks * SWIVEL_LANES * (swivel_result_rows(floats.get(), 0).row_count * 4 - row * 2);
         CHECK(float_bytes - bytes == saved / 64 * 64);
 
         // The caller's memory: not a byte outside it is touched.
@@ -494,13 +498,13 @@ TEST_CASE("padding lanes of inputs may hold anything and reach no one's words")
 {
     for_each_feature_set([&](const Recipe& recipe) {
         Crowd crowd = make_crowd(compacted(recipe), 21), poisoned = make_crowd(compacted(recipe), 21);
-        const swivel_rows in = swivel_input_rows(poisoned.get());
+        const swivel_rows in = swivel_input_rows(poisoned.get(), 0);
         for (std::uint32_t row = 0; row < 2 * in.row_count; ++row)
             if (row >= in.row_count) std::fill_n(in.base + row * SWIVEL_LANES + 5, 11, kNan);
         crowd.solve();
         poisoned.solve();
         for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS})
-            for (std::uint32_t word = 0; word < swivel_field_row_count(crowd.get(), field); ++word)
+            for (std::uint32_t word = 0; word < swivel_field_row_count(crowd.get(), 0, field); ++word)
                 for (std::uint32_t limb = 0; limb < 21; ++limb)
                     REQUIRE(word_of(crowd, field, limb, word) == word_of(poisoned, field, limb, word));
     });
@@ -536,17 +540,16 @@ TEST_CASE("frames take inputs, and refuse to take results out")
     std::vector<Float3> targets(50);
     Random random{3};
     for (Float3& target : targets) target = floats(random.direction());
-    swivel_frame frame = swivel_default_frame();
-    frame.target = {targets.data(), sizeof targets[0]};
+    Frame own;
+    const swivel_frame frame = own.in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]});
     expected.write(SWIVEL_TARGET, 0, targets);
     expected.solve();
 
     std::vector<Float4> values(50, Float4{9, 9, 9, 9});
     const Words fresh = words_of(crowd);
-    for (swivel_out swivel_frame::*const output :
-         {&swivel_frame::shoulder, &swivel_frame::elbow, &swivel_frame::wrist, &swivel_frame::flags}) {
-        swivel_frame refused = frame;
-        refused.*output = {values.data(), sizeof values[0]};
+    for (const swivel_field output : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST, SWIVEL_FLAGS}) {
+        Frame with_output = own;
+        const swivel_frame refused = with_output.out(output, {values.data(), sizeof values[0]});
         const auto before = all_words(crowd);
         CHECK_REFUSED(solve_frame(crowd.get(), &refused), SWIVEL_INVALID_ARGUMENT);
         CHECK_REFUSED(solve_frame_blocks(crowd.get(), &refused, 0, 1), SWIVEL_INVALID_ARGUMENT);

@@ -19,7 +19,7 @@ namespace {
 // Which limbs of the first 32 a job solves: those whose flags it sets again.
 std::uint32_t solved_by(Crowd& crowd, const Job& job)
 {
-    const swivel_rows results = swivel_result_rows(crowd.get());
+    const swivel_rows results = swivel_result_rows(crowd.get(), 0);
     const std::size_t values = std::size_t{results.block_count} * results.row_count * SWIVEL_LANES;
     std::fill_n(results.base, values, 0.0f);
     const std::uint32_t count = crowd.solve(job);
@@ -78,7 +78,7 @@ static_assert(!std::is_constructible_v<Crowd, swivel_features, std::initializer_
 
 TEST_CASE("C++: a job with a name keeps values in braces")
 {
-    Crowd crowd(0, {group_of(20)});
+    Crowd crowd = crowd_with(0, {group_of(20)});
     crowd.write_all(SWIVEL_TARGET, 0, std::array{0.3f, 0.2f, 1.0f});
     Job mask{.mask = {0xfu}}, limbs{.limbs = {3u, 4u, 19u}};
     scribble();
@@ -103,7 +103,7 @@ TEST_CASE("C++: a job with a name keeps values in braces")
 
 TEST_CASE("C++: a job with a name keeps ranges without a name, and frames in braces")
 {
-    Crowd crowd(0, {group_of(20)});
+    Crowd crowd = crowd_with(0, {group_of(20)});
     crowd.write_all(SWIVEL_TARGET, 0, std::array{0.3f, 0.2f, 1.0f});
     Job limbs{.limbs = made()}, constant{.limbs = made_const()}, array{.mask = std::array{0x70u}},
         words{.mask = Words{{0x21u}}};
@@ -113,9 +113,8 @@ TEST_CASE("C++: a job with a name keeps ranges without a name, and frames in bra
     CHECK(solved_by(crowd, array) == 0x70u);
     CHECK(solved_by(crowd, words) == 0x21u);
 
-    swivel_frame frame = swivel_default_frame();
     const Float3 target{0.2f, 0.3f, 0.4f};
-    frame.target = {target.data(), 0};
+    const Frame frame = Frame().in(SWIVEL_TARGET, {target.data(), 0});
     Job framed{.frames = {frame}};
     scribble();
     CHECK(solved_by(crowd, framed) == 0xfffffu);
@@ -126,7 +125,7 @@ TEST_CASE("C++: a job with a name keeps ranges without a name, and frames in bra
 
 TEST_CASE("C++: a job views ranges with a name, and spans, without an allocation")
 {
-    Crowd crowd(0, {group_of(20)});
+    Crowd crowd = crowd_with(0, {group_of(20)});
     crowd.write_all(SWIVEL_TARGET, 0, std::array{0.3f, 0.2f, 1.0f});
     std::vector<std::uint32_t> mask{0xfu};
     const Words words{{0x21u}};
@@ -143,11 +142,12 @@ TEST_CASE("C++: an explanation is whole, however long")
     constexpr swivel_features kLimits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
                                         SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                         SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_FLEXION_LIMIT;
-    Crowd crowd(kEverything | kLimits | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
-                    SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE | SWIVEL_WITH_CLAVICLE,
-                {group_of(2)});
+    Crowd crowd = crowd_with(kEverything | kLimits | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
+                                 SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
+                                 SWIVEL_WITH_CLAVICLE,
+                             {group_of(2)});
     for (swivel_field field : every_field()) {
-        const std::uint32_t rows = swivel_field_row_count(crowd.get(), field);
+        const std::uint32_t rows = swivel_field_row_count(crowd.get(), 0, field);
         if (field >= SWIVEL_INPUT_END || rows == 0) continue;
         const std::vector<float> bad(rows, kNan);
         REQUIRE(swivel_write(crowd.get(), field, 0, 0, 2, {bad.data(), 0}) == SWIVEL_OK);

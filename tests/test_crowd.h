@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,17 @@ inline swivel_group_def group_of(std::uint32_t limb_count)
 {
     swivel_chain chain = swivel_default_chain();
     chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
-    return group(limb_count, bind(chain));
+    return group(limb_count, bind(chain), 0);
+}
+// The same features for all groups.
+inline Crowd crowd_with(swivel_features features, std::vector<swivel_group_def> groups)
+{
+    for (swivel_group_def& group : groups) group.features = features;
+    return Crowd(groups);
+}
+inline Crowd crowd_with(swivel_features features, std::span<const swivel_group_def> groups)
+{
+    return crowd_with(features, std::vector(groups.begin(), groups.end()));
 }
 
 inline swivel_crowd_def def_of(const swivel_group_def& group)
@@ -58,15 +69,28 @@ inline swivel_crowd_def def_of(const swivel_group_def& group)
     return def;
 }
 
-// The whole of a crowd's rows; without the results of a compact one.
+// Calls use(rows) for each group's input rows, and then its result rows.
+template <class Use>
+void for_all_rows(const Crowd& crowd, const Use& use)
+{
+    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+        use(swivel_input_rows(crowd.get(), group));
+        use(swivel_result_rows(crowd.get(), group));
+    }
+}
+inline std::size_t float_count(const swivel_rows& rows)
+{
+    return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES;
+}
+// The whole of a crowd's rows; without the results of compact groups.
 inline std::vector<std::uint32_t> all_words(const Crowd& crowd)
 {
     std::vector<std::uint32_t> words;
-    for (const swivel_rows rows : {swivel_input_rows(crowd.get()), swivel_result_rows(crowd.get())}) {
-        const std::size_t count = std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES, at = words.size();
-        words.resize(at + count);
-        if (count > 0) std::memcpy(words.data() + at, rows.base, count * sizeof(float));
-    }
+    for_all_rows(crowd, [&](const swivel_rows& rows) {
+        const std::size_t at = words.size();
+        words.resize(at + float_count(rows));
+        if (rows.base) std::memcpy(words.data() + at, rows.base, float_count(rows) * sizeof(float));
+    });
     return words;
 }
 

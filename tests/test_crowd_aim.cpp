@@ -215,13 +215,13 @@ TEST_CASE("an aim that is none is bad input, and features it cannot go with are 
     CHECK(flags[0] == SWIVEL_REACHED);
     for (int n = 1; n < 4; ++n) CHECK(flags[static_cast<std::size_t>(n)] == SWIVEL_BAD_INPUT);
 
-    const swivel_group_def group = group_of(1);
-    swivel_crowd_def def = def_of(group);
+    swivel_group_def group = group_of(1);
+    const swivel_crowd_def def = def_of(group);
     for (const swivel_features other :
          {swivel_features{SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS}, SWIVEL_WITH_REACH, SWIVEL_WITH_FLEXION_LIMIT,
           swivel_features{SWIVEL_WITH_HAND | SWIVEL_WITH_HAND_CONE},
           swivel_features{SWIVEL_WITH_HAND | SWIVEL_WITH_WRIST_BOX}}) {
-        def.features = SWIVEL_WITH_AIM | other;
+        group.features = SWIVEL_WITH_AIM | other;
         swivel_crowd* none = nullptr;
         CHECK_REFUSED(swivel_crowd_create(&def, &none), SWIVEL_INVALID_ARGUMENT);
     }

@@ -92,6 +92,7 @@ std::uint32_t bit_count(const std::vector<std::uint32_t>& words)
     for (std::uint32_t limb = 0; limb < words.size() * 32; ++limb) count += is_set(words, limb);
     return count;
 }
+std::vector<float> no_urgency(const Crowd& crowd) { return std::vector<float>(swivel_block_count(crowd.get())); }
 
 }  // namespace
 
@@ -102,14 +103,15 @@ TEST_CASE("the most urgent blocks are picked, of equals the lower")
         std::vector<swivel_group_def> groups;
         for (std::uint32_t n = 1 + random.below(3); n > 0; --n) groups.push_back(group_of(1 + random.below(700)));
         const auto group_count = static_cast<std::uint32_t>(groups.size());
-        Crowd crowd(SWIVEL_BUDGET, groups);
+        Crowd crowd = crowd_with(0, groups);
         Model model(crowd, group_count);
+        std::vector<float> urgency = no_urgency(crowd);
         std::vector<std::uint32_t> words(mask_words(crowd), 0xdeadbeef);
         for (int call = 0; call < 30; ++call) {
             const Priorities priorities(crowd, group_count, random);
             const std::uint32_t most = random.below(4) ? random.below(swivel_block_count(crowd.get()) + 2) : 0;
             const std::vector<std::uint32_t> expected = model.choose(priorities.lanes, most);
-            const std::uint32_t count = crowd.choose(priorities.streams, most, words);
+            const std::uint32_t count = crowd.choose(priorities.streams, urgency, most, words);
             RC_ASSERT(words == expected);
             RC_ASSERT(count == bit_count(words));
         }
@@ -130,7 +132,8 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
             INFO(isa);
             REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
             for (const int threads : {1, 2, 4}) {
-                Crowd whole(features | SWIVEL_BUDGET, groups), parts(features | SWIVEL_BUDGET, groups);
+                Crowd whole = crowd_with(features, groups), parts = crowd_with(features, groups);
+                std::vector<float> of_whole = no_urgency(whole), of_parts = of_whole;
                 for (Crowd* crowd : {&whole, &parts}) {
                     Random random{7};
                     write_arms(*crowd, features, 3, random);
@@ -141,7 +144,7 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
                     const std::uint32_t most = random.below(500), step = 1 + random.below(40);
                     std::uint32_t solved = 0;
                     const auto solve = [&] {
-                        solved = whole.solve({.priorities = priorities.streams, .most_blocks = most});
+                        solved = whole.solve({.priorities = priorities.streams, .urgency = of_whole, .most_blocks = most});
                     };
 #ifdef SWIVEL_WITH_TBB
                     oneapi::tbb::task_arena(threads).execute(solve);
@@ -149,7 +152,7 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
                     solve();
 #endif
                     std::vector<std::uint32_t> words(mask_words(parts));
-                    REQUIRE(parts.choose(priorities.streams, most, words) == solved);
+                    REQUIRE(parts.choose(priorities.streams, of_parts, most, words) == solved);
                     const std::uint32_t block_count = swivel_block_count(parts.get());
                     for (std::uint32_t first = 0; first < block_count; first += step)
                         parts.solve({.blocks = swivel_blocks{first, std::min(step, block_count - first)},
@@ -168,15 +171,16 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
 TEST_CASE("blocks of equal priority take turns")
 {
     const swivel_group_def group = group_of(16 * 50);
-    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    Crowd crowd = crowd_with(0, {&group, 1});
     const float priority = 0.1f;
     const swivel_in priorities{&priority, 0};
+    std::vector<float> urgency = no_urgency(crowd);
     std::vector<std::uint32_t> words(mask_words(crowd));
     for (const std::uint32_t most : {10u, 7u, 50u, 1u}) {
         std::vector<std::uint32_t> last(50, 0);
         const std::uint32_t turn = (50 + most - 1) / most;
         for (std::uint32_t call = 1; call <= 8 * turn; ++call) {
-            REQUIRE(crowd.choose({&priorities, 1}, most, words) == most * 16);
+            REQUIRE(crowd.choose({&priorities, 1}, urgency, most, words) == most * 16);
             for (std::uint32_t block = 0; block < 50; ++block) {
                 if (is_set(words, block * 16)) last[block] = call;
                 if (call >= 2 * turn) REQUIRE(call - last[block] < turn + 1);
@@ -189,7 +193,7 @@ TEST_CASE("nobody starves, and over time blocks are solved as often as their pri
 {
     const std::uint32_t block_count = 40, calls = 40000;
     const swivel_group_def group = group_of(16 * block_count);
-    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    Crowd crowd = crowd_with(0, {&group, 1});
     std::vector<float> priority(16 * block_count);
     double sum = 0;
     for (std::uint32_t block = 0; block < block_count; ++block) {
@@ -198,9 +202,10 @@ TEST_CASE("nobody starves, and over time blocks are solved as often as their pri
         sum += static_cast<double>(each);
     }
     const swivel_in priorities{priority.data(), sizeof(float)};
+    std::vector<float> urgency = no_urgency(crowd);
     std::vector<std::uint32_t> words(mask_words(crowd)), times(block_count);
     for (std::uint32_t call = 0; call < calls; ++call) {
-        REQUIRE(crowd.choose({&priorities, 1}, 4, words) == 4 * 16);
+        REQUIRE(crowd.choose({&priorities, 1}, urgency, 4, words) == 4 * 16);
         for (std::uint32_t block = 0; block < block_count; ++block) times[block] += is_set(words, block * 16);
     }
     for (std::uint32_t block = 0; block < block_count; ++block) {
@@ -214,13 +219,14 @@ TEST_CASE("nobody starves, and over time blocks are solved as often as their pri
 TEST_CASE("what is not wanted waits with what it had")
 {
     const swivel_group_def group = group_of(16 * 3);
-    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    Crowd crowd = crowd_with(0, {&group, 1});
+    std::vector<float> urgency = no_urgency(crowd);
     std::vector<std::uint32_t> words(2);
     const auto chosen = [&](std::vector<float> of_blocks, std::uint32_t most) {
         std::vector<float> priority;
         for (const float each : of_blocks) priority.insert(priority.end(), 16, each);
         const swivel_in priorities{priority.data(), sizeof(float)};
-        crowd.choose({&priorities, 1}, most, words);
+        crowd.choose({&priorities, 1}, urgency, most, words);
         std::string names;
         for (std::uint32_t block = 0; block < 3; ++block)
             if (is_set(words, block * 16)) names += static_cast<char>('a' + block);
@@ -237,7 +243,7 @@ TEST_CASE("what is not wanted waits with what it had")
 TEST_CASE("a list after a budget is solved alone")
 {
     const swivel_group_def group = group_of(100);
-    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    Crowd crowd = crowd_with(0, {&group, 1});
     const float priority = 1;
     const swivel_in priorities{&priority, 0};
     CHECK(crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 3}) == 48);
@@ -249,45 +255,51 @@ TEST_CASE("a list after a budget is solved alone")
     for (std::uint32_t n = 0; n < 100; ++n) CHECK(after.same(before, n) == (n != limb));
 }
 
-TEST_CASE("a crowd without the feature has no budget, with it no other bits")
+TEST_CASE("without urgency each call starts anew; what is no number counts as none")
+{
+    const swivel_group_def group = group_of(16 * 4);
+    Crowd crowd = crowd_with(0, {&group, 1});
+    const float priority = 1;
+    const swivel_in priorities{&priority, 0};
+    std::vector<std::uint32_t> words(2);
+    for (int call = 0; call < 3; ++call) {
+        CHECK(crowd.choose({&priorities, 1}, {}, 1, words) == 16);
+        CHECK(words[0] == 0xffff);  // the first block, as often as it is asked
+    }
+    std::vector<float> urgency = {kNan, -5, 3, kInf};
+    CHECK(crowd.choose({&priorities, 1}, urgency, 1, words) == 16);
+    CHECK(words[0] == 0xffff0000);  // the size of -5 counts
+    CHECK(urgency == std::vector<float>{1, 0, 4, 1});
+}
+
+TEST_CASE("wrong budgets are refused and change nothing")
 {
     const swivel_group_def group = group_of(100);
-    Crowd plain(0, {&group, 1}), with(SWIVEL_BUDGET, {&group, 1});
-    for (Crowd* crowd : {&plain, &with}) {
-        Random random{1};
-        write_arms(*crowd, 0, 1, random);
-        crowd->solve();
-    }
-    CHECK(all_words(plain) == all_words(with));
-    swivel_crowd_def def = def_of(group);
-    const std::size_t bytes = swivel_crowd_bytes(&def);
-    def.features = SWIVEL_BUDGET;
-    CHECK(swivel_crowd_bytes(&def) == bytes + 64);
-
+    Crowd crowd = crowd_with(0, {&group, 1});
     const float priority = 1;
     const swivel_in good{&priority, 0}, null{nullptr, 4}, narrow{&priority, 3};
+    std::vector<float> urgency = no_urgency(crowd);
     std::uint32_t words[4] = {7, 7, 7, 7}, count = 7;
     const auto bad = SWIVEL_INVALID_ARGUMENT;
+    const auto choose = [&](swivel_crowd* of, const swivel_in* priorities, std::uint32_t* mask, std::uint32_t size) {
+        return swivel_choose(of, priorities, urgency.data(), 1, mask, size, &count);
+    };
     CHECK_REFUSED(solve_budget(nullptr, &good, 1, &count), bad);
-    CHECK_REFUSED(solve_budget(plain.get(), &good, 1, &count), bad);
-    CHECK(std::string(swivel_last_error()) == "this crowd remembers no urgency; create it with SWIVEL_BUDGET");
-    CHECK_REFUSED(swivel_choose(plain.get(), &good, 1, words, 4, &count), bad);
-    CHECK_REFUSED(swivel_choose(nullptr, &good, 1, words, 4, &count), bad);
-    CHECK_REFUSED(swivel_choose(with.get(), &good, 1, nullptr, 4, &count), bad);
-    for (const std::uint32_t wrong : {0u, 3u, 5u})
-        CHECK_REFUSED(swivel_choose(with.get(), &good, 1, words, wrong, &count), bad);
+    CHECK_REFUSED(choose(nullptr, &good, words, 4), bad);
+    CHECK_REFUSED(choose(crowd.get(), &good, nullptr, 4), bad);
+    for (const std::uint32_t wrong : {0u, 3u, 5u}) CHECK_REFUSED(choose(crowd.get(), &good, words, wrong), bad);
     for (const swivel_in& each : {null, narrow}) {
-        CHECK_REFUSED(solve_budget(with.get(), &each, 1, &count), bad);
-        CHECK_REFUSED(swivel_choose(with.get(), &each, 1, words, 4, &count), bad);
+        CHECK_REFUSED(solve_budget(crowd.get(), &each, 1, &count), bad);
+        CHECK_REFUSED(choose(crowd.get(), &each, words, 4), bad);
     }
     CHECK(std::string(swivel_last_error()) == "group 0, priority: stride 3 is smaller than a value, 4 bytes");
-    CHECK_REFUSED(solve_budget(with.get(), nullptr, 1, &count), bad);
-    CHECK_THROWS_AS(with.solve({.priorities = {}, .most_blocks = 1}), Error);
+    CHECK_REFUSED(solve_budget(crowd.get(), nullptr, 1, &count), bad);
+    CHECK_THROWS_AS(crowd.solve({.priorities = {}, .most_blocks = 1}), Error);
+    CHECK_THROWS_AS(crowd.solve({.urgency = urgency}), Error);
+    CHECK_THROWS_AS(crowd.solve({.groups = {0u}, .priorities = {good}, .most_blocks = 1}), Error);
+    CHECK_THROWS_AS(crowd.solve({.priorities = {good}, .urgency = std::span(urgency).first(3), .most_blocks = 1}), Error);
     CHECK(count == 7);
+    CHECK(urgency == no_urgency(crowd));
     for (const std::uint32_t word : words) CHECK(word == 7);
-
-    // No call above counted as one: all are as urgent still, the first goes first.
-    CHECK(swivel_choose(with.get(), &good, 1, words, 4, nullptr) == SWIVEL_OK);
-    CHECK(words[0] == 0xffff);
-    CHECK(solve_budget(with.get(), &good, 100, nullptr) == SWIVEL_OK);
+    CHECK(solve_budget(crowd.get(), &good, 100, nullptr) == SWIVEL_OK);
 }

@@ -191,7 +191,7 @@ TEST_CASE("blocks without a chosen limb are neither read nor written")
     Crowd crowd(def);
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0, 2});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    const swivel_rows in = swivel_input_rows(crowd.get()), out = swivel_result_rows(crowd.get());
+    const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
     const auto lock_outside = [&](const swivel_rows& rows, int rights) {
         char* const base = reinterpret_cast<char*>(rows.base);
         const std::size_t part = std::size_t{blocks} / 3 * rows.row_count * 64;
@@ -221,7 +221,7 @@ TEST_CASE("choosing allocates nothing")
 {
     const swivel_group_def group = group_of(9000);
     for (const swivel_features features : {swivel_features{0}, SWIVEL_COMPACT}) {
-        Crowd crowd(features | SWIVEL_BUDGET, {&group, 1});
+        Crowd crowd = crowd_with(features | SWIVEL_BUDGET, {&group, 1});
         Random random{3};
         const std::vector<std::uint32_t> mask = random_mask(crowd, random);
         std::vector<std::uint32_t> list, words(mask_words(crowd));
@@ -300,7 +300,7 @@ TEST_CASE("wrong choices are refused with one line and change nothing")
 TEST_CASE("a job chooses in one way, and lists and priorities are for the whole crowd")
 {
     const swivel_group_def group = group_of(40);
-    Crowd crowd(SWIVEL_BUDGET, {&group, 1});
+    Crowd crowd = crowd_with(SWIVEL_BUDGET, {&group, 1});
     const std::uint32_t mask[] = {~0u, ~0u}, limb = 3;
     const swivel_limbs list{&limb, 1};
     const float priority = 1;
@@ -346,7 +346,7 @@ TEST_CASE("a job chooses in one way, and lists and priorities are for the whole 
 TEST_CASE("a solve says how many limbs it solved")
 {
     const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
-    Crowd crowd(SWIVEL_BUDGET, groups);
+    Crowd crowd = crowd_with(SWIVEL_BUDGET, groups);
     CHECK(crowd.solve() == 65);
     CHECK(crowd.solve({.blocks = swivel_blocks{1, 2}}) == 9);
     CHECK(crowd.solve({.blocks = swivel_blocks{1, 2}, .mask = std::vector<std::uint32_t>(3, ~0u)}) == 9);

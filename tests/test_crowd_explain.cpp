@@ -68,7 +68,7 @@ TEST_CASE("explain names inputs that were never written, or are out of range, an
     constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
     const swivel_group_def group = swivel_default_group_def(20);
     for (const swivel_features compact : {swivel_features{0}, SWIVEL_COMPACT}) {
-        Crowd crowd(features | compact, {&group, 1});
+        Crowd crowd = crowd_with(features | compact, {&group, 1});
         CHECK(says(crowd, 3, "it never was"));
         crowd.solve();
         const std::string none = crowd.explain(0, 19);
@@ -285,7 +285,7 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
         std::vector<Limb> limbs;
         for (Crowd* const each : {&crowd, &compact}) {
             const auto put_all = [&](swivel_field field, const auto& value) {
-                if (swivel_field_row_count(each->get(), field)) each->write_all(field, 0, value);
+                if (swivel_field_row_count(each->get(), 0, field)) each->write_all(field, 0, value);
             };
             put_all(SWIVEL_SHOULDER_CONE, cone({shoulder_axis.x(), shoulder_axis.y(), shoulder_axis.z()}, 0.5));
             put_all(SWIVEL_HAND_CONE, cone({hand_axis.x(), hand_axis.y(), hand_axis.z()}, 0.3));
@@ -433,7 +433,7 @@ TEST_CASE("SWIVEL_EXPLANATION_BYTES hold the longest text, of a limb whose every
                 const auto field = static_cast<swivel_field>(f);
                 Float12 value;
                 value.fill(bad);
-                if (swivel_field_row_count(crowd.get(), field))
+                if (swivel_field_row_count(crowd.get(), 0, field))
                     REQUIRE(swivel_write(crowd.get(), field, 0, 0, 1, {value.data(), sizeof value}) == SWIVEL_OK);
             }
             crowd.solve();

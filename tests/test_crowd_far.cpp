@@ -60,7 +60,7 @@ void write_rest(Crowd& crowd, std::uint32_t n, const Limb& limb)
     crowd.write(SWIVEL_LENGTHS, 0, std::span(&limb.lengths, 1), n);
     crowd.write(SWIVEL_PARENT_ROTATION, 0, std::span(&limb.rotation, 1), n);
     crowd.write(SWIVEL_PARENT_SCALE, 0, std::span(&limb.scale, 1), n);
-    if (swivel_field_row_count(crowd.get(), SWIVEL_HAND)) crowd.write(SWIVEL_HAND, 0, std::span(&limb.hand, 1), n);
+    if (swivel_field_row_count(crowd.get(), 0, SWIVEL_HAND)) crowd.write(SWIVEL_HAND, 0, std::span(&limb.hand, 1), n);
 }
 
 // The limbs' positions from their origins.
@@ -79,7 +79,7 @@ void write_far(Crowd& crowd, swivel_features features, const std::vector<FarLimb
 
 std::vector<std::uint32_t> results(const Crowd& crowd)
 {
-    const swivel_words words = swivel_compact_rows(crowd.get());
+    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
     if (!words.base) return all_words(crowd);
     return {words.base, words.base + std::size_t{words.block_count} * words.row_count * SWIVEL_LANES};
 }
@@ -93,7 +93,7 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
         for (const bool one_for_all : {false, true}) {
             INFO("features " << features << ", one for all " << one_for_all);
             const swivel_group_def group = group_of(count);
-            Crowd home(features, {&group, 1}), far(features, {&group, 1}), framed(features, {&group, 1});
+            Crowd home = crowd_with(features, {&group, 1}), far = crowd_with(features, {&group, 1}), framed = crowd_with(features, {&group, 1});
             Random random{features};
             std::vector<FarLimb> limbs;
             for (std::uint32_t n = 0; n < count; ++n) {
@@ -112,12 +112,12 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
             CHECK(all_words(far) == all_words(home));
             CHECK(results(far) == results(home));
 
-            swivel_frame frame = swivel_default_frame();
-            frame.target = {&limbs[0].target, sizeof limbs[0]};
-            frame.pole = {&limbs[0].pole, sizeof limbs[0]};
-            frame.shoulder_position = {&limbs[0].position, sizeof limbs[0]};
-            frame.origin = {&limbs[0].origin, one_for_all ? 0 : sizeof limbs[0]};
-            framed.solve({.frames = {&frame, 1}});
+            Frame frame;
+            frame.in(SWIVEL_TARGET, {&limbs[0].target, sizeof limbs[0]});
+            frame.in(SWIVEL_POLE, {&limbs[0].pole, sizeof limbs[0]});
+            frame.in(SWIVEL_SHOULDER_POSITION, {&limbs[0].position, sizeof limbs[0]});
+            frame.origin({&limbs[0].origin, one_for_all ? 0 : sizeof limbs[0]});
+            framed.solve({.frames = {frame}});
             CHECK(all_words(framed) == all_words(home));
             CHECK(results(framed) == results(home));
         }
@@ -151,7 +151,7 @@ TEST_CASE("any shift: wrists within 1e-6 of the arm, which floats out there are 
     enum { at_shoulder, near, in_floats };
     for (const int from : {at_shoulder, near, in_floats}) {
         INFO("from " << from);
-        Crowd crowd(features, {&group, 1});
+        Crowd crowd = crowd_with(features, {&group, 1});
         std::vector<FarLimb> limbs;
         for (std::uint32_t n = 0; n < count; ++n) {
             Limb limb = random_limb(random, features, {0.3f, 0.26f});
@@ -275,7 +275,7 @@ TEST_CASE("doubles that no float holds are bad input of their own limb")
 TEST_CASE("wrong doubles are refused with one line and change nothing")
 {
     const swivel_group_def group = group_of(5);
-    Crowd points(SWIVEL_WORLD | SWIVEL_WITH_HAND, {&group, 1}), plain(0, {&group, 1}),
+    Crowd points = crowd_with(SWIVEL_WORLD | SWIVEL_WITH_HAND, {&group, 1}), plain = crowd_with(0, {&group, 1}),
         directions(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&group, 1});
     swivel_crowd* const c = points.get();
     const double values[] = {5, 6, 7};
@@ -306,11 +306,13 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
     frame.origin = narrow;
     CHECK_REFUSED(solve_frame(c, &frame), bad);
     frame.origin = good;
-    frame.target = {values, 12};  // enough for floats
+    swivel_frame_field target{SWIVEL_TARGET, values, 12};  // enough for floats
+    frame.fields = &target;
+    frame.field_count = 1;
     CHECK_REFUSED(solve_frame(c, &frame), bad);
     CHECK(std::string(swivel_last_error()) == "group 0, target: stride 12 is smaller than a value, 24 bytes");
     CHECK(all_words(points) == before);
-    frame.target = {values, 0};
+    target.stride = 0;
     CHECK(solve_frame(c, &frame) == SWIVEL_OK);
     CHECK(read<Float3>(points, SWIVEL_TARGET)[4] == Float3{0, 0, 0});
 }

@@ -63,7 +63,7 @@ Joints joints_of(const Crowd& crowd, std::uint32_t group, std::uint32_t n)
     Float4 q[3] = {{}, {}, {0, 0, 0, 1}};
     crowd.read(SWIVEL_SHOULDER, group, std::span(q, 1), n);
     crowd.read(SWIVEL_ELBOW, group, std::span(q + 1, 1), n);
-    if (swivel_field_row_count(crowd.get(), SWIVEL_WRIST)) crowd.read(SWIVEL_WRIST, group, std::span(q + 2, 1), n);
+    if (swivel_field_row_count(crowd.get(), 0, SWIVEL_WRIST)) crowd.read(SWIVEL_WRIST, group, std::span(q + 2, 1), n);
     for (const Float4& each : q) {
         CHECK(is_unit(each));
         CHECK(is_in_hemisphere(each));
@@ -106,7 +106,7 @@ TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as w
                 CHECK(std::fabs(bound[g].lengths[1] - vec(chains[g].wrist_offset).norm()) <=
                       1e-6 * bound[g].lengths[1]);
             }
-            Crowd crowd(features, groups);
+            Crowd crowd = crowd_with(features, groups);
             std::vector<std::vector<Limb>> limbs(kGroups);
             for (std::uint32_t g = 0; g < kGroups; ++g)
                 for (std::uint32_t n = 0; n < kLimbs; ++n) {
@@ -202,7 +202,7 @@ TEST_CASE("skeletons: the negated bend bends the limb the other way")
         for (float& x : chain.bend) x = -x;
         const swivel_binding other = bind(chain);
         const swivel_group_def groups[] = {swivel::group(1, one), swivel::group(1, other)};
-        Crowd crowd(features, groups);
+        Crowd crowd = crowd_with(features, groups);
         const Limb limb = random_limb(random, features, {one.lengths[0], one.lengths[1]});
         write_limb(crowd, 0, 0, limb);
         write_limb(crowd, 1, 0, limb);
@@ -239,7 +239,7 @@ TEST_CASE("skeletons: a mirrored limb with mirrored goals has mirrored rotations
             const swivel_binding l = bind(left), r = bind(right);
             constexpr swivel_features features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
             const swivel_group_def groups[] = {swivel::group(1, l), swivel::group(1, r)};
-            Crowd crowd(features, groups);
+            Crowd crowd = crowd_with(features, groups);
             const Limb limb = random_limb(random, features, {l.lengths[0], l.lengths[1]});
             Limb other = limb;
             other.target = mirror3(limb.target);

@@ -77,7 +77,7 @@ TEST_CASE("a crowd takes swivel_crowd_bytes() once, from whom it was told to")
             CHECK(ledger.taken == 2);
             for (std::uint32_t group = 0; group < 3; ++group) in_place.write_all(SWIVEL_TARGET, group, Float3{0, 1, 1});
             in_place.solve();
-            const swivel_rows out = swivel_result_rows(in_place.get());
+            const swivel_rows out = swivel_result_rows(in_place.get(), 0);
             const auto* end =
                 reinterpret_cast<unsigned char*>(out.base + std::size_t{out.block_count} * out.row_count * 16);
             CHECK(end == room.data() + start + bytes);

@@ -34,7 +34,7 @@ More random_more(Random& random, double length)
 void write_more(Crowd& crowd, std::uint32_t n, const More& more)
 {
     const auto put_there = [&](swivel_field field, const auto& value) {
-        if (swivel_field_row_count(crowd.get(), field)) put(crowd, field, n, value);
+        if (swivel_field_row_count(crowd.get(), 0, field)) put(crowd, field, n, value);
     };
     put_there(SWIVEL_EFFECTOR, more.effector);
     put_there(SWIVEL_WEIGHTS, more.weights);

@@ -18,7 +18,7 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
     const std::uint32_t first_limbs[] = {0, 16, 32, 64};
     for (swivel_features features = 0; features < 16; ++features) {
         if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
-        const Crowd crowd(features, groups);
+        const Crowd crowd = crowd_with(features, groups);
         INFO("features " << features);
         CHECK(swivel_block_count(crowd.get()) == 7);
         for (std::uint32_t g = 0; g < 4; ++g) {
@@ -41,16 +41,16 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
         std::uint32_t row = 0;
         for (const swivel_field field : every_field()) {
             if (field == SWIVEL_SHOULDER) {
-                CHECK(swivel_input_rows(crowd.get()).row_count == row);
+                CHECK(swivel_input_rows(crowd.get(), 0).row_count == row);
                 row = 0;
             }
-            CHECK(swivel_field_row_count(crowd.get(), field) == sizes[field]);
-            if (sizes[field]) CHECK(swivel_field_first_row(crowd.get(), field) == row);
+            CHECK(swivel_field_row_count(crowd.get(), 0, field) == sizes[field]);
+            if (sizes[field]) CHECK(swivel_field_first_row(crowd.get(), 0, field) == row);
             row += sizes[field];
         }
-        CHECK(swivel_result_rows(crowd.get()).row_count == row);
-        CHECK(swivel_result_rows(crowd.get()).block_count == 7);
-        for (const swivel_rows rows : {swivel_input_rows(crowd.get()), swivel_result_rows(crowd.get())})
+        CHECK(swivel_result_rows(crowd.get(), 0).row_count == row);
+        CHECK(swivel_result_rows(crowd.get(), 0).block_count == 7);
+        for (const swivel_rows rows : {swivel_input_rows(crowd.get(), 0), swivel_result_rows(crowd.get(), 0)})
             CHECK(reinterpret_cast<std::uintptr_t>(rows.base) % 64 == 0);
     }
 }
@@ -61,7 +61,7 @@ TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
     std::ranges::copy(Float2{0.3f, 0}, groups[1].binding.lengths);
     for (const bool joints : {false, true}) {
         const swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND | (joints ? SWIVEL_JOINTS : 0);
-        const Crowd crowd(features, groups);
+        const Crowd crowd = crowd_with(features, groups);
         for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_SHOULDER_POSITION})
             for (const Float3& value : read<Float3>(crowd, field, 0))
                 for (const float x : value) CHECK(std::isnan(x));
@@ -119,14 +119,14 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
         for (const swivel_features compact : {swivel_features{0}, SWIVEL_COMPACT}) sets.push_back(n | compact);
     for (const swivel_features features : sets) {
         INFO("features " << features);
-        Crowd crowd(features, groups);
+        Crowd crowd = crowd_with(features, groups);
         std::vector<std::vector<float>> fresh;
         for (const bool solved : {false, true}) {
             if (solved) crowd.solve();
             for (std::uint32_t g = 0; g < 2; ++g)
                 for (const swivel_field field : every_field()) {
                     if (field < SWIVEL_SHOULDER || field == SWIVEL_FLAGS) continue;
-                    if (swivel_field_row_count(crowd.get(), field) == 0) continue;
+                    if (swivel_field_row_count(crowd.get(), 0, field) == 0) continue;
                     std::vector<float> values(groups[g].limb_count * 12);  // the longest has 3 twist bones
                     REQUIRE(swivel_read(crowd.get(), field, g, 0, groups[g].limb_count, {values.data(), 48}) ==
                             SWIVEL_OK);
@@ -156,15 +156,15 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
     Random random{1};
     for (const swivel_field field : every_field()) {
         Crowd& crowd = field == SWIVEL_AIM ? aiming : most;
-        const std::uint32_t rows_of_field = swivel_field_row_count(crowd.get(), field), count = 30, first = 3;
+        const std::uint32_t rows_of_field = swivel_field_row_count(crowd.get(), 0, field), count = 30, first = 3;
         REQUIRE(rows_of_field > 0);
         const bool input = field < SWIVEL_SHOULDER;
         const std::size_t bytes = rows_of_field * sizeof(float);
         for (const std::size_t stride : {bytes, bytes + 1, bytes + 3, bytes + 4, bytes + 81}) {
             for (const std::size_t misaligned : {0u, 1u, 2u, 3u}) {
                 INFO("field " << field << ", stride " << stride << ", from byte " << misaligned);
-                const swivel_rows rows = input ? swivel_input_rows(crowd.get()) : swivel_result_rows(crowd.get());
-                const std::uint32_t row0 = swivel_field_first_row(crowd.get(), field);
+                const swivel_rows rows = input ? swivel_input_rows(crowd.get(), 0) : swivel_result_rows(crowd.get(), 0);
+                const std::uint32_t row0 = swivel_field_first_row(crowd.get(), 0, field);
                 const auto place = [&](std::uint32_t n, std::uint32_t c) {
                     const std::uint32_t limb = swivel_group_first_limb(crowd.get(), 1) + first + n;
                     return rows.base + (std::size_t{limb / 16} * rows.row_count + row0 + c) * 16 + limb % 16;
@@ -209,8 +209,8 @@ namespace {
 // swivel_digest() as the header describes it, by limbs and their values: floats and words of rows by swivel.h's layout.
 std::uint64_t described_digest(const Crowd& crowd)
 {
-    const swivel_rows floats = swivel_result_rows(crowd.get());
-    const swivel_words words = swivel_compact_rows(crowd.get());
+    const swivel_rows floats = swivel_result_rows(crowd.get(), 0);
+    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
     const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
     std::uint64_t hashes[SWIVEL_LANES] = {}, whole = 0;
     const auto step = [](std::uint64_t& hash, std::uint64_t number) {
@@ -237,7 +237,7 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         INFO("features " << features);
         std::vector<swivel_group_def> groups;
         for (const std::uint32_t count : counts) groups.push_back(group_of(count));
-        Crowd crowd(features, groups);
+        Crowd crowd = crowd_with(features, groups);
         Random random{7};
         for (std::uint32_t g = 0; g < 3; ++g) {
             std::vector<Float3> targets(counts[g]);
@@ -256,8 +256,8 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         // Inputs do not count, padding does not, every limb does.
         crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 0.5f});
         CHECK(crowd.digest() == solved);
-        const swivel_rows floats = swivel_result_rows(crowd.get());
-        const swivel_words words = swivel_compact_rows(crowd.get());
+        const swivel_rows floats = swivel_result_rows(crowd.get(), 0);
+        const swivel_words words = swivel_compact_rows(crowd.get(), 0);
         const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
         const auto change = [&](std::uint32_t limb, std::uint32_t row) {
             const std::size_t at = (std::size_t{limb / 16} * row_count + row) * 16 + limb % 16;
@@ -286,9 +286,9 @@ namespace {
 
 // Bits of a crowd's results, all limbs' and no padding's: of float n, counted in memory, bit b has the number 32 n + b.
 struct ResultBits {
-    explicit ResultBits(const Crowd& crowd) : floats(swivel_result_rows(crowd.get()).base)
+    explicit ResultBits(const Crowd& crowd) : floats(swivel_result_rows(crowd.get(), 0).base)
     {
-        const std::uint32_t row_count = swivel_result_rows(crowd.get()).row_count;
+        const std::uint32_t row_count = swivel_result_rows(crowd.get(), 0).row_count;
         for (std::uint32_t limb = 0; limb < swivel_group_limb_count(crowd.get(), 0); ++limb)
             for (std::uint32_t row = 0; row < row_count; ++row)
                 for (std::uint32_t bit = 0; bit < 32; ++bit)
@@ -309,7 +309,7 @@ struct ResultBits {
 
 TEST_CASE("the digest notices every flip of one, two or three bits")
 {
-    Crowd crowd(0, {group(17)});  // two limbs share a lane, the others have lanes of their own
+    Crowd crowd = crowd_with(0, {group(17)});  // two limbs share a lane, the others have lanes of their own
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.9f, 0.8f});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 0.75f});
     crowd.solve();
@@ -345,14 +345,14 @@ TEST_CASE("the digest notices every flip of one, two or three bits")
 
 TEST_CASE("each half of the digest notices that quaternions are negated")
 {
-    Crowd crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND, {group_of(40)});
+    Crowd crowd = crowd_with(SWIVEL_JOINTS | SWIVEL_WITH_HAND, {group_of(40)});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.9f, 0.8f});
     crowd.solve();
     const std::uint64_t solved = crowd.digest();
-    const swivel_rows rows = swivel_result_rows(crowd.get());
+    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
     for (std::uint32_t limb = 0; limb < 40; ++limb)
         for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST}) {
-            const std::uint32_t first = swivel_field_first_row(crowd.get(), field);
+            const std::uint32_t first = swivel_field_first_row(crowd.get(), 0, field);
             for (std::uint32_t row = first; row < first + 4; ++row) {
                 float& number = rows.base[(limb / 16 * rows.row_count + row) * 16 + limb % 16];
                 number = -number;

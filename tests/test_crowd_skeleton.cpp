@@ -31,8 +31,8 @@ Locals posed(const RestSkeleton& skeleton, const Crowd& crowd, std::uint32_t n)
     Locals locals = rest_locals(skeleton);
     locals[skeleton.shoulder] = result_of(crowd, SWIVEL_SHOULDER, n);
     locals[skeleton.elbow] = result_of(crowd, SWIVEL_ELBOW, n);
-    if (swivel_field_row_count(crowd.get(), SWIVEL_WRIST)) locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
-    if (swivel_field_row_count(crowd.get(), SWIVEL_TWIST_BONES))
+    if (swivel_field_row_count(crowd.get(), 0, SWIVEL_WRIST)) locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
+    if (swivel_field_row_count(crowd.get(), 0, SWIVEL_TWIST_BONES))
         for (std::uint32_t bone = 0; bone < skeleton.twist_bones.size(); ++bone)
             locals[skeleton.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST_BONES, n, 4 * bone);
     return locals;

@@ -39,7 +39,7 @@ TEST_CASE("two crowds on two threads do not meet")
     bool same[2] = {true, true};
     const auto run = [](Crowd& crowd, const std::vector<std::uint32_t>& expected, bool& ok) {
         for (int n = 0; n < 40; ++n) {
-            const swivel_rows out = swivel_result_rows(crowd.get());
+            const swivel_rows out = swivel_result_rows(crowd.get(), 0);
             std::memset(out.base, 0, sizeof(float) * out.block_count * out.row_count * SWIVEL_LANES);
             ok = swivel_solve(crowd.get(), nullptr) == SWIVEL_OK && all_words(crowd) == expected && ok;
         }
@@ -58,7 +58,7 @@ TEST_CASE("several threads solve ranges of one crowd that do not overlap")
     crowd.solve();
     const auto expected = all_words(crowd);
     for (int round = 0; round < 20; ++round) {
-        const swivel_rows out = swivel_result_rows(crowd.get());
+        const swivel_rows out = swivel_result_rows(crowd.get(), 0);
         std::memset(out.base, 0xff, sizeof(float) * out.block_count * out.row_count * SWIVEL_LANES);
         std::vector<std::thread> threads;
         for (std::uint32_t t = 0; t < 3; ++t)

@@ -263,7 +263,7 @@ Crowd good_crowd(swivel_features features)
 {
     const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1)),
                                        swivel::group(kSecond, some_binding(-1))};
-    Crowd crowd(features, groups);
+    Crowd crowd = crowd_with(features, groups);
     Random random{features + 1};
     for (std::uint32_t group = 0; group < 2; ++group) {
         const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
@@ -334,7 +334,7 @@ void check_spoilt(swivel_features features, const Field& input, std::uint32_t gr
     crowd.solve();
     const auto good = all_results(crowd);
     std::array<float, 4> value{};
-    const std::uint32_t floats_of_field = swivel_field_row_count(crowd.get(), input.field);
+    const std::uint32_t floats_of_field = swivel_field_row_count(crowd.get(), 0, input.field);
     check(swivel_read(crowd.get(), input.field, group, limb, 1, {value.data(), sizeof(float) * floats_of_field}));
     spoil(value.data());
     check(swivel_write(crowd.get(), input.field, group, limb, 1, {value.data(), sizeof(float) * floats_of_field}));
@@ -368,7 +368,7 @@ TEST_CASE("one bad number spoils its limb and no other")
         if (!is_feature_set(features)) continue;
         const Crowd shape = good_crowd(features);
         for (const Field& input : kInputs)
-            for (std::uint32_t c = 0; c < swivel_field_row_count(shape.get(), input.field); ++c)
+            for (std::uint32_t c = 0; c < swivel_field_row_count(shape.get(), 0, input.field); ++c)
                 for (const float bad : {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f}) {
                     const std::uint32_t group = turn % 5 == 0, limb = (turn * 7) % (group ? kSecond : kCount);
                     ++turn;

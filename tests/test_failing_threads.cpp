@@ -74,11 +74,13 @@ struct Stage {
     }
     swivel_status solve(bool on_this_thread)
     {
+        const swivel_frame_field fields[] = {{SWIVEL_INCOMING_SHOULDER, &poses[0].shoulder, sizeof(Pose)},
+                                             {SWIVEL_INCOMING_ELBOW, &poses[0].elbow, sizeof(Pose)},
+                                             {SWIVEL_SHOULDER, &poses[0].shoulder, sizeof(Pose)},
+                                             {SWIVEL_ELBOW, &poses[0].elbow, sizeof(Pose)}};
         swivel_frame frame = swivel_default_frame();
-        frame.incoming_shoulder = {&poses[0].shoulder, sizeof(Pose)};
-        frame.incoming_elbow = {&poses[0].elbow, sizeof(Pose)};
-        frame.shoulder = {&poses[0].shoulder, sizeof(Pose)};
-        frame.elbow = {&poses[0].elbow, sizeof(Pose)};
+        frame.fields = fields;
+        frame.field_count = std::size(fields);
         swivel_job job = swivel_default_job();
         job.on_this_thread = on_this_thread;
         if (kind == Kind::pose_in_place) job.frames = &frame;
@@ -150,7 +152,7 @@ Outcome run_late(Kind kind)
                 for (int waited = 0; there < kThreads && waited < 10000; ++waited) ::usleep(10);
             });
         group.wait();
-        let_fail_elsewhere(swivel_result_rows(tried.crowd.get()).base);
+        let_fail_elsewhere(swivel_result_rows(tried.crowd.get(), 0).base);
         status = tried.solve(false);
         failed = stop_failing();
     });

@@ -239,7 +239,7 @@ const std::map<std::string, Make> kComputing = {
      [](Random& random) -> Call {
          const auto crowd = keep(random_crowd(random, random.below(2)));
          return [crowd](Record& to) {
-             if (!swivel_compact_rows(crowd->get()).base) to.add(swivel_reset(crowd->get(), 0, 0, kLimbs));
+             if (!swivel_compact_rows(crowd->get(), 0).base) to.add(swivel_reset(crowd->get(), 0, 0, kLimbs));
              to.add(swivel_solve(crowd->get(), nullptr));
              to.add(swivel_digest(crowd->get()));
          };

@@ -40,7 +40,7 @@ swivel_crowd* one_arm()
 void check_refused(const std::string& forced)
 {
     swivel_crowd* const crowd = one_arm();
-    const swivel_rows rows = swivel_result_rows(crowd);
+    const swivel_rows rows = swivel_result_rows(crowd, 0);
     const std::vector<float> before(rows.base, rows.base + rows.row_count * SWIVEL_LANES);
     const auto says_so = [&] {
         return std::string(swivel_last_error()).find("SWIVEL_FORCE_ISA=" + forced + " ") != std::string::npos;

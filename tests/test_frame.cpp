@@ -22,31 +22,12 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// The members of a swivel_frame, inputs first: their fields, names, and the features that bring them.
-constexpr swivel_in swivel_frame::*kIn[] = {&swivel_frame::target,
-                                            &swivel_frame::pole,
-                                            &swivel_frame::lengths,
-                                            &swivel_frame::shoulder_position,
-                                            &swivel_frame::parent_rotation,
-                                            &swivel_frame::parent_scale,
-                                            &swivel_frame::hand,
-                                            &swivel_frame::effector,
-                                            &swivel_frame::angle,
-                                            &swivel_frame::incoming_shoulder,
-                                            &swivel_frame::incoming_elbow,
-                                            &swivel_frame::incoming_wrist,
-                                            &swivel_frame::weights,
-                                            &swivel_frame::aim,
-                                            &swivel_frame::clavicle};
-constexpr swivel_out swivel_frame::*kOut[] = {
-    &swivel_frame::shoulder, &swivel_frame::elbow,       &swivel_frame::wrist,        &swivel_frame::flags,
-    &swivel_frame::stretch,  &swivel_frame::twist_bones, &swivel_frame::clavicle_turn};
-constexpr std::uint32_t kInputs = std::size(kIn), kOutputs = std::size(kOut), kMembers = kInputs + kOutputs;
+// The fields of frames, inputs first: their names, and the features that bring them.
 struct Member {
     swivel_field field;
     const char *name, *feature;
 };
-constexpr Member kMember[kMembers] = {
+constexpr Member kMember[] = {
     {SWIVEL_TARGET, "target", ""},
     {SWIVEL_POLE, "pole", ""},
     {SWIVEL_LENGTHS, "lengths", ""},
@@ -71,19 +52,20 @@ constexpr Member kMember[kMembers] = {
     {SWIVEL_CLAVICLE_TURN, "clavicle_turn", "SWIVEL_WITH_CLAVICLE"},
 };
 
+constexpr std::uint32_t kInputs = 15, kMembers = std::size(kMember);
 swivel_field field_at(std::uint32_t n) { return kMember[n].field; }
 std::size_t value_bytes(const Crowd& crowd, std::uint32_t field)
 {
-    return swivel_field_row_count(crowd.get(), field_at(field)) * sizeof(float);
+    return swivel_field_row_count(crowd.get(), 0, field_at(field)) * sizeof(float);
 }
 
 // The place of a component of a limb of a group, as the header's layout says.
 float* place(const Crowd& crowd, std::uint32_t field, std::uint32_t group, std::uint32_t n, std::size_t component)
 {
-    const swivel_rows rows = field < kInputs ? swivel_input_rows(crowd.get()) : swivel_result_rows(crowd.get());
-    const std::size_t row = swivel_field_first_row(crowd.get(), field_at(field)) + component;
-    const std::uint32_t limb = swivel_group_first_limb(crowd.get(), group) + n;
-    return rows.base + (std::size_t{limb / 16} * rows.row_count + row) * 16 + limb % 16;
+    const swivel_rows rows =
+        field < kInputs ? swivel_input_rows(crowd.get(), group) : swivel_result_rows(crowd.get(), group);
+    const std::size_t row = swivel_field_first_row(crowd.get(), group, field_at(field)) + component;
+    return rows.base + (std::size_t{n / 16} * rows.row_count + row) * 16 + n % 16;
 }
 
 // A field's values in bytes of their own, among bytes that are nobody's. size 0: the field is left out.
@@ -122,25 +104,26 @@ Array random_array(Random& random, const Crowd& crowd, std::uint32_t field, std:
 
 using Arrays = std::array<Array, kMembers>;  // of one group
 
-swivel_frame frame_of(Arrays& arrays)
+void give(Frame& frame, std::uint32_t f, void* data, std::size_t stride)
 {
-    swivel_frame frame = swivel_default_frame();
-    for (std::uint32_t f = 0; f < kMembers; ++f) {
-        if (arrays[f].size == 0) continue;
-        if (f < kInputs)
-            frame.*kIn[f] = {arrays[f].value(0), arrays[f].stride};
-        else
-            frame.*kOut[f - kInputs] = {arrays[f].value(0), arrays[f].stride};
-    }
-    return frame;
+    if (f < kInputs)
+        frame.in(field_at(f), {data, stride});
+    else
+        frame.out(field_at(f), {data, stride});
 }
 
-std::vector<swivel_frame> frames_of(std::vector<Arrays>& arrays)
-{
+struct Frames {
+    std::vector<Frame> own;
     std::vector<swivel_frame> frames;
-    for (Arrays& group : arrays) frames.push_back(frame_of(group));
-    return frames;
-}
+
+    explicit Frames(std::vector<Arrays>& arrays) : own(arrays.size())
+    {
+        for (std::size_t g = 0; g < arrays.size(); ++g)
+            for (std::uint32_t f = 0; f < kMembers; ++f)
+                if (Array& array = arrays[g][f]; array.size != 0) give(own[g], f, array.value(0), array.stride);
+        frames.assign(own.begin(), own.end());
+    }
+};
 
 // copy(field, group, array) for the fields of a frame that are given.
 template <class Copy>
@@ -193,7 +176,7 @@ struct Problem {
     std::vector<swivel_group_def> groups;
     std::vector<Arrays> arrays;
 
-    Crowd crowd() const { return Crowd(features, groups); }
+    Crowd crowd() const { return crowd_with(features, groups); }
 };
 
 Problem random_problem(Random& random, std::uint32_t most_limbs)
@@ -241,9 +224,10 @@ TEST_CASE("a whole frame gives the bits of writing, solving and reading, in rows
         Crowd words = problem.crowd(), steps = problem.crowd(), frame = problem.crowd(), blocks = problem.crowd();
         solve_by_words(words, by_words);
         solve_by_steps(steps, by_steps);
-        frame.solve({.frames = frames_of(whole)});
+        const Frames of_whole(whole), of_blocks(in_blocks);
+        frame.solve({.frames = of_whole.frames});
         blocks.solve({.blocks = swivel_blocks{0, swivel_block_count(blocks.get())},
-                      .frames = frames_of(in_blocks),
+                      .frames = of_blocks.frames,
                       .on_this_thread = true});
         RC_ASSERT(same_words(steps, words));
         RC_ASSERT(same_words(frame, words));
@@ -263,7 +247,8 @@ TEST_CASE("large crowds, in chunks on threads, give the bits of one thread")
     std::vector<Arrays> by_words = problem.arrays, whole = problem.arrays;
     Crowd words = problem.crowd(), frame = problem.crowd();
     solve_by_words(words, by_words);
-    frame.solve({.frames = frames_of(whole)});
+    const Frames of_whole(whole);
+    frame.solve({.frames = of_whole.frames});
     CHECK(same_words(frame, words));
     CHECK(same_bytes(whole, by_words));
 }
@@ -278,19 +263,21 @@ TEST_CASE("a range of blocks copies and solves its limbs alone, ranges in any or
         const std::vector<std::uint32_t> before = all_words(crowd);
         solve_by_words(words, expected);
         const std::vector<std::uint32_t> after = all_words(words);
-        const std::vector<swivel_frame> frames = frames_of(got);
+        const Frames of_got(got);
+        const std::vector<swivel_frame>& frames = of_got.frames;
 
         const std::uint32_t block_count = swivel_block_count(crowd.get()), first = random.below(block_count);
         const Range range{first, random.below(block_count - first + 1)};
         crowd.solve({.blocks = swivel_blocks{range.first, range.count}, .frames = frames, .on_this_thread = true});
         const std::vector<std::uint32_t> words_now = all_words(crowd);
-        const std::size_t in_size = std::size_t{swivel_input_rows(crowd.get()).row_count} * SWIVEL_LANES,
-                          out_size = std::size_t{swivel_result_rows(crowd.get()).row_count} * SWIVEL_LANES;
-        for (std::size_t w = 0; w < words_now.size(); ++w) {
-            const std::size_t out = w - std::min(w, in_size * block_count);
-            const std::size_t block = w < in_size * block_count ? w / in_size : out / out_size;
-            RC_ASSERT(words_now[w] == (range.has(static_cast<std::uint32_t>(block)) ? after : before)[w]);
-        }
+        std::size_t word = 0;
+        for (std::uint32_t g = 0; g < problem.groups.size(); ++g)
+            for (const swivel_rows rows : {swivel_input_rows(crowd.get(), g), swivel_result_rows(crowd.get(), g)})
+                for (std::uint32_t b = 0; b < rows.block_count; ++b) {
+                    const bool is_solved = range.has(swivel_group_first_limb(crowd.get(), g) / SWIVEL_LANES + b);
+                    for (std::uint32_t n = rows.row_count * SWIVEL_LANES; n > 0; --n, ++word)
+                        RC_ASSERT(words_now[word] == (is_solved ? after : before)[word]);
+                }
         for (std::uint32_t g = 0; g < got.size(); ++g)
             for (std::uint32_t f = kInputs; f < kMembers; ++f) {
                 Array& array = got[g][f];
@@ -318,9 +305,7 @@ TEST_CASE("one value for a whole group, and null members leave the rows alone")
     const Float4 turned = {0, 0.6f, 0, 0.8f};
     crowd.write_all(SWIVEL_PARENT_ROTATION, 0, turned);
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
-    swivel_frame frame = swivel_default_frame();
-    frame.target = {&target, 0};
-    crowd.solve({.frames = {&frame, 1}});
+    crowd.solve({.frames = {Frame().in(SWIVEL_TARGET, {&target, 0})}});
     CHECK(read<Float3>(crowd, SWIVEL_TARGET) == std::vector<Float3>(50, target));
     CHECK(read<Float4>(crowd, SWIVEL_PARENT_ROTATION) == std::vector<Float4>(50, turned));
     const auto solved = all_words(crowd);
@@ -354,27 +339,29 @@ TEST_CASE("a pose may be read and written in place")
             character.pole = floats(random.direction());
         }
         std::vector<Character> in_place = pose;
-        const auto frame_in = [](std::vector<Character>& all) {
+        const auto fields_in = [](std::vector<Character>& all) {
             const std::size_t stride = sizeof(Character);
-            swivel_frame frame = swivel_default_frame();
-            frame.target = {&all[0].target, stride};
-            frame.pole = {&all[0].pole, stride};
-            frame.shoulder_position = {&all[0].joints[2].position, stride};
-            frame.parent_rotation = {&all[0].joints[2].rotation, stride};
-            frame.parent_scale = {&all[0].joints[2].scale, stride};
-            frame.shoulder = {&all[0].joints[2].rotation, stride};  // the bytes the parent's rotation was read from
-            frame.elbow = {&all[0].joints[3].rotation, stride};
-            frame.flags = {&all[0].target, stride};  // over a part of an input
-            return frame;
+            return std::vector<swivel_frame_field>{
+                {SWIVEL_TARGET, &all[0].target, stride},
+                {SWIVEL_POLE, &all[0].pole, stride},
+                {SWIVEL_SHOULDER_POSITION, &all[0].joints[2].position, stride},
+                {SWIVEL_PARENT_ROTATION, &all[0].joints[2].rotation, stride},
+                {SWIVEL_PARENT_SCALE, &all[0].joints[2].scale, stride},
+                {SWIVEL_SHOULDER, &all[0].joints[2].rotation, stride},  // where the parent's rotation was read
+                {SWIVEL_ELBOW, &all[0].joints[3].rotation, stride},
+                {SWIVEL_FLAGS, &all[0].target, stride},  // over a part of an input
+            };
         };
-        const swivel_frame there = frame_in(pose), here = frame_in(in_place);
-        for (std::uint32_t f = 0; f < kInputs; ++f)
-            if ((there.*kIn[f]).data) check(swivel_write(separate.get(), field_at(f), 0, 0, count, there.*kIn[f]));
+        const auto there = fields_in(pose), here = fields_in(in_place);
+        for (const auto& [field, data, stride] : there)
+            if (field < SWIVEL_INPUT_END) check(swivel_write(separate.get(), field, 0, 0, count, {data, stride}));
         separate.solve();
-        for (std::uint32_t f = 0; f < kOutputs; ++f)
-            if ((there.*kOut[f]).data)
-                check(swivel_read(separate.get(), field_at(kInputs + f), 0, 0, count, there.*kOut[f]));
-        whole.solve({.frames = {&here, 1}});
+        for (const auto& [field, data, stride] : there)
+            if (field >= SWIVEL_SHOULDER) check(swivel_read(separate.get(), field, 0, 0, count, {data, stride}));
+        swivel_frame frame = swivel_default_frame();
+        frame.fields = here.data();
+        frame.field_count = static_cast<std::uint32_t>(here.size());
+        whole.solve({.frames = {&frame, 1}});
         CHECK(same_words(whole, separate));
         CHECK(std::memcmp(pose.data(), in_place.data(), count * sizeof(Character)) == 0);
         CHECK(read<std::uint32_t>(whole, SWIVEL_FLAGS) == read<std::uint32_t>(separate, SWIVEL_FLAGS));
@@ -433,17 +420,17 @@ TEST_CASE("values that start or end at a page nobody may touch, the array or eac
                 const std::size_t bytes = value_bytes(crowd, f);
                 INFO(kMember[f].name << ", " << count << " limbs, stride " << stride);
                 pages.fill();
-                swivel_frame frame = swivel_default_frame();
+                Frame given;
+                give(given, f, data, stride);
+                const swivel_frame frame = given;
                 if (f < kInputs) {
                     CHECK(swivel_write(c, field_at(f), 0, 0, count, {data, stride}) == SWIVEL_OK);
-                    frame.*kIn[f] = {data, stride};
                     CHECK(solve_frame(c, &frame) == SWIVEL_OK);
                     CHECK(std::memcmp(place(crowd, f, 0, count - 1, bytes / 4 - 1), "AAAA", 4) == 0);
                 } else {
                     CHECK(swivel_read(c, field_at(f), 0, 0, count, {data, stride}) == SWIVEL_OK);
                     CHECK(pages.is_filled_beside(data, stride, bytes, count));
                     pages.fill();
-                    frame.*kOut[f - kInputs] = {data, stride};
                     CHECK(solve_frame(c, &frame) == SWIVEL_OK);
                     CHECK(pages.is_filled_beside(data, stride, bytes, count));
                 }
@@ -466,7 +453,8 @@ TEST_CASE("a frame of blocks allocates nothing")
     Random random{3};
     Problem problem = random_problem(random, 1000);
     Crowd crowd = problem.crowd();
-    const std::vector<swivel_frame> frames = frames_of(problem.arrays);
+    const Frames of_problem(problem.arrays);
+    const std::vector<swivel_frame>& frames = of_problem.frames;
     const std::uint32_t block_count = swivel_block_count(crowd.get());
     crowd.solve({.blocks = swivel_blocks{0, block_count},
                  .frames = frames,
@@ -490,7 +478,8 @@ TEST_CASE("several threads run ranges of one frame that do not overlap")
     std::vector<Arrays> expected = problem.arrays;
     Crowd alone = problem.crowd(), crowd = problem.crowd();
     solve_by_words(alone, expected);
-    const std::vector<swivel_frame> frames = frames_of(problem.arrays);
+    const Frames of_problem(problem.arrays);
+    const std::vector<swivel_frame>& frames = of_problem.frames;
     const std::uint32_t block_count = swivel_block_count(crowd.get());
     std::vector<std::thread> threads;
     for (std::uint32_t t = 0; t < 3; ++t)
@@ -504,16 +493,15 @@ TEST_CASE("several threads run ranges of one frame that do not overlap")
 
 TEST_CASE("frames of an older header are read as far as they go, as far apart as the first says")
 {
-    // As if a first release had ended before the shoulder: targets go in, flags are not known.
-    constexpr std::size_t step = offsetof(swivel_frame, shoulder);
+    constexpr std::size_t step = offsetof(swivel_frame, origin);  // as if a first release had no origins
     const swivel_group_def groups[] = {group_of(20), group_of(5)};
-    Crowd framed(0, groups), rows(0, groups);
+    Crowd framed = crowd_with(0, groups), rows = crowd_with(0, groups);
     alignas(swivel_frame) std::array<unsigned char, 2 * step> frames;
     std::vector<Float3> targets[] = {std::vector<Float3>(20, Float3{0, 1, 1}), std::vector<Float3>(5, Float3{1, 0, 1})};
+    Frame own[2];
     for (std::uint32_t g = 0; g < 2; ++g) {
-        swivel_frame frame = swivel_default_frame();
+        swivel_frame frame = own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});
         frame.size = step;
-        frame.target = {targets[g].data(), sizeof(Float3)};
         std::memcpy(frames.data() + g * step, &frame, step);
         for (Crowd* crowd : {&framed, &rows}) crowd->write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
         rows.write(SWIVEL_TARGET, g, targets[g]);
@@ -529,11 +517,11 @@ TEST_CASE("frames of limbs that are not chosen are neither read nor written")
     const swivel_group_def groups[] = {group_of(counts[0]), group_of(counts[1])};
     Random random{8};
     for (const std::uint32_t one_in : {1u, 2u, 16u, 200u}) {
-        Crowd framed(SWIVEL_JOINTS, groups), rows(SWIVEL_JOINTS, groups);
+        Crowd framed = crowd_with(SWIVEL_JOINTS, groups), rows = crowd_with(SWIVEL_JOINTS, groups);
         std::vector<std::uint32_t> mask((swivel_block_count(rows.get()) + 1) / 2);
         std::vector<Float3> targets[2];
         std::vector<Float4> shoulders[2];
-        std::array<swivel_frame, 2> frames = {swivel_default_frame(), swivel_default_frame()};
+        std::array<Frame, 2> own;
         for (std::uint32_t g = 0; g < 2; ++g) {
             rows.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});  // what unchosen limbs have and keep
             framed.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});
@@ -546,9 +534,10 @@ TEST_CASE("frames of limbs that are not chosen are neither read nor written")
                 targets[g][n] = floats(Vector3d(random.between(0.2, 2.2) * random.direction()));
                 rows.write(SWIVEL_TARGET, g, std::span(&targets[g][n], 1), n);
             }
-            frames[g].target = {targets[g].data(), sizeof(Float3)};
-            frames[g].shoulder = {shoulders[g].data(), sizeof(Float4)};
+            own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});
+            own[g].out(SWIVEL_SHOULDER, {shoulders[g].data(), sizeof(Float4)});
         }
+        const std::array<swivel_frame, 2> frames = {own[0], own[1]};
         rows.solve({.mask = mask});
         const std::uint32_t blocks = swivel_block_count(rows.get()), part = 1 + random.below(blocks);
         framed.solve({.blocks = swivel_blocks{0, part}, .mask = mask, .frames = frames});
@@ -573,45 +562,47 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
 {
     const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
     float values[200] = {};
-    const auto fill = [&](swivel_features features) {
-        std::vector<swivel_frame> frames(3, swivel_default_frame());
-        for (swivel_frame& frame : frames)
+    // Frames of every input that there is without a further feature, but for one field of one group.
+    const auto fill = [&](swivel_features features, std::uint32_t but_group, std::uint32_t but_field) {
+        std::vector<Frame> frames(3);
+        for (std::uint32_t g = 0; g < 3; ++g)
             for (std::uint32_t f = 0; f < kInputs; ++f)
                 if (const std::string feature = kMember[f].feature;
                     feature.empty() || (feature == "SWIVEL_WORLD" && features & SWIVEL_WORLD) ||
                     (feature == "SWIVEL_WITH_HAND" && features & SWIVEL_WITH_HAND))
-                    frame.*kIn[f] = {values, 0};
+                    if (g != but_group || f != but_field) frames[g].in(field_at(f), {values, 0});
         return frames;
     };
     for (const swivel_features features : {swivel_features{0}, SWIVEL_WORLD, kEverything}) {
-        Crowd crowd(features, groups);
+        Crowd crowd = crowd_with(features, groups);
         crowd.solve();
         const auto before = all_words(crowd);
         for (std::uint32_t g = 0; g < 3; ++g)
             for (std::uint32_t f = 0; f < kMembers; ++f) {
                 const std::size_t bytes = value_bytes(crowd, f);
-                std::vector<swivel_frame> frames = fill(features);
+                std::vector<Frame> own = fill(features, g, f);
+                const std::vector<Frame> others = own;
                 std::string line = "group " + std::to_string(g) + ", " + kMember[f].name + ": ";
                 const std::size_t stride = bytes == 0 ? 16 : bytes - 1;
                 // Of two features that are missing the lower bit is named.
                 const bool missing_hand = field_at(f) == SWIVEL_INCOMING_WRIST && !(features & SWIVEL_WITH_HAND);
-                if (f < kInputs)
-                    frames[g].*kIn[f] = {values, stride};
-                else
-                    frames[g].*kOut[f - kInputs] = {values, stride};
+                give(own[g], f, values, stride);
+                const std::vector<swivel_frame> frames(own.begin(), own.end());
                 if (bytes != 0)
                     line += "stride " + std::to_string(stride) + " is smaller than a value, " + std::to_string(bytes) +
                             " bytes";
                 else
-                    line += std::string("not part of this crowd; create it with ") +
+                    line += std::string("not part of this group; create it with ") +
                             (missing_hand ? "SWIVEL_WITH_HAND" : kMember[f].feature);
                 CHECK(solve_frame(crowd.get(), frames.data()) == SWIVEL_INVALID_ARGUMENT);
                 CHECK(swivel_last_error() == line);
                 CHECK_REFUSED(solve_frame_blocks(crowd.get(), frames.data(), 0, 6), SWIVEL_INVALID_ARGUMENT);
                 CHECK(swivel_last_error() == line);
                 if (f >= kInputs && bytes != 0) {
-                    frames[g].*kOut[f - kInputs] = {values, 0};  // one place for all: outputs cannot
-                    CHECK_REFUSED(solve_frame(crowd.get(), frames.data()), SWIVEL_INVALID_ARGUMENT);
+                    own = others;
+                    give(own[g], f, values, 0);  // one place for all: outputs cannot
+                    const std::vector<swivel_frame> one_place(own.begin(), own.end());
+                    CHECK_REFUSED(solve_frame(crowd.get(), one_place.data()), SWIVEL_INVALID_ARGUMENT);
                 }
             }
         CHECK((all_words(crowd) == before));
@@ -622,7 +613,7 @@ TEST_CASE("wrong frames are refused, name group and field, and change nothing")
 TEST_CASE("missing frames, crowds and blocks are refused; frames outside the range are not looked at")
 {
     const swivel_group_def groups[] = {group_of(20), group_of(5)};
-    Crowd crowd(0, groups);
+    Crowd crowd = crowd_with(0, groups);
     swivel_crowd* const c = crowd.get();
     const auto bad = SWIVEL_INVALID_ARGUMENT;
     float value[4] = {};
@@ -641,10 +632,21 @@ TEST_CASE("missing frames, crowds and blocks are refused; frames outside the ran
     CHECK_REFUSED(solve_frame_blocks(c, frames, 4, 0), bad);
     CHECK_REFUSED(solve_frame_blocks(c, frames, 1, ~0u), bad);
     CHECK(solve_frame_blocks(c, frames, 3, 0) == SWIVEL_OK);
-    frames[1].target = {value, 4};
+    swivel_frame_field fields[] = {{SWIVEL_TARGET, value, 4}, {SWIVEL_POLE, value, 0}};
+    frames[1].fields = fields;
+    frames[1].field_count = 2;
     CHECK_REFUSED(solve_frame_blocks(c, frames, 1, 2), bad);
     CHECK(solve_frame_blocks(c, frames, 0, 2) == SWIVEL_OK);  // blocks of group 0 alone
-    frames[1].target = {nullptr, 4};                          // not given: its stride is ignored
+    fields[0].data = nullptr;                                 // not given: its stride is ignored
+    CHECK(solve_frame(c, frames) == SWIVEL_OK);
+    fields[0] = fields[1];
+    CHECK_REFUSED(solve_frame(c, frames), bad);
+    CHECK(swivel_last_error() == std::string("frame of group 1 lists pole twice; list it once"));
+    fields[0].field = SWIVEL_INPUT_END;
+    CHECK_REFUSED(solve_frame(c, frames), bad);
+    frames[1].fields = nullptr;
+    CHECK_REFUSED(solve_frame(c, frames), bad);
+    frames[1].field_count = 0;
     CHECK(solve_frame(c, frames) == SWIVEL_OK);
     CHECK_NOTHROW(crowd.solve({.frames = frames}));
     CHECK_THROWS_AS(crowd.solve({.frames = {frames, 1}}), Error);

@@ -135,19 +135,21 @@ Problem problem_of_many_rounds(Random& random)
     return problem;
 }
 
-std::vector<swivel_frame> frames_in(const Problem& problem, Bytes& bytes)
+std::vector<Frame> frames_in(const Problem& problem, Bytes& bytes)
 {
-    std::vector<swivel_frame> frames;
+    std::vector<Frame> frames(problem.groups.size());
     for (std::uint32_t g = 0; g < problem.groups.size(); ++g) {
-        const auto at = [&](std::size_t offset) { return problem.member(bytes, g, 0, offset); };
-        swivel_frame frame = swivel_default_frame();
-        if (problem.in_doubles) frame.origin = {at(offsetof(InCharacter, origin)), problem.stride};
-        frame.target = {at(offsetof(InCharacter, target)), problem.stride};
-        frame.pole = {at(offsetof(InCharacter, pole)), problem.stride};
-        frame.shoulder = {at(offsetof(InCharacter, shoulder)), problem.stride};
-        frame.elbow = {at(offsetof(InCharacter, elbow)), problem.stride};
-        frame.flags = {at(offsetof(InCharacter, flags)), problem.stride};
-        frames.push_back(frame);
+        Frame& frame = frames[g];
+        const auto in = [&](std::size_t offset) { return swivel_in{problem.member(bytes, g, 0, offset), problem.stride}; };
+        const auto out = [&](std::size_t offset) {
+            return swivel_out{problem.member(bytes, g, 0, offset), problem.stride};
+        };
+        if (problem.in_doubles) frame.origin(in(offsetof(InCharacter, origin)));
+        frame.in(SWIVEL_TARGET, in(offsetof(InCharacter, target)));
+        frame.in(SWIVEL_POLE, in(offsetof(InCharacter, pole)));
+        frame.out(SWIVEL_SHOULDER, out(offsetof(InCharacter, shoulder)));
+        frame.out(SWIVEL_ELBOW, out(offsetof(InCharacter, elbow)));
+        frame.out(SWIVEL_FLAGS, out(offsetof(InCharacter, flags)));
     }
     return frames;
 }
@@ -194,7 +196,7 @@ void solve_by_limbs(const Problem& problem, Crowd& crowd, Bytes& bytes)
 std::vector<std::uint32_t> limb_words(const Problem& problem, const Crowd& crowd)
 {
     std::vector<std::uint32_t> words;
-    for (const swivel_rows rows : {swivel_input_rows(crowd.get()), swivel_result_rows(crowd.get())})
+    for (const swivel_rows rows : {swivel_input_rows(crowd.get(), 0), swivel_result_rows(crowd.get(), 0)})
         for (std::uint32_t group = 0; group < problem.groups.size(); ++group) {
             const std::size_t first = swivel_group_first_limb(crowd.get(), group);
             for (std::size_t limb = first; limb < first + swivel_group_limb_count(crowd.get(), group); ++limb)
@@ -207,7 +209,8 @@ std::vector<std::uint32_t> limb_words(const Problem& problem, const Crowd& crowd
 
 std::uint32_t solve_by_frames(const Problem& problem, Crowd& crowd, Bytes& bytes, bool on_this_thread)
 {
-    const std::vector<swivel_frame> frames = frames_in(problem, bytes);
+    const std::vector<Frame> own = frames_in(problem, bytes);
+    const std::vector<swivel_frame> frames(own.begin(), own.end());
     if (problem.mask.empty())
         return crowd.solve({.blocks = problem.blocks, .frames = frames, .on_this_thread = on_this_thread});
     return crowd.solve(
@@ -261,7 +264,8 @@ TEST_CASE("frames of a list of limbs give the bits of the same limbs in a mask")
         }
         Bytes by_mask = problem.characters, by_list = problem.characters;
         solve_by_limbs(problem, masked, by_mask);
-        listed.solve({.limbs = list, .frames = frames_in(problem, by_list)});
+        const std::vector<Frame> own = frames_in(problem, by_list);
+        listed.solve({.limbs = list, .frames = std::vector<swivel_frame>(own.begin(), own.end())});
         const bool same = by_list == by_mask && limb_words(problem, listed) == limb_words(problem, masked);
         RC_ASSERT(same);
     });

@@ -86,7 +86,7 @@ Crowd mixed_crowd(Random& random, swivel_features features, std::uint32_t count,
 // Copies a limb's inputs to the first limb of another crowd.
 void copy_inputs(const Crowd& crowd, std::uint32_t n, Crowd& to)
 {
-    const swivel_rows from = swivel_input_rows(crowd.get()), alone = swivel_input_rows(to.get());
+    const swivel_rows from = swivel_input_rows(crowd.get(), 0), alone = swivel_input_rows(to.get(), 0);
     for (std::uint32_t row = 0; row < from.row_count; ++row)
         std::memcpy(
             alone.base + row * SWIVEL_LANES,

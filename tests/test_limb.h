@@ -58,7 +58,7 @@ inline Vector3d pole_direction(const Limb& limb, swivel_features features)
 inline void write_limb(Crowd& crowd, std::uint32_t group, std::uint32_t n, const Limb& limb)
 {
     const auto put = [&](swivel_field field, const auto& value) {
-        if (swivel_field_row_count(crowd.get(), field)) crowd.write(field, group, std::span(&value, 1), n);
+        if (swivel_field_row_count(crowd.get(), group, field)) crowd.write(field, group, std::span(&value, 1), n);
     };
     put(SWIVEL_TARGET, limb.target);
     put(SWIVEL_POLE, limb.pole);
@@ -112,7 +112,7 @@ inline void check_forward(const Crowd& crowd, std::uint32_t group, const std::ve
     crowd.elbows(group, elbows);
     crowd.wrists(group, wrists);
     crowd.residuals(group, residuals);
-    const bool with_hand = swivel_field_row_count(crowd.get(), SWIVEL_HAND);
+    const bool with_hand = swivel_field_row_count(crowd.get(), group, SWIVEL_HAND);
     if (with_hand) crowd.hands(group, hands);
     for (std::size_t n = 0; n < count; ++n) {
         const double length = double{limbs[n].scale[0]} * (double{limbs[n].lengths[0]} + limbs[n].lengths[1]);

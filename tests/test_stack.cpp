@@ -78,23 +78,22 @@ struct Most {
 
 // Frames that take every result of each group out of the crowd, as far as frames can.
 struct Frames {
+    std::vector<Frame> own;
     std::vector<swivel_frame> frames;
     std::vector<std::vector<float>> values;
 
     explicit Frames(const Crowd& crowd)
     {
         constexpr std::size_t kFloats = 4 * 7;  // the longest result: seven twist bones
-        const auto has = [&](swivel_field field) { return swivel_field_row_count(crowd.get(), field) > 0; };
         for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g) {
             std::vector<float>& group = values.emplace_back(kFloats * 8 * swivel_group_limb_count(crowd.get(), g));
-            swivel_frame frame = swivel_default_frame();
-            swivel_out* const outs[] = {&frame.shoulder, &frame.elbow,  &frame.wrist,       &frame.flags,
-                                        &frame.stretch,  &frame.normal, &frame.twist_bones, &frame.clavicle_turn};
-            for (std::size_t n = 0; n < std::size(outs); ++n)
-                if (has(static_cast<swivel_field>(SWIVEL_SHOULDER + n)))
-                    *outs[n] = {group.data() + kFloats * n, kFloats * 8 * sizeof(float)};
-            frames.push_back(frame);
+            Frame& frame = own.emplace_back();
+            for (std::size_t n = 0; SWIVEL_SHOULDER + n < SWIVEL_RESULT_END; ++n)
+                if (const auto field = static_cast<swivel_field>(SWIVEL_SHOULDER + n);
+                    swivel_field_row_count(crowd.get(), g, field) > 0)
+                    frame.out(field, {group.data() + kFloats * n, kFloats * 8 * sizeof(float)});
         }
+        frames.assign(own.begin(), own.end());
     }
 };
 
@@ -111,7 +110,7 @@ void run_jobs(Crowd& crowd, const std::string& name, Most& most)
     swivel_job job = swivel_default_job();
     const auto on_rows_and_frames = [&](const char* on_rows, const char* on_frames) {
         run(on_rows, job);
-        if (swivel_compact_rows(crowd.get()).base) return;  // frames take no words
+        if (swivel_compact_rows(crowd.get(), 0).base) return;  // frames take no words
         Frames frames(crowd);
         job.frames = frames.frames.data();
         run(on_frames, job);

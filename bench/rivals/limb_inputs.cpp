@@ -30,7 +30,7 @@ struct Random {
 template <std::size_t N, class Make>
 void write(swivel::Crowd& crowd, std::uint32_t first, std::uint32_t count, swivel_field field, Make make)
 {
-    if (swivel_field_row_count(crowd.get(), field) == 0) return;
+    if (swivel_field_row_count(crowd.get(), 0, field) == 0) return;
     std::vector<std::array<float, N>> values(count);
     for (std::array<float, N>& value : values) make(value.data());
     crowd.write(field, 0, values, first);

@@ -130,7 +130,7 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
     if (features & SWIVEL_WORLD)
         for (Limb& limb : given) to_world(limb, limb.target), to_world(limb, limb.pole);
     const auto write = [&](swivel_field field, const float* first) {
-        if (swivel_field_row_count(crowd.get(), field) == 0) return;
+        if (swivel_field_row_count(crowd.get(), 0, field) == 0) return;
         swivel::check(
             swivel_write(crowd.get(), field, 0, 0, static_cast<std::uint32_t>(given.size()), {first, sizeof(Limb)}));
     };
@@ -144,7 +144,7 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
     write_limb_inputs(crowd, static_cast<std::uint32_t>(given.size()));
 
     // The rest of a large crowd: whole blocks of the limbs just written, again and again.
-    const swivel_rows rows = swivel_input_rows(crowd.get());
+    const swivel_rows rows = swivel_input_rows(crowd.get(), 0);
     const std::size_t block = std::size_t{rows.row_count} * SWIVEL_LANES, written = given.size() / SWIVEL_LANES;
     for (std::size_t n = written; written > 0 && n < rows.block_count; ++n)
         std::memcpy(rows.base + n * block, rows.base + n % written * block, block * sizeof(float));
@@ -155,8 +155,8 @@ std::size_t row_bytes(swivel_features features)
 {
     const swivel_group_def group = swivel::group(1, binding());
     const swivel::Crowd crowd(features, {&group, 1});
-    return sizeof(float) * (swivel_input_rows(crowd.get()).row_count + swivel_result_rows(crowd.get()).row_count) +
-           sizeof(std::uint16_t) * swivel_compact_rows(crowd.get()).row_count;
+    return sizeof(float) * (swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count) +
+           sizeof(std::uint16_t) * swivel_compact_rows(crowd.get(), 0).row_count;
 }
 
 std::size_t arms_within(std::size_t memory_level, swivel_features features)
@@ -167,7 +167,7 @@ std::size_t arms_within(std::size_t memory_level, swivel_features features)
 
 Poses poses_of(const swivel::Crowd& crowd)
 {
-    const swivel_rows rows = swivel_result_rows(crowd.get());
+    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
     Poses poses(swivel_group_limb_count(crowd.get(), 0));
     for (std::size_t n = 0; n < poses.count(); ++n)
         for (std::size_t row = 0; row < 7; ++row)

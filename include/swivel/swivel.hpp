@@ -223,8 +223,8 @@ template <class Range, class Struct, DoubleValue Value>
 requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
 auto stream_doubles(Range&& values, Value Struct::*member) { return stream_of(values, member); }
 
-// A group's values in the caller's own arrays, as swivel_frame. The arrays must outlive it. It can be kept from solve
-// to solve while they stay where they are.
+// A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it. Keep
+// it from solve to solve while the arrays stay where they are.
 //     swivel::Frame frame;
 //     frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
 //     frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
@@ -293,12 +293,12 @@ private:
 // priorities at most one is given.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
-    Given<std::uint32_t> groups = {};  // their numbers
+    Given<std::uint32_t> groups = {};  // their numbers, which a solve allocates bits for
     Given<std::uint32_t> mask = {}, limbs = {};
     Given<swivel_in> priorities = {};  // one for each group
     std::span<float> urgency = {};     // with priorities: one for each block, kept by the caller
     std::uint32_t most_blocks = 0;     // with priorities
-    Given<Frame> frames = {};          // one for each group that is named
+    Given<swivel_frame> frames = {};   // one for each group that is named; a Frame converts to one
     bool on_this_thread = false;
 };
 
@@ -362,7 +362,6 @@ public:
             wanted.limbs ? swivel_limbs{(*wanted.limbs).data(), count(*wanted.limbs)} : swivel_limbs{};
         const std::uint32_t group_count = swivel_group_count(crowd_);
         std::vector<std::uint32_t> named;
-        std::vector<swivel_frame> frames;
         if (wanted.blocks) job.blocks = &*wanted.blocks;
         if (wanted.groups) {
             named = bits_of(*wanted.groups);
@@ -377,11 +376,9 @@ public:
         if (wanted.priorities) job.priorities = for_groups("priorities", *wanted.priorities, group_count).data();
         if (!wanted.urgency.empty()) job.urgency = for_blocks(wanted.urgency);
         job.most_blocks = wanted.most_blocks;
-        if (wanted.frames) {
-            const auto given = for_groups("frames", *wanted.frames, wanted.groups ? bit_count(named) : group_count);
-            frames.assign(given.begin(), given.end());
-            job.frames = frames.data();
-        }
+        if (wanted.frames)
+            job.frames =
+                for_groups("frames", *wanted.frames, wanted.groups ? bit_count(named) : group_count).data();
         job.on_this_thread = wanted.on_this_thread;
         std::uint32_t solved = 0;
         job.solved_count = &solved;

@@ -83,8 +83,8 @@ void check_places(const Session& session, std::uint32_t group, std::uint32_t lim
 
 std::vector<char> result_bytes(swivel_crowd& crowd)
 {
-    const swivel_rows rows = swivel_result_rows(&crowd);
-    const swivel_words words = swivel_compact_rows(&crowd);
+    const swivel_rows rows = swivel_result_rows(&crowd, 0);
+    const swivel_words words = swivel_compact_rows(&crowd, 0);
     const std::size_t blocks = swivel_block_count(&crowd);
     const char* const base =
         rows.base ? reinterpret_cast<const char*>(rows.base) : reinterpret_cast<const char*>(words.base);

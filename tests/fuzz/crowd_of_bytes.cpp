@@ -195,13 +195,13 @@ void make_value(Random& random, swivel_field field, std::uint32_t kind, std::spa
 
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd)
 {
-    const swivel_rows rows = swivel_input_rows(&crowd);
+    const swivel_rows rows = swivel_input_rows(&crowd, 0);
     const std::uint32_t limbs = rows.block_count * SWIVEL_LANES;
     for (int f = 0; f < SWIVEL_SHOULDER; ++f) {
         const auto field = static_cast<swivel_field>(f);
-        const std::uint32_t count = swivel_field_row_count(&crowd, field);
+        const std::uint32_t count = swivel_field_row_count(&crowd, 0, field);
         if (count == 0) continue;
-        const std::uint32_t first_row = swivel_field_first_row(&crowd, field), kind = bytes.take<std::uint8_t>();
+        const std::uint32_t first_row = swivel_field_first_row(&crowd, 0, field), kind = bytes.take<std::uint8_t>();
         Random random{bytes.take<std::uint16_t>()};
         std::array<float, 12> value{};
         for (std::uint32_t limb = 0; limb < limbs; ++limb) {

@@ -44,12 +44,12 @@ Crowd make(const Shape& shape)
 
 std::vector<float> inputs_of(swivel_crowd& crowd)
 {
-    const swivel_rows rows = swivel_input_rows(&crowd);
+    const swivel_rows rows = swivel_input_rows(&crowd, 0);
     return {rows.base, rows.base + std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES};
 }
 void put_inputs(swivel_crowd& crowd, const std::vector<float>& inputs)
 {
-    std::memcpy(swivel_input_rows(&crowd).base, inputs.data(), inputs.size() * sizeof(float));
+    std::memcpy(swivel_input_rows(&crowd, 0).base, inputs.data(), inputs.size() * sizeof(float));
 }
 
 // All results of all limbs, without padding.
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> results_of(swivel_crowd& crowd, const Shape& shape)
     std::vector<std::uint32_t> words;
     for (int f = SWIVEL_SHOULDER; f < SWIVEL_RESULT_END; ++f) {
         const auto field = static_cast<swivel_field>(f);
-        if (swivel_field_row_count(&crowd, field) == 0) continue;
+        if (swivel_field_row_count(&crowd, 0, field) == 0) continue;
         for (std::uint32_t group = 0; group < shape.groups.size(); ++group) {
             const std::uint32_t count = shape.groups[group].limb_count;
             constexpr std::size_t kMostComponents = 28;  // of seven twist bones

@@ -36,7 +36,7 @@ Limbs take_limbs(Session& session)
 std::uint32_t component_count(const Session& session, swivel_field field)
 {
     if (field < SWIVEL_SHOULDER || !(session.features & SWIVEL_COMPACT))
-        return swivel_field_row_count(session.crowd, field);
+        return swivel_field_row_count(session.crowd, 0, field);
     switch (field) {
         case SWIVEL_SHOULDER:
             return 4;

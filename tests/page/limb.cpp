@@ -37,7 +37,7 @@ int main()
     const auto features = read<std::uint64_t>();
     const swivel_group_def groups[] = {swivel::group(1, read<swivel_binding>())};
     const auto input = read<goal_input>();
-    swivel::Crowd crowd(features, groups);
+    swivel::Crowd crowd = crowd_with(features, groups);
     swivel::check(swivel_goals_write(crowd.get(), 0, 1, &input));
     crowd.solve();
     float shoulder[1][4], elbow[1][4];

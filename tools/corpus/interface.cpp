@@ -160,14 +160,12 @@ std::uint64_t library_features(const Recipe& recipe)
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
 {
     swivel_group_def groups[kGroupCount];
-    for (std::uint32_t g = 0; g < kGroupCount; ++g) groups[g] = group(limb_counts[g], library_binding(kBindings[g]));
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = library_features(recipe);
-    def.groups = groups;
-    def.group_count = kGroupCount;
-    def.shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
-    def.wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
-    return Crowd(def);
+    for (std::uint32_t g = 0; g < kGroupCount; ++g) {
+        groups[g] = group(limb_counts[g], library_binding(kBindings[g]), library_features(recipe));
+        groups[g].shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
+        groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
+    }
+    return Crowd(groups);
 }
 
 LimbCounts limb_counts(const Crowd& crowd)
@@ -178,10 +176,10 @@ LimbCounts limb_counts(const Crowd& crowd)
     return counts;
 }
 
-std::uint32_t input_row_count(const Crowd& crowd) { return swivel_input_rows(crowd.get()).row_count; }
+std::uint32_t input_row_count(const Crowd& crowd) { return swivel_input_rows(crowd.get(), 0).row_count; }
 std::uint32_t result_row_count(const Crowd& crowd)
 {
-    return swivel_result_rows(crowd.get()).row_count + swivel_compact_rows(crowd.get()).row_count;  // one is 0
+    return swivel_result_rows(crowd.get(), 0).row_count + swivel_compact_rows(crowd.get(), 0).row_count;  // one is 0
 }
 std::uint32_t result_row_count(const Recipe& recipe, Field field)
 {

@@ -104,8 +104,8 @@ void LimbCrowds::restore(std::size_t limb, swivel_field field, std::span<const s
                          std::size_t stride)
 {
     swivel_crowd* const crowd = crowd_of(limb).get();
-    const swivel_rows rows = swivel_result_rows(crowd);
-    const std::uint32_t first_row = swivel_field_first_row(crowd, field), count = swivel_field_row_count(crowd, field);
+    const swivel_rows rows = swivel_result_rows(crowd, 0);
+    const std::uint32_t first_row = swivel_field_first_row(crowd, 0, field), count = swivel_field_row_count(crowd, 0, field);
     const std::uint32_t first = swivel_group_first_limb(crowd, places_[limb].group);
     for (std::size_t n = 0; n < numbers.size() / stride; ++n)
         for (std::size_t part = 0; part < count; ++part) {

@@ -49,7 +49,7 @@ public:
         if (with_sizes) add_sizes();
         add_crowd("resident", resident_, isa_);
         add_crowd("memory", large_, isa_);
-        const swivel_rows in = swivel_input_rows(large_.get()), out = swivel_result_rows(large_.get());
+        const swivel_rows in = swivel_input_rows(large_.get(), 0), out = swivel_result_rows(large_.get(), 0);
         const bench::Probe& widest = bench::probe_of(bench::runnable_isas().front().c_str());
         race_.add("copy", limb_count(large_), [=, copy = widest.copy_rows] {
             copy(in.base, in.row_count, out.base, out.row_count, in.block_count);
