@@ -40,9 +40,9 @@ int main(void)
     for (side = LEFT; side < SIDE_COUNT; ++side) {
         const swivel_chain chain = rest_pose(side);
         groups[side] = swivel_default_group_def(1);
+        groups[side].features = SWIVEL_WORLD | SWIVEL_JOINTS;
         if (swivel_bind(&chain, &groups[side].binding) != SWIVEL_OK) return failed("swivel_bind");
     }
-    def.features = SWIVEL_WORLD | SWIVEL_JOINTS;
     def.groups = groups;
     def.group_count = SIDE_COUNT;
     if (swivel_crowd_create(&def, &crowd) != SWIVEL_OK) return failed("swivel_crowd_create");

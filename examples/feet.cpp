@@ -128,26 +128,26 @@ double place_character(Leg* legs, double x, double z, double heading, double asi
 
 swivel::Crowd make_legs(std::uint32_t count)
 {
-    const swivel_group_def groups[] = {swivel::group(count, bind_leg())};  // left and right legs are alike
     const swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
-    return swivel::Crowd(features | SWIVEL_POLE_DIRECTION, groups);
+    // Left and right legs are alike.
+    return swivel::Crowd({swivel::group(count, bind_leg(), features | SWIVEL_POLE_DIRECTION)});
 }
 
 void solve_legs(swivel::Crowd& crowd, std::vector<Leg>& legs)
 {
     const Floats ankle_to_sole = {0, -static_cast<float>(kAnkleHeight), 0};  // in the ankle joint's frame
-    swivel_frame frame = swivel_default_frame();
-    frame.target = {&legs[0].sole, sizeof(Leg)};
-    frame.effector = {&ankle_to_sole, 0};  // so targets are for soles, not for ankles
-    frame.hand = {&legs[0].foot, sizeof(Leg)};
-    frame.pole = {&legs[0].knee_forward, sizeof(Leg)};
-    frame.shoulder_position = {&legs[0].hip, sizeof(Leg)};
-    frame.parent_rotation = {&legs[0].pelvis, sizeof(Leg)};
-    frame.shoulder = {&legs[0].hip_local, sizeof(Leg)};
-    frame.elbow = {&legs[0].knee_local, sizeof(Leg)};
-    frame.wrist = {&legs[0].ankle_local, sizeof(Leg)};
-    frame.flags = {&legs[0].flags, sizeof(Leg)};
-    crowd.solve({.frames = {&frame, 1}});
+    swivel::Frame frame;
+    frame.in(SWIVEL_TARGET, swivel::stream(legs, &Leg::sole));
+    frame.in(SWIVEL_EFFECTOR, {&ankle_to_sole, 0});  // so targets are for soles, not for ankles
+    frame.in(SWIVEL_HAND, swivel::stream(legs, &Leg::foot));
+    frame.in(SWIVEL_POLE, swivel::stream(legs, &Leg::knee_forward));
+    frame.in(SWIVEL_SHOULDER_POSITION, swivel::stream(legs, &Leg::hip));
+    frame.in(SWIVEL_PARENT_ROTATION, swivel::stream(legs, &Leg::pelvis));
+    frame.out(SWIVEL_SHOULDER, swivel::stream(legs, &Leg::hip_local));
+    frame.out(SWIVEL_ELBOW, swivel::stream(legs, &Leg::knee_local));
+    frame.out(SWIVEL_WRIST, swivel::stream(legs, &Leg::ankle_local));
+    frame.out(SWIVEL_FLAGS, swivel::stream(legs, &Leg::flags));
+    crowd.solve({.frames = {frame}});
 }
 
 struct Gap {  // between points of a foot and the ground

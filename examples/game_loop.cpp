@@ -53,9 +53,8 @@ void step_game(std::span<Character> characters, double time)
 
 swivel::Crowd make_crowd(std::span<const Character> characters)
 {
-    const swivel_group_def hands[] = {swivel::group(kHandCount)};
     const swivel_features limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | SWIVEL_BUDGET | limits, hands);
+    swivel::Crowd crowd({swivel::group(kHandCount, SWIVEL_WORLD | SWIVEL_POLE_DIRECTION | limits)});
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.0f, -1.0f, 0.0f});  // elbows down
     crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, -1}, 2.4));
@@ -66,10 +65,15 @@ swivel::Crowd make_crowd(std::span<const Character> characters)
     return crowd;
 }
 
-// How many blocks of hands fit into the budget, from how long those before took.
+// How many blocks of hands fit into the budget, from how long those before took. And how urgent each block is, which
+// swivel keeps up to date.
 class HandBudget {
 public:
-    explicit HandBudget(double block_count) : least_(block_count / 10 + 1), most_(block_count), blocks_(least_) {}
+    explicit HandBudget(std::uint32_t block_count)
+        : urgency(block_count), least_(block_count / 10.0 + 1), most_(block_count), blocks_(least_)
+    {
+    }
+    std::vector<float> urgency;  // of each block, 0 at first
     std::uint32_t blocks() const { return static_cast<std::uint32_t>(blocks_); }
     void took(double seconds)
     {
@@ -96,7 +100,7 @@ void solve_hands(swivel::Crowd& crowd, std::span<const Character> characters, Ha
     const swivel_in target{&characters[0].target, sizeof characters[0]};
     swivel::check(swivel_write(crowd.get(), SWIVEL_TARGET, 0, 0, kHandCount, target));
     const swivel_in priorities[] = {{&characters[0].priority, sizeof characters[0]}};
-    totals.hands += crowd.solve({.priorities = priorities, .most_blocks = budget.blocks()});
+    totals.hands += crowd.solve({.priorities = priorities, .urgency = budget.urgency, .most_blocks = budget.blocks()});
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     budget.took(seconds);
     totals.seconds.push_back(seconds);

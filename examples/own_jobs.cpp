@@ -117,12 +117,12 @@ std::vector<Character> make_characters()
     return characters;
 }
 
-swivel_frame frame_of(std::span<Character> characters)
+swivel::Frame frame_of(std::span<Character> characters)
 {
-    swivel_frame frame = swivel_default_frame();
-    frame.target = {&characters[0].grip, sizeof characters[0]};
-    frame.shoulder = {&characters[0].shoulder, sizeof characters[0]};
-    frame.elbow = {&characters[0].elbow, sizeof characters[0]};
+    swivel::Frame frame;
+    frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+    frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::shoulder));
+    frame.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::elbow));
     return frame;
 }
 
@@ -137,7 +137,7 @@ bool equal_results(swivel::Crowd& a, swivel::Crowd& b)
 int compare()
 {
     const swivel_group_def arms[] = {swivel::group(kArmCount)};
-    swivel::Crowd ours(0, arms), theirs(0, arms);
+    swivel::Crowd ours(arms), theirs(arms);
     JobSystem jobs(std::clamp(std::thread::hardware_concurrency(), 2u, 8u));
 
     // Rows in, rows out: the host writes inputs, its threads solve.
@@ -157,7 +157,7 @@ int compare()
                 rows_equal ? "the same" : "OTHER");
 
     // The host's own structures in and out, in the same way: each job copies in, solves and copies out its own blocks.
-    const swivel_frame frame[] = {frame_of(characters)}, other_frame[] = {frame_of(as_well)};
+    const swivel::Frame frame[] = {frame_of(characters)}, other_frame[] = {frame_of(as_well)};
     on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) {
         ours.solve({.blocks = swivel_blocks{first, count}, .frames = frame, .on_this_thread = true});
     });

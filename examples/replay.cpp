@@ -129,19 +129,18 @@ void set_lengths(std::vector<BodyArm>& arms, const std::vector<Body>& bodies, co
     }
 }
 
-swivel_frame frame_of(std::vector<BodyArm>& arms)
+swivel::Frame frame_of(std::vector<BodyArm>& arms)
 {
-    constexpr std::size_t stride = sizeof(BodyArm);
-    swivel_frame frame = swivel_default_frame();
-    frame.target = {&arms[0].target, stride};
-    frame.pole = {&arms[0].pole, stride};
-    frame.shoulder_position = {&arms[0].shoulder_place, stride};
-    frame.parent_rotation = {&arms[0].parent, stride};
-    frame.hand = {&arms[0].hand, stride};
-    frame.lengths = {&arms[0].lengths, stride};
-    frame.shoulder = {&arms[0].shoulder, stride};
-    frame.elbow = {&arms[0].elbow, stride};
-    frame.wrist = {&arms[0].wrist, stride};
+    swivel::Frame frame;
+    frame.in(SWIVEL_TARGET, swivel::stream(arms, &BodyArm::target));
+    frame.in(SWIVEL_POLE, swivel::stream(arms, &BodyArm::pole));
+    frame.in(SWIVEL_SHOULDER_POSITION, swivel::stream(arms, &BodyArm::shoulder_place));
+    frame.in(SWIVEL_PARENT_ROTATION, swivel::stream(arms, &BodyArm::parent));
+    frame.in(SWIVEL_HAND, swivel::stream(arms, &BodyArm::hand));
+    frame.in(SWIVEL_LENGTHS, swivel::stream(arms, &BodyArm::lengths));
+    frame.out(SWIVEL_SHOULDER, swivel::stream(arms, &BodyArm::shoulder));
+    frame.out(SWIVEL_ELBOW, swivel::stream(arms, &BodyArm::elbow));
+    frame.out(SWIVEL_WRIST, swivel::stream(arms, &BodyArm::wrist));
     return frame;
 }
 
@@ -177,12 +176,13 @@ int replay(const char* path, std::size_t body_count)
         const Arm arm = find_arm(clip, kSides[side]);
         const swivel_binding limb = bind_arm(clip, arm);
         sources[side] = sources_of(clip, arm);
-        groups[side] = swivel::group(static_cast<std::uint32_t>(body_count), limb);
+        groups[side] = swivel::group(static_cast<std::uint32_t>(body_count), limb,
+                                     SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND);
         arms[side].resize(body_count);
         set_lengths(arms[side], bodies, limb.lengths);
     }
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND, groups);
-    const std::array<swivel_frame, 2> frames = {frame_of(arms[0]), frame_of(arms[1])};
+    swivel::Crowd crowd(groups);
+    const std::array<swivel::Frame, 2> frames = {frame_of(arms[0]), frame_of(arms[1])};
 
     const auto step = static_cast<std::size_t>(std::max(1.0, std::round(1 / (30 * clip.frame_time))));  // 30 a second
     std::size_t played = 0;

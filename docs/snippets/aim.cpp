@@ -4,8 +4,7 @@
 TEST_CASE("docs: aiming")
 {
     // [shown]
-    const swivel_group_def arms = swivel::group(1);
-    swivel::Crowd crowd(SWIVEL_WITH_AIM, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_AIM)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     // Along the hand, +z at rest, with the elbow bent by half a radian.
     const Double3 along_hand{0, 0, 1};

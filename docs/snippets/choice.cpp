@@ -3,8 +3,6 @@
 
 namespace {
 
-const swivel_group_def arms = swivel::group(64);
-
 std::uint32_t solved(const swivel::Crowd& crowd)
 {
     std::vector<std::uint32_t> flags(64);
@@ -18,7 +16,7 @@ std::uint32_t solved(const swivel::Crowd& crowd)
 
 TEST_CASE("docs: active limbs")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(64)});
     // [active]
     std::vector<std::uint32_t> active((swivel_block_count(crowd.get()) + 1) / 2);
     for (std::uint32_t limb = 0; limb < 20; ++limb)
@@ -30,7 +28,7 @@ TEST_CASE("docs: active limbs")
 
 TEST_CASE("docs: lists")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(64)});
     // [list]
     const std::uint32_t first = swivel_group_first_limb(crowd.get(), 0);
     crowd.solve({.limbs = std::array{first + 3, first + 4, first + 40}});
@@ -41,15 +39,17 @@ TEST_CASE("docs: lists")
 TEST_CASE("docs: budget")
 {
     // [budget]
-    swivel::Crowd crowd(SWIVEL_BUDGET, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(64)});
+    // Yours, kept from frame to frame: a float for each block, zeros at first.
+    std::vector<float> urgency(swivel_block_count(crowd.get()));
     std::vector<float> priority(64, 1.0f);  // for each arm; size on screen, say
     const swivel_in priorities{priority.data(), sizeof(float)};
     // At most two blocks of 16 in this frame.
     const std::uint32_t count =
-        crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 2});
+        crowd.solve({.priorities = {priorities}, .urgency = urgency, .most_blocks = 2});
     // [end]
     CHECK(count == 32);
     CHECK(solved(crowd) == 32);
-    crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 2});
+    crowd.solve({.priorities = {priorities}, .urgency = urgency, .most_blocks = 2});
     CHECK(solved(crowd) == 64);
 }

@@ -44,18 +44,16 @@ TEST_CASE("docs: frames in place")
     const swivel_binding arm = bound_arm();
     std::vector<Character> characters(
         40, {{0.3f, -0.2f, 0.3f}, {-0.2f, -0.5f, -0.3f}, {}, {}});
-    const swivel_group_def arms = swivel::group(40, arm);
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(40, arm, SWIVEL_WORLD | SWIVEL_JOINTS)});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
     // [frame]
-    swivel_frame frame =
-        swivel_default_frame();  // what stays null keeps its rows, or is not written
-    frame.target = swivel::stream(characters, &Character::grip);
-    frame.pole = swivel::stream(characters, &Character::elbow_hint);
+    swivel::Frame frame;  // what is not listed keeps its rows, or is not written
+    frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+    frame.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
     // May be the very pose that was read.
-    frame.shoulder = swivel::stream(characters, &Character::upper_arm);
-    frame.elbow = swivel::stream(characters, &Character::forearm);
-    crowd.solve({.frames = {&frame, 1}});  // one for each group
+    frame.out(SWIVEL_SHOULDER, swivel::stream(characters, &Character::upper_arm));
+    frame.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm));
+    crowd.solve({.frames = {frame}});  // one for each group
     // [end]
     for (const Character& character : characters) {
         CHECK((wrist_of(character) - vec(character.grip)).norm() < 1e-6);
@@ -65,8 +63,7 @@ TEST_CASE("docs: frames in place")
 
 TEST_CASE("docs: own threads")
 {
-    const swivel_group_def arms = swivel::group(200);
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(200)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 1});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
@@ -86,9 +83,8 @@ TEST_CASE("docs: own threads")
 
 TEST_CASE("docs: far from the origin")
 {
-    const swivel_group_def arms = swivel::group(1);
     // [far]
-    swivel::Crowd crowd(SWIVEL_WORLD, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WORLD)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});
     // Thousands of kilometres out, in metres.
     const Double3 character{5.0e6, 20.0, -3.0e6};
@@ -128,13 +124,12 @@ TEST_CASE("docs: own memory")
 TEST_CASE("docs: errors")
 {
     std::string text;
-    const swivel_group_def arms = swivel::group(1);
     // [errors]
     try {
-        swivel::Crowd crowd(SWIVEL_WITH_EFFECTOR, {&arms, 1});
+        swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_EFFECTOR)});
     } catch (const swivel::Error& error) {
         text = error.what();  // one line: what, where, what to do
     }
     // [end]
-    CHECK(text == "SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND, which carries it");
+    CHECK(text == "group 0: SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND; add it");
 }

@@ -28,8 +28,7 @@ Pose solved(const Arm& arm)
 {
     // [solve]
     const swivel_binding bound = swivel::bind(arm.chain);
-    const swivel_group_def group = swivel::group(1, bound);
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&group, 1});
+    swivel::Crowd crowd({swivel::group(1, bound, SWIVEL_WORLD | SWIVEL_JOINTS)});
     crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, arm.shoulder);
     crowd.write_all(SWIVEL_TARGET, 0, arm.target);
     crowd.write_all(SWIVEL_POLE, 0, arm.pole);

@@ -4,8 +4,7 @@
 TEST_CASE("docs: hand orientation")
 {
     // [shown]
-    const swivel_group_def arms = swivel::group(1);
-    swivel::Crowd crowd(SWIVEL_WITH_HAND, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND)});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 0.1f, 0.3f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{0.30f, 0.26f});

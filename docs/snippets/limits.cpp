@@ -3,8 +3,6 @@
 
 namespace {
 
-const swivel_group_def arms = swivel::group(1);
-
 void give_arm(swivel::Crowd& crowd)
 {
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.25f, 0.15f, 0.25f});
@@ -24,7 +22,7 @@ std::uint32_t flags_of(const swivel::Crowd& crowd)
 TEST_CASE("docs: cones")
 {
     // [cone]
-    swivel::Crowd crowd(SWIVEL_WITH_SHOULDER_CONE, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_SHOULDER_CONE)});
     // No further than 0.9 radians from the arm at rest.
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     // [end]
@@ -43,7 +41,7 @@ TEST_CASE("docs: twists")
     // [twist]
     const swivel_features twists =
         SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_FOREARM_TWIST;
-    swivel::Crowd crowd(SWIVEL_WITH_HAND | twists, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_HAND | twists)});
     crowd.write_all(SWIVEL_HUMERAL_TWIST, 0, swivel::range(-1.5, 1.2));
     // Of the hand, about the forearm.
     crowd.write_all(SWIVEL_FOREARM_TWIST, 0, swivel::range(-1.4, 1.4));
@@ -68,7 +66,7 @@ TEST_CASE("docs: twists")
 TEST_CASE("docs: flexion")
 {
     // [flexion]
-    swivel::Crowd crowd(SWIVEL_WITH_FLEXION_LIMIT, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_FLEXION_LIMIT)});
     // Never quite straight.
     crowd.write_all(SWIVEL_FLEXION_LIMIT, 0, swivel::flexion(0.1, 2.4));
     // [end]
@@ -86,12 +84,9 @@ TEST_CASE("docs: flexion")
 TEST_CASE("docs: Euler boxes")
 {
     // [box]
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = SWIVEL_WITH_SHOULDER_BOX;
-    def.group_count = 1;
-    def.groups = &arms;
-    def.shoulder_order = SWIVEL_YXZ;
-    swivel::Crowd crowd(def);
+    swivel_group_def arms = swivel::group(1, SWIVEL_WITH_SHOULDER_BOX);
+    arms.shoulder_order = SWIVEL_YXZ;
+    swivel::Crowd crowd({arms});
     std::array<float, 12> box;
     swivel::check(swivel_range(-1.0, 1.0, &box[0]));  // about y
     swivel::check(swivel_range(-0.4, 1.6, &box[4]));  // then x
@@ -116,7 +111,7 @@ TEST_CASE("docs: Euler boxes")
 
 TEST_CASE("docs: allowed arcs")
 {
-    swivel::Crowd crowd(SWIVEL_WITH_SHOULDER_CONE, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_SHOULDER_CONE)});
     give_arm(crowd);
     crowd.write_all(SWIVEL_SHOULDER_CONE, 0, swivel::cone({0, 0, 1}, 0.9));
     std::vector<std::array<double, 2>> shown;
@@ -139,9 +134,8 @@ TEST_CASE("docs: limits in the character's axes")
     chain.wrist_offset[0] = 0.26f;
     chain.bend[2] = 1;
     const swivel_binding left = swivel::bind(chain);
-    const swivel_group_def group = swivel::group(1, left);
-    swivel::Crowd crowd(SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_CONE,
-                        {&group, 1});
+    swivel::Crowd crowd({swivel::group(
+        1, left, SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_CONE)});
     // [character]
     // Within 80 degrees of forwards and down: the character faces +z, with y up.
     const std::array<float, 4> clavicle{0, 0, 0,

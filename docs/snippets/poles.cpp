@@ -3,7 +3,6 @@
 
 namespace {
 
-const swivel_group_def arms = swivel::group(1);
 const Float3 target{0.3f, 0.1f, 0.3f};
 
 void give_arm(swivel::Crowd& crowd)
@@ -33,7 +32,7 @@ void check_side(const Eigen::Vector3d& elbow, const Eigen::Vector3d& pole)
 TEST_CASE("docs: pole directions")
 {
     // [direction]
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WORLD | SWIVEL_POLE_DIRECTION)});
     // Downwards, wherever the character stands.
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // [end]
@@ -46,7 +45,7 @@ TEST_CASE("docs: pole directions")
 TEST_CASE("docs: pole normals")
 {
     // [normal]
-    swivel::Crowd crowd(SWIVEL_POLE_NORMAL, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_POLE_NORMAL)});
     // Across shoulder, elbow and wrist: the elbow's axis.
     crowd.write_all(SWIVEL_POLE, 0, Float3{1, 0, -1});
     // [end]
@@ -58,7 +57,7 @@ TEST_CASE("docs: pole normals")
 TEST_CASE("docs: swivel angle")
 {
     // [angle]
-    swivel::Crowd crowd(SWIVEL_WITH_ANGLE, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_ANGLE)});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
     // Radians on from the pole, about the line to the wrist.
     crowd.write_all(SWIVEL_ANGLE, 0, swivel::turn(0.35));

@@ -3,8 +3,6 @@
 
 namespace {
 
-const swivel_group_def arms = swivel::group(2);
-
 void give_arms(swivel::Crowd& crowd)
 {
     crowd.write(SWIVEL_TARGET, 0,
@@ -17,7 +15,7 @@ void give_arms(swivel::Crowd& crowd)
 
 TEST_CASE("docs: flags")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(2)});
     give_arms(crowd);
     crowd.solve();
     std::uint32_t far = 0;
@@ -37,7 +35,7 @@ TEST_CASE("docs: flags")
 
 TEST_CASE("docs: find")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(2)});
     give_arms(crowd);
     crowd.solve();
     std::vector<std::uint32_t> far;
@@ -53,7 +51,7 @@ TEST_CASE("docs: find")
 
 TEST_CASE("docs: forward kinematics and residuals")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(2)});
     give_arms(crowd);
     crowd.solve();
     // [forward]
@@ -71,7 +69,7 @@ TEST_CASE("docs: forward kinematics and residuals")
 
 TEST_CASE("docs: joint angles")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(2)});
     give_arms(crowd);
     crowd.solve();
     // [angles]
@@ -94,19 +92,19 @@ TEST_CASE("docs: joint angles")
 TEST_CASE("docs: compact results")
 {
     // [compact]
-    swivel::Crowd crowd(SWIVEL_COMPACT, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(2, SWIVEL_COMPACT)});
     // [end]
     give_arms(crowd);
     crowd.solve();
     // [compact_read]
     // 16-bit rows: send these, or give them to a GPU.
-    const swivel_words words = swivel_compact_rows(crowd.get());
-    const std::uint32_t row = swivel_field_first_row(crowd.get(), SWIVEL_SHOULDER);
+    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
+    const std::uint32_t row = swivel_field_first_row(crowd.get(), 0, SWIVEL_SHOULDER);
     Float4 shoulder;  // limb 1 of block 0
     swivel_unpack_rotation(words.base + row * SWIVEL_LANES + 1, SWIVEL_LANES,
                            shoulder.data());
     // [end]
-    swivel::Crowd plain(0, {&arms, 1});
+    swivel::Crowd plain({swivel::group(2)});
     give_arms(plain);
     plain.solve();
     std::array<Float4, 2> want;
@@ -116,12 +114,12 @@ TEST_CASE("docs: compact results")
 
 TEST_CASE("docs: rows")
 {
-    swivel::Crowd crowd(0, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(2)});
     give_arms(crowd);
     // [rows]
-    const swivel_rows in = swivel_input_rows(crowd.get());
-    const std::uint32_t row = swivel_field_first_row(crowd.get(), SWIVEL_TARGET);
-    const std::uint32_t limb = 1;
+    const swivel_rows in = swivel_input_rows(crowd.get(), 0);  // group 0
+    const std::uint32_t row = swivel_field_first_row(crowd.get(), 0, SWIVEL_TARGET);
+    const std::uint32_t limb = 1;  // of the group
     float* const block = in.base + (limb / SWIVEL_LANES) * in.row_count * SWIVEL_LANES;
     block[(row + 0) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.1f;  // x
     block[(row + 1) * SWIVEL_LANES + limb % SWIVEL_LANES] = 0.2f;  // y

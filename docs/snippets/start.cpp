@@ -31,19 +31,23 @@ int main()
                           {},
                           {}};
     std::vector<Character> characters(1000, first);
+    const auto count = static_cast<std::uint32_t>(characters.size());
     const swivel_group_def left_arms =
-        swivel::group(static_cast<std::uint32_t>(characters.size()), arm);
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, {&left_arms, 1});
+        swivel::group(count, arm, SWIVEL_WORLD | SWIVEL_JOINTS);
+    swivel::Crowd crowd({left_arms});
 
     // Each frame: from your structures, to your structures.
-    swivel_frame frame = swivel_default_frame();
-    frame.target = swivel::stream(characters, &Character::grip);
-    frame.pole = swivel::stream(characters, &Character::elbow_hint);
-    frame.shoulder_position = swivel::stream(characters, &Character::shoulder_position);
-    frame.parent_rotation = swivel::stream(characters, &Character::clavicle_rotation);
-    frame.shoulder = swivel::stream(characters, &Character::upper_arm_rotation);
-    frame.elbow = swivel::stream(characters, &Character::forearm_rotation);
-    crowd.solve({.frames = {&frame, 1}});
+    swivel::Frame frame;
+    frame.in(SWIVEL_TARGET, swivel::stream(characters, &Character::grip));
+    frame.in(SWIVEL_POLE, swivel::stream(characters, &Character::elbow_hint));
+    frame.in(SWIVEL_SHOULDER_POSITION,
+             swivel::stream(characters, &Character::shoulder_position));
+    frame.in(SWIVEL_PARENT_ROTATION,
+             swivel::stream(characters, &Character::clavicle_rotation));
+    frame.out(SWIVEL_SHOULDER,
+              swivel::stream(characters, &Character::upper_arm_rotation));
+    frame.out(SWIVEL_ELBOW, swivel::stream(characters, &Character::forearm_rotation));
+    crowd.solve({.frames = {frame}});
 
     std::vector<double> off(characters.size());  // from target to wrist, in arm lengths
     crowd.residuals(0, off);

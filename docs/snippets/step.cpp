@@ -3,11 +3,10 @@
 
 TEST_CASE("docs: step limit")
 {
-    const swivel_group_def arms = swivel::group(1);
     const Float3 target{0, 0.3f, 1.5f};
     std::array<Double3, 1> before, after;
     // [shown]
-    swivel::Crowd crowd(SWIVEL_WITH_MOST_SWIVEL, {&arms, 1});
+    swivel::Crowd crowd({swivel::group(1, SWIVEL_WITH_MOST_SWIVEL)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, target);
     // Radians for each solve: 0.1 at 60 a second is 6 a second.

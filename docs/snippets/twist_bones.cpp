@@ -4,8 +4,8 @@
 TEST_CASE("docs: twist bones")
 {
     // [shown]
-    const swivel_group_def arms = swivel::group(1);
-    swivel::Crowd crowd(SWIVEL_WITH_HAND | 3 * SWIVEL_WITH_TWIST_BONES, {&arms, 1});
+    swivel::Crowd crowd(
+        {swivel::group(1, SWIVEL_WITH_HAND | 3 * SWIVEL_WITH_TWIST_BONES)});
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.2f, 0.1f, 1.6f});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});

@@ -27,8 +27,7 @@ std::vector<std::array<float, 3>> make_targets()
 
 int solve_and_print()
 {
-    const swivel_group_def arms[] = {swivel::group(kArmCount)};
-    swivel::Crowd crowd(0, arms);
+    swivel::Crowd crowd({swivel::group(kArmCount)});
     crowd.write(SWIVEL_TARGET, 0, make_targets());
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.25f, -1.0f, 0.125f});
     crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});

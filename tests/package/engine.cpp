@@ -36,7 +36,7 @@ std::vector<std::array<float, 3>> make_targets()
 
 int main(int argc, char** argv)
 {
-    swivel::Crowd crowd = crowd_with(0, {swivel::group(kArmCount)});
+    swivel::Crowd crowd({swivel::group(kArmCount)});
     crowd.write(SWIVEL_TARGET, 0, make_targets());
     crowd.write_all(SWIVEL_POLE, 0, std::array{0.25f, -1.0f, 0.125f});
     crowd.write_all(SWIVEL_LENGTHS, 0, std::array{0.30f, 0.26f});
