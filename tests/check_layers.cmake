@@ -32,7 +32,7 @@ function(may_include folder path allowed)
       read_code(${file})
       string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[\"<][^\">\n]+[\">]" includes "${code}")
       foreach(include IN LISTS includes)
-        string(REGEX REPLACE ".*include[ \t]*" "" header "${include}")
+        string(REGEX MATCH "[\"<].*" header "${include}")
         if(NOT header MATCHES "^(${allowed})$")
           message(SEND_ERROR "${file} includes ${header}, which its layer must not know")
         endif()
@@ -81,14 +81,21 @@ endfunction()
 
 set(standard "<[a-z_]+>")  # <cmath>: no dot, no slash
 set(nowhere "^$")
+set(public "\"include/swivel/swivel[.]h\"")  # the numbers of fields, features and flags
 
-# ---- core: formulas and the standard library; the oracle shares nothing with the formulas
+# ---- the public headers: swivel.h needs none of ours, swivel.hpp its neighbour alone
+may_include(include "include/swivel/swivel[.]h$" "<(std(def|int)|string)[.]h>")
+may_include(include "include/swivel/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
+may_include(include "" "${standard}|\"swivel[.]h\"|<(std(def|int)|string)[.]h>")
+
+# ---- core: formulas and the standard library; the oracle shares nothing with the formulas. arm.h takes the bits of flags from swivel.h
 may_include(core "core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
-            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"")
+            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"|${public}")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
-may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"")
+may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"|${public}")
+must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/arm[.]h$" "formulas know no crowd; arm.h knows the bits of flags")
 
 # ---- simd: the two files of kernels and their headers see formulas and lanes; the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
@@ -99,20 +106,17 @@ may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"s
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
 may_include(simd "simd/step[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
-may_include(simd "simd/(dispatch[.](h|cpp)|fields[.]h|kernels[.]h|rows[.]h)$"
-            "${standard}|\"simd/(dispatch|fields|kernels)[.]h\"|\"core/isa[.]h\"")
+may_include(simd "simd/fields[.]h$" "${standard}|${public}")
+may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$" "${standard}|\"simd/(dispatch|fields|kernels)[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"simd/fields[.]h\"")
 
-# ---- batch: never lanes; only rig, skeleton, edge, joint_angles, unpack, verify and the flags in api.cpp know core
-set(batch "\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
-may_include(batch "batch/swivel[.]h$" "<(std(def|int)|string)[.]h>")
-may_include(batch "batch/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
-may_include(batch "batch/(api_solve|api_pose|sized|crowd|frame|lane_mask|numbers|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+# ---- batch: never lanes; the files of one line below know core, and the others do not
+set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
+may_include(batch "batch/(api|api_solve|api_pose|sized|crowd|describe|digest|frame|lane_mask|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/api[.]cpp$" "${standard}|${batch}|\"core/arm[.]h\"")
 may_include(batch "batch/(rig|skeleton|angles|budget|check|edge|explain|joint_angles|steps|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
-may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|\"swivel[.]h\"|<(std(def|int)|string)[.]h>|<oneapi/tbb/[a-z_]+[.]h>")
+may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver
 foreach(folder tools bench)
@@ -142,13 +146,13 @@ must_not_say(bench "#[ \t]*include[ \t]*\"tools/[^\n]*" ${nowhere} "the benchmar
 
 # ---- examples see what an installed swivel has; replay also reads files
 may_include(examples "examples/replay[.]cpp$" "${standard}|<swivel/swivel[.]hpp>|\"tools/formats/(bvh|clip)[.]h\"")
-may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms)[.]c" "${standard}|<stdio[.]h>|<swivel/swivel[.]h(pp)?>")
+may_include(examples "examples/(game_loop|feet|hello|own_jobs|arms|groups)[.]c" "${standard}|<(stdio|math)[.]h>|<swivel/swivel[.]h(pp)?>")
 
 foreach(folder core simd batch bench tests tools)
   own_header_first(${folder})
 endforeach()
 
-foreach(folder core simd batch)
+foreach(folder core simd batch include)
   # ---- names that belong to one file
   must_not_say(${folder} "[^a-z_A-Z]xsimd[:/]" "simd/lanes[.]h$" "xsimd is named in simd/lanes.h alone")
   must_not_say(${folder} "[^a-zA-Z]tbb[:/]" "batch/schedule[.]cpp$" "oneTBB is named in batch/schedule.cpp alone")
