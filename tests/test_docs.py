@@ -55,7 +55,7 @@ def build(folder):
 
 
 class Programs(unittest.TestCase):
-    """What pages show is what docs_snippets and docs_start build and run."""
+    """What pages show is what docs_snippets, docs_start and the tests of examples build and run."""
 
     def test_pages_show_the_programs_that_are_tested(self):
         for page in DOCS.rglob("*.md"):
@@ -64,10 +64,10 @@ class Programs(unittest.TestCase):
 
     def test_every_program_is_shown(self):
         text = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
-        for program in (DOCS / "snippets").glob("*.cpp"):
+        for program in [*(DOCS / "snippets").glob("*.cpp"), *(ROOT / "examples").glob("*.c*")]:
             for part in re.findall(r"// \[(\w+)\]", program.read_text(encoding="utf-8")):
                 if part != "end":
-                    name = f"docs/snippets/{program.name}" + ("" if part == "shown" else f": {part}")
+                    name = str(program.relative_to(ROOT)) + ("" if part == "shown" else f": {part}")
                     self.assertIn(f"<!-- {name} -->\n", text, "shown on no page")
 
     def test_another_program_is_told_and_written_anew(self):

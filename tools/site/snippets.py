@@ -5,49 +5,52 @@
     <!-- docs/snippets/NAME.cpp -->
 or
     <!-- docs/snippets/NAME.cpp: PART -->
+or
+    <!-- examples/NAME.c: PART -->
 
 holds that file's lines between `// [shown]`, or `// [PART]`, and `// [end]`. So pages read the same in the repository and on the site.
-The tests docs_snippets and docs_start build and run the files. Run as a program, this script writes the lines into the pages."""
+The tests docs_snippets, docs_start and those of examples build and run the files. Run as a program, this script writes the lines into the pages."""
 import re
 import sys
 import textwrap
 from pathlib import Path
 
-BLOCK = re.compile(r"^(?P<indent> *)<!-- docs/snippets/(?P<name>[\w.]+)(?:: (?P<part>\w+))? -->\n"
-                   r"(?P<code> *```cpp\n(?:.*\n)*? *```)$", re.M)
+MARK = r"<!-- (?:docs/snippets|examples)/"
+BLOCK = re.compile(r"^(?P<indent> *)<!-- (?P<file>(?:docs/snippets|examples)/\w+\.(?P<language>c|cpp))(?:: (?P<part>\w+))? -->\n"
+                   r"(?P<code> *```(?P=language)\n(?:.*\n)*? *```)$", re.M)
 
 
 class Missing(Exception):
     """A page asks for a program that is not there, or shows another."""
 
 
-def part_of(text, name, part):
+def part_of(text, file, part):
     found = re.search(rf"^ *// \[{part}\]\n(.*?)^ *// \[end\]$", text, re.M | re.S)
     if not found:
-        raise Missing(f"docs/snippets/{name} has no lines between // [{part}] and // [end]")
+        raise Missing(f"{file} has no lines between // [{part}] and // [end]")
     return textwrap.dedent(found[1]).rstrip()
 
 
 def code_of(match, root):
     """What the block must hold."""
-    path = root / "docs/snippets" / match["name"]
+    path = root / match["file"]
     if not path.exists():
-        raise Missing(f"docs/snippets/{match['name']} does not exist")
-    code = part_of(path.read_text(encoding="utf-8"), match["name"], match["part"] or "shown")
-    return textwrap.indent(f"```cpp\n{code}\n```", match["indent"])
+        raise Missing(f"{match['file']} does not exist")
+    code = part_of(path.read_text(encoding="utf-8"), match["file"], match["part"] or "shown")
+    return textwrap.indent(f"```{match['language']}\n{code}\n```", match["indent"])
 
 
 def check(markdown, root):
     """Raises Missing where a page shows another program than the one that is tested."""
-    if markdown.count("<!-- docs/snippets/") != len(BLOCK.findall(markdown)):
-        raise Missing("a line <!-- docs/snippets/... --> has no block of code below it")
-    if len(re.findall(r"^ *```cpp$", markdown, re.M)) != len(BLOCK.findall(markdown)):
-        raise Missing("a block of C++ has no line <!-- docs/snippets/... --> above it, so nothing builds it")
+    if len(re.findall(MARK, markdown)) != len(BLOCK.findall(markdown)):
+        raise Missing("a line <!-- docs/snippets/... --> or <!-- examples/... --> has no block of code below it")
+    if len(re.findall(r"^ *```c(?:pp)?$", markdown, re.M)) != len(BLOCK.findall(markdown)):
+        raise Missing("a block of C or C++ has no line <!-- docs/snippets/... --> above it, so nothing builds it")
     for match in BLOCK.finditer(markdown):
         if any(match["code"].count(open) != match["code"].count(close) for open, close in ("{}", "()")):
-            raise Missing(f"what it shows of docs/snippets/{match['name']} opens a brace and does not close it")
+            raise Missing(f"what it shows of {match['file']} opens a brace and does not close it")
         if match["code"] != code_of(match, root):
-            raise Missing(f"does not show docs/snippets/{match['name']} as it is; run tools/docs --update")
+            raise Missing(f"does not show {match['file']} as it is; run tools/docs --update")
 
 
 def filled(markdown, root):
@@ -56,7 +59,7 @@ def filled(markdown, root):
 
 def without_marks(markdown):
     """For the site, whose readers have no use for them."""
-    return re.sub(r"^ *<!-- docs/snippets/.*-->\n", "", markdown, flags=re.M)
+    return re.sub(rf"^ *{MARK}.*-->\n", "", markdown, flags=re.M)
 
 
 def main():
