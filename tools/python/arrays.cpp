@@ -3,9 +3,9 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -40,8 +40,8 @@ Shape each_limb(const Values& wanted)
     throw py::value_error(message + ", got " + shape_text(given));
 }
 
-// Whether any byte from the array's first to its last lies in one of these.
-bool touches(const py::array& array, const std::vector<Memory>& apart)
+// Whether any byte from the array's first to its last lies there.
+bool touches(const py::array& array, const Memory& apart)
 {
     const auto* begin = static_cast<const std::byte*>(array.data());
     const std::byte* end = begin + array.itemsize();
@@ -50,10 +50,8 @@ bool touches(const py::array& array, const std::vector<Memory>& apart)
         (span < 0 ? begin : end) += span;
     }
     const std::less<> before;
-    return array.size() > 0 && std::any_of(apart.begin(), apart.end(), [&](const Memory& memory) {
-               const auto* const first = static_cast<const std::byte*>(memory.begin);
-               return before(begin, first + memory.byte_count) && before(first, end);
-           });
+    const auto* const first = static_cast<const std::byte*>(apart.begin);
+    return array.size() > 0 && before(begin, first + apart.byte_count) && before(first, end);
 }
 
 // Bytes from one limb's value to the next, as the array lies.
@@ -97,8 +95,7 @@ py::array converted(const Values& wanted, const py::array& given, const py::dtyp
 
 std::string shape_text(const py::array& array) { return text_of(shape_of(array)); }
 
-Input input(const Values& wanted, py::handle object, const py::dtype& type, bool one_for_all,
-            const std::vector<Memory>& apart)
+Input input(const Values& wanted, py::handle object, const py::dtype& type, bool one_for_all, const Memory& apart)
 {
     py::array given = as_array(wanted, object);
     const bool one = one_for_all && shape_of(given) == one_value(wanted);
@@ -110,7 +107,7 @@ Input input(const Values& wanted, py::handle object, const py::dtype& type, bool
     return {{given.data(), stride}, given};
 }
 
-Output output(const Values& wanted, py::handle object, const py::dtype& type, const std::vector<Memory>& apart)
+Output output(const Values& wanted, py::handle object, const py::dtype& type, const Memory& apart)
 {
     py::array given;
     if (object.is_none()) {
@@ -128,6 +125,11 @@ Output output(const Values& wanted, py::handle object, const py::dtype& type, co
     }
     const py::array direct = lies_well(wanted, given, false) ? given : py::array(type, each_limb(wanted));
     return {{direct.request(true).ptr, static_cast<std::size_t>(stride_of(wanted, direct))}, given, direct};
+}
+
+void Output::start() const
+{
+    if (!given.is(direct)) py::module_::import("numpy").attr("copyto")(direct, given);
 }
 
 py::array Output::finish() const

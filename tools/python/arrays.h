@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include "swivel/swivel.h"
 
@@ -23,8 +22,8 @@ struct Values {
 
 // Memory that no array may share with swivel, which it then gets as a copy: a crowd's own rows.
 struct Memory {
-    const void* begin;
-    std::size_t byte_count;
+    const void* begin = nullptr;
+    std::size_t byte_count = 0;
 };
 
 // An array to read, and what keeps its memory.
@@ -36,19 +35,20 @@ struct Input {
 // else TypeError; another shape is a ValueError that names both. With one_for_all a single value, of shape
 // (component_count,) or (), is every limb's.
 Input input(const Values& wanted, pybind11::handle object, const pybind11::dtype& type, bool one_for_all,
-            const std::vector<Memory>& apart = {});
+            const Memory& apart = {});
 
-// An array to write. What swivel writes is `direct`; finish() brings that to `given` where they differ.
+// An array to write. What swivel writes is `direct`. Where that is not `given`, start() copies what is there, for calls
+// that leave some values as they are, and finish() brings the results back.
 struct Output {
     swivel_out values;
     pybind11::array given, direct;
 
+    void start() const;
     pybind11::array finish() const;
 };
 // object: None for a new array, or an array of the wanted shape and type that may be written (else ValueError or
 // TypeError), of any strides.
-Output output(const Values& wanted, pybind11::handle object, const pybind11::dtype& type,
-              const std::vector<Memory>& apart = {});
+Output output(const Values& wanted, pybind11::handle object, const pybind11::dtype& type, const Memory& apart = {});
 
 // "(3, 4)", for messages.
 std::string shape_text(const pybind11::array& array);

@@ -147,7 +147,7 @@ void add_bindings(py::module_& module)
     py::class_<swivel_binding> binding(
         module, "Binding",
         "How the arm frame lies in a skeleton's joints, and their rest pose, unit quaternions x, y, z, w, and the\n"
-        "bones' lengths. Made by bind() or bind_joints(); an entry of Crowd's groups is (limb_count, this). The\n"
+        "bones' lengths. Made by bind() or bind_joints(); an entry of Crowd's groups is Group(limb_count, this). The\n"
         "constructor takes all of it as keywords, to keep and restore one.");
     binding.attr("__module__") = "swivel";
     binding.def(py::init(&make_binding), py::kw_only(), py::arg("parent_from_arm"), py::arg("upper_from_arm"),

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/python/arrays.h"
@@ -21,12 +20,9 @@ enum class Way { kAlone, kReading, kSolvingBlocks };
 
 struct HeldCrowd {
     Crowd crowd;
-    swivel_features features;
-    std::array<std::uint32_t, SWIVEL_RESULT_END> component_counts;  // of fields as values, also where rows are words
-    std::array<std::uint32_t, 3> users{};                           // by Way; changed with the GIL held
+    Memory rows;                           // of all groups, which arrays must not share with the library
+    std::array<std::uint32_t, 3> users{};  // by Way; changed with the GIL held
 };
-
-std::uint32_t group_count(const HeldCrowd& held);
 
 // Limbs of one group, as arguments name them: count None is to the end of the group. Checked.
 struct Limbs {
@@ -34,16 +30,13 @@ struct Limbs {
 };
 Limbs limbs_of(const HeldCrowd& held, std::int64_t group, std::int64_t first, std::optional<std::int64_t> count);
 
-// What an array of a field of these limbs must hold, and its numbers' type. Refuses fields that this crowd does not
+// What an array of a field of these limbs must hold, and its numbers' type. Refuses fields that their group does not
 // have, in the library's words.
 Values values_of(const HeldCrowd& held, swivel_field field, const Limbs& limbs);
 pybind11::dtype type_of(swivel_field field);
 
 // A number that came from Python as an unsigned one; ValueError that names it if it does not fit.
 std::uint32_t count_of(const char* name, std::int64_t number);
-
-// What arrays must not share with the library: the crowd's rows.
-std::vector<Memory> rows_memory(const HeldCrowd& held);
 
 // The crowd is in use for as long as this lives; RuntimeError if another thread's use does not allow it. Made and
 // destroyed with the GIL held.
@@ -69,7 +62,8 @@ auto run(HeldCrowd& held, Way way, Call call)
 
 // The methods of the class Crowd, by what they are for.
 using CrowdClass = pybind11::class_<HeldCrowd>;
-void add_shape(CrowdClass& crowd);    // creation, counts, rows
+void add_creation(CrowdClass& crowd);
+void add_shape(CrowdClass& crowd);    // counts, rows
 void add_copies(CrowdClass& crowd);   // write, read
 void add_solving(CrowdClass& crowd);  // solve, choose, reset
 void add_answers(CrowdClass& crowd);  // positions, residuals, angles, arcs

@@ -24,7 +24,7 @@ py::array doubles(HeldCrowd& held, const char* name, std::size_t component_count
                   std::int64_t first, Count count, const py::object& out, Call call)
 {
     const Limbs limbs = limbs_of(held, group, first, count);
-    const Output to = output({name, limbs.count, component_count}, out, py::dtype::of<double>(), rows_memory(held));
+    const Output to = output({name, limbs.count, component_count}, out, py::dtype::of<double>(), held.rows);
     run(held, Way::kReading, [&] { check(call(limbs, to.values)); });
     return to.finish();
 }

@@ -21,8 +21,8 @@ void write(HeldCrowd& held, std::int64_t number, const py::object& values, std::
     const swivel_field field = field_of(number);
     const Limbs limbs = limbs_of(held, group, first, count);
     const float none = 0;
-    check(swivel_write(held.crowd.get(), field, limbs.group, 0, 0, {&none, 0}));  // an input that this crowd has
-    const Input in = input(values_of(held, field, limbs), values, py::dtype::of<float>(), true, rows_memory(held));
+    check(swivel_write(held.crowd.get(), field, limbs.group, 0, 0, {&none, 0}));  // an input that this group has
+    const Input in = input(values_of(held, field, limbs), values, py::dtype::of<float>(), true, held.rows);
     run(held, Way::kAlone,
         [&] { check(swivel_write(held.crowd.get(), field, limbs.group, limbs.first, limbs.count, in.values)); });
 }
@@ -49,7 +49,7 @@ py::array read(HeldCrowd& held, std::int64_t number, std::int64_t group, std::in
 {
     const swivel_field field = field_of(number);
     const Limbs limbs = limbs_of(held, group, first, count);
-    const Output to = output(values_of(held, field, limbs), out, type_of(field), rows_memory(held));
+    const Output to = output(values_of(held, field, limbs), out, type_of(field), held.rows);
     run(held, Way::kReading,
         [&] { check(swivel_read(held.crowd.get(), field, limbs.group, limbs.first, limbs.count, to.values)); });
     return to.finish();
@@ -59,14 +59,15 @@ py::array read(HeldCrowd& held, std::int64_t number, std::int64_t group, std::in
 
 void add_copies(CrowdClass& crowd)
 {
-    crowd.def("write", &write, py::arg("field"), py::arg("values"), py::arg("group") = 0, py::arg("first") = 0,
-              py::arg("count") = py::none(),
-              "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n\n"
-              "values has shape (count, k), or (count,) for fields of one number, or is one value (k,) for all of\n"
-              "them; k is component_count(field). float32 whose k numbers lie side by side is read where it is,\n"
-              "with any stride from limb to limb, read-only or not; everything else that NumPy takes for real\n"
-              "numbers is converted first. ValueError for another shape, for results, for limbs and fields that\n"
-              "this crowd does not have.");
+    crowd.def(
+        "write", &write, py::arg("field"), py::arg("values"), py::arg("group") = 0, py::arg("first") = 0,
+        py::arg("count") = py::none(),
+        "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n\n"
+        "values has shape (count, k), or (count,) for fields of one number, or is one value (k,) for all of\n"
+        "them; k is component_count(field, group). float32 whose k numbers lie side by side is read where it is,\n"
+        "with any stride from limb to limb, read-only or not; everything else that NumPy takes for real\n"
+        "numbers is converted first. ValueError for another shape, for results, for limbs that the crowd\n"
+        "does not have and fields that the group does not have.");
     crowd.def("write_doubles", &write_doubles, py::arg("field"), py::arg("values"), py::arg("origins") = py::none(),
               py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
               "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION.\n\n"

@@ -4,6 +4,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <numeric>
+#include <span>
 #include <string>
 
 #include "tools/python/crowd.h"
@@ -65,16 +67,48 @@ std::vector<std::uint32_t> indices_of(const py::object& limbs)
 std::vector<Input> priorities_of(const HeldCrowd& held, const py::object& given)
 {
     const py::list each(given);
-    if (each.size() != group_count(held))
-        throw py::value_error("priorities: expected one entry for each of " + std::to_string(group_count(held)) +
-                              " groups, got " + std::to_string(each.size()));
+    if (each.size() != swivel_group_count(held.crowd.get()))
+        throw py::value_error("priorities: expected one entry for each of " +
+                              std::to_string(swivel_group_count(held.crowd.get())) + " groups, got " +
+                              std::to_string(each.size()));
     std::vector<Input> priorities;
     for (std::uint32_t group = 0; group < each.size(); ++group) {
         const Values wanted{"priorities of group " + std::to_string(group),
                             swivel_group_limb_count(held.crowd.get(), group), 1};
-        priorities.push_back(input(wanted, each[group], py::dtype::of<float>(), true, rows_memory(held)));
+        priorities.push_back(input(wanted, each[group], py::dtype::of<float>(), true, held.rows));
     }
     return priorities;
+}
+
+using Groups = std::optional<std::vector<std::int64_t>>;
+
+// Their numbers as given; without any, those of all groups.
+std::vector<std::uint32_t> groups_of(const HeldCrowd& held, const Groups& given)
+{
+    std::vector<std::uint32_t> groups(swivel_group_count(held.crowd.get()));
+    std::iota(groups.begin(), groups.end(), 0u);
+    if (!given) return groups;
+    std::vector<bool> is_named(groups.size());
+    groups.clear();
+    for (const std::int64_t number : *given) {
+        groups.push_back(limbs_of(held, number, 0, {}).group);
+        if (is_named[groups.back()])
+            throw py::value_error("groups: group " + std::to_string(number) + " is named twice");
+        is_named[groups.back()] = true;
+    }
+    return groups;
+}
+
+// The caller's own, one for each block, or none.
+std::span<float> urgency_of(const HeldCrowd& held, const py::object& given)
+{
+    if (given.is_none()) return {};
+    const Values wanted{"urgency", swivel_block_count(held.crowd.get()), 1};
+    const Output array = output(wanted, given, py::dtype::of<float>(), held.rows);
+    const bool aligned = reinterpret_cast<std::uintptr_t>(array.values.data) % alignof(float) == 0;
+    if (array.values.stride != sizeof(float) || !array.given.is(array.direct) || !aligned)
+        throw py::value_error("urgency: its numbers must lie side by side, and aligned");
+    return {static_cast<float*>(array.values.data), wanted.limb_count};
 }
 
 std::vector<swivel_in> pointers_of(const std::vector<Input>& inputs)
@@ -95,12 +129,14 @@ void require_direct(const Frames& frames)
                 "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
-std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const py::object& mask, const py::object& limbs,
-                    const py::object& priorities, std::optional<std::int64_t> most_blocks, const py::object& frames,
-                    bool on_this_thread)
+std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
+                    const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> most_blocks,
+                    const py::object& urgency, const py::object& frames, bool on_this_thread)
 {
     Job job;
     if (blocks) job.blocks = {count_of("first block", blocks->first), count_of("block count", blocks->second)};
+    const std::vector<std::uint32_t> named = groups_of(held, groups);
+    if (groups) job.groups = named;
     const auto words = mask.is_none() ? std::vector<std::uint32_t>() : words_of(held, mask);
     if (!mask.is_none()) job.mask = words;
     const auto indices = limbs.is_none() ? std::vector<std::uint32_t>() : indices_of(limbs);
@@ -111,7 +147,8 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const py::object& mas
     if (most_blocks.has_value() == priorities.is_none())
         throw py::type_error("solve() takes priorities and most_blocks together");
     if (most_blocks) job.most_blocks = count_of("most_blocks", *most_blocks);
-    const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames);
+    job.urgency = urgency_of(held, urgency);
+    const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames, named);
     if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
     if (!frames.is_none()) job.frames = arrays.frames;
     job.on_this_thread = on_this_thread;
@@ -121,12 +158,13 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const py::object& mas
     return solved;
 }
 
-py::array choose(HeldCrowd& held, const py::object& priorities, std::int64_t most_blocks)
+py::array choose(HeldCrowd& held, const py::object& priorities, std::int64_t most_blocks, const py::object& urgency)
 {
     const std::vector<Input> given = priorities_of(held, priorities);
     const std::uint32_t most = count_of("most_blocks", most_blocks);
+    const std::span<float> kept = urgency_of(held, urgency);
     std::vector<std::uint32_t> words = no_words(held);
-    run(held, Way::kAlone, [&] { held.crowd.choose(pointers_of(given), most, words); });
+    run(held, Way::kAlone, [&] { held.crowd.choose(pointers_of(given), kept, most, words); });
     return lanes_of(held, words);
 }
 
@@ -141,31 +179,36 @@ void reset(HeldCrowd& held, std::int64_t group, std::int64_t first, std::optiona
 void add_solving(CrowdClass& crowd)
 {
     crowd.def(
-        "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("mask") = py::none(),
-        py::arg("limbs") = py::none(), py::arg("priorities") = py::none(), py::arg("most_blocks") = py::none(),
-        py::arg("frames") = py::none(), py::arg("on_this_thread") = false,
+        "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("groups") = py::none(),
+        py::arg("mask") = py::none(), py::arg("limbs") = py::none(), py::arg("priorities") = py::none(),
+        py::arg("most_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("frames") = py::none(),
+        py::arg("on_this_thread") = false,
         "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
         "CPU.\n\n"
-        "blocks is (first, count), of LANES limbs each. Of mask, limbs and priorities at most one is given. mask:\n"
-        "bool of shape (lane_count,), True for limbs to solve; lanes of padding mean nothing. limbs: whole numbers\n"
-        "of shape (count,) in any order, as limbs(group) gives them. priorities and most_blocks: as choose() has\n"
-        "them, with Feature.BUDGET. Limbs that are not chosen keep their results bit for bit.\n\n"
+        "blocks is (first, count), of LANES limbs each. groups: numbers of groups; others are neither read nor\n"
+        "written. Of mask, limbs and priorities at most one is given. mask: bool of shape (lane_count,), True for\n"
+        "limbs to solve; lanes of padding mean nothing. limbs: whole numbers of shape (count,) in any order, as\n"
+        "limbs(group) gives them. priorities, most_blocks and urgency: as choose() has them. Limbs that are not\n"
+        "chosen keep their results bit for bit.\n\n"
         "frames solves from and to your own arrays. It takes a run of blocks of each group in turn, while they are in\n"
-        "the nearest cache. Give a dict for each group, or one dict if there is one group. Keys are lower-case names\n"
-        "of fields, values arrays of the whole group as write() takes them and as out of read(). A field of a\n"
-        "structured array is one. Inputs are read, results are filled. With\n"
-        "the key origin, (n, 3) or (3,), the positions are float64 from there, as in write_doubles(). What is left\n"
-        "out keeps its rows, or is not written. A limb's results may be its own inputs; no other arrays may overlap\n"
-        "results. Where not all limbs are solved, results need each value's numbers side by side.\n\n"
+        "the nearest cache. Give a dict for each group, or one dict if there is one group; with groups, for each of\n"
+        "these, in the same order. Keys are lower-case names of fields, values arrays of the whole group as write()\n"
+        "takes them and as out of read(). A field of a structured array is one. Inputs are read, results are filled.\n"
+        "With the key origin, (n, 3) or (3,), the positions are float64 from there, as in write_doubles(). What is\n"
+        "left out keeps its rows, or is not written. A limb's results may be its own inputs; no other arrays may\n"
+        "overlap results. Where not all limbs of a group are solved, results need each value's numbers side by "
+        "side.\n\n"
         "On all cores if the library was built with oneTBB; on_this_thread on one, and then several threads may\n"
         "solve blocks that do not overlap at once, with the same mask and frames. Lists and priorities are for the\n"
-        "whole crowd and exclude both. ValueError for limbs that do not exist or are padding.");
-    crowd.def("choose", &choose, py::arg("priorities"), py::arg("most_blocks"),
-              "Picks at most most_blocks blocks by urgency, with Feature.BUDGET; solves nothing.\n\n"
+        "whole crowd and exclude both, and priorities exclude groups. ValueError for limbs that do not exist or are\n"
+        "padding.");
+    crowd.def("choose", &choose, py::arg("priorities"), py::arg("most_blocks"), py::arg("urgency") = py::none(),
+              "Picks at most most_blocks blocks, the most urgent ones; solves nothing.\n\n"
               "priorities has one entry for each group: (n,) float32, one number for each limb, or () for the\n"
-              "whole group, in any unit. Each call adds a block's largest priority to its urgency, which is 0\n"
-              "again for those picked, so none starves. Gives a mask for solve(), which chooses and solves in\n"
-              "one if it gets the priorities.");
+              "whole group, in any unit. urgency (block_count,) float32 is yours: start it as np.zeros and give it to\n"
+              "every call. Each call adds a block's largest priority to its urgency, which is 0 again for those\n"
+              "picked, so none starves. Only its magnitude counts. None: priorities alone decide. Gives a mask for\n"
+              "solve(), which chooses and solves in one if it gets the priorities.");
     crowd.def("reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
               "Forgets the swivel carried from solve to solve with Feature.WITH_MOST_SWIVEL, after a teleport.");
 }

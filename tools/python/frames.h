@@ -12,12 +12,13 @@ namespace swivel::python {
 
 // The frames of a call, and the arrays behind them.
 struct Frames {
-    std::vector<swivel_frame> frames;
+    std::vector<Frame> frames;
     std::vector<Input> inputs;
     std::vector<Output> outputs;
 };
 
-// A dict for each group, or one dict if there is one group. ValueError or TypeError for what is none.
-Frames frames_of(const HeldCrowd& held, const pybind11::object& given);
+// A dict for each of these groups, or one dict if it is one group; in the crowd's order. ValueError or TypeError for
+// what is none.
+Frames frames_of(const HeldCrowd& held, const pybind11::object& given, const std::vector<std::uint32_t>& groups);
 
 }  // namespace swivel::python

@@ -8,7 +8,6 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/python/arrays.h"
-#include "tools/python/fields.h"
 #include "tools/python/helpers.h"
 #include "tools/python/names.h"
 
@@ -46,15 +45,15 @@ py::array mirror(std::int64_t number, const py::object& values, std::int64_t ord
 {
     const swivel_field field = field_of(number);
     const swivel_euler_order axes = order_of(order);
-    const auto k = static_cast<py::ssize_t>(needs_of(field).component_count);
+    const std::uint32_t k = swivel_component_count(field, needed_features(field));
     const py::array given = py::module_::import("numpy").attr("asarray")(values);
     const bool many = given.ndim() == (k > 1 ? 2 : 1);
     const std::size_t count = many ? static_cast<std::size_t>(given.shape(0)) : 1;
-    if (k == 0) {  // a result, which the library refuses
+    if (info_of(field).kind != SWIVEL_FIELD_INPUT) {  // which the library refuses
         float none = 0;
         check(swivel_mirror(field, axes, &none, &none));
     }
-    const Values wanted{field_name(field), count, static_cast<std::size_t>(k)};
+    const Values wanted{info_of(field).name, count, k};
     const Input in = input(wanted, given, py::dtype::of<float>(), true);
     py::array_t<float> out(std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()));
     for (std::size_t n = 0; n < count; ++n) {
@@ -111,11 +110,8 @@ void add_limits(py::module_& module)
                "order is the EulerOrder of boxes. Values of other input fields are copied: places, hands and poses\n"
                "are for you to mirror. ValueError for results.");
     module.def(
-        "needed_features",
-        [](std::int64_t field) {
-            return py::module_::import("swivel").attr("Feature")(needs_of(field_of(field)).features);
-        },
-        py::arg("field"), "The fewest features with which a crowd has an input field; none for results.");
+        "needed_features", [](std::int64_t field) { return feature_set(needed_features(field_of(field))); },
+        py::arg("field"), "The fewest features with which a group has a field.");
 }
 
 }  // namespace swivel::python

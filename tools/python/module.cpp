@@ -23,6 +23,7 @@ PYBIND11_MODULE(_core, module)
     add_bindings(module);
     CrowdClass crowd(module, "Crowd");
     crowd.attr("__module__") = "swivel";  // what the package shows is the package's, also in help() and errors
+    add_creation(crowd);
     add_shape(crowd);
     add_copies(crowd);
     add_solving(crowd);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -12,131 +12,202 @@ namespace swivel::python {
 
 namespace {
 
-constexpr Named kFeatures[] = {
-    {"WORLD", SWIVEL_WORLD},
-    {"JOINTS", SWIVEL_JOINTS},
-    {"WITH_HAND", SWIVEL_WITH_HAND},
-    {"POLE_DIRECTION", SWIVEL_POLE_DIRECTION},
-    {"COMPACT", SWIVEL_COMPACT},
-    {"WITH_EFFECTOR", SWIVEL_WITH_EFFECTOR},
-    {"WITH_ANGLE", SWIVEL_WITH_ANGLE},
-    {"POLE_NORMAL", SWIVEL_POLE_NORMAL},
-    {"WITH_INCOMING", SWIVEL_WITH_INCOMING},
-    {"POLE_INCOMING", SWIVEL_POLE_INCOMING},
-    {"WITH_WEIGHTS", SWIVEL_WITH_WEIGHTS},
-    {"WITH_REACH", SWIVEL_WITH_REACH},
-    {"WITH_MOST_SWIVEL", SWIVEL_WITH_MOST_SWIVEL},
-    {"WITH_FLEXION_LIMIT", SWIVEL_WITH_FLEXION_LIMIT},
-    {"WITH_SHOULDER_CONE", SWIVEL_WITH_SHOULDER_CONE},
-    {"WITH_HUMERAL_TWIST", SWIVEL_WITH_HUMERAL_TWIST},
-    {"WITH_SHOULDER_BOX", SWIVEL_WITH_SHOULDER_BOX},
-    {"WITH_HAND_CONE", SWIVEL_WITH_HAND_CONE},
-    {"WITH_FOREARM_TWIST", SWIVEL_WITH_FOREARM_TWIST},
-    {"WITH_HAND_TWIST", SWIVEL_WITH_HAND_TWIST},
-    {"WITH_WRIST_BOX", SWIVEL_WITH_WRIST_BOX},
-    {"WITH_AIM", SWIVEL_WITH_AIM},
-    {"WITH_CLAVICLE", SWIVEL_WITH_CLAVICLE},
-    {"BUDGET", SWIVEL_BUDGET},
-    {"WITH_TWIST_BONES", SWIVEL_WITH_TWIST_BONES},
+struct Named {
+    std::string name;  // without SWIVEL_
+    std::int64_t value;
 };
-constexpr Named kFields[] = {
-    {"TARGET", SWIVEL_TARGET},
-    {"POLE", SWIVEL_POLE},
-    {"LENGTHS", SWIVEL_LENGTHS},
-    {"SHOULDER_POSITION", SWIVEL_SHOULDER_POSITION},
-    {"PARENT_ROTATION", SWIVEL_PARENT_ROTATION},
-    {"PARENT_SCALE", SWIVEL_PARENT_SCALE},
-    {"HAND", SWIVEL_HAND},
-    {"EFFECTOR", SWIVEL_EFFECTOR},
-    {"ANGLE", SWIVEL_ANGLE},
-    {"INCOMING_SHOULDER", SWIVEL_INCOMING_SHOULDER},
-    {"INCOMING_ELBOW", SWIVEL_INCOMING_ELBOW},
-    {"INCOMING_WRIST", SWIVEL_INCOMING_WRIST},
-    {"WEIGHTS", SWIVEL_WEIGHTS},
-    {"REACH", SWIVEL_REACH},
-    {"MOST_SWIVEL", SWIVEL_MOST_SWIVEL},
-    {"FLEXION_LIMIT", SWIVEL_FLEXION_LIMIT},
-    {"SHOULDER_CONE", SWIVEL_SHOULDER_CONE},
-    {"HUMERAL_TWIST", SWIVEL_HUMERAL_TWIST},
-    {"SHOULDER_BOX", SWIVEL_SHOULDER_BOX},
-    {"HAND_CONE", SWIVEL_HAND_CONE},
-    {"FOREARM_TWIST", SWIVEL_FOREARM_TWIST},
-    {"HAND_TWIST", SWIVEL_HAND_TWIST},
-    {"WRIST_BOX", SWIVEL_WRIST_BOX},
-    {"AIM", SWIVEL_AIM},
-    {"CLAVICLE", SWIVEL_CLAVICLE},
-    {"SHOULDER", SWIVEL_SHOULDER},
-    {"ELBOW", SWIVEL_ELBOW},
-    {"WRIST", SWIVEL_WRIST},
-    {"FLAGS", SWIVEL_FLAGS},
-    {"STRETCH", SWIVEL_STRETCH},
-    {"NORMAL", SWIVEL_NORMAL},
-    {"TWIST_BONES", SWIVEL_TWIST_BONES},
-    {"CLAVICLE_TURN", SWIVEL_CLAVICLE_TURN},
-};
-constexpr Named kFlags[] = {
-    {"REACHED", SWIVEL_REACHED},
-    {"SOFTENED", SWIVEL_SOFTENED},
-    {"STRETCHED", SWIVEL_STRETCHED},
-    {"CLAMPED_FAR", SWIVEL_CLAMPED_FAR},
-    {"CLAMPED_NEAR", SWIVEL_CLAMPED_NEAR},
-    {"SWIVEL_UNDEFINED", SWIVEL_SWIVEL_UNDEFINED},
-    {"LIMITED_FLEXION", SWIVEL_LIMITED_FLEXION},
-    {"LIMITED_SHOULDER_CONE", SWIVEL_LIMITED_SHOULDER_CONE},
-    {"LIMITED_HUMERAL_TWIST", SWIVEL_LIMITED_HUMERAL_TWIST},
-    {"LIMITED_SHOULDER_BOX", SWIVEL_LIMITED_SHOULDER_BOX},
-    {"LIMITED_HAND_CONE", SWIVEL_LIMITED_HAND_CONE},
-    {"LIMITED_FOREARM_TWIST", SWIVEL_LIMITED_FOREARM_TWIST},
-    {"LIMITED_HAND_TWIST", SWIVEL_LIMITED_HAND_TWIST},
-    {"LIMITED_WRIST_BOX", SWIVEL_LIMITED_WRIST_BOX},
-    {"LIMITED_STEP", SWIVEL_LIMITED_STEP},
-    {"INFEASIBLE", SWIVEL_INFEASIBLE},
-    {"JUMPED", SWIVEL_JUMPED},
-    {"BAD_INPUT", SWIVEL_BAD_INPUT},
-};
-constexpr Named kEulerOrders[] = {
-    {"XYZ", SWIVEL_XYZ}, {"XZY", SWIVEL_XZY}, {"YZX", SWIVEL_YZX},
-    {"YXZ", SWIVEL_YXZ}, {"ZXY", SWIVEL_ZXY}, {"ZYX", SWIVEL_ZYX},
-};
-static_assert(std::size(kFields) == SWIVEL_INPUT_END + (SWIVEL_RESULT_END - SWIVEL_SHOULDER),
-              "name the header's new field here");
+using Table = std::vector<Named>;
 
-constexpr const char* kFeatureText =
-    "What a crowd takes and gives; fixed at creation, combined with |.\n\n"
-    "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from 1 to 7.";
-constexpr const char* kFieldText =
-    "A field of a crowd's limbs: an input up to SHOULDER, from there on a result.\n\n"
-    "Crowd.component_count() tells how many numbers its values have; docs/python.md lists units and meanings.";
-constexpr const char* kFlagText =
-    "Bits of a limb's flag word, the result Field.FLAGS. Hard poses are results, not errors.";
-constexpr const char* kEulerOrderText =
-    "The axes of three rotations that make one, each about the axis as the ones before have left it: R = Rx Ry Rz is "
-    "XYZ.";
+const std::vector<swivel_feature_info>& features()
+{
+    static const std::vector<swivel_feature_info> all = [] {
+        std::vector<swivel_feature_info> found;
+        for (swivel_feature_info info; swivel_describe_feature(static_cast<std::uint32_t>(found.size()), &info);)
+            found.push_back(info);
+        return found;
+    }();
+    return all;
+}
 
-void add_enum(py::module_& module, const char* kind, const char* name, std::span<const Named> table, const char* text)
+Table feature_table()
+{
+    Table table;
+    for (const swivel_feature_info& info : features())
+        table.push_back({info.name, static_cast<std::int64_t>(info.feature)});
+    return table;
+}
+
+Table field_table()
+{
+    Table table;
+    for (const swivel_field_info& info : fields()) {
+        table.push_back({info.name, info.field});
+        for (char& letter : table.back().name)
+            letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    }
+    return table;
+}
+
+Table flag_table()
+{
+    Table table;
+    for (std::uint32_t flag = 1; flag != 0; flag <<= 1)
+        if (const char* const name = swivel_flag_name(flag)) table.push_back({name, flag});
+    return table;
+}
+
+struct Enum {
+    const char* kind;
+    const char* name;
+    const char* text;
+    Table table;
+};
+const std::vector<Enum>& enums()
+{
+    static const std::vector<Enum> all = {
+        {"IntFlag", "Feature",
+         "What a group takes and gives; fixed at creation, combined with |.\n\n"
+         "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from 1 to "
+         "7.",
+         feature_table()},
+        {"IntEnum", "Field",
+         "A field of a group's limbs: an input up to SHOULDER, from there on a result.\n\n"
+         "Crowd.component_count() tells how many numbers its values have; docs/python.md lists units and meanings.",
+         field_table()},
+        {"IntFlag", "Flag", "Bits of a limb's flag word, the result Field.FLAGS. Hard poses are results, not errors.",
+         flag_table()},
+        {"IntEnum",
+         "EulerOrder",
+         "The axes of three rotations that make one, each about the axis as the ones before have left it: R = Rx Ry Rz "
+         "is XYZ.",
+         {{"XYZ", SWIVEL_XYZ},
+          {"XZY", SWIVEL_XZY},
+          {"YZX", SWIVEL_YZX},
+          {"YXZ", SWIVEL_YXZ},
+          {"ZXY", SWIVEL_ZXY},
+          {"ZYX", SWIVEL_ZYX}}},
+        {"IntEnum",
+         "OnBadInput",
+         "What a limb with Flag.BAD_INPUT gets.\n\n"
+         "REST_POSE: its rest pose. KEEP_POSE: it keeps its results and its values in frames; only its flags are "
+         "written.",
+         {{"REST_POSE", SWIVEL_REST_POSE}, {"KEEP_POSE", SWIVEL_KEEP_POSE}}},
+    };
+    return all;
+}
+
+void add_enum(py::module_& module, const Enum& each)
 {
     py::dict members;
-    for (const Named& each : table) members[each.name] = each.value;
-    py::object made = py::module_::import("enum").attr(kind)(name, members, py::arg("module") = "swivel");
-    made.attr("__doc__") = text;
-    module.attr(name) = made;
+    for (const auto& [name, value] : each.table) members[name.c_str()] = value;
+    py::object made = py::module_::import("enum").attr(each.kind)(each.name, members, py::arg("module") = "swivel");
+    made.attr("__doc__") = each.text;
+    module.attr(each.name) = made;
 }
 
 // A constant of the header, without its SWIVEL_, as Python has it; empty for a name that is none.
 std::string member_called(const std::string& name)
 {
-    const std::pair<const char*, std::span<const Named>> enums[] = {
-        {"Feature.", kFeatures}, {"Field.", kFields}, {"Flag.", kFlags}, {"EulerOrder.", kEulerOrders}};
-    for (const auto& [prefix, table] : enums)
-        if (std::any_of(table.begin(), table.end(), [&](const Named& each) { return each.name == name; }))
-            return prefix + name;
+    for (const Enum& each : enums())
+        if (std::any_of(each.table.begin(), each.table.end(), [&](const Named& one) { return one.name == name; }))
+            return std::string(each.name) + "." + name;
     return {};
+}
+
+// The number as one of this enum's; ValueError if it has none.
+template <class Wanted>
+Wanted member_of(const char* enum_name, const char* what, std::int64_t number)
+{
+    const auto& wanted = *std::find_if(enums().begin(), enums().end(),
+                                       [&](const Enum& each) { return each.name == std::string(enum_name); });
+    if (std::none_of(wanted.table.begin(), wanted.table.end(), [&](const Named& one) { return one.value == number; }))
+        throw py::value_error("there is no " + std::string(what) + " " + std::to_string(number) +
+                              "; give a member of swivel." + enum_name);
+    return static_cast<Wanted>(number);
+}
+
+// One line of Arms' documentation.
+std::string arms_line(std::string name, const std::string& text)
+{
+    name.resize(16, ' ');
+    return name + text + "\n";
+}
+
+std::string result_line(const swivel_field_info& info)
+{
+    const swivel_features needed = needed_features(info.field);
+    const bool many = (info.needs & SWIVEL_WITH_TWIST_BONES) != 0;
+    const auto shape = [&](swivel_features has) {
+        const std::uint32_t k = swivel_component_count(info.field, has);
+        std::string text = "(n,";
+        if (k > 1) text.append(" ").append(std::to_string(k)).append(many ? " b" : "");
+        return text.append(")");
+    };
+    std::string text = shape(needed), bound = shape(needed | SWIVEL_JOINTS);
+    if (bound != text) text += "; with binding= " + bound;
+    if (info.field == SWIVEL_FLAGS) text += " uint32, bits of Flag";
+    for (const char* joint = many ? " with b * " : " with "; const Named& feature : feature_table())
+        if (info.needs & static_cast<swivel_features>(feature.value))
+            text.append(std::exchange(joint, ", ")).append("Feature.").append(feature.name);
+    return arms_line(info.name, text);
+}
+
+// The named tuple that swivel.solve() gives: the results that all arms have, positions, and the others or None.
+void add_arms(py::module_& module)
+{
+    py::list names, more;
+    std::string text =
+        "What solve() gives for n arms, float32 where nothing else is said; docs/python.md has the meanings.\n\n";
+    std::string more_text;
+    for (const swivel_field_info& info : fields())
+        if (info.kind != SWIVEL_FIELD_INPUT) {
+            (info.needs ? more : names).append(info.name);
+            (info.needs ? more_text : text) += result_line(info);
+        }
+    for (const auto& [name, line] :
+         {std::pair{"elbow_position", "(n, 3) float64, in the space and unit of the targets"},
+          std::pair{"wrist_position", "(n, 3) float64, in the space and unit of the targets"},
+          std::pair{"residual", "(n,) float64, from target to wrist, or effector, in arm lengths"}}) {
+        names.append(name);
+        text += arms_line(name, line);
+    }
+    const py::object nones = py::make_tuple(py::none()) * py::int_(more.size());
+    const py::object made =
+        py::module_::import("collections")
+            .attr("namedtuple")("Arms", names + more, py::arg("defaults") = nones, py::arg("module") = "swivel");
+    made.attr("__doc__") = text + more_text + "\nNone: the arms were not asked for it.";
+    module.attr("Arms") = made;
 }
 
 }  // namespace
 
-std::span<const Named> features() { return kFeatures; }
-std::span<const Named> fields() { return kFields; }
+std::span<const swivel_field_info> fields()
+{
+    static const std::vector<swivel_field_info> all = [] {
+        std::vector<swivel_field_info> found;
+        for (swivel_field_info info; swivel_describe_field(static_cast<std::uint32_t>(found.size()), &info);)
+            found.push_back(info);
+        return found;
+    }();
+    return all;
+}
+
+const swivel_field_info& info_of(swivel_field field)
+{
+    return *std::find_if(fields().begin(), fields().end(),
+                         [&](const swivel_field_info& info) { return info.field == field; });
+}
+
+swivel_features needed_features(swivel_field field)
+{
+    swivel_features needed = info_of(field).needs;
+    for (swivel_features before = ~needed; before != needed;) {
+        before = needed;
+        for (const swivel_feature_info& info : features())
+            if (needed & info.feature) needed |= info.needs;
+    }
+    return needed;
+}
 
 std::string in_python(const std::string& line)
 {
@@ -152,36 +223,22 @@ std::string in_python(const std::string& line)
     return said;
 }
 
-std::string field_name(swivel_field field)
-{
-    std::string name = std::find_if(std::begin(kFields), std::end(kFields), [&](const Named& each) {
-                           return each.value == field;
-                       })->name;
-    for (char& letter : name) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    return name;
-}
-
-swivel_field field_of(std::int64_t number)
-{
-    if (std::none_of(std::begin(kFields), std::end(kFields), [&](const Named& each) { return each.value == number; }))
-        throw py::value_error("there is no field " + std::to_string(number) + "; give a member of swivel.Field");
-    return static_cast<swivel_field>(number);
-}
-
+swivel_field field_of(std::int64_t number) { return member_of<swivel_field>("Field", "field", number); }
 swivel_euler_order order_of(std::int64_t number)
 {
-    if (number < 0 || number >= static_cast<std::int64_t>(std::size(kEulerOrders)))
-        throw py::value_error("there is no order of axes " + std::to_string(number) +
-                              "; give a member of swivel.EulerOrder");
-    return static_cast<swivel_euler_order>(number);
+    return member_of<swivel_euler_order>("EulerOrder", "order of axes", number);
 }
+swivel_on_bad_input on_bad_input_of(std::int64_t number)
+{
+    return member_of<swivel_on_bad_input>("OnBadInput", "way to treat bad input", number);
+}
+
+py::object feature_set(swivel_features features) { return py::module_::import("swivel").attr("Feature")(features); }
 
 void add_enums(py::module_& module)
 {
-    add_enum(module, "IntFlag", "Feature", kFeatures, kFeatureText);
-    add_enum(module, "IntEnum", "Field", kFields, kFieldText);
-    add_enum(module, "IntFlag", "Flag", kFlags, kFlagText);
-    add_enum(module, "IntEnum", "EulerOrder", kEulerOrders, kEulerOrderText);
+    for (const Enum& each : enums()) add_enum(module, each);
+    add_arms(module);
 }
 
 }  // namespace swivel::python

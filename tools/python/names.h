@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The enumerations of swivel.h as tables of names, for Python's enums and for messages. A new enumerator of the header
-// is one line in names.cpp and one in swivel/_core.pyi; a test tells which is missing.
+// Names in Python: enums, keywords, messages. Features, fields and flags are those that the library describes; no list
+// of them is kept here.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,25 +14,25 @@
 
 namespace swivel::python {
 
-struct Named {
-    const char* name;  // without SWIVEL_
-    std::int64_t value;
-};
-std::span<const Named> features();
-std::span<const Named> fields();
+// All fields, in the order of their numbers.
+std::span<const swivel_field_info> fields();
+const swivel_field_info& info_of(swivel_field field);
+// The fewest features with which a group has the field: those that it needs, and those that they need in turn.
+swivel_features needed_features(swivel_field field);
 
-// A line of the library with Python's names: "create it with SWIVEL_BUDGET" has Feature.BUDGET, and no function has the
-// prefix of C.
+// A line of the library with Python's names: "create it with SWIVEL_WITH_HAND" has Feature.WITH_HAND, and no function
+// has the prefix of C.
 std::string in_python(const std::string& line);
 
-// What messages and keywords call a field: "shoulder_position".
-std::string field_name(swivel_field field);
-// The field of a number that came from Python; ValueError if there is none.
+// An enumerator's number that came from Python; ValueError if there is none.
 swivel_field field_of(std::int64_t number);
-// The order of a number that came from Python; ValueError if there is none.
 swivel_euler_order order_of(std::int64_t number);
+swivel_on_bad_input on_bad_input_of(std::int64_t number);
 
-// Makes Feature, Field, Flag and EulerOrder in the module.
+// A set of features as Python's Feature.
+pybind11::object feature_set(swivel_features features);
+
+// Makes Feature, Field, Flag, EulerOrder and OnBadInput in the module, and Arms, which has a place for each result.
 void add_enums(pybind11::module_& module);
 
 }  // namespace swivel::python

@@ -35,20 +35,13 @@ std::uint32_t count_of(const char* name, std::int64_t number)
     return static_cast<std::uint32_t>(number);
 }
 
-std::uint32_t group_count(const HeldCrowd& held)
-{
-    std::uint32_t count = 0;
-    while (swivel_group_limb_count(held.crowd.get(), count) > 0) ++count;
-    return count;
-}
-
 Limbs limbs_of(const HeldCrowd& held, std::int64_t group, std::int64_t first, std::optional<std::int64_t> count)
 {
     const std::uint32_t g = count_of("group", group), begin = count_of("first", first);
     const std::uint32_t has = swivel_group_limb_count(held.crowd.get(), g);
     if (has == 0)
         throw py::value_error("group " + std::to_string(g) + " does not exist; this crowd has " +
-                              std::to_string(group_count(held)));
+                              std::to_string(swivel_group_count(held.crowd.get())));
     const std::uint32_t limb_count = count ? count_of("count", *count) : has - std::min(begin, has);
     if (begin > has || limb_count > has - begin)
         throw py::value_error(std::to_string(limb_count) + " limbs from limb " + std::to_string(begin) +
@@ -65,17 +58,8 @@ Values values_of(const HeldCrowd& held, swivel_field field, const Limbs& limbs)
 {
     float none[1];
     check(swivel_read(held.crowd.get(), field, limbs.group, 0, 0, {none, SIZE_MAX}));
-    return {field_name(field), limbs.count, held.component_counts[field]};
-}
-
-std::vector<Memory> rows_memory(const HeldCrowd& held)
-{
-    const swivel_rows input = swivel_input_rows(held.crowd.get()), result = swivel_result_rows(held.crowd.get());
-    const swivel_words words = swivel_compact_rows(held.crowd.get());
-    const auto bytes = [](const auto& rows) {
-        return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES * sizeof *rows.base;
-    };
-    return {{input.base, bytes(input)}, {result.base, bytes(result)}, {words.base, bytes(words)}};
+    const swivel_features features = swivel_group_features(held.crowd.get(), limbs.group);
+    return {info_of(field).name, limbs.count, swivel_component_count(field, features)};
 }
 
 }  // namespace swivel::python

@@ -12,11 +12,12 @@ solve() takes plain arrays and gives named ones. A Crowd keeps the limbs from fr
 At rest an arm lies along +z of its frame and bends towards +y, its hinge is +x, and the elbow lies on the pole's side. Mistakes
 are ValueError, TypeError, MemoryError and RuntimeError; hard poses are results with a Flag.
 """
-from ._arms import Arms, solve
-from ._core import (LANES, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, aim, arm_axis, bind, bind_joints, blade_name,
+from ._arms import solve
+from ._core import (LANES, Arms, Binding, Check, Crowd, Entity, EulerOrder, Feature, Field, Flag, OnBadInput, aim, arm_axis, bind, bind_joints, blade_name,
                     cone, fill_cache, flexion, isa_name, isas, mirror, needed_features, range, steps, turn, unpack_rotations, use_isa, verify, version)
+from ._groups import Group
 
 __version__ = ".".join(map(str, version()))
-__all__ = ["LANES", "Arms", "Binding", "Check", "Crowd", "Entity", "EulerOrder", "Feature", "Field", "Flag", "aim", "arm_axis", "bind",
+__all__ = ["LANES", "Arms", "Binding", "Check", "Crowd", "Entity", "EulerOrder", "Feature", "Field", "Flag", "Group", "OnBadInput", "aim", "arm_axis", "bind",
            "bind_joints", "blade_name", "cone", "fill_cache", "flexion", "isa_name", "isas", "mirror", "needed_features", "range", "solve", "steps", "turn",
            "unpack_rotations", "use_isa", "verify", "version"]

@@ -1,42 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""One call for people with plain arrays: a crowd is made, written, solved, read and dropped."""
-from typing import NamedTuple, Optional
+"""One call for people with plain arrays: a crowd is made, solved, read and dropped."""
+from typing import Optional
 
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Binding, Crowd, EulerOrder, Feature, Field, needed_features
-
-_POSITIONS = (Field.TARGET, Field.POLE, Field.SHOULDER_POSITION)
-
-
-class Arms(NamedTuple):
-    """What solve() gives for n arms, float32 where nothing else is said. None: the arms were not asked for it.
-
-    shoulder        (n, 4) rotations x, y, z, w in the arm frame; with binding= the joint's own local ones
-    elbow           (n, 2) cos and sin of half the flexion; with binding= (n, 4), the joint's local rotations
-    flags           (n,) uint32, bits of Flag
-    elbow_position  (n, 3) float64, in the space and unit of the targets
-    wrist_position  (n, 3) float64, in the space and unit of the targets
-    residual        (n,) float64, from target to wrist, or effector, in arm lengths
-    wrist           (n, 4) with hand=: hand relative to forearm; with binding= the joint's local rotations
-    stretch         (n,) with reach=: factor for both bone lengths
-    normal          (n, 3) with most_swivel=: unit normal of the swivel plane
-    twist_bones     (n, 4 b) with features=b * Feature.WITH_TWIST_BONES: a quaternion for each of b twist bones
-    clavicle_turn   (n, 4) with clavicle=: what the parent joint turns by, its local rotation * this
-    """
-
-    shoulder: npt.NDArray[np.float32]
-    elbow: npt.NDArray[np.float32]
-    flags: npt.NDArray[np.uint32]
-    elbow_position: npt.NDArray[np.float64]
-    wrist_position: npt.NDArray[np.float64]
-    residual: npt.NDArray[np.float64]
-    wrist: Optional[npt.NDArray[np.float32]] = None
-    stretch: Optional[npt.NDArray[np.float32]] = None
-    normal: Optional[npt.NDArray[np.float32]] = None
-    twist_bones: Optional[npt.NDArray[np.float32]] = None
-    clavicle_turn: Optional[npt.NDArray[np.float32]] = None
+from ._core import Arms, Binding, Crowd, EulerOrder, Feature, Field, needed_features
+from ._groups import Group
 
 
 def _field(name: str) -> Field:
@@ -47,9 +17,9 @@ def _field(name: str) -> Field:
     return field
 
 
-def _limb_count(features: Feature, binding: Optional[Binding], values: dict[Field, npt.NDArray[np.generic]]) -> int:
+def _limb_count(group: Group, values: dict[Field, npt.NDArray[np.generic]]) -> int:
     """The length of the first array that has a value for each limb; 1 if there is none."""
-    one = Crowd([(1, binding) if binding else 1], features)
+    one = Crowd(group)
     for field, array in values.items():
         if array.ndim == (2 if one.component_count(field) > 1 else 1):
             return len(array)
@@ -68,8 +38,8 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
 
     Further keywords are the input fields' lower-case names, and bring the features they need: hand=, parent_rotation=, reach=,
     shoulder_cone=, ...; docs/python.md lists them with their shapes. features adds those without a field, such as
-    Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): target,
-    pole and shoulder_position are taken from there in double precision.
+    Feature.POLE_DIRECTION. binding, from bind(), makes the results a skeleton's own local rotations. origin (n, 3) or (3,): all
+    positions are taken from there in double precision.
 
     No arms, arrays of length 0, give none. ValueError for shapes that do not go together, for lengths that nobody gave and for a
     world without shoulder_position=, TypeError for a keyword that is no input field.
@@ -84,15 +54,13 @@ def solve(target: npt.ArrayLike, pole: Optional[npt.ArrayLike], lengths: Optiona
         wanted |= needed_features(field)
     if Feature.WORLD in wanted and Field.SHOULDER_POSITION not in values:
         raise ValueError("solve() needs to know where the shoulders are in the world; give shoulder_position=")
-    n = _limb_count(wanted, binding, values)
-    limb_count = max(n, 1)  # a group has limbs; of no arms, the one's results are left out
-    crowd = Crowd([(limb_count, binding) if binding else limb_count], wanted, shoulder_order, wrist_order)
-    for field, array in values.items() if n > 0 else ():
-        if origin is not None and field in _POSITIONS:
-            crowd.write_doubles(field, array, origin)
-        else:
-            crowd.write(field, array)
-    crowd.solve()
+    one = Group(1, binding, wanted, shoulder_order=shoulder_order, wrist_order=wrist_order)
+    n = _limb_count(one, values)
+    crowd = Crowd(one._replace(limb_count=max(n, 1)))  # a group has limbs; of no arms, the one's results are left out
+    frame: dict[str, npt.ArrayLike] = {field.name.lower(): array for field, array in values.items()}
+    if origin is not None:
+        frame["origin"] = origin
+    crowd.solve(frames=frame if n > 0 else None)
     results = {field.name.lower(): crowd.read(field)
                for field in Field if field >= Field.SHOULDER and crowd.component_count(field) > 0}
     results.update(elbow_position=crowd.elbows(), wrist_position=crowd.wrists(), residual=crowd.residuals())

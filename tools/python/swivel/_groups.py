@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+"""What a crowd is made of."""
+from typing import NamedTuple, Optional
+
+from ._core import Binding, EulerOrder, OnBadInput
+
+
+class Group(NamedTuple):
+    """Limbs that share features and a binding, for Crowd. None: as the crowd says for all of its groups.
+
+    limb_count      1 or more
+    binding         from bind() or bind_joints(); Feature.JOINTS needs it
+    features        members of Feature, combined with |
+    on_bad_input    what a limb with bad input gets
+    shoulder_order  of Field.SHOULDER_BOX
+    wrist_order     of Field.WRIST_BOX
+    """
+
+    limb_count: int
+    binding: Optional[Binding] = None
+    features: Optional[int] = None
+    on_bad_input: Optional[OnBadInput] = None
+    shoulder_order: Optional[EulerOrder] = None
+    wrist_order: Optional[EulerOrder] = None
