@@ -101,9 +101,9 @@ class Rows(unittest.TestCase):
         crowd.solve()
         np.testing.assert_array_equal(shoulder[lanes // 16, :, lanes % 16], crowd.read(Field.SHOULDER))
         np.testing.assert_array_equal(flags[lanes // 16, 0, lanes % 16], crowd.read(Field.FLAGS))
-        self.assertTrue(np.shares_memory(shoulder, crowd.result_rows))
-        self.assertTrue(np.shares_memory(crowd.input_rows, crowd.rows(Field.POLE)))
-        self.assertEqual(crowd.input_rows.shape, (7, 8, 16))
+        self.assertTrue(np.shares_memory(shoulder, crowd.result_rows()))
+        self.assertTrue(np.shares_memory(crowd.input_rows(), crowd.rows(Field.POLE)))
+        self.assertEqual(crowd.input_rows().shape, (7, 8, 16))
         with self.assertRaisesRegex(ValueError, "read-only"):
             shoulder[0] = 1
 
@@ -174,13 +174,14 @@ class Mistakes(unittest.TestCase):
     def test_the_librarys_own_words(self):
         crowd = swivel.Crowd(N)
         self.fails(ValueError, "shoulder is a result; write takes input fields", crowd.write, Field.SHOULDER, 0)
-        self.fails(ValueError, "group 0, hand: not part of this crowd; create it with Feature.WITH_HAND", crowd.read, Field.HAND)
-        self.fails(ValueError, "hand: not part of this crowd", crowd.rows, Field.HAND)
+        self.fails(ValueError, "group 0, hand: not part of this group; create it with Feature.WITH_HAND", crowd.read, Field.HAND)
+        self.fails(ValueError, "hand: not part of this group", crowd.rows, Field.HAND)
         self.fails(ValueError, "group 1 does not exist; this crowd has 1", crowd.read, Field.TARGET, 1)
         self.fails(ValueError, "2 limbs from limb 99 on are not all in group 0, which has 100", crowd.read, Field.TARGET, 0, 99, 2)
         self.fails(ValueError, "8 blocks from block 0 on do not all exist; this crowd has 7", crowd.solve, blocks=(0, 8))
-        self.fails(ValueError, "create it with Feature.BUDGET", crowd.choose, [1], 1)
-        self.fails(ValueError, "Feature.POLE_DIRECTION needs Feature.WORLD", swivel.Crowd, 1, Feature.POLE_DIRECTION)
+        self.fails(ValueError, "group 0: Feature.POLE_DIRECTION needs Feature.WORLD; add it", swivel.Crowd, 1, Feature.POLE_DIRECTION)
+        self.fails(ValueError, "group 1: Feature.COMPACT excludes OnBadInput.KEEP_POSE", swivel.Crowd,
+                   [1, swivel.Group(1, features=Feature.COMPACT, on_bad_input=swivel.OnBadInput.KEEP_POSE)])
         self.fails(ValueError, "group 0 has no binding; make it with bind()", swivel.Crowd, 1, Feature.JOINTS)
         self.fails(ValueError, "no instruction set 'mmx'", swivel.use_isa, "mmx")
         self.fails(ValueError, "the rest pose is straight", swivel.bind, (0, 0, 1), (0, 0, 1))
@@ -196,13 +197,26 @@ class Mistakes(unittest.TestCase):
         self.fails(ValueError, "there is no field 99", crowd.read, 99)
         self.fails(ValueError, "there is no order of axes 6", swivel.Crowd, 1, 0, 6)
         self.fails(ValueError, "group is -1", crowd.read, Field.TARGET, -1)
-        self.fails(TypeError, "expected a number of limbs or (number of limbs, binding), got 'x'", swivel.Crowd, ["x"])
+        self.fails(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got 'x'", swivel.Crowd, ["x"])
+        for wrong in ((1, 2), (None, None), (), (1, None, "WORLD"), (1, None, 0, 0, 0, 0, 0)):
+            self.fails(TypeError, "expected a number of limbs, (number of limbs, binding) or a Group, got (", swivel.Crowd, [wrong])
+        self.fails(ValueError, "there is no way to treat bad input 2; give a member of swivel.OnBadInput", swivel.Crowd, 1, on_bad_input=2)
+        self.fails(ValueError, "features is -1", swivel.Crowd, [swivel.Group(1, features=-1)])
         self.fails(ValueError, "frame of group 0: there is no key 'tagret'; there are origin, target,", crowd.solve,
                    frames={"tagret": 0})
         self.fails(ValueError, "frames: expected one for each of 1 groups, got 2", crowd.solve, frames=[{}, {}])
         self.fails(ValueError, "priorities: expected one entry for each of 1 groups, got 2", crowd.solve, priorities=[1, 1],
                    most_blocks=1)
         self.fails(TypeError, "takes priorities and most_blocks together", crowd.solve, most_blocks=1)
+        self.fails(ValueError, "urgency: expected shape (7,), got (6,)", crowd.choose, [1], 1, np.zeros(6, np.float32))
+        self.fails(TypeError, "urgency: expected dtype float32, got float64", crowd.choose, [1], 1, np.zeros(7))
+        self.fails(ValueError, "urgency: its numbers must lie side by side", crowd.choose, [1], 1, np.zeros(14, np.float32)[::2])
+        self.fails(ValueError, "urgency: its numbers must lie side by side, and aligned", crowd.choose, [1], 1,
+                   np.zeros(29, np.uint8)[1:].view(np.float32))
+        self.fails(ValueError, "urgency goes with priorities", crowd.solve, urgency=np.zeros(7, np.float32))
+        self.fails(ValueError, "group 1 does not exist; this crowd has 1", crowd.solve, groups=[1])
+        self.fails(ValueError, "group 0 is named twice", crowd.solve, groups=[0, 0])
+        self.fails(ValueError, "frames: expected one for each of 0 groups, got 1", crowd.solve, groups=[], frames={})
         self.fails(ValueError, "numbers of a value side by side", crowd.solve, blocks=(0, 1),
                    frames={"shoulder": np.zeros((4, N), np.float32).T})
         self.fails(ValueError, "give shoulder_position=", swivel.solve, (0, 0, 1), None, (1, 1), parent_rotation=(0, 0, 0, 1))

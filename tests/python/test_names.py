@@ -16,8 +16,9 @@ import swivel
 from swivel import Field
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGE = ROOT / "tools" / "python" / "swivel"
-HEADER = re.sub(r"//[^\n]*", "", (ROOT / "batch" / "swivel.h").read_text(encoding="utf-8"))
+PACKAGE = Path(swivel.__file__).parent  # as built, with the stub
+HEADER = re.sub(r"//[^\n]*", "", (ROOT / "include" / "swivel" / "swivel.h").read_text(encoding="utf-8"))
+TABLE = (ROOT / "simd" / "fields.h").read_text(encoding="utf-8")  # what the library describes
 STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
 DOCS = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 
@@ -61,10 +62,10 @@ def parameters(function):
 class Names(unittest.TestCase):
     def test_every_enumerator_of_the_header(self):
         for name, enum in (("swivel_features", swivel.Feature), ("swivel_field", Field), ("swivel_flag", swivel.Flag),
-                           ("swivel_euler_order", swivel.EulerOrder)):
+                           ("swivel_euler_order", swivel.EulerOrder), ("swivel_on_bad_input", swivel.OnBadInput)):
             wanted = header_enum(name)
-            self.assertGreater(len(wanted), 5)
-            self.assertEqual({each.name: each.value for each in enum}, wanted, f"tools/python/names.cpp beside {name}")
+            self.assertGreater(len(wanted), 1)
+            self.assertEqual({each.name: each.value for each in enum}, wanted, f"swivel.{enum.__name__} beside {name}")
             stub = next(node for node in STUB.body if isinstance(node, ast.ClassDef) and node.name == enum.__name__)
             # Names alone, `A: int`, would be attributes of each member to a type checker.
             self.assertEqual({node.targets[0].id: eval(ast.unparse(node.value)) for node in stub.body if isinstance(node, ast.Assign)},
@@ -72,17 +73,25 @@ class Names(unittest.TestCase):
             self.assertEqual(len(stub.body), len(wanted))
             self.assertEqual(type(enum(1)), enum)
 
-    def test_every_member_of_a_frame(self):
-        members = set(re.findall(r"\b(\w+)\s*[,;]", body_of("struct", "swivel_frame"))) - {"size"}
+    def test_every_row_of_the_librarys_table(self):
+        """A row starts with the constant and its name."""
+        rows = dict(re.findall(r'\{\s*SWIVEL_(\w+),\s*"(\w+)"', TABLE))
+        members = {each.name for enum in (swivel.Feature, Field, swivel.Flag) for each in enum}
+        self.assertEqual(set(rows), members)
+        for field in Field:
+            self.assertEqual(rows[field.name], field.name.lower())
+
+    def test_every_key_of_a_frame(self):
         with self.assertRaises(ValueError) as caught:
             swivel.Crowd(1).solve(frames={"?": 0})
-        self.assertEqual(set(str(caught.exception).partition("there are ")[2].split(", ")), members)
+        self.assertEqual(str(caught.exception).partition("there are ")[2].split(", "),
+                         ["origin", *[name.lower() for name in header_enum("swivel_field")]])
 
     def test_every_function_of_the_header_has_its_like(self):
         """What Python has under another name, or does by itself."""
         others = {"crowd_create", "crowd_destroy", "crowd_bytes", "last_error", "status_text", "forward",
                   "unpack_rotation", "unpack_half", "field_row_count", "field_first_row", "group_first_limb", "group_limb_count",
-                  "isa_at", "isa_runs"}
+                  "group_features", "describe_field", "describe_feature", "flag_name", "isa_at", "isa_runs"}
         functions = set(re.findall(r"SWIVEL_API[^(;]*?\bswivel_(\w+)\(", HEADER))
         self.assertGreater(len(functions), 40)
         has = set(dir(swivel)) | set(dir(swivel.Crowd))
@@ -90,14 +99,14 @@ class Names(unittest.TestCase):
 
     def test_every_result_has_a_place_in_arms(self):
         self.assertLessEqual({field.name.lower() for field in Field if field >= Field.SHOULDER}, set(swivel.Arms._fields))
-        self.assertEqual(re.findall(r"^    (\w+) +\(n", swivel.Arms.__doc__, re.MULTILINE), list(swivel.Arms._fields))
+        self.assertEqual(re.findall(r"^(\w+) +\(n", swivel.Arms.__doc__, re.MULTILINE), list(swivel.Arms._fields))
+        self.assertEqual(set(swivel.Arms._field_defaults), {"wrist", "stretch", "normal", "twist_bones", "clavicle_turn"})
+        self.assertIn("elbow           (n, 2); with binding= (n, 4)", swivel.Arms.__doc__)
+        self.assertIn("twist_bones     (n, 4 b) with b * Feature.WITH_TWIST_BONES", swivel.Arms.__doc__)
 
     def test_needed_features_bring_the_field_and_none_is_too_many(self):
         for field in Field:
             needed = swivel.needed_features(field)
-            if field >= Field.SHOULDER:
-                self.assertEqual(needed, 0)
-                continue
             self.assertGreater(swivel.Crowd(1, needed).component_count(field), 0)
             for one in needed:
                 try:
@@ -111,9 +120,9 @@ class Stub(unittest.TestCase):
         core = sys.modules["swivel._core"]
         names = {node.name for node in STUB.body if public(node)} | {"LANES"}
         self.assertEqual(names, {name for name in vars(core) if name[0] != "_"})
-        self.assertEqual(names | {"Arms", "solve"}, set(swivel.__all__))
+        self.assertEqual(names | {"Group", "solve"}, set(swivel.__all__))
         for node in STUB.body:
-            if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), int):
+            if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), (int, tuple)):
                 wanted = {name for name in vars(getattr(swivel, node.name)) if name[0] != "_"}
                 self.assertEqual({each.name for each in node.body if public(each) and each.name[0] != "_"}, wanted, node.name)
 
@@ -131,6 +140,9 @@ class Stub(unittest.TestCase):
                     self.check_signature(each, getattr(getattr(swivel, node.name), each.name))
                     count += 1
         self.assertGreater(count, 19)
+        arms = next(node for node in STUB.body if isinstance(node, ast.ClassDef) and node.name == "Arms")
+        self.assertEqual([(each.target.id, each.value is not None) for each in arms.body],
+                         [(name, name in swivel.Arms._field_defaults) for name in swivel.Arms._fields])
 
     def test_types_of_package_example_and_documentation(self):
         """mypy finds nothing, and does find a mistake."""
@@ -142,7 +154,7 @@ class Stub(unittest.TestCase):
             environment = {"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"}
             run = lambda *files: subprocess.run([*base, *map(str, files)], capture_output=True, text=True, env=environment,
                                                 cwd=folder)
-            good = run(*PACKAGE.glob("*.py*"), PACKAGE.parent / "examples" / "reach.py", program)
+            good = run(*PACKAGE.glob("*.py*"), ROOT / "tools" / "python" / "examples" / "reach.py", program)
             self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
             self.assertIn('has no attribute "reed"', run(wrong).stdout)
 
@@ -178,10 +190,8 @@ class Words(unittest.TestCase):
         """Every field is a row of docs/python.md, with its shape."""
         rows = dict(re.findall(r"^\| `(\w+)` \| `\((.*?)\)`", DOCS, re.MULTILINE))
         self.assertEqual(list(rows), [field.name.lower() for field in Field])
-        everything = swivel.Feature.WITH_REACH | swivel.Feature.WITH_MOST_SWIVEL | swivel.Feature.WITH_HAND | swivel.Feature.WORLD
         for field in Field:
-            crowd = swivel.Crowd(1, swivel.needed_features(field) if field < Field.SHOULDER
-                                 else everything | swivel.Feature.WITH_TWIST_BONES | swivel.Feature.WITH_CLAVICLE)
+            crowd = swivel.Crowd(1, swivel.needed_features(field))
             shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 13)}, "n, 4 b": 4}[rows[field.name.lower()]]
             self.assertEqual(shape, crowd.component_count(field), field.name)
             self.assertEqual(np.ndim(crowd.read(field)), 1 if shape == 1 else 2)

@@ -241,6 +241,162 @@ class Poses(unittest.TestCase):
         np.testing.assert_allclose(swivel.mirror(Field.HUMERAL_TWIST, swivel.range(-0.2, 1.0)), swivel.range(-1.0, 0.2), atol=1e-7)
 
 
+class Groups(unittest.TestCase):
+    """Each group gets what a crowd of its own gets, bit for bit."""
+
+    def setUp(self):
+        self.sample, random = Sample(40), np.random.default_rng(6)
+        self.hands = quaternions(random, 40)
+        self.limb = swivel.bind((0.3, 0, 0), (0.25, 0, 0), (0, 0, 1))
+        self.plain = swivel.Group(40, features=Feature.WITH_SHOULDER_CONE)
+        self.bound = swivel.Group(20, self.limb, Feature.WORLD | Feature.JOINTS | Feature.WITH_HAND)
+
+    def fill(self, crowd, plain=None, bound=None):
+        """Inputs of the groups with these numbers."""
+        sample = self.sample
+        if plain is not None:
+            for field, values in ((Field.TARGET, sample.targets), (Field.POLE, sample.poles), (Field.LENGTHS, sample.lengths),
+                                  (Field.SHOULDER_CONE, swivel.cone((0, 1, 1), 1.0))):
+                crowd.write(field, values, plain)
+        if bound is not None:
+            for field, values in ((Field.TARGET, sample.targets[:20]), (Field.POLE, sample.poles[:20]), (Field.HAND, self.hands[:20]),
+                                  (Field.SHOULDER_POSITION, (0, 0, 0))):
+                crowd.write(field, values, bound)
+
+    def results(self, crowd, group):
+        return {field.name: crowd.read(field, group) for field in Field
+                if field >= Field.SHOULDER and crowd.component_count(field, group) > 0}
+
+    def check_same(self, found, wanted):
+        self.assertEqual(found.keys(), wanted.keys())
+        for name in wanted:
+            np.testing.assert_array_equal(found[name], wanted[name], name)
+
+    def alone(self):
+        plain, bound = swivel.Crowd(self.plain), swivel.Crowd([self.bound])
+        self.fill(plain, plain=0)
+        self.fill(bound, bound=0)
+        plain.solve(), bound.solve()
+        return self.results(plain, 0), self.results(bound, 0)
+
+    def test_different_features_in_one_solve(self):
+        crowd = swivel.Crowd([self.plain, self.bound])
+        self.fill(crowd, plain=0, bound=1)
+        self.assertEqual(crowd.solve(), 60)
+        wanted_plain, wanted_bound = self.alone()
+        self.check_same(self.results(crowd, 0), wanted_plain)
+        self.check_same(self.results(crowd, 1), wanted_bound)
+        self.assertEqual((crowd.features(0), crowd.features(1)), (self.plain.features, self.bound.features))
+        self.assertEqual([crowd.component_count(Field.ELBOW, group) for group in (0, 1)], [2, 4])
+        self.assertEqual([crowd.component_count(Field.HAND, group) for group in (0, 1)], [0, 4])
+        for group, count in ((0, 40), (1, 20)):  # rows are a group's own, and start at its first limb
+            limbs = np.arange(count)
+            np.testing.assert_array_equal(crowd.rows(Field.ELBOW, group)[limbs // 16, :, limbs % 16], crowd.read(Field.ELBOW, group))
+            self.assertEqual(crowd.result_rows(group).shape[0], -(-count // 16))
+        self.assertFalse(np.shares_memory(crowd.input_rows(0), crowd.input_rows(1)))
+        with self.assertRaisesRegex(ValueError, "group 0, hand: not part of this group; create it with Feature.WITH_HAND"):
+            crowd.rows(Field.HAND, 0)
+        with self.assertRaisesRegex(ValueError, "group 1: Feature.WITH_AIM excludes Feature.WITH_REACH"):
+            swivel.Crowd([1, swivel.Group(1, features=Feature.WITH_AIM | Feature.WITH_REACH)])
+
+    def test_what_a_group_does_not_say_is_the_crowds(self):
+        crowd = swivel.Crowd([3, swivel.Group(4), swivel.Group(5, features=0), (6, self.limb)], Feature.WITH_REACH)
+        self.assertEqual([crowd.features(group) for group in range(4)], [Feature.WITH_REACH] * 2 + [0, Feature.WITH_REACH])
+        angles = np.radians((70, 20, 50))
+        boxes = np.concatenate([swivel.range(angle - 0.05, angle + 0.05) for angle in angles])
+
+        def shoulders(crowd, group):
+            for field, values in ((Field.TARGET, self.sample.targets), (Field.LENGTHS, self.sample.lengths), (Field.SHOULDER_BOX, boxes)):
+                crowd.write(field, values, group)
+            crowd.solve()
+            return crowd.read(Field.SHOULDER, group)
+
+        def of_order(order):
+            return shoulders(swivel.Crowd(40, Feature.WITH_SHOULDER_BOX, order), 0)
+
+        self.assertTrue(np.any(of_order(swivel.EulerOrder.XYZ) != of_order(swivel.EulerOrder.ZXY)))
+        own = swivel.Group(40, shoulder_order=swivel.EulerOrder.ZXY)
+        crowd = swivel.Crowd([40, own], Feature.WITH_SHOULDER_BOX, swivel.EulerOrder.XYZ)
+        np.testing.assert_array_equal(shoulders(crowd, 0), of_order(swivel.EulerOrder.XYZ))
+        np.testing.assert_array_equal(shoulders(crowd, 1), of_order(swivel.EulerOrder.ZXY))
+
+    def test_some_groups(self):
+        wanted_plain, wanted_bound = self.alone()
+        crowd = swivel.Crowd([self.plain, self.bound, self.plain])
+        self.fill(crowd, plain=0, bound=1)
+        self.fill(crowd, plain=2)
+        before = self.results(crowd, 1)
+        self.assertEqual(crowd.solve(groups=[0, 2]), 80)
+        self.check_same(self.results(crowd, 0), wanted_plain)
+        self.check_same(self.results(crowd, 1), before)
+        self.check_same(self.results(crowd, 2), wanted_plain)
+        self.assertEqual(crowd.solve(groups=np.array([1]), mask=np.ones(crowd.lane_count, bool)), 20)
+        self.check_same(self.results(crowd, 1), wanted_bound)
+        self.assertEqual(crowd.solve(groups=[]), 0)
+        with self.assertRaisesRegex(ValueError, "riorities"):
+            crowd.solve(groups=[0], priorities=[1, 1, 1], most_blocks=1)
+
+    def test_frames_are_those_of_the_groups_as_named(self):
+        wanted_plain, wanted_bound = self.alone()
+        for groups in ([0, 1], [1, 0]):
+            crowd = swivel.Crowd([self.plain, self.bound, 7])
+            self.fill(crowd, plain=0, bound=1)
+            plain = {"shoulder": np.zeros((40, 4), np.float32), "elbow": np.zeros((40, 2), np.float32)}
+            bound = {"hand": self.hands[:20], "wrist": np.zeros((20, 4), np.float32), "elbow": np.zeros((20, 4), np.float32)}
+            frames = [plain, bound] if groups == [0, 1] else [bound, plain]
+            self.assertEqual(crowd.solve(groups=groups, frames=frames), 60)
+            for frame, wanted in ((plain, wanted_plain), (bound, wanted_bound)):
+                for name in set(frame) - {"hand"}:
+                    np.testing.assert_array_equal(frame[name], wanted[name.upper()], name)
+        crowd.solve(groups=[1], frames=bound)  # one group, one dict
+        with self.assertRaisesRegex(ValueError, "frames: expected one for each of 2 groups, got 3"):
+            crowd.solve(groups=[0, 1], frames=[{}, {}, {}])
+
+    def test_bad_input_keeps_the_pose_or_rests(self):
+        keeps = swivel.Group(40, on_bad_input=swivel.OnBadInput.KEEP_POSE)
+        crowd = swivel.Crowd([keeps, 40])
+        for group in (0, 1):
+            for field, values in ((Field.TARGET, self.sample.targets), (Field.LENGTHS, self.sample.lengths)):
+                crowd.write(field, values, group)
+        crowd.solve()
+        good = crowd.read(Field.SHOULDER)
+        targets = self.sample.targets[::-1].copy()
+        targets[::3] = np.nan
+        bad = np.isnan(targets[:, 0])
+        for outs in ([good.copy() for _ in range(2)], [np.asfortranarray(good) for _ in range(2)]):  # in place, and through a copy
+            flags = np.zeros(40, np.uint32)
+            crowd.solve(frames=[{"target": targets, "shoulder": outs[0], "flags": flags}, {"target": targets, "shoulder": outs[1]}])
+            np.testing.assert_array_equal(flags[bad], Flag.BAD_INPUT)
+            np.testing.assert_array_equal(outs[0][bad], good[bad])
+            np.testing.assert_array_equal(outs[1][bad], np.tile(np.float32((0, 0, 0, 1)), (bad.sum(), 1)))
+            np.testing.assert_array_equal(outs[0][~bad], outs[1][~bad])
+            self.assertTrue(np.any(outs[0][~bad] != good[~bad]))
+            for group in (0, 1):
+                np.testing.assert_array_equal(crowd.read(Field.SHOULDER, group), outs[group])
+        rests = swivel.Crowd(40, on_bad_input=swivel.OnBadInput.KEEP_POSE)  # for all groups
+        rests.write(Field.LENGTHS, (1, 1))
+        rests.write(Field.TARGET, (0, 1, 1))
+        rests.solve()
+        before = rests.read(Field.SHOULDER)
+        rests.write(Field.TARGET, (np.nan, 0, 0))
+        rests.solve()
+        np.testing.assert_array_equal(rests.read(Field.SHOULDER), before)
+
+    def test_urgency_is_the_callers(self):
+        crowd = swivel.Crowd([16, 16, 16])
+        mine, others = np.zeros((2, 3), np.float32)
+        picked = lambda mask: mask.reshape(3, 16)[:, 0].tolist()
+        turns = [picked(crowd.choose([2, 1, 1], 1, mine)) for _ in range(400)]
+        np.testing.assert_allclose(np.sum(turns, axis=0), (200, 100, 100), atol=2)  # as often as priorities say
+        self.assertFalse(np.any(others))
+        self.assertEqual(picked(crowd.choose([1, 3, 1], 1)), [False, True, False])  # without: priorities alone
+        self.assertEqual(picked(crowd.choose([1, 3, 1], 1)), [False, True, False])
+        crowd.choose([1, 2, 4], 1, others)
+        np.testing.assert_array_equal(abs(others), (1, 2, 0))
+        crowd.solve(priorities=[1, 1, 1], most_blocks=1, urgency=others)
+        np.testing.assert_array_equal(abs(others), (2, 0, 1))
+
+
 class Bits(unittest.TestCase):
     def results(self, crowd):
         return b"".join(crowd.read(field).tobytes() for field in (Field.SHOULDER, Field.ELBOW, Field.FLAGS))
@@ -276,11 +432,14 @@ class Bits(unittest.TestCase):
             crowd.solve(blocks=(0, crowd.block_count), mask=~lanes, on_this_thread=True)
 
         def chosen(crowd):
+            urgency = np.zeros(crowd.block_count, np.float32)
             for _ in range(4):
-                crowd.solve(mask=crowd.choose([np.ones(N)], crowd.block_count // 4 + 1))
+                crowd.solve(mask=crowd.choose([np.ones(N)], crowd.block_count // 4 + 1, urgency))
 
         def budget(crowd):
-            self.assertEqual(sum(crowd.solve(priorities=[1.0], most_blocks=20) for _ in range(4)), N + 17 * 16)
+            urgency = np.zeros(crowd.block_count, np.float32)
+            solved = sum(crowd.solve(priorities=[1.0], most_blocks=20, urgency=urgency) for _ in range(4))
+            self.assertEqual(solved, N + 17 * 16)
 
         def frame(crowd):
             out = {"shoulder": np.zeros((N, 4), np.float32), "flags": np.zeros(N, np.uint32)}
@@ -304,13 +463,9 @@ class Bits(unittest.TestCase):
             np.testing.assert_array_equal(out[::2], 7)
             crowd.solve(limbs=crowd.limbs()[::2])
 
-        ways = [blocks, active, limbs, frame, frame_blocks, chosen_frame]
+        ways = [blocks, active, limbs, frame, frame_blocks, chosen_frame, chosen, budget]
         for way in ways:
             crowd = crowd_of(sample)
-            way(crowd)
-            self.assertEqual(self.results(crowd), wanted)
-        for way in (chosen, budget):
-            crowd = crowd_of(sample, Feature.BUDGET)
             way(crowd)
             self.assertEqual(self.results(crowd), wanted)
 

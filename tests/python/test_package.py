@@ -13,13 +13,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("CHANGELOG.md", "CMakeLists.txt", "LICENSE", "MANIFEST.in", "README.md", "SECURITY.md", "pyproject.toml", "setup.py",
-           "batch", "cmake", "core", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
+           "batch", "cmake", "core", "include", "simd", "tools/cache", "tools/crowd", "tools/formats", "tools/python")
 USE = """
 import sys, pathlib, importlib.metadata, swivel
 folder = pathlib.Path(swivel.__file__).parent
 assert folder.is_relative_to(sys.prefix), folder
 assert importlib.metadata.version("swivel") == swivel.__version__
-assert (folder / "py.typed").exists() and (folder / "_core.pyi").exists()
+assert (folder / "py.typed").exists() and "class Field(enum.IntEnum):" in (folder / "_core.pyi").read_text()
 arms = swivel.solve([[0.3, 0.1, 0.3], [0, 0.2, 9]], (0, -1, 0), (0.30, 0.26))
 assert [swivel.Flag(int(bits)) for bits in arms.flags] == [swivel.Flag.REACHED, swivel.Flag.CLAMPED_FAR]
 """
@@ -51,7 +51,7 @@ def source_distribution():
         held = {name.partition("/")[2] for name in files.getnames()}
     if "SECURITY.md" not in held:
         sys.exit("the source distribution lacks SECURITY.md")
-    for folder in ("batch", "cmake", "core", "simd", "tools/cache", "tools/python"):
+    for folder in ("batch", "cmake", "core", "include", "simd", "tools/cache", "tools/python"):
         files = {str(path.relative_to(ROOT)) for path in (ROOT / folder).rglob("*.*") if path.suffix != ".pyc" and path.is_file()}
         if files - held:
             sys.exit(f"the source distribution lacks {sorted(files - held)}")

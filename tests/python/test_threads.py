@@ -10,7 +10,7 @@ import numpy as np
 
 import swivel
 from arms import Sample
-from swivel import Feature, Field
+from swivel import Field
 
 N = 200000
 
@@ -19,7 +19,7 @@ class Threads(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.sample = Sample(N)
-        cls.crowd = swivel.Crowd(N, Feature.BUDGET)
+        cls.crowd = swivel.Crowd(N)
         cls.crowd.write(Field.TARGET, cls.sample.targets)
         cls.crowd.write(Field.POLE, cls.sample.poles)
         cls.crowd.write(Field.LENGTHS, cls.sample.lengths)
@@ -87,7 +87,7 @@ class Threads(unittest.TestCase):
             thread.start()
         for thread in threads:
             thread.join()
-        np.testing.assert_array_equal(together.result_rows, alone.result_rows)
+        np.testing.assert_array_equal(together.result_rows(), alone.result_rows())
 
     def test_a_crowd_in_use_is_refused(self):
         """One thread solves over and over, this one reads: both end well or with RuntimeError, and refusals do happen."""
