@@ -24,7 +24,7 @@ class Documentation(unittest.TestCase):
     def test_programs_run(self):
         text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertEqual(len(programs), 8)
+        self.assertEqual(len(programs), 9)
         names, printed = {}, io.StringIO()
         with contextlib.redirect_stdout(printed):
             for program in programs:
@@ -44,6 +44,10 @@ class Documentation(unittest.TestCase):
             self.assertTrue(np.all(elbows[:, 1] < 1.3))
             np.testing.assert_allclose(fore[:, (0, 2)], 0, atol=1e-6)  # about the hinge alone, and forwards
             self.assertTrue(np.all(rotate(fore, (side, 0, 0))[:, 2] > 0.1))
+        self.assertEqual(names["characters"].find(swivel.Flag.BAD_INPUT), None)
+        knees, ankles = names["characters"].elbows(1), names["characters"].wrists(1)
+        np.testing.assert_allclose(ankles[:100], (names["hips"] - (0, 0.8, 0))[:100], atol=1e-4)
+        self.assertTrue(np.all(knees[:100, 2] > 0.1))  # forwards
         np.testing.assert_allclose(names["arm"].lengths, (0.30, 0.26), rtol=1e-6)
         self.assertEqual(names["arm"].twist_from_arm.shape, (1, 4))
 
