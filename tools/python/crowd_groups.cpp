@@ -19,11 +19,10 @@ namespace {
 
 constexpr const char* kCrowdText =
     "Groups of limbs that are solved together.\n\n"
-    "groups is the number of limbs, a Group, or a sequence with one entry for each group of limbs that share features "
-    "and a\n"
-    "binding: a number, a Group, or (number, binding), which is short for Group(number, binding).\n"
-    "Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are for groups without\n"
-    "their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
+    "groups is the number of limbs, a Group, or a sequence with an entry for each group of limbs that share\n"
+    "features and a binding: a number, a Group, or (number, binding), which is short for Group(number,\n"
+    "binding). Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are\n"
+    "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
     "Flag.BAD_INPUT. Parents and hands start as the identity, without limits; results as the rest pose. After\n"
     "creation the library allocates nothing.\n\n"

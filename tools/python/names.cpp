@@ -67,8 +67,8 @@ const std::vector<Enum>& enums()
     static const std::vector<Enum> all = {
         {"IntFlag", "Feature",
          "What a group takes and gives; fixed at creation, combined with |.\n\n"
-         "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from 1 to "
-         "7.",
+         "Whatever is off costs neither memory nor time. n twist bones are n * Feature.WITH_TWIST_BONES, n from\n"
+         "1 to 7.",
          feature_table()},
         {"IntEnum", "Field",
          "A field of a group's limbs: an input up to SHOULDER, from there on a result.\n\n"
@@ -89,8 +89,8 @@ const std::vector<Enum>& enums()
         {"IntEnum",
          "OnBadInput",
          "What a limb with Flag.BAD_INPUT gets.\n\n"
-         "REST_POSE: its rest pose. KEEP_POSE: it keeps its results and its values in frames; only its flags are "
-         "written.",
+         "REST_POSE: its rest pose. KEEP_POSE: it keeps its results and its values in frames; only its flags\n"
+         "are written.",
          {{"REST_POSE", SWIVEL_REST_POSE}, {"KEEP_POSE", SWIVEL_KEEP_POSE}}},
     };
     return all;
