@@ -51,7 +51,8 @@ test('explanations of many bad inputs are whole', () => {
 });
 
 test('limits, their arcs, and what explains them', () => {
-  const crowd = swivel.crowd([3], Feature.WITH_SHOULDER_CONE | Feature.WITH_FLEXION_LIMIT | Feature.WITH_ANGLE | Feature.WITH_SHOULDER_BOX, { shoulderOrder: Order.YXZ });
+  const features = Feature.WITH_SHOULDER_CONE | Feature.WITH_FLEXION_LIMIT | Feature.WITH_ANGLE | Feature.WITH_SHOULDER_BOX;
+  const crowd = swivel.crowd([{ limbCount: 3, features, shoulderOrder: Order.YXZ }]);
   crowd.write(Field.LENGTHS, [1, 1]);
   crowd.write(Field.TARGET, [0, 0, 1.5, 0, 0, 1.5, 0, 0, 0.2]);
   crowd.write(Field.FLEXION_LIMIT, swivel.flexion(0, 2));
@@ -102,7 +103,7 @@ test("the lecture's steps come entity by entity", () => {
 test('orders of Euler angles reach boxes, mirrors and joint angles', () => {
   const box = [...swivel.range(-0.2, 0.3), ...swivel.range(0.1, 0.4), ...swivel.range(-1, 2)];
   const poses = [Order.XYZ, Order.ZYX].map((shoulderOrder) => {
-    const crowd = swivel.crowd([1], Feature.WITH_SHOULDER_BOX, { shoulderOrder });
+    const crowd = swivel.crowd([{ limbCount: 1, features: Feature.WITH_SHOULDER_BOX, shoulderOrder }]);
     crowd.write(Field.LENGTHS, [1, 1]), crowd.write(Field.TARGET, [0.4, 0.3, 1.6]), crowd.write(Field.SHOULDER_BOX, box), crowd.solve();
     const all = [0, 1].map((family) => crowd.jointAngles({ shoulderOrder, family }));
     assert.notDeepEqual(all[0], all[1]);
@@ -146,7 +147,7 @@ test('answers are about the limb and the group asked for', () => {
 });
 
 test('some limbs: blocks, masks, lists and budgets', () => {
-  const crowd = swivel.crowd([40, 20], Feature.BUDGET);
+  const crowd = swivel.crowd([40, 20]);
   for (const group of [0, 1]) crowd.write(Field.LENGTHS, [1, 1], { group }), crowd.write(Field.TARGET, [0, 0.5, 1], { group });
   const solved = () => [0, 1].flatMap((group) => [...crowd.read(Field.FLAGS, { group })].map((flag, n) => [flag, `${group}:${n}`])).filter(([flag]) => flag).map(([, name]) => name);
   assert.equal(crowd.firstLimb(1), 48);
@@ -163,8 +164,18 @@ test('some limbs: blocks, masks, lists and budgets', () => {
   const before = solved();
   assert.equal(crowd.solve({ priorities: [urgent, [0]], mostBlocks: 1 }), 16);
   assert.deepEqual(solved().filter((name) => !before.includes(name)).slice(0, 2), ['0:16', '0:17']);
+  // Blocks take turns while their urgency is kept. The blocks have 16, 16, 8, 16 and 4 limbs.
+  const urgency = new Float32Array(crowd.blockCount), two = { priorities: [[1], [1]], mostBlocks: 2 };
+  assert.deepEqual([1, 2, 3].map(() => crowd.solve({ ...two, urgency })), [16 + 16, 8 + 16, 4 + 16]);
+  assert.deepEqual([...urgency], [0, 2, 1, 1, 0]);
+  assert.deepEqual([1, 2].map(() => crowd.solve(two)), [16 + 16, 16 + 16]);
+  refuses(() => crowd.solve({ urgency }), 'urgency goes with priorities');
+  refuses(() => crowd.solve({ ...two, urgency: [0, 0, 0, 0, 0] }), 'give a Float32Array');
+  refuses(() => crowd.solve({ ...two, urgency: new Float32Array(4) }), 'urgency has 4 numbers; give 5');
+  refuses(() => crowd.solve({ ...two, urgency, groups: [0] }), 'leave groups out');
+  assert.deepEqual([...urgency], [0, 2, 1, 1, 0]);
   refuses(() => crowd.solve({ priorities: [[1], [1]] }), 'priorities and mostBlocks together');
-  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, mask, limbs, priorities, mostBlocks, not limb');
+  refuses(() => crowd.solve({ limb: [0] }), 'solve() takes blocks, groups, mask, limbs, priorities, mostBlocks, urgency, not limb');
   refuses(() => crowd.solve([0]), 'not 0');
   refuses(() => crowd.solve({ limbs: [0.5] }), 'limbs is 0.5');
   refuses(() => crowd.solve({ priorities: [[1]], mostBlocks: 1 }), '1 priorities for 2 groups');

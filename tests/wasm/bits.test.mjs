@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { Feature, Field, Flag, LANES, MOST_TWIST_BONES, Order, Status, VERSION } from 'swivel-wasm';
+import { Feature, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, Status, VERSION } from 'swivel-wasm';
 import { swivel } from './common.mjs';
 
 // The arms of tests/package/arm.c.
@@ -61,7 +61,8 @@ test('every name of swivel.h, with its number', () => {
       return [key.replace('SWIVEL_', ''), value];
     }).filter(([key]) => !key.endsWith('_END')));
   };
-  for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [Status, 'status']]) assert.deepEqual({ ...names }, numbersOf(`swivel_${kind}`));
+  for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [Status, 'status']])
+    assert.deepEqual({ ...names }, numbersOf(`swivel_${kind}`));
   assert.equal(LANES, 16);
   assert.equal(MOST_TWIST_BONES, 7);
   assert.deepEqual(VERSION.split('.'), ['MAJOR', 'MINOR', 'PATCH'].map((part) => header.match(new RegExp(`SWIVEL_VERSION_${part} (\\d+)`))[1]));

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The promise: the types of the package for the web allow what works, and refuse what does not. tsc reads this, nothing runs it.
-import { type Binding, type Crowd, Feature, Field, Flag, load, Order, type Swivel, SwivelError } from 'swivel-wasm';
+import { type Binding, type Crowd, Feature, Field, Flag, type Group, load, OnBadInput, Order, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
 const binding: Binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: new Float32Array([0, 0, 1]), bend: [0, 1, 0] });
-const crowd: Crowd = swivel.crowd([{ limbCount: 3, binding }, 5], Feature.WORLD | 2n * Feature.WITH_TWIST_BONES, { shoulderOrder: Order.ZXY });
+const legs: Group = { limbCount: 3, features: Feature.WITH_SHOULDER_BOX, shoulderOrder: Order.ZXY, onBadInput: OnBadInput.KEEP_POSE };
+const crowd: Crowd = swivel.crowd([{ limbCount: 3, binding }, 5, legs], Feature.WORLD | 2n * Feature.WITH_TWIST_BONES);
 const flags: Uint32Array = crowd.values(Field.FLAGS);
 const shoulders: Float32Array = crowd.read(Field.SHOULDER, { group: 1 });
-const solved: number = crowd.solve({ limbs: [1, 2] });
+const solved: number = crowd.solve({ limbs: [1, 2], groups: [0] }) + crowd.solve({ priorities: [[1], [2], [3]], mostBlocks: 1, urgency: new Float32Array(crowd.blockCount) });
 const digest: bigint = crowd.digest();
 const closing: number = swivel.steps([1, 0, 1], [0, 1, 0], 1, 1).closingError;
 const place: { group: number; limb: number } | undefined = crowd.find(Flag.BAD_INPUT | Flag.INFEASIBLE);
@@ -15,6 +16,10 @@ export { closing, digest, flags, place, shoulders, solved, SwivelError };
 
 // @ts-expect-error: features are BigInts
 swivel.crowd([3], 1);
+// @ts-expect-error: of groups, too
+swivel.crowd([{ limbCount: 3, features: 1 }]);
+// @ts-expect-error: solves change it
+crowd.solve({ urgency: [0] });
 // @ts-expect-error: there is no such field
 crowd.values(7000);
 // @ts-expect-error: the wrist is missing

@@ -1,55 +1,67 @@
 /* SPDX-License-Identifier: MIT
  *
  * Prints src/layout.ts: the numbers of swivel.h's names, and where the members of its structures lie in WebAssembly's
- * memory. The compiler knows both, so no number is written twice. */
+ * memory. The library describes features, fields and flags, the compiler knows the rest, so no number is written
+ * twice. */
+#include <ctype.h>
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "swivel/swivel.h"
 
-#define FEATURE(NAME) printf("    %s: %" PRIu64 "n,\n", #NAME, (uint64_t)SWIVEL_##NAME)
 #define NUMBER(NAME) printf("    %s: %u,\n", #NAME, (unsigned)SWIVEL_##NAME)
-/* A field's number, and the name of its member in swivel_frame. */
-#define FIELD(NAME, name) \
-    NUMBER(NAME), members[field_count++] = (member) { #NAME, offsetof(swivel_frame, name) }
 #define OFFSET(structure, name) printf(" %s: %zu,", #name, offsetof(structure, name))
 #define BEGIN(structure) printf("    %s: { bytes: %zu,", #structure, sizeof(structure))
 #define END() printf(" },\n")
 
-typedef struct member {
-    const char* name;
-    size_t offset;
-} member;
-static member members[64];
-static int field_count = 0;
+_Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
 
-static void print_names(void)
+static void print_features(void)
 {
+    swivel_feature_info info;
     printf("export const Feature = {\n");
-    FEATURE(WORLD), FEATURE(JOINTS), FEATURE(WITH_HAND), FEATURE(POLE_DIRECTION), FEATURE(COMPACT);
-    FEATURE(WITH_EFFECTOR), FEATURE(WITH_ANGLE), FEATURE(POLE_NORMAL), FEATURE(WITH_INCOMING), FEATURE(POLE_INCOMING);
-    FEATURE(WITH_WEIGHTS), FEATURE(WITH_REACH), FEATURE(WITH_MOST_SWIVEL), FEATURE(WITH_FLEXION_LIMIT);
-    FEATURE(WITH_SHOULDER_CONE), FEATURE(WITH_HUMERAL_TWIST), FEATURE(WITH_SHOULDER_BOX), FEATURE(WITH_HAND_CONE);
-    FEATURE(WITH_FOREARM_TWIST), FEATURE(WITH_HAND_TWIST), FEATURE(WITH_WRIST_BOX), FEATURE(WITH_AIM);
-    FEATURE(WITH_CLAVICLE), FEATURE(BUDGET), FEATURE(WITH_TWIST_BONES);
-    printf("} as const;\n\nexport const Field = {\n");
-    FIELD(TARGET, target), FIELD(POLE, pole), FIELD(LENGTHS, lengths), FIELD(SHOULDER_POSITION, shoulder_position);
-    FIELD(PARENT_ROTATION, parent_rotation), FIELD(PARENT_SCALE, parent_scale), FIELD(HAND, hand);
-    FIELD(EFFECTOR, effector), FIELD(ANGLE, angle), FIELD(INCOMING_SHOULDER, incoming_shoulder);
-    FIELD(INCOMING_ELBOW, incoming_elbow), FIELD(INCOMING_WRIST, incoming_wrist), FIELD(WEIGHTS, weights);
-    FIELD(REACH, reach), FIELD(MOST_SWIVEL, most_swivel), FIELD(FLEXION_LIMIT, flexion_limit);
-    FIELD(SHOULDER_CONE, shoulder_cone), FIELD(HUMERAL_TWIST, humeral_twist), FIELD(SHOULDER_BOX, shoulder_box);
-    FIELD(HAND_CONE, hand_cone), FIELD(FOREARM_TWIST, forearm_twist), FIELD(HAND_TWIST, hand_twist);
-    FIELD(WRIST_BOX, wrist_box), FIELD(AIM, aim), FIELD(CLAVICLE, clavicle), FIELD(SHOULDER, shoulder);
-    FIELD(ELBOW, elbow), FIELD(WRIST, wrist), FIELD(FLAGS, flags), FIELD(STRETCH, stretch), FIELD(NORMAL, normal);
-    FIELD(TWIST_BONES, twist_bones), FIELD(CLAVICLE_TURN, clavicle_turn);
-    printf("} as const;\n\nexport const Flag = {\n");
-    NUMBER(REACHED), NUMBER(SOFTENED), NUMBER(STRETCHED), NUMBER(CLAMPED_FAR), NUMBER(CLAMPED_NEAR);
-    NUMBER(SWIVEL_UNDEFINED), NUMBER(LIMITED_FLEXION), NUMBER(LIMITED_SHOULDER_CONE), NUMBER(LIMITED_HUMERAL_TWIST);
-    NUMBER(LIMITED_SHOULDER_BOX), NUMBER(LIMITED_HAND_CONE), NUMBER(LIMITED_FOREARM_TWIST), NUMBER(LIMITED_HAND_TWIST);
-    NUMBER(LIMITED_WRIST_BOX), NUMBER(LIMITED_STEP), NUMBER(INFEASIBLE), NUMBER(JUMPED), NUMBER(BAD_INPUT);
-    printf("} as const;\n\nexport const Order = {\n");
+    for (uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
+        printf("    %s: %" PRIu64 "n,\n", info.name, info.feature);
+    printf("} as const;\n\n/** What a group with a feature must have, and what it must not have. */\n");
+    printf("export const featureRules: Record<keyof typeof Feature, { needs: bigint; excludes: bigint }> = {\n");
+    for (uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
+        printf("    %s: { needs: %" PRIu64 "n, excludes: %" PRIu64 "n },\n", info.name, info.needs, info.excludes);
+    printf("};\n");
+}
+
+static void print_upper(const char* name)
+{
+    for (; *name; ++name) putchar(toupper((unsigned char)*name));
+}
+
+static void print_fields(void)
+{
+    swivel_field_info info;
+    printf("\nexport const Field = {\n");
+    for (uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        printf("    "), print_upper(info.name), printf(": %u,\n", (unsigned)info.field);
+    printf("} as const;\n\n/** Results that the next solve starts from. */\nexport const carried = [\n");
+    for (uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if (info.kind == SWIVEL_FIELD_CARRIED) printf("    Field."), print_upper(info.name), printf(",\n");
+    printf("] as const;\n");
+}
+
+static void print_flags(void)
+{
+    printf("\nexport const Flag = {\n");
+    for (uint32_t bit = 0; bit < 32; ++bit) {
+        const char* const name = swivel_flag_name(UINT32_C(1) << bit);
+        if (name) printf("    %s: %" PRIu32 ",\n", name, UINT32_C(1) << bit);
+    }
+    printf("} as const;\n");
+}
+
+static void print_enumerations(void)
+{
+    printf("\nexport const Order = {\n");
     NUMBER(XYZ), NUMBER(XZY), NUMBER(YZX), NUMBER(YXZ), NUMBER(ZXY), NUMBER(ZYX);
+    printf("} as const;\n\nexport const OnBadInput = {\n");
+    NUMBER(REST_POSE), NUMBER(KEEP_POSE);
     printf("} as const;\n\nexport const Status = {\n");
     NUMBER(OK), NUMBER(INVALID_ARGUMENT), NUMBER(OUT_OF_MEMORY), NUMBER(UNKNOWN_ISA), NUMBER(ISA_UNAVAILABLE);
     printf("} as const;\n");
@@ -75,20 +87,19 @@ static void print_structures(void)
     END();
     BEGIN(swivel_entity), OFFSET(swivel_entity, name), OFFSET(swivel_entity, meaning), OFFSET(swivel_entity, step);
     OFFSET(swivel_entity, coefficients), END();
-    BEGIN(swivel_group_def), OFFSET(swivel_group_def, size), OFFSET(swivel_group_def, limb_count);
+    BEGIN(swivel_group_def), OFFSET(swivel_group_def, size), OFFSET(swivel_group_def, features);
+    OFFSET(swivel_group_def, limb_count), OFFSET(swivel_group_def, on_bad_input);
+    OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
     OFFSET(swivel_group_def, binding), END();
-    BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, features);
-    OFFSET(swivel_crowd_def, group_count), OFFSET(swivel_crowd_def, groups), OFFSET(swivel_crowd_def, shoulder_order);
-    OFFSET(swivel_crowd_def, wrist_order), END();
-    BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, mask);
-    OFFSET(swivel_job, mask_word_count), OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities);
+    BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
+    OFFSET(swivel_crowd_def, groups), END();
+    BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, groups);
+    OFFSET(swivel_job, group_word_count), OFFSET(swivel_job, mask), OFFSET(swivel_job, mask_word_count);
+    OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities), OFFSET(swivel_job, urgency);
     OFFSET(swivel_job, most_blocks), OFFSET(swivel_job, frames), OFFSET(swivel_job, solved_count), END();
-    BEGIN(swivel_frame), OFFSET(swivel_frame, size), END();
-    printf(
-        "} as const;\n\n// Where a swivel_frame has each field.\nexport const frameMembers: Record<number, number> = "
-        "{\n");
-    for (int n = 0; n < field_count; ++n) printf("    [Field.%s]: %zu,\n", members[n].name, members[n].offset);
-    printf("};\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
+    BEGIN(swivel_frame), OFFSET(swivel_frame, size), OFFSET(swivel_frame, fields);
+    OFFSET(swivel_frame, field_count), END();
+    printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const EXPLANATION_BYTES = %d;\n", SWIVEL_EXPLANATION_BYTES);
     printf("export const VERSION = \"%d.%d.%d\";\n", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH);
@@ -97,6 +108,9 @@ static void print_structures(void)
 int main(void)
 {
     printf("// SPDX-License-Identifier: MIT\n// Made by layout.c from swivel.h.\n\n");
-    print_names();
+    print_features();
+    print_fields();
+    print_flags();
+    print_enumerations();
     print_structures();
 }

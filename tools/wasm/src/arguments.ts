@@ -44,6 +44,7 @@ export function options<Options extends object>(of: string, given: Options, ...n
     return given;
 }
 
+const names = new Map<FieldNumber, string>(Object.entries(Field).map(([name, field]) => [field, name]));
 export function nameOf(field: FieldNumber): string {
-    return Object.entries(Field).find(([, number]) => number === field)?.[0] ?? refuse(`the field is ${shown(field)}; give one of Field`);
+    return names.get(field) ?? refuse(`the field is ${shown(field)}; give one of Field`);
 }

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: MIT
-import { FieldNumber, nameOf, Numbers, numbers, options, refuse, whole } from "./arguments.js";
-import { EXPLANATION_BYTES, Field } from "./layout.js";
+import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
+import { carried, EXPLANATION_BYTES } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
-export type { CrowdOptions, Group, Limbs } from "./rows.js";
+export type { Group, GroupOptions, Limbs } from "./rows.js";
 
 /** What a solve does, as swivel_job: at most one of mask, limbs and priorities. Left out: every limb. */
 export interface Job {
     blocks?: { first: number; count: number };
+    /** Numbers of groups: no others are solved. Not with priorities. */
+    groups?: Numbers;
     /** Bit i % 32 of word i / 32 is limb i = firstLimb(group) + n. Two blocks of 16 limbs share a word. */
     mask?: Numbers;
     /** Limbs as firstLimb(group) + n. */
     limbs?: Numbers;
-    /** For each group one number for each limb, or one for all; with Feature.BUDGET and mostBlocks. */
+    /** For each group one number for each limb, or one for all. The mostBlocks most urgent blocks are solved. */
     priorities?: readonly Numbers[];
     mostBlocks?: number;
+    /**
+     * How long blocks have waited: blockCount numbers, zeros at first. Give the same array each time; each solve changes it, so that
+     * blocks take turns. Left out: priorities alone decide.
+     */
+    urgency?: Float32Array;
 }
 
 /** A limb, counted within its group. */
@@ -47,11 +54,31 @@ export class Crowd extends CrowdRows {
         return memory.borrow((borrowed) => {
             const solved = borrowed.bytes(4);
             const to = borrowed.structure("swivel_job").words("solved_count", solved);
-            if (this.held.some((fields) => fields.size > 0)) to.words("frames", this.frames);
-            this.choose(options("solve()", job, "blocks", "mask", "limbs", "priorities", "mostBlocks"), to, borrowed);
+            const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "mostBlocks", "urgency");
+            const groups = this.name(chosen.groups, to, borrowed), urgency = this.wait(chosen.urgency, to, borrowed);
+            if (groups.some((group) => this.held[group].size > 0)) to.words("frames", this.frames(groups, borrowed));
+            this.choose(chosen, to, borrowed);
             memory.check(memory.calls.swivel_solve(this.crowd, to.at));
+            chosen.urgency?.set(urgency);
             return memory.words(solved, 1)[0];
         });
+    }
+    /** Sets a bit for each group that a job names. Returns them in the crowd's order. */
+    private name(groups: Numbers | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): number[] {
+        const all = Array.from({ length: this.groupCount }, (_, group) => group);
+        if (groups === undefined) return all;
+        const words = new Array<number>(Math.ceil(this.groupCount / 32)).fill(0);
+        for (const group of Array.from(numbers("groups", groups))) this.limbCount(group), words[group >> 5] |= 1 << (group & 31);
+        to.words("groups", borrowed.words(words)).words("group_word_count", words.length);
+        return all.filter((group) => words[group >> 5] & (1 << (group & 31)));
+    }
+    /** Lends the library the urgency of blocks, which a solve changes. */
+    private wait(urgency: Float32Array | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): Float32Array {
+        if (urgency === undefined) return new Float32Array();
+        if (!(urgency instanceof Float32Array)) refuse(`urgency is ${shown(urgency)}; give a Float32Array, which solves change`);
+        const at = borrowed.floats(numbers("urgency", urgency, this.blockCount));
+        to.words("urgency", at);
+        return this.memory.floats(at, urgency.length);
     }
     private choose({ blocks, mask, limbs, priorities, mostBlocks }: Job, to: Structure<"swivel_job">, borrowed: Borrowed): void {
         const indices = (name: string, values: Numbers): number => {
@@ -74,11 +101,11 @@ export class Crowd extends CrowdRows {
         to.words("priorities", borrowed.words(streams.flat())).words("most_blocks", whole("mostBlocks", mostBlocks as number));
     }
 
-    /** Forgets the swivels that a crowd with Feature.WITH_MOST_SWIVEL keeps between solves. */
+    /** Forgets the swivels that a group with Feature.WITH_MOST_SWIVEL keeps between solves. */
     reset(limbs: Limbs = {}): void {
         const { group, first, count } = this.place(limbs);
         this.memory.check(this.memory.calls.swivel_reset(this.crowd, group, first, count));
-        this.refresh(Field.NORMAL, group);
+        for (const field of carried) this.refresh(field, group);
     }
 
     /** The first limb with any of these flags, from a place on. To go on, add 1 to its limb. */
@@ -142,7 +169,7 @@ export class Crowd extends CrowdRows {
 
     /** A value of Field.ANGLE or of a limit that this crowd has, for the same limb on the body's other side. order: a box's. */
     mirror(field: FieldNumber, value: Numbers, order = 0): Float32Array {
-        const components = this.componentCount(field);
+        const components = this.held.reduce((most, _, group) => Math.max(most, this.componentCount(field, group)), 0);
         if (components === 0) refuse(`this crowd has no ${nameOf(field)}; give its feature to crowd()`);
         const given = numbers(nameOf(field), value, components);
         return this.memory.result(components, (out, borrowed) =>

@@ -5,9 +5,14 @@ import { Numbers, numbers, SwivelError } from "./arguments.js";
 import type { FunctionName } from "./functions.js";
 import { layout, Status } from "./layout.js";
 
+/** Functions that take or give numbers of 64 bits. */
+type Wide = "swivel_digest" | "swivel_group_features" | "swivel_component_count";
+
 /** The functions of swivel.h as WebAssembly has them: pointers and counts are numbers. */
-export interface Exports extends Record<Exclude<FunctionName, "swivel_digest">, (...values: number[]) => number> {
+export interface Exports extends Record<Exclude<FunctionName, Wide>, (...values: number[]) => number> {
     swivel_digest(crowd: number): bigint;
+    swivel_group_features(crowd: number, group: number): bigint;
+    swivel_component_count(field: number, features: bigint): number;
     malloc(bytes: number): number;
     free(at: number): void;
     _initialize(): void;

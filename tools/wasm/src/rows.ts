@@ -3,17 +3,24 @@
 // A crowd's memory: what goes in and what comes out.
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
 import type { Binding } from "./binding.js";
-import { Feature, Field, frameMembers, LANES, layout } from "./layout.js";
-import { Memory, Structure } from "./memory.js";
+import { Feature, Field, LANES, layout } from "./layout.js";
+import { Borrowed, Memory, Structure } from "./memory.js";
 
-/** Limbs that share one binding. A number alone: that many limbs without a binding, in the arm frame. */
-export type Group = number | { limbCount: number; binding?: Binding };
-
-/** Orders of the Euler angles of SHOULDER_BOX and WRIST_BOX, from Order. Left out: XYZ. */
-export interface CrowdOptions {
+/** Limbs that share features and a binding, as swivel_group_def. */
+export interface GroupOptions {
+    limbCount: number;
+    /** Left out: those that crowd() takes for all groups. */
+    features?: bigint;
+    /** With Feature.JOINTS. */
+    binding?: Binding;
+    /** Orders of the Euler angles of SHOULDER_BOX and WRIST_BOX, from Order. Left out: XYZ. */
     shoulderOrder?: number;
     wristOrder?: number;
+    /** What a limb with bad input gets, from OnBadInput. Left out: its rest pose. */
+    onBadInput?: number;
 }
+/** A number alone: that many limbs. */
+export type Group = number | GroupOptions;
 
 /** Which limbs of a group. Left out: group 0, from its first limb on, up to its last. */
 export interface Limbs {
@@ -24,52 +31,44 @@ export interface Limbs {
 
 export type Values = Float32Array | Uint32Array;
 
+/** A group as it was given, checked. */
+interface CheckedGroup extends GroupOptions {
+    features: bigint;
+}
+function checked(group: Group, features: bigint): CheckedGroup {
+    const given = typeof group === "number" ? { limbCount: group } :
+        options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput");
+    return { ...given, limbCount: whole("limbCount", given.limbCount), features: given.features === undefined ? features : checkedFeatures(given.features) };
+}
+function checkedFeatures(features: bigint): bigint {
+    if (typeof features === "bigint" && features >= 0n && features >> 64n === 0n) return features;
+    return refuse(`features is ${shown(features)}; give a BigInt, such as Feature.WORLD`);
+}
+
 export class CrowdRows {
     private at = 0;
-    /** A swivel_frame for each group, with the fields that values() has given. */
-    protected frames = 0;
-    private readonly limbCounts: number[];
-    private readonly componentCounts: Map<number, number>;
+    private readonly groups: CheckedGroup[];
     /** Of each group, the fields that values() has given. */
     protected readonly held: Map<FieldNumber, Values>[];
 
     /** @internal */
-    constructor(protected readonly memory: Memory, groups: readonly Group[], features: bigint, given: CrowdOptions) {
-        if (typeof features !== "bigint" || features < 0n || features >> 64n) refuse(`features is ${shown(features)}; give a BigInt, such as Feature.WORLD`);
+    constructor(protected readonly memory: Memory, groups: readonly Group[], features: bigint) {
+        checkedFeatures(features);
         if (!Array.isArray(groups)) refuse(`groups is ${shown(groups)}; give a list, such as [1000]`);
-        const { shoulderOrder = 0, wristOrder = 0 } = options("crowd()", given, "shoulderOrder", "wristOrder");
-        const defs = groups.map((group) => (typeof group === "number" ? { limbCount: group } : options("a group", group, "limbCount", "binding")));
-        this.limbCounts = defs.map((def) => whole("limbCount", def.limbCount));
-        this.held = defs.map(() => new Map());
-        const create = (counts: number[], wanted: bigint): number =>
-            memory.borrow((borrowed) => {
-                const size = layout.swivel_group_def.bytes;
-                const list = borrowed.bytes(size * counts.length);
-                counts.forEach((count, n) => {
-                    const def = new Structure(memory, "swivel_group_def", list + n * size).words("limb_count", count);
-                    const binding = defs[n].binding;
-                    if (binding) def.copy("binding", binding.bytes);
-                });
-                const def = borrowed.structure("swivel_crowd_def").wide("features", wanted);
-                def.words("group_count", counts.length).words("groups", list);
+        this.groups = groups.map((group) => checked(group, features));
+        this.held = groups.map(() => new Map());
+        this.at = memory.borrow((borrowed) => {
+            const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
+            this.groups.forEach(({ limbCount, features, binding, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 }, n) => {
+                const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
+                def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
                 def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
-                const crowd = borrowed.bytes(4);
-                memory.check(memory.calls.swivel_crowd_create(def.at, crowd));
-                return memory.words(crowd, 1)[0];
+                if (binding) def.copy("binding", binding.bytes);
             });
-        // A packed field's value has the numbers that it has without Feature.COMPACT.
-        const one = create(this.limbCounts.slice(0, 1).fill(1), features & ~Feature.COMPACT);
-        this.componentCounts = new Map(Object.values(Field).map((field) => [field, memory.calls.swivel_field_row_count(one, field)]));
-        memory.calls.swivel_crowd_destroy(one);
-        this.at = create(this.limbCounts, features);
-        try {
-            const frame = layout.swivel_frame.bytes;
-            this.frames = memory.allocate(frame * groups.length);
-            defs.forEach((_, n) => new Structure(memory, "swivel_frame", this.frames + n * frame));
-        } catch (error) {
-            this.dispose();
-            throw error;
-        }
+            const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("groups", list);
+            memory.check(memory.calls.swivel_crowd_create(def.at, crowd));
+            return memory.words(crowd, 1)[0];
+        });
     }
 
     /** The library's crowd. */
@@ -81,18 +80,23 @@ export class CrowdRows {
         if (this.at === 0) return;
         this.memory.calls.swivel_crowd_destroy(this.at);
         for (const fields of this.held) for (const values of fields.values()) this.memory.free(values.byteOffset);
-        this.memory.free(this.frames);
         this.at = 0;
     }
 
-    get groupCount(): number { return this.limbCounts.length; }
-    limbCount(group = 0): number {
-        return this.limbCounts[group] ?? refuse(`group ${shown(group)} does not exist; the crowd has ${this.groupCount}`);
+    get groupCount(): number { return this.groups.length; }
+    /** Blocks of 16 limbs, of which each group starts one. */
+    get blockCount(): number { return this.memory.calls.swivel_block_count(this.crowd); }
+    limbCount(group = 0): number { return this.group(group).limbCount; }
+    features(group = 0): bigint { return this.group(group).features; }
+    private group(group: number): CheckedGroup {
+        return this.groups[group] ?? refuse(`group ${shown(group)} does not exist; the crowd has ${this.groupCount}`);
     }
     /** The index of a group's first limb in rows, masks and lists of limbs. */
     firstLimb(group = 0): number { return this.limbCount(group) && this.memory.calls.swivel_group_first_limb(this.crowd, group); }
-    /** The numbers of a field's value; 0 if the crowd's features do not bring the field. */
-    componentCount(field: FieldNumber): number { return this.componentCounts.get(field) ?? (nameOf(field), 0); }
+    /** The numbers of a field's value; 0 if the group's features do not bring the field. */
+    componentCount(field: FieldNumber, group = 0): number {
+        return nameOf(field) ? this.memory.calls.swivel_component_count(field, this.features(group)) : 0;
+    }
 
     /**
      * The values of a field of a group, limb after limb, in swivel's own memory: no call copies them. From the first call
@@ -101,11 +105,11 @@ export class CrowdRows {
     values(field: typeof Field.FLAGS, group?: number): Uint32Array;
     values(field: FieldNumber, group?: number): Float32Array;
     values(field: FieldNumber, group = 0): Values {
-        const limbCount = this.limbCount(group), components = this.componentCount(field);
+        const limbCount = this.limbCount(group), components = this.componentCount(field, group);
         const held = this.crowd && this.held[group].get(field);
         if (held) return held;
-        if (field >= Field.SHOULDER && this.compactRows().length > 0)
-            refuse(`${nameOf(field)} of a crowd with Feature.COMPACT is packed: use read() or compactRows()`);
+        if (field >= Field.SHOULDER && this.features(group) & Feature.COMPACT)
+            refuse(`${nameOf(field)} of a group with Feature.COMPACT is packed: use read() or compactRows()`);
         const at = this.memory.allocate(Math.max(4 * components, 4) * limbCount);
         try {
             this.readTo(at, field, { group, first: 0, count: limbCount });
@@ -113,17 +117,16 @@ export class CrowdRows {
             this.memory.free(at);
             throw error;
         }
-        const values = this.view(field, at, limbCount);
+        const values = this.view(field, at, limbCount, components);
         this.held[group].set(field, values);
-        this.memory.words(this.frames + group * layout.swivel_frame.bytes + frameMembers[field], 2).set([at, 4 * components]);
         return values;
     }
 
     /** Sets an input: one value for all these limbs, or one for each. */
     write(field: FieldNumber, values: Numbers, limbs: Limbs = {}): void {
         const at = this.place(limbs);
-        const components = this.componentCount(field), { length } = numbers(nameOf(field), values);
-        const same = length === components || components === 0;  // the library refuses a field that the crowd lacks
+        const components = this.componentCount(field, at.group), { length } = numbers(nameOf(field), values);
+        const same = length === components || components === 0;  // the library refuses a field that the group lacks
         if (!same && length !== components * at.count)
             refuse(`${length} numbers for ${nameOf(field)} of ${at.count} limbs; give ${components}, or ${components} for each limb`);
         this.memory.borrow((borrowed) => this.writeFrom(borrowed.floats(values), same ? 0 : 4 * components, field, at));
@@ -135,35 +138,35 @@ export class CrowdRows {
     read(field: typeof Field.FLAGS, limbs?: Limbs): Uint32Array;
     read(field: FieldNumber, limbs?: Limbs): Float32Array;
     read(field: FieldNumber, limbs: Limbs = {}): Values {
-        const at = this.place(limbs), components = this.componentCount(field);
+        const at = this.place(limbs), components = this.componentCount(field, at.group);
         const held = this.crowd && this.held[at.group].get(field);
         if (held) return held.slice(at.first * components, (at.first + at.count) * components);
         return this.memory.borrow((borrowed) => {
             const to = borrowed.bytes(4 * Math.max(components, 1) * at.count);
             this.readTo(to, field, at);
-            return this.view(field, to, at.count).slice();
+            return this.view(field, to, at.count, components).slice();
         });
     }
 
-    /** Rows of inputs in swivel's own memory, as swivel_rows says. A solve overwrites fields that values() has given. */
-    inputRows(): Float32Array {
-        const { at, length } = this.rows("swivel_input_rows");
+    /** A group's rows of inputs in swivel's own memory, as swivel_rows says. A solve overwrites fields that values() has given. */
+    inputRows(group = 0): Float32Array {
+        const { at, length } = this.rows("swivel_input_rows", group);
         return this.memory.floats(at, length);
     }
     /** Rows of results; of no length with Feature.COMPACT. */
-    resultRows(): Float32Array {
-        const { at, length } = this.rows("swivel_result_rows");
+    resultRows(group = 0): Float32Array {
+        const { at, length } = this.rows("swivel_result_rows", group);
         return this.memory.floats(at, length);
     }
     /** Rows of words; of no length without Feature.COMPACT. */
-    compactRows(): Uint16Array {
-        const { at, length } = this.rows("swivel_compact_rows");
+    compactRows(group = 0): Uint16Array {
+        const { at, length } = this.rows("swivel_compact_rows", group);
         return new Uint16Array(this.memory.buffer, at, length);
     }
-    /** A field's first row in a block. */
-    fieldFirstRow(field: FieldNumber): number { return this.memory.calls.swivel_field_first_row(this.crowd, field); }
-    /** A field's rows in a block. */
-    fieldRowCount(field: FieldNumber): number { return this.memory.calls.swivel_field_row_count(this.crowd, field); }
+    /** A field's first row in a block of the group. */
+    fieldFirstRow(field: FieldNumber, group = 0): number { return this.rowsOf("swivel_field_first_row", field, group); }
+    /** A field's rows in a block; 0 if the group does not have the field. */
+    fieldRowCount(field: FieldNumber, group = 0): number { return this.rowsOf("swivel_field_row_count", field, group); }
 
     /** Checked, because WebAssembly takes everything for a number. */
     protected place(limbs: Limbs): Required<Limbs> {
@@ -175,15 +178,25 @@ export class CrowdRows {
     protected settle(group: number): void {
         for (const [field, values] of this.held[group])
             if (field < Field.SHOULDER)
-                this.writeFrom(values.byteOffset, 4 * this.componentCount(field), field, { group, first: 0, count: this.limbCount(group) });
+                this.writeFrom(values.byteOffset, 4 * this.componentCount(field, group), field, { group, first: 0, count: this.limbCount(group) });
     }
     /** Brings a result's rows into the view that values() has given. */
     protected refresh(field: FieldNumber, group: number): void {
         const held = this.held[group].get(field);
         if (held) this.readTo(held.byteOffset, field, { group, first: 0, count: this.limbCount(group) });
     }
-    private view(field: FieldNumber, at: number, limbCount: number): Values {
-        const length = this.componentCount(field) * limbCount;
+    /** A swivel_frame for each of these groups, which lists the fields that values() has given. */
+    protected frames(groups: readonly number[], borrowed: Borrowed): number {
+        const { bytes } = layout.swivel_frame, frames = borrowed.bytes(bytes * groups.length);
+        groups.forEach((group, n) => {
+            const list = [...this.held[group]].flatMap(([field, values]) => [field, values.byteOffset, 4 * this.componentCount(field, group)]);
+            const frame = new Structure(this.memory, "swivel_frame", frames + n * bytes);
+            frame.words("fields", borrowed.words(list)).words("field_count", this.held[group].size);
+        });
+        return frames;
+    }
+    private view(field: FieldNumber, at: number, limbCount: number, components: number): Values {
+        const length = components * limbCount;
         return field === Field.FLAGS ? this.memory.words(at, length) : this.memory.floats(at, length);
     }
     private writeFrom(from: number, stride: number, field: FieldNumber, { group, first, count }: Required<Limbs>): void {
@@ -192,15 +205,20 @@ export class CrowdRows {
     }
     private readTo(to: number, field: FieldNumber, { group, first, count }: Required<Limbs>): void {
         this.memory.borrow((borrowed) => {
-            const out = borrowed.words([to, 4 * Math.max(this.componentCount(field), 1)]);
+            const out = borrowed.words([to, 4 * Math.max(this.componentCount(field, group), 1)]);
             this.memory.check(this.memory.calls.swivel_read(this.crowd, field, group, first, count, out));
         });
     }
+    private rowsOf(call: "swivel_field_first_row" | "swivel_field_row_count", field: FieldNumber, group: number): number {
+        this.group(group);
+        return this.memory.calls[call](this.crowd, group, field);
+    }
     /** swivel_words has the members of swivel_rows. */
-    private rows(call: "swivel_input_rows" | "swivel_result_rows" | "swivel_compact_rows"): { at: number; length: number } {
+    private rows(call: "swivel_input_rows" | "swivel_result_rows" | "swivel_compact_rows", group: number): { at: number; length: number } {
+        this.group(group);
         return this.memory.borrow((borrowed) => {
             const rows = borrowed.structure("swivel_rows");
-            this.memory.calls[call](rows.at, this.crowd);
+            this.memory.calls[call](rows.at, this.crowd, group);
             const [at, blockCount, rowCount] = this.memory.words(rows.at, 3);
             return { at, length: blockCount * rowCount * LANES };
         });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { Numbers, numbers, refuse, shown, whole } from "./arguments.js";
 import { bind, bindJoints, Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
-import { Crowd, CrowdOptions, Group } from "./crowd.js";
+import { Crowd, Group } from "./crowd.js";
 import { layout } from "./layout.js";
 import { Memory, vector } from "./memory.js";
 
@@ -18,10 +18,11 @@ export class Swivel {
     /** @internal */
     constructor(private readonly memory: Memory) {}
 
-    /** Makes a crowd: crowd([1000], Feature.WITH_HAND). Its memory is in use until Crowd.dispose(). */
-    crowd(groups: readonly Group[], features = 0n, options: CrowdOptions = {}): Crowd {
-        return new Crowd(this.memory, groups, features, options);
-    }
+    /**
+     * Makes a crowd: crowd([1000], Feature.WITH_HAND). features: of groups that give none of their own. Its memory is in use until
+     * Crowd.dispose().
+     */
+    crowd(groups: readonly Group[], features = 0n): Crowd { return new Crowd(this.memory, groups, features); }
     bind(chain: Chain): Binding { return bind(this.memory, chain); }
     bindJoints(skeleton: Skeleton, joints: LimbJoints): Binding { return bindJoints(this.memory, skeleton, joints); }
 
