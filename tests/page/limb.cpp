@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Solves one limb with the native library: reads its crowd's features, its binding and its goal_input as bytes, and
+// Solves one limb with the native library: reads its features, its binding and its goal_input as bytes, and
 // prints the bits of its rotations and of its elbow and wrist. The page's must be the same.
 #include <cinttypes>
 #include <cstdio>
@@ -35,9 +35,9 @@ void print(const Value (&values)[count])
 int main()
 {
     const auto features = read<std::uint64_t>();
-    const swivel_group_def groups[] = {swivel::group(1, read<swivel_binding>())};
+    const auto binding = read<swivel_binding>();
     const auto input = read<goal_input>();
-    swivel::Crowd crowd = crowd_with(features, groups);
+    swivel::Crowd crowd({swivel::group(1, binding, features)});
     swivel::check(swivel_goals_write(crowd.get(), 0, 1, &input));
     crowd.solve();
     float shoulder[1][4], elbow[1][4];

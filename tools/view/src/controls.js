@@ -3,7 +3,7 @@
 // Limits, weights, reach and step of all limbs of a kind, by sliders. A switch adds the field to the crowd or takes it
 // away, the crowd file's, too.
 import { checkbox, element, section, slider } from "./dom.js";
-import { Feature, SwivelError } from "./stage.js";
+import { Feature, featureRules, SwivelError } from "./stage.js";
 import { kindOf, saidOf, saidOfAll } from "./words.js";
 
 const RADIANS = Math.PI / 180;
@@ -61,18 +61,18 @@ const FIELDS = [
         order: "shoulder_order", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "HAND_CONE", title: "Hand cone",
         hint: "How far the hand may bend away from the forearm",
-        needs: "WITH_HAND", ...cone(60) },
+        ...cone(60) },
     { name: "FOREARM_TWIST", title: "Forearm twist",
         hint: "How far the hand may turn about the forearm",
-        needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
+        sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
         value: range, numbers: rangeEnds },
     { name: "HAND_TWIST", title: "Hand twist",
         hint: "How far the hand may turn about its own axis",
-        needs: "WITH_HAND", sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
+        sliders: [angle("Least", -180, 180, -80), angle("Most", -180, 180, 80)],
         value: (swivel, ends, limb) => [...axisOf(limb), ...range(swivel, ends, limb)], numbers: (value, limb) => rangeEnds(value.slice(3), limb) },
     { name: "WRIST_BOX", title: "Wrist box",
         hint: "Ranges of the wrist's three Euler angles",
-        needs: "WITH_HAND", order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
+        order: "wrist_order", sliders: boxSliders, value: box, numbers: boxEnds },
     { name: "WEIGHTS", title: "Weights",
         hint: "How much each goal counts: 0 keeps the clip's pose, 1 takes the goal",
         sliders: [share("Position", 1), share("Hand", 1), share("Pole", 1)],
@@ -87,13 +87,12 @@ const FIELDS = [
         sliders: [angle("Most, a frame", 0, 90, 5)],
         value: (swivel, [most]) => swivel.turn(most * RADIANS), numbers: (value) => [middle(value)] },
 ];
-const NOT_WITH_AIM = ["WEIGHTS", "REACH", "FLEXION_LIMIT", "HAND_CONE", "FOREARM_TWIST", "HAND_TWIST", "WRIST_BOX"];
 
 /** Why a field cannot be added to a limb's crowd; nothing if it can. */
 function obstacle(stage, limb, field) {
-    const features = stage.featuresOf(limb);
-    if (field.needs && (features & Feature[field.needs]) === 0n) return "These limbs have no hand goals.";
-    if ((features & Feature.WITH_AIM) !== 0n && NOT_WITH_AIM.includes(field.name)) return "These limbs aim, which excludes it.";
+    const features = stage.featuresOf(limb), name = `WITH_${field.name}`, { WITH_HAND, WITH_AIM } = Feature;
+    if ((featureRules[name].needs & ~features & WITH_HAND) !== 0n) return "These limbs have no hand goals.";
+    if ((features & WITH_AIM) !== 0n && (featureRules.WITH_AIM.excludes & Feature[name]) !== 0n) return "These limbs aim, which excludes it.";
     return "";
 }
 

@@ -2,7 +2,7 @@
 //
 // Values that all characters of a limb share, such as limits: the crowd file's, and the user's in their place. They decide
 // the features of crowds.
-import { Feature, Field } from "swivel-wasm/layout.js";
+import { Feature, featureRules, Field } from "swivel-wasm/layout.js";
 
 const NAMES = new Map(Object.entries(Field).map(([name, field]) => [field, name]));
 
@@ -18,14 +18,18 @@ export function setOwn(limb, name, value) {
     else limb.own.delete(name);
 }
 
-/** The features of a crowd: the file's, with those that the user's fields need, without those that no limb uses any longer. */
+/**
+ * The features of a crowd's groups: the file's, with those of the user's fields, without those that no limb uses any longer. What needs
+ * an incoming pose has the clip's. Other needs are for the library to refuse.
+ */
 function featuresFor(shape, limbs) {
     let features = BigInt(shape.features);
     for (const name of new Set(limbs.flatMap(({ own }) => [...own.keys()]))) {
-        const feature = Feature[`WITH_${name}`], isUsed = limbs.some((limb) => fieldOf(limb, name) !== undefined);
-        features = isUsed ? features | feature : features & ~feature;
+        const feature = Feature[`WITH_${name}`], { needs } = featureRules[`WITH_${name}`];
+        const isUsed = limbs.some((limb) => fieldOf(limb, name) !== undefined);
+        features = isUsed ? features | feature | (needs & Feature.WITH_INCOMING) : features & ~feature;
     }
-    return (features & Feature.WITH_WEIGHTS) === 0n ? features : features | Feature.WITH_INCOMING;
+    return features;
 }
 
 /** Writes what all characters share. */
@@ -33,9 +37,9 @@ export function writeFields(crowd, limb, characters) {
     const { group } = limb;
     for (const name of new Set([...limb.fixed.keys(), ...limb.own.keys()])) {
         const value = fieldOf(limb, name);
-        if (value) crowd.write(Field[name], Array.from(value).slice(0, crowd.componentCount(Field[name])), { group });
+        if (value) crowd.write(Field[name], Array.from(value).slice(0, crowd.componentCount(Field[name], group)), { group });
     }
-    if (crowd.componentCount(Field.EFFECTOR) > 0)
+    if (crowd.componentCount(Field.EFFECTOR, group) > 0)
         crowd.write(Field.EFFECTOR, characters.flatMap(({ size }) => limb.effector.map((part) => size * part)), { group });
 }
 
@@ -45,8 +49,9 @@ export function makeCrowds(swivel, shapes, limbs, characters) {
     try {
         shapes.forEach((shape, index) => {
             const its = limbs.filter((limb) => limb.crowdIndex === index);
-            const groups = its.map(({ binding }) => ({ limbCount: characters.length, binding }));
-            made.push(swivel.crowd(groups, featuresFor(shape, its), { shoulderOrder: shape.shoulder_order, wristOrder: shape.wrist_order }));
+            const { shoulder_order: shoulderOrder, wrist_order: wristOrder } = shape;
+            const groups = its.map(({ binding }) => ({ limbCount: characters.length, binding, shoulderOrder, wristOrder }));
+            made.push(swivel.crowd(groups, featuresFor(shape, its)));
             its.forEach((limb) => writeFields(made[index], limb, characters));
         });
     } catch (error) {

@@ -44,10 +44,10 @@ export class LimbRows {
         this.blocks = blocks;
         this.extra = extra;
         this.copies = [];  // of rows, into textures that are no part of the solver's memory
-        this.firstBlock = crowd.firstLimb(limb.group) / 16;
-        this.inputs = this.texture(crowd, crowd.inputRows());
-        this.results = this.texture(crowd, crowd.resultRows());
-        const row = (name) => (crowd.fieldRowCount(Field[name]) > 0 ? crowd.fieldFirstRow(Field[name]) : -1);
+        const { group } = limb, blockCount = Math.ceil(crowd.limbCount(group) / 16);
+        this.inputs = this.texture(crowd.inputRows(group), blockCount);
+        this.results = this.texture(crowd.resultRows(group), blockCount);
+        const row = (name) => (crowd.fieldRowCount(Field[name], group) > 0 ? crowd.fieldFirstRow(Field[name], group) : -1);
         this.uniforms = {
             uInputs: this.inputs, uResults: this.results,
             uRotationRow: row("PARENT_ROTATION"), uLengthsRow: row("LENGTHS"), uTargetRow: row("TARGET"), uClavicleRow: row("CLAVICLE"),
@@ -56,9 +56,9 @@ export class LimbRows {
             uStretchRow: row("STRETCH"), uTurnRow: row("CLAVICLE_TURN"), uBlocks: blocks,
         };
     }
-    texture(crowd, rows) {
-        const blockCount = this.blockCountOf(crowd), perBlock = rows.length / blockCount;
-        const from = (block, count) => new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * (this.firstBlock + block), perBlock * count);
+    texture(rows, blockCount) {
+        const perBlock = rows.length / blockCount;
+        const from = (block, count) => new Uint32Array(rows.buffer, rows.byteOffset + 4 * perBlock * block, perBlock * count);
         const lines = this.blocks + (this.extra === null ? 0 : 1), first = from(0, this.blocks);
         checkSides("the limbs' numbers", perBlock, lines, this.most);
         if (this.extra === null) return blockTexture(first, perBlock / 16);
@@ -69,11 +69,6 @@ export class LimbRows {
         });
         this.copies.at(-1)();
         return blockTexture(words, perBlock / 16);
-    }
-    blockCountOf(crowd) {
-        let count = 0;
-        for (let group = 0; group < crowd.groupCount; ++group) count += Math.ceil(crowd.limbCount(group) / 16);
-        return count;
     }
     /** After a solve. */
     update() {

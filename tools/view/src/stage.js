@@ -4,7 +4,7 @@
 // solver; nothing is drawn here. World coordinates are the clip's.
 import { SwivelError } from "swivel-wasm/arguments.js";
 import { Binding } from "swivel-wasm/binding.js";
-import { Feature, Field, Flag, layout } from "swivel-wasm/layout.js";
+import { carried, Feature, featureRules, Field, Flag, layout } from "swivel-wasm/layout.js";
 import { Swivel } from "swivel-wasm/swivel.js";
 import { Quaternion, Vector3 } from "three";
 
@@ -74,12 +74,15 @@ export class Stage {
         const made = makeCrowds(this.swivel, this.data.crowds, this.limbs, this.characters);
         this.crowds.forEach((crowd) => crowd.dispose());
         this.crowds = made;
-        this.carriesState = this.data.budget_blocks > 0 || this.limbs.some((limb) => this.has(limb, "NORMAL"));
+        this.carriesState = this.data.budget_blocks > 0 || this.limbs.some((limb) => this.carries(limb));
+        this.urgency = new Float32Array(made[0].blockCount);  // of a budget, which has one crowd
         this.solvedFrames = 0;  // in order, from the first on
         this.hasSolved = false;
     }
     crowdOf(limb) { return this.crowds[limb.crowdIndex]; }
-    has(limb, name) { return this.crowdOf(limb).componentCount(Field[name]) > 0; }
+    has(limb, name) { return this.crowdOf(limb).componentCount(Field[name], limb.group) > 0; }
+    /** Whether a limb's solves start from its last results. */
+    carries(limb) { return carried.some((field) => this.crowdOf(limb).componentCount(field, limb.group) > 0); }
     writeFields(limb) { writeFields(this.crowdOf(limb), limb, this.characters); }
 
     /** Goes to a frame and solves it. */
@@ -102,14 +105,14 @@ export class Stage {
     /** With a budget the first solve is of all limbs. */
     job() {
         if (this.data.budget_blocks === 0 || !this.hasSolved) return {};
-        return { priorities: this.limbs.map((limb) => [limb.priority]), mostBlocks: this.data.budget_blocks };
+        return { priorities: this.limbs.map((limb) => [limb.priority]), mostBlocks: this.data.budget_blocks, urgency: this.urgency };
     }
     setGoals(limb) {
         const { calls } = this.memory, count = this.characterCount, crowd = this.crowdOf(limb);
         this.askGoals(limb);
         moveGoals(this, limb);
         this.memory.check(calls.swivel_goals_write(crowd.crowd, limb.group, count, limb.inputsAt));
-        if (this.hasSolved && this.has(limb, "NORMAL"))
+        if (this.hasSolved && this.carries(limb))
             for (let n = 0; n < count; ++n) if (this.clipFrame(n) === 0) crowd.reset({ group: limb.group, first: n, count: 1 });
     }
     /** The goals as the command has them. */
@@ -137,7 +140,7 @@ export class Stage {
     poleIsPoint(limb) { return (this.featuresOf(limb) & Feature.POLE_DIRECTION) === 0n; }
     isPoint(limb, part) { return part === "target" || this.poleIsPoint(limb); }
     hasPole(limb) { return (this.featuresOf(limb) & (Feature.POLE_NORMAL | Feature.POLE_INCOMING)) === 0n; }
-    featuresOf(limb) { return BigInt(this.data.crowds[limb.crowdIndex].features); }
+    featuresOf(limb) { return this.crowdOf(limb).features(limb.group); }
     toWorld(limb, character, relative, part = "target") {
         const origin = this.origin(limb, character);
         let vector = mirrored(limb, Array.from(relative));
@@ -239,4 +242,4 @@ export class Stage {
     }
 }
 
-export { Feature, Field, SwivelError };
+export { Feature, featureRules, Field, SwivelError };
