@@ -55,22 +55,25 @@ export class Crowd extends CrowdRows {
             const solved = borrowed.bytes(4);
             const to = borrowed.structure("swivel_job").words("solved_count", solved);
             const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "mostBlocks", "urgency");
-            const groups = this.name(chosen.groups, to, borrowed), urgency = this.wait(chosen.urgency, to, borrowed);
-            if (groups.some((group) => this.held[group].size > 0)) to.words("frames", this.frames(groups, borrowed));
+            this.name(chosen.groups, to, borrowed);
+            const urgency = this.wait(chosen.urgency, to, borrowed);
             this.choose(chosen, to, borrowed);
             memory.check(memory.calls.swivel_solve(this.crowd, to.at));
             chosen.urgency?.set(urgency);
             return memory.words(solved, 1)[0];
         });
     }
-    /** Sets a bit for each group that a job names. Returns them in the crowd's order. */
-    private name(groups: Numbers | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): number[] {
-        const all = Array.from({ length: this.groupCount }, (_, group) => group);
-        if (groups === undefined) return all;
+    /** A bit for each group that a job names, and their frames. */
+    private name(groups: Numbers | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): void {
+        if (groups === undefined) {
+            if (this.held.some((fields) => fields.size > 0)) to.words("frames", this.frames);
+            return;
+        }
         const words = new Array<number>(Math.ceil(this.groupCount / 32)).fill(0);
         for (const group of Array.from(numbers("groups", groups))) this.limbCount(group), words[group >> 5] |= 1 << (group & 31);
         to.words("groups", borrowed.words(words)).words("group_word_count", words.length);
-        return all.filter((group) => words[group >> 5] & (1 << (group & 31)));
+        const named = Array.from(new Set(Array.from(groups))).sort((a, b) => a - b);  // the crowd's order
+        if (named.some((group) => this.held[group].size > 0)) to.words("frames", this.framesOf(named, borrowed));
     }
     /** Lends the library the urgency of blocks, which a solve changes. */
     private wait(urgency: Float32Array | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): Float32Array {

@@ -48,6 +48,8 @@ function checkedFeatures(features: bigint): bigint {
 export class CrowdRows {
     private at = 0;
     private readonly groups: CheckedGroup[];
+    /** A swivel_frame for each group, which lists the fields that values() has given. */
+    protected frames = 0;
     /** Of each group, the fields that values() has given. */
     protected readonly held: Map<FieldNumber, Values>[];
 
@@ -69,6 +71,14 @@ export class CrowdRows {
             memory.check(memory.calls.swivel_crowd_create(def.at, crowd));
             return memory.words(crowd, 1)[0];
         });
+        try {
+            const { bytes } = layout.swivel_frame;
+            this.frames = memory.allocate(bytes * groups.length);
+            groups.forEach((_, n) => new Structure(memory, "swivel_frame", this.frames + n * bytes));
+        } catch (error) {
+            this.dispose();
+            throw error;
+        }
     }
 
     /** The library's crowd. */
@@ -80,6 +90,8 @@ export class CrowdRows {
         if (this.at === 0) return;
         this.memory.calls.swivel_crowd_destroy(this.at);
         for (const fields of this.held) for (const values of fields.values()) this.memory.free(values.byteOffset);
+        if (this.frames) this.held.forEach((_, group) => this.memory.free(this.listOf(group)[0]));
+        this.memory.free(this.frames);
         this.at = 0;
     }
 
@@ -113,6 +125,7 @@ export class CrowdRows {
         const at = this.memory.allocate(Math.max(4 * components, 4) * limbCount);
         try {
             this.readTo(at, field, { group, first: 0, count: limbCount });
+            this.list(group, [field, at, 4 * components]);
         } catch (error) {
             this.memory.free(at);
             throw error;
@@ -185,15 +198,25 @@ export class CrowdRows {
         const held = this.held[group].get(field);
         if (held) this.readTo(held.byteOffset, field, { group, first: 0, count: this.limbCount(group) });
     }
-    /** A swivel_frame for each of these groups, which lists the fields that values() has given. */
-    protected frames(groups: readonly number[], borrowed: Borrowed): number {
+    /** The frames of these groups alone. */
+    protected framesOf(groups: readonly number[], borrowed: Borrowed): number {
         const { bytes } = layout.swivel_frame, frames = borrowed.bytes(bytes * groups.length);
-        groups.forEach((group, n) => {
-            const list = [...this.held[group]].flatMap(([field, values]) => [field, values.byteOffset, 4 * this.componentCount(field, group)]);
-            const frame = new Structure(this.memory, "swivel_frame", frames + n * bytes);
-            frame.words("fields", borrowed.words(list)).words("field_count", this.held[group].size);
-        });
+        const of = (place: number): Uint8Array => this.memory.bytes(place, bytes);
+        groups.forEach((group, n) => of(frames + n * bytes).set(of(this.frames + group * bytes)));
         return frames;
+    }
+    /** Where a group's frame says which fields it lists, and how many. */
+    private listOf(group: number): Uint32Array {
+        const { bytes, fields } = layout.swivel_frame;
+        return this.memory.words(this.frames + group * bytes + fields, 2);
+    }
+    /** Adds a swivel_frame_field to a group's frame. */
+    private list(group: number, field: number[]): void {
+        const [before, count] = this.listOf(group), size = field.length, list = this.memory.allocate(4 * size * (count + 1));
+        const fields = this.memory.words(list, size * (count + 1));
+        fields.set(this.memory.words(before, size * count)), fields.set(field, size * count);
+        this.listOf(group).set([list, count + 1]);
+        this.memory.free(before);
     }
     private view(field: FieldNumber, at: number, limbCount: number, components: number): Values {
         const length = components * limbCount;
