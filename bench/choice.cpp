@@ -26,7 +26,7 @@ std::vector<std::uint32_t> random_words(std::uint32_t word_count, std::uint32_t 
 
 void add_choice(Suite& suite)
 {
-    const swivel_features features = kResident | SWIVEL_BUDGET;
+    const swivel_features features = kResident;
     for (const std::size_t level : {1u, 3u}) {
         const std::size_t arm_count = arms_within(level, features);
         const std::string place = level == 1 ? "/L2" : "/memory", family = "choice/" + suite.best_isa();
@@ -49,9 +49,10 @@ void add_choice(Suite& suite)
             const std::uint32_t blocks = swivel_block_count(crowd.get());
             std::vector<float> priorities(arm_count);
             for (std::size_t n = 0; n < arm_count; ++n) priorities[n] = static_cast<float>(1 + n / 16 * 7 % 31);
-            return [&crowd, blocks, priorities, words = std::vector<std::uint32_t>((blocks + 1) / 2)]() mutable {
+            return [&crowd, blocks, priorities, urgency = std::vector<float>(blocks),
+                    words = std::vector<std::uint32_t>((blocks + 1) / 2)]() mutable {
                 const swivel_in in{priorities.data(), sizeof(float)};
-                crowd.choose({&in, 1}, blocks / 10, words);
+                crowd.choose({&in, 1}, urgency, blocks / 10, words);
                 crowd.solve({.blocks = swivel_blocks{0, blocks}, .mask = words, .on_this_thread = true});
             };
         });

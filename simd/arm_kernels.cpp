@@ -122,7 +122,8 @@ SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
     for (std::uint32_t row = 0; row < row_count; ++row) __builtin_prefetch(input + std::size_t{row} * kLanes);
 }
 
-// The results of a step on their way to the rows, where limbs with bad input keep theirs.
+// The results of a step on their way to the rows, where limbs that are not chosen keep theirs. Those with bad input may
+// keep theirs, too.
 template <class T, swivel_features Features>
 struct StepAside {
     static constexpr std::uint32_t kRows = result_row_count(Features);
@@ -157,22 +158,21 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
         if (has(Features, SWIVEL_WORLD) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
         std::uint32_t fails = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
-            const auto solve_to = [&](float* to, std::uint32_t chosen) SWIVEL_INLINE_LAMBDA {
-                return solve_step(Rows<T, Features>{run, input + lane, to, chosen}, shared);
+            const auto solve_to = [&](float* to) SWIVEL_INLINE_LAMBDA {
+                return solve_step(Rows<T, Features>{run, input + lane, to, kEveryLane}, shared);
             };
-            std::uint32_t chosen = kEveryLane, failed = 0;
-            if constexpr (Selective) chosen = chosen_lanes(run, std::size_t{block} * kLanes + lane, lanes);
-            if (chosen == 0) continue;
-            if (Selective && run.keeps) {
+            if constexpr (Selective) {
+                const std::uint32_t chosen = chosen_lanes(run, std::size_t{block} * kLanes + lane, lanes);
+                if (chosen == 0) continue;
                 StepAside<T, Features> aside;
-                failed = lane_bits(!solve_to(aside.results, kEveryLane));
-                aside.store(results + lane, chosen & ~failed);
+                const std::uint32_t failed = lane_bits(!solve_to(aside.results)) & chosen;
+                aside.store(results + lane, run.keeps ? chosen & ~failed : chosen);
+                fails |= failed << lane;
             } else {
-                const Mask<T> holds = solve_to(results + lane, chosen);
+                const Mask<T> holds = solve_to(results + lane);
                 if (!all(holds)) [[unlikely]]
-                    failed = lane_bits(!holds);
+                    fails |= lane_bits(!holds) << lane;
             }
-            fails |= (failed & chosen) << lane;
         }
         if (fails != 0) [[unlikely]] {
             others.add(std::size_t{block} * kLanes, fails);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/solve_jobs.h"
+#include "tests/test_crowd.h"
 #include "tests/test_isa_scope.h"
 #include "tools/corpus/corpus.h"
 #include "tools/corpus/golden.h"
@@ -52,29 +53,30 @@ std::size_t word_count(const swivel_rows& rows)
     return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES;
 }
 
+std::vector<std::uint32_t> words_of(std::span<const float> rows)
+{
+    std::vector<std::uint32_t> words(rows.size());
+    std::memcpy(words.data(), rows.data(), words.size() * sizeof(std::uint32_t));
+    return words;
+}
 std::vector<std::uint32_t> words_of(const swivel_rows& rows)
 {
-    std::vector<std::uint32_t> words(word_count(rows));
-    std::memcpy(words.data(), rows.base, words.size() * sizeof(std::uint32_t));
-    return words;
+    return words_of(std::span<const float>(rows.base, word_count(rows)));
 }
 
 void poison(float* at) { std::memcpy(at, &kPoison, sizeof kPoison); }
-void poison(const swivel_rows& rows)
+void poison(std::span<float> rows)
 {
-    for (std::size_t n = 0; n < word_count(rows); ++n) poison(rows.base + n);
+    for (float& at : rows) poison(&at);
 }
+void poison(const swivel_rows& rows) { poison(std::span(rows.base, word_count(rows))); }
 
-// Calls act(lane) for each lane of all rows that belongs to no limb.
+// Calls act(lane) for each lane of a group's rows that belongs to no limb.
 template <class Act>
-void for_each_padding_lane(const Crowd& crowd, const swivel_rows& rows, std::uint32_t group_count, Act act)
+void for_each_padding_lane(const Crowd& crowd, std::uint32_t group, const swivel_rows& rows, Act act)
 {
-    std::vector<bool> used(std::size_t{rows.block_count} * SWIVEL_LANES);
-    for (std::uint32_t group = 0; group < group_count; ++group)
-        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
-            used[swivel_group_first_limb(crowd.get(), group) + n] = true;
-    for (std::size_t limb = 0; limb < used.size(); ++limb)
-        for (std::uint32_t row = 0; row < rows.row_count && !used[limb]; ++row)
+    for (std::size_t limb = swivel_group_limb_count(crowd.get(), group); limb < rows.block_count * SWIVEL_LANES; ++limb)
+        for (std::uint32_t row = 0; row < rows.row_count; ++row)
             act(rows.base + ((limb / SWIVEL_LANES) * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES);
 }
 
@@ -199,30 +201,27 @@ TEST_CASE("blocks outside the range are not written, and what lies in them does 
         if (recipe.features & corpus::kCompact) continue;  // see test_compact
         Crowd whole = make_crowd(recipe, 200);
         whole.solve();
-        const swivel_rows whole_out = swivel_result_rows(whole.get(), 0);
-        const std::vector<std::uint32_t> expected = words_of(whole_out);
-        REQUIRE(whole_out.block_count == 21);
+        const std::vector<std::span<float>> expected = block_rows(whole, swivel_result_rows);
+        REQUIRE(expected.size() == 21);
         for (const auto& [first, count] :
              {std::pair{0u, 1u}, {1u, 4u}, {3u, 9u}, {12u, 2u}, {13u, 8u}, {5u, 0u}, {0u, 21u}}) {
             Crowd crowd = make_crowd(recipe, 200);
-            const swivel_rows in = swivel_input_rows(crowd.get(), 0), out = swivel_result_rows(crowd.get(), 0);
-            poison(out);
-            const std::size_t block_in = std::size_t{in.row_count} * SWIVEL_LANES;
-            for (std::size_t n = 0; n < word_count(in); ++n)
-                if (n < first * block_in || n >= (first + count) * block_in) poison(in.base + n);
-            const std::vector<std::uint32_t> before = words_of(in);
-            crowd.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true});
-
-            const std::size_t block_out = std::size_t{out.row_count} * SWIVEL_LANES;
-            const std::vector<std::uint32_t> results = words_of(out);
-            std::size_t wrong = 0;
-            for (std::size_t n = 0; n < results.size(); ++n) {
-                const bool inside = n >= first * block_out && n < (first + count) * block_out;
-                wrong += results[n] != (inside ? expected[n] : kPoison);
+            const auto in = block_rows(crowd, swivel_input_rows), out = block_rows(crowd, swivel_result_rows);
+            std::vector<std::vector<std::uint32_t>> before;
+            for (std::size_t block = 0; block < 21; ++block) {
+                poison(out[block]);
+                if (block < first || block >= first + count) poison(in[block]);
+                before.push_back(words_of(in[block]));
             }
+            crowd.solve({.blocks = swivel_blocks{first, count}, .on_this_thread = true});
             INFO(full_name(recipe) << ", blocks " << first << " + " << count);
-            CHECK(wrong == 0);
-            CHECK(words_of(in) == before);
+            for (std::size_t block = 0; block < 21; ++block) {
+                const bool inside = block >= first && block < first + count;
+                const std::vector<std::uint32_t> results = words_of(out[block]);
+                CHECK(results ==
+                      (inside ? words_of(expected[block]) : std::vector<std::uint32_t>(results.size(), kPoison)));
+                CHECK(words_of(in[block]) == before[block]);
+            }
         }
     }
 }
@@ -281,11 +280,16 @@ TEST_CASE("padding lanes may hold anything, stay as they are and change nothing"
         for (const std::uint32_t word : {0x7fc00000u, kPoison, 0xffffffffu, 0x7f800000u, 0x00000001u, 0x00000000u}) {
             INFO(full_name(*recipe) << ", padding of " << word);
             const auto fill_and_solve = [&](Crowd& crowd) {
-                const swivel_rows rows = swivel_input_rows(crowd.get(), 0);
-                for_each_padding_lane(crowd, rows, 3, [&](float* lane) { std::memcpy(lane, &word, sizeof word); });
-                const std::vector<std::uint32_t> before = words_of(rows);
+                std::vector<std::vector<std::uint32_t>> before;
+                for (std::uint32_t group = 0; group < 3; ++group) {
+                    const swivel_rows rows = swivel_input_rows(crowd.get(), group);
+                    for_each_padding_lane(crowd, group, rows,
+                                          [&](float* lane) { std::memcpy(lane, &word, sizeof word); });
+                    before.push_back(words_of(rows));
+                }
                 crowd.solve();
-                CHECK(words_of(rows) == before);
+                for (std::uint32_t group = 0; group < 3; ++group)
+                    CHECK(words_of(swivel_input_rows(crowd.get(), group)) == before[group]);
             };
             CHECK(digest_of(*recipe, fill_and_solve) == golden_of(*recipe));
         }
@@ -296,7 +300,7 @@ TEST_CASE("solving twice, and over poisoned results, gives the same bits")
     for (const Recipe& recipe : recipes_of(Part::hard)) {
         INFO(full_name(recipe));
         const std::uint64_t digest = digest_of(recipe, [](Crowd& crowd) {
-            poison(swivel_result_rows(crowd.get(), 0));
+            for (const std::span<float> block : block_rows(crowd, swivel_result_rows)) poison(block);
             crowd.solve();
             crowd.solve();
         });

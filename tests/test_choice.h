@@ -39,19 +39,23 @@ struct Results {
 
     explicit Results(const Crowd& crowd)
     {
-        const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
-        const swivel_words compact = swivel_compact_rows(crowd.get(), 0);
-        row_count = compact.base ? compact.row_count : rows.row_count;
-        for (std::size_t limb = 0; limb < lane_count(crowd); ++limb)
-            for (std::uint32_t row = 0; row < row_count; ++row) {
-                const std::size_t at = (limb / 16 * row_count + row) * 16 + limb % 16;
-                std::uint32_t word = 0;
-                if (compact.base)
-                    word = compact.base[at];
-                else
-                    std::memcpy(&word, rows.base + at, sizeof word);
-                words.push_back(word);
-            }
+        // All groups have the same features.
+        row_count = swivel_result_rows(crowd.get(), 0).row_count + swivel_compact_rows(crowd.get(), 0).row_count;
+        for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+            const swivel_rows rows = swivel_result_rows(crowd.get(), group);
+            const swivel_words compact = swivel_compact_rows(crowd.get(), group);
+            const std::size_t lanes = std::size_t{rows.block_count} * SWIVEL_LANES;
+            for (std::size_t limb = 0; limb < lanes; ++limb)
+                for (std::uint32_t row = 0; row < row_count; ++row) {
+                    const std::size_t at = (limb / 16 * row_count + row) * 16 + limb % 16;
+                    std::uint32_t word = 0;
+                    if (compact.base)
+                        word = compact.base[at];
+                    else
+                        std::memcpy(&word, rows.base + at, sizeof word);
+                    words.push_back(word);
+                }
+        }
     }
     bool same(const Results& other, std::uint32_t limb) const
     {
@@ -63,14 +67,18 @@ struct Results {
 // Fills all results with what no solve leaves, a new pattern for each word.
 inline void poison_results(Crowd& crowd)
 {
-    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
-    for (std::uint32_t n = 0; n < rows.block_count * rows.row_count * SWIVEL_LANES; ++n) {
-        const std::uint32_t word = 0x7fa00000u + n;  // a signalling NaN
-        std::memcpy(rows.base + n, &word, sizeof word);
+    std::uint32_t n = 0;
+    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
+        const swivel_rows rows = swivel_result_rows(crowd.get(), group);
+        for (float& at : std::span(rows.base, float_count(rows))) {
+            const std::uint32_t word = 0x7fa00000u + n++;  // a signalling NaN
+            std::memcpy(&at, &word, sizeof word);
+        }
+        const swivel_words compact = swivel_compact_rows(crowd.get(), group);
+        for (std::uint16_t& at :
+             std::span(compact.base, std::size_t{compact.block_count} * compact.row_count * SWIVEL_LANES))
+            at = static_cast<std::uint16_t>(0x8000u + n++);
     }
-    const swivel_words compact = swivel_compact_rows(crowd.get(), 0);
-    for (std::uint32_t n = 0; n < compact.block_count * compact.row_count * SWIVEL_LANES; ++n)
-        compact.base[n] = static_cast<std::uint16_t>(0x8000u + n);
 }
 
 // The lanes that are limbs.

@@ -142,10 +142,10 @@ TEST_CASE("C++: an explanation is whole, however long")
     constexpr swivel_features kLimits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
                                         SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                         SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_FLEXION_LIMIT;
-    Crowd crowd = crowd_with(kEverything | kLimits | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
-                                 SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE |
-                                 SWIVEL_WITH_CLAVICLE,
-                             {group_of(2)});
+    Crowd crowd =
+        crowd_with(kEverything | kLimits | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH |
+                       SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_ANGLE | SWIVEL_WITH_CLAVICLE,
+                   {group_of(2)});
     for (swivel_field field : every_field()) {
         const std::uint32_t rows = swivel_field_row_count(crowd.get(), 0, field);
         if (field >= SWIVEL_INPUT_END || rows == 0) continue;

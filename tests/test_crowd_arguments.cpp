@@ -47,7 +47,8 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     }
     for (int bit = 0; bit < 64; ++bit) {  // those between the features and around the number of twist bones
         const swivel_features feature = UINT64_C(1) << bit;
-        if (feature <= SWIVEL_WITH_CLAVICLE || (feature >= SWIVEL_WITH_TWIST_BONES && feature < 8 * SWIVEL_WITH_TWIST_BONES))
+        if (feature <= SWIVEL_WITH_CLAVICLE ||
+            (feature >= SWIVEL_WITH_TWIST_BONES && feature < 8 * SWIVEL_WITH_TWIST_BONES))
             continue;
         groups[0].features = SWIVEL_WITH_HAND | feature;
         refuse(&good);
@@ -85,7 +86,8 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     groups[0].wrist_order = static_cast<swivel_euler_order>(7);
     refuse(&good);
     groups[0].wrist_order = SWIVEL_XYZ;
-    groups[0].on_bad_input = static_cast<swivel_on_bad_input>(2);
+    const std::uint32_t unknown = 2;
+    std::memcpy(&groups[0].on_bad_input, &unknown, sizeof unknown);
     refuse(&good);
     groups[0].on_bad_input = SWIVEL_KEEP_POSE;
     groups[0].features = SWIVEL_COMPACT;
@@ -201,12 +203,12 @@ TEST_CASE("errors name group and field")
          "group 1, target: stride 4 is smaller than a value, 12 bytes");
     says(swivel_write(c, SWIVEL_POLE, 0, 0, 1, {nullptr, 12}), "group 0, pole: data is null");
     says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
-         "group 1, parent_scale: not part of this crowd; create it with SWIVEL_WORLD");
+         "group 1, parent_scale: not part of this group; create it with SWIVEL_WORLD");
     says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
     says(swivel_write(c, SWIVEL_INPUT_END, 0, 0, 1, {value, 0}),
          "there is no field " + std::to_string(SWIVEL_INPUT_END));
     says(swivel_read(c, SWIVEL_WRIST, 0, 0, 1, {value, 16}),
-         "group 0, wrist: not part of this crowd; create it with SWIVEL_WITH_HAND");
+         "group 0, wrist: not part of this group; create it with SWIVEL_WITH_HAND");
     says(swivel_read(c, SWIVEL_ELBOW, 0, 0, 1, {value, 0}),
          "group 0, elbow: stride 0 is smaller than a value, 8 bytes");
     says(swivel_read(c, SWIVEL_INPUT_END, 0, 0, 1, {value, 16}),

@@ -144,7 +144,8 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
                     const std::uint32_t most = random.below(500), step = 1 + random.below(40);
                     std::uint32_t solved = 0;
                     const auto solve = [&] {
-                        solved = whole.solve({.priorities = priorities.streams, .urgency = of_whole, .most_blocks = most});
+                        solved =
+                            whole.solve({.priorities = priorities.streams, .urgency = of_whole, .most_blocks = most});
                     };
 #ifdef SWIVEL_WITH_TBB
                     oneapi::tbb::task_arena(threads).execute(solve);
@@ -297,7 +298,8 @@ TEST_CASE("wrong budgets are refused and change nothing")
     CHECK_THROWS_AS(crowd.solve({.priorities = {}, .most_blocks = 1}), Error);
     CHECK_THROWS_AS(crowd.solve({.urgency = urgency}), Error);
     CHECK_THROWS_AS(crowd.solve({.groups = {0u}, .priorities = {good}, .most_blocks = 1}), Error);
-    CHECK_THROWS_AS(crowd.solve({.priorities = {good}, .urgency = std::span(urgency).first(3), .most_blocks = 1}), Error);
+    CHECK_THROWS_AS(crowd.solve({.priorities = {good}, .urgency = std::span(urgency).first(3), .most_blocks = 1}),
+                    Error);
     CHECK(count == 7);
     CHECK(urgency == no_urgency(crowd));
     for (const std::uint32_t word : words) CHECK(word == 7);

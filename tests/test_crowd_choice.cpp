@@ -32,7 +32,7 @@ struct Scene {
     std::vector<Results> states;  // before, poisoned, and after solving all
 
     Scene(swivel_features of, const std::vector<std::uint32_t>& sizes, std::uint64_t seed)
-        : features(of), groups(groups_of(sizes)), crowd(of, groups)
+        : features(of), groups(groups_of(sizes)), crowd(crowd_with(of, groups))
     {
         Random random{seed};
         const auto group_count = static_cast<std::uint32_t>(groups.size());
@@ -221,10 +221,11 @@ TEST_CASE("choosing allocates nothing")
 {
     const swivel_group_def group = group_of(9000);
     for (const swivel_features features : {swivel_features{0}, SWIVEL_COMPACT}) {
-        Crowd crowd = crowd_with(features | SWIVEL_BUDGET, {&group, 1});
+        Crowd crowd = crowd_with(features, {&group, 1});
         Random random{3};
         const std::vector<std::uint32_t> mask = random_mask(crowd, random);
         std::vector<std::uint32_t> list, words(mask_words(crowd));
+        std::vector<float> urgency(swivel_block_count(crowd.get()));
         for (int n = 0; n < 4000; ++n) list.push_back(random.below(9000));
         const float priority = 1;
         const swivel_in priorities{&priority, 0};
@@ -235,7 +236,7 @@ TEST_CASE("choosing allocates nothing")
                 crowd.solve({.priorities = {&priorities, 1}, .most_blocks = 300});
             };
             crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .on_this_thread = true});
-            crowd.choose({&priorities, 1}, 300, words);
+            crowd.choose({&priorities, 1}, urgency, 300, words);
 #ifdef SWIVEL_WITH_TBB
             static oneapi::tbb::task_arena arena(1);
             arena.execute(all);
@@ -300,7 +301,7 @@ TEST_CASE("wrong choices are refused with one line and change nothing")
 TEST_CASE("a job chooses in one way, and lists and priorities are for the whole crowd")
 {
     const swivel_group_def group = group_of(40);
-    Crowd crowd = crowd_with(SWIVEL_BUDGET, {&group, 1});
+    Crowd crowd = crowd_with(0, {&group, 1});
     const std::uint32_t mask[] = {~0u, ~0u}, limb = 3;
     const swivel_limbs list{&limb, 1};
     const float priority = 1;
@@ -346,7 +347,7 @@ TEST_CASE("a job chooses in one way, and lists and priorities are for the whole 
 TEST_CASE("a solve says how many limbs it solved")
 {
     const swivel_group_def groups[] = {group_of(20), group_of(5), group_of(40)};
-    Crowd crowd = crowd_with(SWIVEL_BUDGET, groups);
+    Crowd crowd = crowd_with(0, groups);
     CHECK(crowd.solve() == 65);
     CHECK(crowd.solve({.blocks = swivel_blocks{1, 2}}) == 9);
     CHECK(crowd.solve({.blocks = swivel_blocks{1, 2}, .mask = std::vector<std::uint32_t>(3, ~0u)}) == 9);

@@ -197,11 +197,11 @@ TEST_CASE("bones and shares out of range are bad input; without a world there is
         CHECK(flags[n] == SWIVEL_BAD_INPUT);
         CHECK(turns[n] == Float4{0, 0, 0, 1});
     }
-    const swivel_group_def group = group_of(1);
-    swivel_crowd_def def = def_of(group);
+    swivel_group_def group = group_of(1);
+    const swivel_crowd_def def = def_of(group);
     for (const swivel_features features :
          {SWIVEL_WITH_CLAVICLE, swivel_features{SWIVEL_WORLD | SWIVEL_COMPACT | SWIVEL_WITH_CLAVICLE}}) {
-        def.features = features;
+        group.features = features;
         swivel_crowd* none = nullptr;
         CHECK_REFUSED(swivel_crowd_create(&def, &none), SWIVEL_INVALID_ARGUMENT);
     }

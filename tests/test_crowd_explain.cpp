@@ -269,14 +269,12 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
           SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_SHOULDER_CONE,
           SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX, SWIVEL_WITH_WRIST_BOX | SWIVEL_WITH_HAND_CONE}) {
         const Chained limb = chained(random);
-        swivel_group_def group = swivel::group(count, limb.bound);
-        swivel_crowd_def def = def_of(group);
-        def.features = kWorldJointsHand | limits;
-        def.shoulder_order = SWIVEL_ZXY;
-        def.wrist_order = SWIVEL_YXZ;
-        Crowd crowd(def);
-        def.features |= SWIVEL_COMPACT;
-        Crowd compact(def);
+        swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | limits);
+        group.shoulder_order = SWIVEL_ZXY;
+        group.wrist_order = SWIVEL_YXZ;
+        Crowd crowd({group});
+        group.features |= SWIVEL_COMPACT;
+        Crowd compact({group});
         const Vector3d shoulder_axis = random.direction(), hand_axis = random.direction(),
                        twist_axis = random.direction();
         const AngleRange humeral = narrow(), forearm = narrow(), hand = narrow();

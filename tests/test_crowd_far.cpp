@@ -93,7 +93,8 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
         for (const bool one_for_all : {false, true}) {
             INFO("features " << features << ", one for all " << one_for_all);
             const swivel_group_def group = group_of(count);
-            Crowd home = crowd_with(features, {&group, 1}), far = crowd_with(features, {&group, 1}), framed = crowd_with(features, {&group, 1});
+            Crowd home = crowd_with(features, {&group, 1}), far = crowd_with(features, {&group, 1}),
+                  framed = crowd_with(features, {&group, 1});
             Random random{features};
             std::vector<FarLimb> limbs;
             for (std::uint32_t n = 0; n < count; ++n) {
@@ -276,9 +277,9 @@ TEST_CASE("wrong doubles are refused with one line and change nothing")
 {
     const swivel_group_def group = group_of(5);
     Crowd points = crowd_with(SWIVEL_WORLD | SWIVEL_WITH_HAND, {&group, 1}), plain = crowd_with(0, {&group, 1}),
-        directions(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&group, 1});
+          directions = crowd_with(SWIVEL_WORLD | SWIVEL_POLE_DIRECTION, {&group, 1});
     swivel_crowd* const c = points.get();
-    const double values[] = {5, 6, 7};
+    double values[] = {5, 6, 7};
     const swivel_in good{values, 0}, none{}, narrow{values, 23};
     const auto before = all_words(points), before_directions = all_words(directions);
     const auto bad = SWIVEL_INVALID_ARGUMENT;

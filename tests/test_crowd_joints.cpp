@@ -100,7 +100,7 @@ TEST_CASE("skeletons: local rotations put the wrist on its target, the hand as w
             for (std::uint32_t g = 0; g < kGroups; ++g) {
                 chains.push_back(random_chain(random, rest));
                 bound.push_back(bind(chains.back()));
-                groups.push_back(swivel::group(kLimbs, bound.back()));
+                groups.push_back(swivel::group(kLimbs, bound.back(), features));
                 CHECK(std::fabs(bound[g].lengths[0] - vec(chains[g].elbow_offset).norm()) <=
                       1e-6 * bound[g].lengths[0]);
                 CHECK(std::fabs(bound[g].lengths[1] - vec(chains[g].wrist_offset).norm()) <=
@@ -201,7 +201,7 @@ TEST_CASE("skeletons: the negated bend bends the limb the other way")
         const swivel_binding one = bind(chain);
         for (float& x : chain.bend) x = -x;
         const swivel_binding other = bind(chain);
-        const swivel_group_def groups[] = {swivel::group(1, one), swivel::group(1, other)};
+        const swivel_group_def groups[] = {swivel::group(1, one, features), swivel::group(1, other, features)};
         Crowd crowd = crowd_with(features, groups);
         const Limb limb = random_limb(random, features, {one.lengths[0], one.lengths[1]});
         write_limb(crowd, 0, 0, limb);
@@ -238,7 +238,7 @@ TEST_CASE("skeletons: a mirrored limb with mirrored goals has mirrored rotations
             std::ranges::copy(mirror3(as3(left.bend)), right.bend);
             const swivel_binding l = bind(left), r = bind(right);
             constexpr swivel_features features = SWIVEL_JOINTS | SWIVEL_WORLD | SWIVEL_WITH_HAND;
-            const swivel_group_def groups[] = {swivel::group(1, l), swivel::group(1, r)};
+            const swivel_group_def groups[] = {swivel::group(1, l, features), swivel::group(1, r, features)};
             Crowd crowd = crowd_with(features, groups);
             const Limb limb = random_limb(random, features, {l.lengths[0], l.lengths[1]});
             Limb other = limb;

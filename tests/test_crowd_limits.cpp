@@ -22,14 +22,10 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     constexpr std::uint32_t count = 1000;
     Random random{4};
     const Chained limb = chained(random);
-    swivel_group_def group = swivel::group(count, limb.bound);
-    swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = kWorldJointsHand | kLimits;
-    def.groups = &group;
-    def.group_count = 1;
-    def.shoulder_order = SWIVEL_YZX;
-    def.wrist_order = SWIVEL_ZYX;
-    Crowd crowd(def);
+    swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | kLimits);
+    group.shoulder_order = SWIVEL_YZX;
+    group.wrist_order = SWIVEL_ZYX;
+    Crowd crowd({group});
     struct Limited {
         Vector3d shoulder_axis, hand_axis, twist_axis;
         double shoulder, hand;

@@ -26,14 +26,14 @@ struct Ledger {
 
 TEST_CASE("a crowd takes swivel_crowd_bytes() once, from whom it was told to")
 {
-    const swivel_group_def groups[] = {group_of(100), group_of(3), group_of(50)};
+    swivel_group_def groups[] = {group_of(100), group_of(3), group_of(50)};
     for (swivel_features features = 0; features < 16; ++features) {
         if ((features & SWIVEL_POLE_DIRECTION) && !(features & SWIVEL_WORLD)) continue;
         INFO("features " << features);
         swivel_crowd_def def = def_of(groups[0]);
         def.groups = groups;
         def.group_count = 3;
-        def.features = features;
+        for (swivel_group_def& group : groups) group.features = features;
         const std::size_t bytes = swivel_crowd_bytes(&def);
         REQUIRE(bytes % 64 == 0);
 
@@ -77,7 +77,7 @@ TEST_CASE("a crowd takes swivel_crowd_bytes() once, from whom it was told to")
             CHECK(ledger.taken == 2);
             for (std::uint32_t group = 0; group < 3; ++group) in_place.write_all(SWIVEL_TARGET, group, Float3{0, 1, 1});
             in_place.solve();
-            const swivel_rows out = swivel_result_rows(in_place.get(), 0);
+            const swivel_rows out = swivel_result_rows(in_place.get(), 2);
             const auto* end =
                 reinterpret_cast<unsigned char*>(out.base + std::size_t{out.block_count} * out.row_count * 16);
             CHECK(end == room.data() + start + bytes);

@@ -49,7 +49,7 @@ TEST_CASE("groups start blocks, fields are rows in the order of the table")
             row += sizes[field];
         }
         CHECK(swivel_result_rows(crowd.get(), 0).row_count == row);
-        CHECK(swivel_result_rows(crowd.get(), 0).block_count == 7);
+        CHECK(swivel_result_rows(crowd.get(), 3).block_count == (groups[3].limb_count + 15) / 16);
         for (const swivel_rows rows : {swivel_input_rows(crowd.get(), 0), swivel_result_rows(crowd.get(), 0)})
             CHECK(reinterpret_cast<std::uintptr_t>(rows.base) % 64 == 0);
     }
@@ -80,7 +80,7 @@ TEST_CASE("a new crowd's inputs are what anybody would guess, and else bad")
 TEST_CASE("a limb that lacks its target, its shoulder's place or its lengths has bad input, and no other")
 {
     const auto flags_without = [](swivel_field missing) {
-        Crowd crowd(SWIVEL_WORLD, std::span<const swivel_group_def>({group_of(20)}));
+        Crowd crowd = crowd_with(SWIVEL_WORLD, {group_of(20)});
         const auto give = [&](swivel_field field, auto value) {
             const std::vector values(field == missing ? 19 : 20, value);
             crowd.write(field, 0, values, 0);
@@ -110,7 +110,7 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
         chain.bend[2] = 1;
         return bind(chain);
     };
-    const swivel_group_def groups[] = {swivel::group(33, slant(1)), swivel::group(7, slant(-1))};
+    const swivel_group_def groups[] = {swivel::group(33, slant(1), 0), swivel::group(7, slant(-1), 0)};
     constexpr swivel_features plain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND,
                               limb = SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | 3 * SWIVEL_WITH_TWIST_BONES |
                                      SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
@@ -149,10 +149,12 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
 {
     const swivel_group_def groups[] = {group_of(5), group_of(37)};
     // Every field there is: all features that go together.
-    constexpr swivel_features others = SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL |
-                                       SWIVEL_POLE_INCOMING | SWIVEL_WITH_AIM | SWIVEL_BUDGET;
-    Crowd most(((2 * SWIVEL_BUDGET - 1) & ~others) | 7 * SWIVEL_WITH_TWIST_BONES, groups),
-        aiming(SWIVEL_WITH_AIM, groups);
+    constexpr swivel_features others =
+        SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_AIM;
+    swivel_features every = 0;
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) every |= info.feature & ~others;
+    Crowd most = crowd_with(every, groups), aiming = crowd_with(SWIVEL_WITH_AIM, groups);
     Random random{1};
     for (const swivel_field field : every_field()) {
         Crowd& crowd = field == SWIVEL_AIM ? aiming : most;
@@ -163,10 +165,10 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
         for (const std::size_t stride : {bytes, bytes + 1, bytes + 3, bytes + 4, bytes + 81}) {
             for (const std::size_t misaligned : {0u, 1u, 2u, 3u}) {
                 INFO("field " << field << ", stride " << stride << ", from byte " << misaligned);
-                const swivel_rows rows = input ? swivel_input_rows(crowd.get(), 0) : swivel_result_rows(crowd.get(), 0);
-                const std::uint32_t row0 = swivel_field_first_row(crowd.get(), 0, field);
+                const swivel_rows rows = input ? swivel_input_rows(crowd.get(), 1) : swivel_result_rows(crowd.get(), 1);
+                const std::uint32_t row0 = swivel_field_first_row(crowd.get(), 1, field);
                 const auto place = [&](std::uint32_t n, std::uint32_t c) {
-                    const std::uint32_t limb = swivel_group_first_limb(crowd.get(), 1) + first + n;
+                    const std::uint32_t limb = first + n;
                     return rows.base + (std::size_t{limb / 16} * rows.row_count + row0 + c) * 16 + limb % 16;
                 };
                 std::vector<unsigned char> data(misaligned + stride * count), got(data.size(), 0xee);
@@ -209,21 +211,21 @@ namespace {
 // swivel_digest() as the header describes it, by limbs and their values: floats and words of rows by swivel.h's layout.
 std::uint64_t described_digest(const Crowd& crowd)
 {
-    const swivel_rows floats = swivel_result_rows(crowd.get(), 0);
-    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
-    const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
     std::uint64_t hashes[SWIVEL_LANES] = {}, whole = 0;
     const auto step = [](std::uint64_t& hash, std::uint64_t number) {
         const std::uint64_t product = (hash ^ number) * 0x9e3779b97f4a7c15u;
         hash = product ^ product >> 32;
     };
-    for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g)
+    for (std::uint32_t g = 0; g < swivel_group_count(crowd.get()); ++g) {
+        const swivel_rows floats = swivel_result_rows(crowd.get(), g);
+        const swivel_words words = swivel_compact_rows(crowd.get(), g);
+        const std::uint32_t row_count = floats.row_count + words.row_count;  // one is 0
         for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), g); ++n)
             for (std::uint32_t row = 0; row < row_count; ++row) {
-                const std::uint32_t limb = swivel_group_first_limb(crowd.get(), g) + n;
-                const std::size_t at = (std::size_t{limb / 16} * row_count + row) * 16 + limb % 16;
-                step(hashes[limb % 16], floats.base ? std::bit_cast<std::uint32_t>(floats.base[at]) : words.base[at]);
+                const std::size_t at = (std::size_t{n / 16} * row_count + row) * 16 + n % 16;
+                step(hashes[n % 16], floats.base ? std::bit_cast<std::uint32_t>(floats.base[at]) : words.base[at]);
             }
+    }
     for (const std::uint64_t hash : hashes) step(whole, hash);
     return whole;
 }
@@ -256,26 +258,25 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         // Inputs do not count, padding does not, every limb does.
         crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 0.5f});
         CHECK(crowd.digest() == solved);
-        const swivel_rows floats = swivel_result_rows(crowd.get(), 0);
-        const swivel_words words = swivel_compact_rows(crowd.get(), 0);
-        const std::uint32_t row_count = floats.base ? floats.row_count : words.row_count;
-        const auto change = [&](std::uint32_t limb, std::uint32_t row) {
+        const auto change = [&](std::uint32_t g, std::uint32_t limb, std::uint32_t row) {
+            const swivel_rows floats = swivel_result_rows(crowd.get(), g);
+            const swivel_words words = swivel_compact_rows(crowd.get(), g);
+            const std::uint32_t row_count = floats.row_count + words.row_count;
             const std::size_t at = (std::size_t{limb / 16} * row_count + row) * 16 + limb % 16;
             if (floats.base)
                 floats.base[at] = -floats.base[at];
             else
                 words.base[at] ^= 1;
         };
-        change(1, 0);        // padding of the first group
-        change(32 + 37, 0);  // and of the last
+        change(0, 1, 0);   // padding of the first group
+        change(2, 37, 0);  // and of the last
         CHECK(crowd.digest() == solved);
         for (std::uint32_t g = 0; g < 3; ++g)
             for (std::uint32_t n = 0; n < counts[g]; ++n)
                 for (const std::uint32_t row : {0u, 3u}) {
-                    const std::uint32_t limb = swivel_group_first_limb(crowd.get(), g) + n;
-                    change(limb, row);
+                    change(g, n, row);
                     CHECK(crowd.digest() != solved);
-                    change(limb, row);
+                    change(g, n, row);
                 }
         CHECK(crowd.digest() == solved);
     }

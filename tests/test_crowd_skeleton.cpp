@@ -31,7 +31,8 @@ Locals posed(const RestSkeleton& skeleton, const Crowd& crowd, std::uint32_t n)
     Locals locals = rest_locals(skeleton);
     locals[skeleton.shoulder] = result_of(crowd, SWIVEL_SHOULDER, n);
     locals[skeleton.elbow] = result_of(crowd, SWIVEL_ELBOW, n);
-    if (swivel_field_row_count(crowd.get(), 0, SWIVEL_WRIST)) locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
+    if (swivel_field_row_count(crowd.get(), 0, SWIVEL_WRIST))
+        locals[skeleton.wrist] = result_of(crowd, SWIVEL_WRIST, n);
     if (swivel_field_row_count(crowd.get(), 0, SWIVEL_TWIST_BONES))
         for (std::uint32_t bone = 0; bone < skeleton.twist_bones.size(); ++bone)
             locals[skeleton.twist_bones[bone]] = result_of(crowd, SWIVEL_TWIST_BONES, n, 4 * bone);
@@ -396,15 +397,15 @@ TEST_CASE("swivel_bind_joints refuses rest poses that are none, and skeletons wi
 TEST_CASE("a crowd has as many twist bones as its bindings, or bindings that do not know them")
 {
     Figure figure;
-    const swivel_group_def group = swivel::group(1, bind(figure.skeleton, figure.joints));
+    const swivel_group_def group = swivel::group(1, bind(figure.skeleton, figure.joints), 0);
     for (const std::uint32_t bones : {1u, 3u})
         CHECK_THROWS_WITH(
-            Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}),
-            Catch::Contains("group 0's binding has 2 twist bones, this crowd has " + std::to_string(bones)));
+            crowd_with(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}),
+            Catch::Contains("group 0's binding has 2 twist bones, its features " + std::to_string(bones)));
     for (const std::uint32_t bones : {0u, 2u})
-        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
-    CHECK_NOTHROW(Crowd(SWIVEL_WITH_HAND | 5 * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
+        CHECK_NOTHROW(crowd_with(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
+    CHECK_NOTHROW(crowd_with(SWIVEL_WITH_HAND | 5 * SWIVEL_WITH_TWIST_BONES, {&group, 1}));
     const swivel_group_def chain = group_of(1);
     for (std::uint32_t bones = 0; bones <= 7; ++bones)
-        CHECK_NOTHROW(Crowd(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&chain, 1}));
+        CHECK_NOTHROW(crowd_with(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&chain, 1}));
 }

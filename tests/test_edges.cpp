@@ -261,9 +261,9 @@ swivel_binding some_binding(float side)
 
 Crowd good_crowd(swivel_features features)
 {
-    const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1)),
-                                       swivel::group(kSecond, some_binding(-1))};
-    Crowd crowd = crowd_with(features, groups);
+    const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1), features),
+                                       swivel::group(kSecond, some_binding(-1), features)};
+    Crowd crowd(groups);
     Random random{features + 1};
     for (std::uint32_t group = 0; group < 2; ++group) {
         const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);

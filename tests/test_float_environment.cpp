@@ -78,8 +78,7 @@ constexpr swivel_features kFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH
 // A solved crowd with limits, steps, hands and some bad inputs. compact: without steps, in words.
 Crowd random_crowd(Random& random, bool compact)
 {
-    const swivel_features features =
-        compact ? SWIVEL_COMPACT | (kFeatures & ~SWIVEL_WITH_MOST_SWIVEL) : kFeatures | SWIVEL_BUDGET;
+    const swivel_features features = compact ? SWIVEL_COMPACT | (kFeatures & ~SWIVEL_WITH_MOST_SWIVEL) : kFeatures;
     Crowd crowd = crowd_of(features, kLimbs, group_of(1).binding);
     std::vector<Float3> targets(kLimbs), poles(kLimbs);
     std::vector<Float4> hands(kLimbs), parents(kLimbs);
@@ -182,9 +181,9 @@ const std::map<std::string, Make> kComputing = {
          // On the edge of unit length: 1e-5 is allowed.
          group.binding.parent_from_arm[3] = static_cast<float>(1 + random.between(4.9e-6, 5.1e-6));
          if (random.below(4) == 0) group.binding.fore_from_arm[random.below(4)] = any_float(random);
+         group.features = SWIVEL_JOINTS;
          return [group](Record& to) {
-             swivel_crowd_def def = def_of(group);
-             def.features = SWIVEL_JOINTS;
+             const swivel_crowd_def def = def_of(group);
              to.add(swivel_crowd_bytes(&def));
          };
      }},
@@ -193,9 +192,9 @@ const std::map<std::string, Make> kComputing = {
          swivel_group_def group = group_of(3);
          group.binding.parent_from_arm[3] = static_cast<float>(1 + random.between(4.9e-6, 5.1e-6));
          group.binding.shoulder_rest[1] = random.below(4) ? 1e-4f : any_float(random);
+         group.features = SWIVEL_JOINTS;
          return [group](Record& to) {
-             swivel_crowd_def def = def_of(group);
-             def.features = SWIVEL_JOINTS;
+             const swivel_crowd_def def = def_of(group);
              swivel_crowd* crowd = nullptr;
              to.add(swivel_crowd_create(&def, &crowd));
              to.add(swivel_digest(crowd));
@@ -249,13 +248,15 @@ const std::map<std::string, Make> kComputing = {
          std::array<float, kLimbs> priorities;
          for (float& priority : priorities) priority = any_float(random);
          return [priorities](Record& to) {
-             Crowd crowd = crowd_of(SWIVEL_BUDGET, kLimbs);  // anew, because each call leaves urgencies
+             Crowd crowd = crowd_of(0, kLimbs);
+             float urgency[(kLimbs + 15) / 16] = {};
              const swivel_in each{priorities.data(), sizeof(float)};
              std::uint32_t mask[2] = {};
              for (int n = 0; n < 4; ++n) {
-                 to.add(swivel_choose(crowd.get(), &each, 1, mask, 2, nullptr));
+                 to.add(swivel_choose(crowd.get(), &each, urgency, 1, mask, 2, nullptr));
                  to.add(mask);
              }
+             to.add(urgency);
          };
      }},
     {"swivel_explain",
@@ -406,7 +407,10 @@ const std::set<std::string> kWithoutFloats = {"swivel_version",         "swivel_
                                               "swivel_reset",           "swivel_find",
                                               "swivel_blade_name",      "swivel_isa_name",
                                               "swivel_use_isa",         "swivel_isa_at",
-                                              "swivel_isa_runs"};
+                                              "swivel_isa_runs",        "swivel_group_count",
+                                              "swivel_group_features",  "swivel_component_count",
+                                              "swivel_describe_field",  "swivel_describe_feature",
+                                              "swivel_flag_name"};
 
 // How many sets of inputs a function gets. swivel_verify() always checks some 300,000 hard poses.
 int repeats_of(const std::string& name) { return name == "swivel_verify" ? 1 : name == "swivel_explain" ? 20 : 200; }

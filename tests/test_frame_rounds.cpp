@@ -35,7 +35,7 @@ struct Problem {
     swivel_blocks blocks = {};
     std::vector<std::uint32_t> mask;  // empty: none is given
 
-    Crowd crowd() const { return Crowd(SWIVEL_JOINTS, groups); }
+    Crowd crowd() const { return crowd_with(SWIVEL_JOINTS, groups); }
     template <class Bytes>
     auto* member(Bytes& bytes, std::uint32_t group, std::uint32_t n, std::size_t offset) const
     {
@@ -140,7 +140,9 @@ std::vector<Frame> frames_in(const Problem& problem, Bytes& bytes)
     std::vector<Frame> frames(problem.groups.size());
     for (std::uint32_t g = 0; g < problem.groups.size(); ++g) {
         Frame& frame = frames[g];
-        const auto in = [&](std::size_t offset) { return swivel_in{problem.member(bytes, g, 0, offset), problem.stride}; };
+        const auto in = [&](std::size_t offset) {
+            return swivel_in{problem.member(bytes, g, 0, offset), problem.stride};
+        };
         const auto out = [&](std::size_t offset) {
             return swivel_out{problem.member(bytes, g, 0, offset), problem.stride};
         };
@@ -196,14 +198,12 @@ void solve_by_limbs(const Problem& problem, Crowd& crowd, Bytes& bytes)
 std::vector<std::uint32_t> limb_words(const Problem& problem, const Crowd& crowd)
 {
     std::vector<std::uint32_t> words;
-    for (const swivel_rows rows : {swivel_input_rows(crowd.get(), 0), swivel_result_rows(crowd.get(), 0)})
-        for (std::uint32_t group = 0; group < problem.groups.size(); ++group) {
-            const std::size_t first = swivel_group_first_limb(crowd.get(), group);
-            for (std::size_t limb = first; limb < first + swivel_group_limb_count(crowd.get(), group); ++limb)
+    for (std::uint32_t group = 0; group < problem.groups.size(); ++group)
+        for (const swivel_rows rows : {swivel_input_rows(crowd.get(), group), swivel_result_rows(crowd.get(), group)})
+            for (std::size_t limb = 0; limb < swivel_group_limb_count(crowd.get(), group); ++limb)
                 for (std::size_t row = 0; row < rows.row_count; ++row)
                     words.push_back(std::bit_cast<std::uint32_t>(
                         rows.base[(limb / SWIVEL_LANES * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES]));
-        }
     return words;
 }
 

@@ -232,18 +232,19 @@ TEST_CASE("the other calls take at most 32 KiB of stack")
     swivel_crowd_def def = def_of(groups[0]);
     def.groups = groups;
     def.group_count = 2;
-    def.features = kEverything | SWIVEL_BUDGET;
+    for (swivel_group_def& group : groups) group.features = kEverything;
     swivel_crowd* crowd = nullptr;
     most.take("create", [&] { swivel_crowd_create(&def, &crowd); });
     REQUIRE(crowd);
     std::vector<float> many(40 * 12);
     std::uint32_t mask[2];
+    float urgency[4] = {};
     const swivel_in priorities[] = {{many.data(), 0}, {many.data(), 0}};
     for (const swivel_field field : every_field()) {
         most.take("write", [&] { swivel_write(crowd, field, 0, 0, 40, {many.data(), 48}); });
         most.take("read", [&] { swivel_read(crowd, field, 0, 0, 40, {many.data(), 48}); });
     }
-    most.take("choose", [&] { swivel_choose(crowd, priorities, 1, mask, 2, nullptr); });
+    most.take("choose", [&] { swivel_choose(crowd, priorities, urgency, 1, mask, 2, nullptr); });
     most.take("digest", [&] { swivel_digest(crowd); });
     most.take("destroy", [&] { swivel_crowd_destroy(crowd); });
     INFO(most.what << ": " << most.bytes);

@@ -122,8 +122,7 @@ std::vector<SingleArm> single_arms_of(std::span<const Limb> limbs)
 
 swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::span<const Limb> limbs)
 {
-    const swivel_group_def group = swivel::group(static_cast<std::uint32_t>(arm_count), binding());
-    swivel::Crowd crowd(features, {&group, 1});
+    swivel::Crowd crowd({swivel::group(static_cast<std::uint32_t>(arm_count), binding(), features)});
 
     std::vector<Limb> given(limbs.begin(),
                             limbs.begin() + static_cast<std::ptrdiff_t>(std::min(limbs.size(), arm_count)));
@@ -153,9 +152,9 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
 
 std::size_t row_bytes(swivel_features features)
 {
-    const swivel_group_def group = swivel::group(1, binding());
-    const swivel::Crowd crowd(features, {&group, 1});
-    return sizeof(float) * (swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count) +
+    const swivel::Crowd crowd({swivel::group(1, binding(), features)});
+    return sizeof(float) *
+               (swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count) +
            sizeof(std::uint16_t) * swivel_compact_rows(crowd.get(), 0).row_count;
 }
 

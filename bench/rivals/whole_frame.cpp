@@ -76,41 +76,35 @@ WholeFrame::WholeFrame(std::size_t character_count)
     }
     constexpr std::size_t pose = sizeof(CharacterPose), goal = sizeof(CharacterGoal);
     for (std::size_t side = 0; side < kArms; ++side) {
-        swivel_frame frame = swivel_default_frame();
-        frame.target = {goals_[0].arm[side].wrist, goal};
-        frame.pole = {goals_[0].arm[side].pole, goal};
-        frame.shoulder_position = {world_[0].arm[side].shoulder.position, pose};
-        frame.parent_rotation = {world_[0].chest.rotation, pose};
-        frame.parent_scale = {world_[0].chest.scale, pose};
-        frame.shoulder = {local_[0].arm[side].shoulder.rotation, pose};
-        frame.elbow = {local_[0].arm[side].elbow.rotation, pose};
-        frames_[side] = frame;
+        fields_[side] = {{{SWIVEL_TARGET, goals_[0].arm[side].wrist, goal},
+                          {SWIVEL_POLE, goals_[0].arm[side].pole, goal},
+                          {SWIVEL_SHOULDER_POSITION, world_[0].arm[side].shoulder.position, pose},
+                          {SWIVEL_PARENT_ROTATION, world_[0].chest.rotation, pose},
+                          {SWIVEL_PARENT_SCALE, world_[0].chest.scale, pose},
+                          {SWIVEL_SHOULDER, local_[0].arm[side].shoulder.rotation, pose},
+                          {SWIVEL_ELBOW, local_[0].arm[side].elbow.rotation, pose}}};
+        frames_[side] = swivel_default_frame();
+        frames_[side].fields = fields_[side].data();
+        frames_[side].field_count = static_cast<std::uint32_t>(fields_[side].size());
     }
 }
 
 void WholeFrame::write()
 {
     const auto count = static_cast<std::uint32_t>(world_.size());
-    for (std::uint32_t side = 0; side < kArms; ++side) {
-        const swivel_frame& frame = frames_[side];
-        const auto put = [&](swivel_field field, swivel_in values) {
-            swivel::check(swivel_write(crowd_.get(), field, side, 0, count, values));
-        };
-        put(SWIVEL_TARGET, frame.target);
-        put(SWIVEL_POLE, frame.pole);
-        put(SWIVEL_SHOULDER_POSITION, frame.shoulder_position);
-        put(SWIVEL_PARENT_ROTATION, frame.parent_rotation);
-        put(SWIVEL_PARENT_SCALE, frame.parent_scale);
-    }
+    for (std::uint32_t side = 0; side < kArms; ++side)
+        for (const auto& [field, data, stride] : fields_[side])
+            if (field < SWIVEL_INPUT_END)
+                swivel::check(swivel_write(crowd_.get(), field, side, 0, count, {data, stride}));
 }
 
 void WholeFrame::read()
 {
     const auto count = static_cast<std::uint32_t>(world_.size());
-    for (std::uint32_t side = 0; side < kArms; ++side) {
-        swivel::check(swivel_read(crowd_.get(), SWIVEL_SHOULDER, side, 0, count, frames_[side].shoulder));
-        swivel::check(swivel_read(crowd_.get(), SWIVEL_ELBOW, side, 0, count, frames_[side].elbow));
-    }
+    for (std::uint32_t side = 0; side < kArms; ++side)
+        for (const auto& [field, data, stride] : fields_[side])
+            if (field >= SWIVEL_SHOULDER)
+                swivel::check(swivel_read(crowd_.get(), field, side, 0, count, {data, stride}));
 }
 
 double WholeFrame::worst_error() const

@@ -45,6 +45,7 @@ private:
     std::vector<CharacterPose> world_, local_;
     std::vector<CharacterGoal> goals_;
     std::array<Rig, kArms> rigs_;
+    std::array<std::array<swivel_frame_field, 7>, kArms> fields_;
     std::array<swivel_frame, kArms> frames_;
     swivel::Crowd crowd_;
 };

@@ -377,8 +377,7 @@ public:
         if (!wanted.urgency.empty()) job.urgency = for_blocks(wanted.urgency);
         job.most_blocks = wanted.most_blocks;
         if (wanted.frames)
-            job.frames =
-                for_groups("frames", *wanted.frames, wanted.groups ? bit_count(named) : group_count).data();
+            job.frames = for_groups("frames", *wanted.frames, wanted.groups ? bit_count(named) : group_count).data();
         job.on_this_thread = wanted.on_this_thread;
         std::uint32_t solved = 0;
         job.solved_count = &solved;

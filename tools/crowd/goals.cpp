@@ -100,7 +100,7 @@ swivel_status swivel_goals_write(swivel_crowd* crowd, uint32_t group, uint32_t c
                   {SWIVEL_INCOMING_ELBOW, inputs->elbow},
                   {SWIVEL_INCOMING_WRIST, inputs->wrist}};
     for (const auto& value : values) {
-        if (swivel_field_row_count(crowd, 0, value.field) == 0) continue;
+        if (swivel_field_row_count(crowd, group, value.field) == 0) continue;
         const swivel_status status =
             swivel_write(crowd, value.field, group, 0, count, {value.first, sizeof(goal_input)});
         if (status != SWIVEL_OK) return status;

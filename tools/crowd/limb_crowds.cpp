@@ -38,13 +38,13 @@ struct Draft {
     }
     Crowd make() const
     {
-        swivel_crowd_def def = swivel_default_crowd_def();
-        def.features = shape.features;
-        def.group_count = static_cast<std::uint32_t>(groups.size());
-        def.groups = groups.data();
-        def.shoulder_order = shape.shoulder_order;
-        def.wrist_order = shape.wrist_order;
-        return Crowd(def);
+        std::vector<swivel_group_def> same = groups;
+        for (swivel_group_def& group : same) {
+            group.features = shape.features;
+            group.shoulder_order = shape.shoulder_order;
+            group.wrist_order = shape.wrist_order;
+        }
+        return Crowd(same);
     }
 };
 
@@ -60,7 +60,7 @@ LimbCrowds::LimbCrowds(std::span<const LimbSetup> limbs, std::uint32_t character
         while (d < drafts.size() && !drafts[d].takes(limb)) ++d;
         if (d == drafts.size()) drafts.push_back({{limb.features, limb.shoulder_order, limb.wrist_order}, {}});
         places_.push_back({d, static_cast<std::uint32_t>(drafts[d].groups.size())});
-        drafts[d].add(limb, group(characters, limb.binding));
+        drafts[d].add(limb, group(characters, limb.binding, 0));
         priorities_.push_back(limb.priority);
     }
     if (budget_blocks_ > 0 && drafts.size() > 1)
@@ -68,7 +68,6 @@ LimbCrowds::LimbCrowds(std::span<const LimbSetup> limbs, std::uint32_t character
                                   "budget.blocks: limbs that share a budget must have the same pole.kind, hand, aim, "
                                   "twist_bones and order of each box; make them equal, or take the budget out");
     for (Draft& draft : drafts) {
-        if (budget_blocks_ > 0) draft.shape.features |= SWIVEL_BUDGET;
         crowds_.push_back(draft.make());
         shapes_.push_back(draft.shape);
     }
@@ -78,7 +77,7 @@ LimbCrowds::LimbCrowds(std::span<const LimbSetup> limbs, std::uint32_t character
 
 bool LimbCrowds::has(std::size_t limb, swivel_field field) const
 {
-    return swivel_field_row_count(crowd_of(limb).get(), field) > 0;
+    return swivel_field_row_count(crowd_of(limb).get(), places_[limb].group, field) > 0;
 }
 
 void LimbCrowds::write(std::size_t limb, swivel_field field, const float* first, std::size_t stride)
@@ -104,13 +103,14 @@ void LimbCrowds::restore(std::size_t limb, swivel_field field, std::span<const s
                          std::size_t stride)
 {
     swivel_crowd* const crowd = crowd_of(limb).get();
-    const swivel_rows rows = swivel_result_rows(crowd, 0);
-    const std::uint32_t first_row = swivel_field_first_row(crowd, 0, field), count = swivel_field_row_count(crowd, 0, field);
-    const std::uint32_t first = swivel_group_first_limb(crowd, places_[limb].group);
+    const std::uint32_t group = places_[limb].group;
+    const swivel_rows rows = swivel_result_rows(crowd, group);
+    const std::uint32_t first_row = swivel_field_first_row(crowd, group, field),
+                        count = swivel_field_row_count(crowd, group, field);
     for (std::size_t n = 0; n < numbers.size() / stride; ++n)
         for (std::size_t part = 0; part < count; ++part) {
-            const std::size_t i = first + n, row = i / SWIVEL_LANES * rows.row_count + first_row + part;
-            rows.base[row * SWIVEL_LANES + i % SWIVEL_LANES] = std::bit_cast<float>(numbers[n * stride + part]);
+            const std::size_t row = n / SWIVEL_LANES * rows.row_count + first_row + part;
+            rows.base[row * SWIVEL_LANES + n % SWIVEL_LANES] = std::bit_cast<float>(numbers[n * stride + part]);
         }
 }
 
@@ -148,7 +148,8 @@ void LimbCrowds::solve()
     active_.resize((std::size_t{swivel_block_count(crowd.get())} + 1) / 2);
     std::vector<swivel_in> priorities;
     for (const float& priority : priorities_) priorities.push_back({&priority, 0});
-    crowd.choose(priorities, budget_blocks_, active_);
+    urgency_.resize(swivel_block_count(crowd.get()));
+    crowd.choose(priorities, urgency_, budget_blocks_, active_);
     crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
 }
 

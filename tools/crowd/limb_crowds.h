@@ -69,6 +69,7 @@ private:
     std::vector<Place> places_;  // by limb
     std::uint32_t budget_blocks_;
     std::vector<float> priorities_;      // of the only crowd's groups
+    std::vector<float> urgency_;         // of its blocks
     std::vector<std::uint32_t> active_;  // bits of its limbs that were solved; empty: all
     bool began_ = false;
 };

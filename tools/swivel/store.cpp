@@ -32,7 +32,10 @@ namespace {
 class BlockChoice {
 public:
     explicit BlockChoice(const CachedCrowd& crowd)
-        : crowd_(crowd), chooser_(SWIVEL_BUDGET, groups_of(crowd)), mask_((swivel_block_count(chooser_.get()) + 1) / 2)
+        : crowd_(crowd),
+          chooser_(groups_of(crowd)),
+          urgency_(swivel_block_count(chooser_.get())),
+          mask_((urgency_.size() + 1) / 2)
     {
     }
 
@@ -44,7 +47,7 @@ public:
         if (frame_++ == 0)
             std::ranges::fill(mask_, ~0u);
         else
-            chooser_.choose(priorities, crowd_.budget_blocks, mask_);
+            chooser_.choose(priorities, urgency_, crowd_.budget_blocks, mask_);
     }
     bool has(std::size_t limb, std::uint32_t block) const
     {
@@ -61,6 +64,7 @@ private:
 
     const CachedCrowd& crowd_;
     Crowd chooser_;
+    std::vector<float> urgency_;
     std::vector<std::uint32_t> mask_;
     std::uint64_t frame_ = 0;
 };
