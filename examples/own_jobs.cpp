@@ -157,11 +157,12 @@ int compare()
                 rows_equal ? "the same" : "OTHER");
 
     // The host's own structures in and out, in the same way: each job copies in, solves and copies out its own blocks.
-    const swivel::Frame frame[] = {frame_of(characters)}, other_frame[] = {frame_of(as_well)};
+    const swivel::Frame frame = frame_of(characters), other_frame = frame_of(as_well);
+    const std::array<swivel_frame, 1> frames = {frame};
     on_all_blocks(jobs, ours, [&](std::uint32_t first, std::uint32_t count) {
-        ours.solve({.blocks = swivel_blocks{first, count}, .frames = frame, .on_this_thread = true});
+        ours.solve({.blocks = swivel_blocks{first, count}, .frames = frames, .on_this_thread = true});
     });
-    theirs.solve({.frames = other_frame});
+    theirs.solve({.frames = {other_frame}});
     const bool frames_equal = characters == as_well;
     std::printf("whole frames: %s bits as swivel_solve\n", frames_equal ? "the same" : "OTHER");
     return rows_equal && frames_equal ? 0 : 1;

@@ -182,7 +182,8 @@ int replay(const char* path, std::size_t body_count)
         set_lengths(arms[side], bodies, limb.lengths);
     }
     swivel::Crowd crowd(groups);
-    const std::array<swivel::Frame, 2> frames = {frame_of(arms[0]), frame_of(arms[1])};
+    const swivel::Frame left = frame_of(arms[0]), right = frame_of(arms[1]);
+    const std::array<swivel_frame, 2> frames = {left, right};
 
     const auto step = static_cast<std::size_t>(std::max(1.0, std::round(1 / (30 * clip.frame_time))));  // 30 a second
     std::size_t played = 0;

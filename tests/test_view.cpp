@@ -106,12 +106,12 @@ std::vector<std::vector<std::string>> digests_of(const Json& page)
     const auto count = static_cast<std::uint32_t>(characters.size());
     std::vector<swivel::Crowd> crowds;
     for (std::size_t n = 0; n < page.at("crowds").size(); ++n) {
+        const swivel_features features = std::stoull(page.at("crowds")[n].at("features").get<std::string>());
         std::vector<swivel_group_def> groups;
         for (const Json& limb : page.at("limbs"))
             if (limb.at("crowd") == n)
-                groups.push_back(swivel::group(count, values_of<swivel_binding>(limb.at("binding"))[0]));
-        const Json& shape = page.at("crowds")[n];
-        crowds.emplace_back(std::stoull(shape.at("features").get<std::string>()), groups);
+                groups.push_back(swivel::group(count, values_of<swivel_binding>(limb.at("binding"))[0], features));
+        crowds.emplace_back(groups);
     }
     std::vector<std::vector<std::string>> digests;
     for (std::uint32_t frame = 0; frame < page.at("frame_count"); ++frame) {

@@ -35,8 +35,8 @@ Rig rig(float side)
 swivel::Crowd make_crowd(std::size_t character_count)
 {
     const auto count = static_cast<std::uint32_t>(character_count);
-    const swivel_group_def groups[kArms] = {swivel::group(count, binding(1)), swivel::group(count, binding(-1))};
-    swivel::Crowd crowd(SWIVEL_WORLD | SWIVEL_JOINTS, groups);
+    constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS;
+    swivel::Crowd crowd({swivel::group(count, binding(1), features), swivel::group(count, binding(-1), features)});
     for (std::uint32_t side = 0; side < kArms; ++side) crowd.write_all(SWIVEL_LENGTHS, side, std::array{kUpper, kFore});
     return crowd;
 }

@@ -35,10 +35,10 @@ struct Reader {
     std::uint32_t group, limb;
     std::array<float, kMostComponents> value{};
 
-    // The components; 0 where the crowd has no such field.
+    // The components; 0 where the group has no such field.
     std::uint32_t read(swivel_field field)
     {
-        const std::uint32_t count = component_count(session, field);
+        const std::uint32_t count = component_count(session, group, field);
         if (count > 0)
             SWIVEL_REQUIRE(swivel_read(session.crowd, field, group, limb, 1, {value.data(), sizeof value}) ==
                            SWIVEL_OK);
@@ -56,7 +56,7 @@ struct Reader {
 
 void check_rotations(Reader& reader)
 {
-    const swivel_features features = reader.session.features;
+    const swivel_features features = swivel_group_features(reader.session.crowd, reader.group);
     const bool follows_incoming = (features & SWIVEL_WITH_INCOMING) && !(features & SWIVEL_COMPACT);
     reader.check_quaternions(SWIVEL_SHOULDER, follows_incoming);
     reader.check_quaternions(SWIVEL_WRIST, follows_incoming);
@@ -72,7 +72,7 @@ void check_rotations(Reader& reader)
 void check_places(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
     std::array<double, 11> places{};
-    const swivel_out hand = {session.features & SWIVEL_WITH_HAND ? places.data() + 6 : nullptr, 32};
+    const swivel_out hand = {has_features(session, group, SWIVEL_WITH_HAND) ? places.data() + 6 : nullptr, 32};
     SWIVEL_REQUIRE(swivel_forward(session.crowd, group, limb, 1, {places.data(), 24}, {places.data() + 3, 24}, hand) ==
                    SWIVEL_OK);
     SWIVEL_REQUIRE(swivel_residuals(session.crowd, group, limb, 1, {places.data() + 10, 8}) == SWIVEL_OK);
@@ -81,15 +81,14 @@ void check_places(const Session& session, std::uint32_t group, std::uint32_t lim
 
 }  // namespace
 
-std::vector<char> result_bytes(swivel_crowd& crowd)
+std::vector<char> result_bytes(swivel_crowd& crowd, std::uint32_t group)
 {
-    const swivel_rows rows = swivel_result_rows(&crowd, 0);
-    const swivel_words words = swivel_compact_rows(&crowd, 0);
-    const std::size_t blocks = swivel_block_count(&crowd);
+    const swivel_rows rows = swivel_result_rows(&crowd, group);
+    const swivel_words words = swivel_compact_rows(&crowd, group);
     const char* const base =
         rows.base ? reinterpret_cast<const char*>(rows.base) : reinterpret_cast<const char*>(words.base);
     const std::size_t row_bytes = SWIVEL_LANES * (rows.base ? sizeof(float) : sizeof(std::uint16_t));
-    return {base, base + blocks * (rows.base ? rows.row_count : words.row_count) * row_bytes};
+    return {base, base + std::size_t{rows.block_count} * (rows.row_count + words.row_count) * row_bytes};
 }
 
 void check_results(const Session& session, std::uint32_t group, std::uint32_t limb)
@@ -101,27 +100,32 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     SWIVEL_REQUIRE((flags & ~kFlags) == 0 || flags == SWIVEL_BAD_INPUT);
     check_rotations(reader);
     if (reader.read(SWIVEL_STRETCH) > 0) SWIVEL_REQUIRE(reader.value[0] >= 1 && reader.value[0] <= 1000);
-    if (reader.read(SWIVEL_NORMAL) > 0)
-        SWIVEL_REQUIRE(flags == SWIVEL_BAD_INPUT ? length_of(reader.value.data(), 3) == 0
-                                                 : is_unit(reader.value.data(), 3, 1e-6));
+    if (reader.read(SWIVEL_NORMAL) > 0) {
+        const bool is_clear = length_of(reader.value.data(), 3) == 0, is_normal = is_unit(reader.value.data(), 3, 1e-6);
+        SWIVEL_REQUIRE(is_kept(session, group, limb) ? is_clear || is_normal
+                       : flags == SWIVEL_BAD_INPUT   ? is_clear
+                                                     : is_normal);
+    }
     if (flags != SWIVEL_BAD_INPUT) check_places(session, group, limb);
 }
 
 void check_others(Session& session, const std::vector<bool>& chosen)
 {
-    const std::vector<char> now = result_bytes(*session.crowd);
-    const std::size_t lanes = session.lane_count(), bytes = session.features & SWIVEL_COMPACT ? 2 : 4,
-                      row_count = lanes == 0 ? 0 : now.size() / bytes / lanes;
-    SWIVEL_REQUIRE(now.size() == session.results_before.size());
-    for (std::uint32_t group = 0; group < session.group_count; ++group)
-        for (std::uint32_t limb = 0; limb < swivel_group_limb_count(session.crowd, group); ++limb) {
-            const std::size_t lane = swivel_group_first_limb(session.crowd, group) + limb;
-            for (std::size_t row = 0; row < row_count && !chosen[lane]; ++row) {
+    for (std::uint32_t group = 0; group < session.group_count; ++group) {
+        const std::vector<char> now = result_bytes(*session.crowd, group), &before = session.results_before[group];
+        const std::size_t first = swivel_group_first_limb(session.crowd, group),
+                          limb_count = swivel_group_limb_count(session.crowd, group),
+                          lanes = (limb_count + SWIVEL_LANES - 1) / SWIVEL_LANES * SWIVEL_LANES,
+                          bytes = has_features(session, group, SWIVEL_COMPACT) ? 2 : 4,
+                          row_count = now.size() / bytes / lanes;
+        SWIVEL_REQUIRE(now.size() == before.size());
+        for (std::size_t limb = 0; limb < limb_count; ++limb)
+            for (std::size_t row = 0; row < row_count && !chosen[first + limb]; ++row) {
                 const std::size_t at =
-                    bytes * (((lane / SWIVEL_LANES) * row_count + row) * SWIVEL_LANES + lane % SWIVEL_LANES);
-                SWIVEL_REQUIRE(std::memcmp(now.data() + at, session.results_before.data() + at, bytes) == 0);
+                    bytes * (((limb / SWIVEL_LANES) * row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES);
+                SWIVEL_REQUIRE(std::memcmp(now.data() + at, before.data() + at, bytes) == 0);
             }
-        }
+    }
 }
 
 }  // namespace swivel::fuzz

@@ -6,8 +6,8 @@
 
 namespace swivel::fuzz {
 
-// A copy of all result rows, of floats or words.
-std::vector<char> result_bytes(swivel_crowd& crowd);
+// A copy of a group's result rows, of floats or words.
+std::vector<char> result_bytes(swivel_crowd& crowd, std::uint32_t group);
 
 // Of a solved limb: unit quaternions on their side, known flags, finite places.
 void check_results(const Session& session, std::uint32_t group, std::uint32_t limb);

@@ -9,18 +9,9 @@
 namespace swivel::fuzz {
 namespace {
 
-constexpr std::uint32_t kHandLimits =
-    SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST | SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
-constexpr std::uint32_t kPlain =
-    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT | SWIVEL_BUDGET;
-constexpr swivel_features kTwist = 7 * SWIVEL_WITH_TWIST_BONES;
-constexpr swivel_features kOneBit = 2 * SWIVEL_BUDGET - 1;  // all features but the number of twist bones
-
-// Where a feature of `of` is there, what it needs comes in and what it excludes goes.
-void settle(swivel_features& features, swivel_features of, swivel_features needs, swivel_features excludes)
-{
-    if (features & of) features = (features | needs) & ~excludes;
-}
+// What the kernels of plain arms know. With any other feature, limbs have another kernel.
+constexpr swivel_features kPlain =
+    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT;
 
 float hard_number(Random& random)
 {
@@ -106,7 +97,7 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
     }
 }
 
-// A row of the crowd, and where in it.
+// A row of a group, and where in it.
 float& input_at(const swivel_rows& rows, std::uint32_t limb, std::uint32_t row)
 {
     return rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES];
@@ -155,18 +146,18 @@ float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits
 swivel_features features_of(Bytes& bytes)
 {
     const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
-    const auto word = bytes.take<std::uint32_t>();
-    swivel_features features = (word & kOneBit) | (word >> 24 & 7) * SWIVEL_WITH_TWIST_BONES;
-    if (kind == 1) features &= kPlain;                                // with other kernels than whole limbs, so often
-    if (kind == 2) features &= kTwist | bytes.take<std::uint32_t>();  // few
-    settle(features, SWIVEL_POLE_INCOMING, 0, SWIVEL_POLE_NORMAL | SWIVEL_POLE_DIRECTION);
-    settle(features, SWIVEL_POLE_DIRECTION, SWIVEL_WORLD, SWIVEL_POLE_NORMAL);
-    settle(features, SWIVEL_WITH_CLAVICLE, SWIVEL_WORLD, 0);
-    settle(features, SWIVEL_WITH_AIM, 0,
-           SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits);
-    settle(features, SWIVEL_COMPACT, 0, SWIVEL_WITH_CLAVICLE | kTwist | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL);
-    settle(features, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_INCOMING, 0);
-    settle(features, SWIVEL_WITH_EFFECTOR | kHandLimits | kTwist, SWIVEL_WITH_HAND, 0);
+    const auto bits = bytes.take<std::uint64_t>();
+    // kind 0: half of all; 1: those that plain arms have, so often; 2 and 3: few.
+    const swivel_features wanted = kind == 0 ? bits : kind == 1 ? bits & kPlain : bits & bytes.take<std::uint64_t>();
+    swivel_features features = 0, excluded = 0;
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
+        const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
+        const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
+        if (!(wanted & all) || (excluded & all) || (features & info.excludes)) continue;
+        features |= (wanted & all) | info.needs;
+        excluded |= info.excludes;
+    }
     return features;
 }
 
@@ -176,6 +167,10 @@ std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
     for (swivel_group_def& group : groups) {
         const std::uint32_t limb_count = 1 + bytes.take<std::uint8_t>() % most_limbs;
         group = swivel_default_group_def(limb_count);
+        group.features = &group == groups.data() || bytes.one_in(2) ? features_of(bytes) : groups.front().features;
+        group.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
+        group.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
+        if (bytes.one_in(2) && !(group.features & SWIVEL_COMPACT)) group.on_bad_input = SWIVEL_KEEP_POSE;
         group.binding = binding_of({bytes.take<std::uint16_t>()});
     }
     return groups;
@@ -195,23 +190,26 @@ void make_value(Random& random, swivel_field field, std::uint32_t kind, std::spa
 
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd)
 {
-    const swivel_rows rows = swivel_input_rows(&crowd, 0);
-    const std::uint32_t limbs = rows.block_count * SWIVEL_LANES;
-    for (int f = 0; f < SWIVEL_SHOULDER; ++f) {
-        const auto field = static_cast<swivel_field>(f);
-        const std::uint32_t count = swivel_field_row_count(&crowd, 0, field);
-        if (count == 0) continue;
-        const std::uint32_t first_row = swivel_field_first_row(&crowd, 0, field), kind = bytes.take<std::uint8_t>();
-        Random random{bytes.take<std::uint16_t>()};
-        std::array<float, 12> value{};
-        for (std::uint32_t limb = 0; limb < limbs; ++limb) {
-            make_value(random, field, kind, std::span(value).first(count));
-            for (std::uint32_t c = 0; c < count; ++c) input_at(rows, limb, first_row + c) = value[c];
+    for (std::uint32_t group = 0; group < swivel_group_count(&crowd); ++group) {
+        const swivel_rows rows = swivel_input_rows(&crowd, group);
+        const std::uint32_t limbs = rows.block_count * SWIVEL_LANES;
+        for (int f = 0; f < SWIVEL_INPUT_END; ++f) {
+            const auto field = static_cast<swivel_field>(f);
+            const std::uint32_t count = swivel_field_row_count(&crowd, group, field);
+            if (count == 0) continue;
+            const std::uint32_t first_row = swivel_field_first_row(&crowd, group, field),
+                                kind = bytes.take<std::uint8_t>();
+            Random random{bytes.take<std::uint16_t>()};
+            std::array<float, 12> value{};
+            for (std::uint32_t limb = 0; limb < limbs; ++limb) {
+                make_value(random, field, kind, std::span(value).first(count));
+                for (std::uint32_t c = 0; c < count; ++c) input_at(rows, limb, first_row + c) = value[c];
+            }
         }
-    }
-    for (std::uint32_t n = bytes.take<std::uint8_t>() % 32; n > 0; --n) {
-        const std::uint32_t limb = bytes.take<std::uint8_t>() % limbs;
-        input_at(rows, limb, bytes.take<std::uint8_t>() % rows.row_count) = bytes.any_float();
+        for (std::uint32_t n = bytes.take<std::uint8_t>() % 32; n > 0; --n) {
+            const std::uint32_t limb = bytes.take<std::uint8_t>() % limbs;
+            input_at(rows, limb, bytes.take<std::uint8_t>() % rows.row_count) = bytes.any_float();
+        }
     }
 }
 

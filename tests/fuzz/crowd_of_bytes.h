@@ -11,10 +11,10 @@
 
 namespace swivel::fuzz {
 
-// A set of features that swivel_crowd_create() takes.
+// A set of features that go together.
 swivel_features features_of(Bytes& bytes);
 
-// Bindings are sound; each group has 1 to most_limbs limbs.
+// Each group has features and a sound binding of its own, and 1 to most_limbs limbs.
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);
 
 // SplitMix64 (Steele, Lea, Flood, 2014): many numbers from a few bytes.
@@ -30,7 +30,7 @@ struct Random {
 // be. 6: with some numbers at which formulas break. 7: any bits.
 void make_value(Random& random, swivel_field field, std::uint32_t kind, std::span<float> value);
 
-// Writes all inputs of all limbs, padding too: a kind and a seed a field, then single numbers here and there.
+// Writes all inputs of all limbs, padding too: a kind and a seed a field and group, then single numbers here and there.
 void fill_inputs(Bytes& bytes, swivel_crowd& crowd);
 
 }  // namespace swivel::fuzz

@@ -23,33 +23,32 @@ struct Destroy {
 using Crowd = std::unique_ptr<swivel_crowd, Destroy>;
 
 // Everything but numbers that an input says, to make the same crowd several times.
-struct Shape {
-    swivel_features features;
-    std::vector<swivel_group_def> groups;
-    swivel_euler_order shoulder_order, wrist_order;
-};
+using Shape = std::vector<swivel_group_def>;
 
 Crowd make(const Shape& shape)
 {
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = shape.features;
-    def.groups = shape.groups.data();
-    def.group_count = static_cast<std::uint32_t>(shape.groups.size());
-    def.shoulder_order = shape.shoulder_order;
-    def.wrist_order = shape.wrist_order;
+    def.groups = shape.data();
+    def.group_count = static_cast<std::uint32_t>(shape.size());
     swivel_crowd* crowd = nullptr;
     SWIVEL_REQUIRE(swivel_crowd_create(&def, &crowd) == SWIVEL_OK);
     return Crowd(crowd);
 }
 
-std::vector<float> inputs_of(swivel_crowd& crowd)
+using Inputs = std::vector<std::vector<float>>;  // of each group
+Inputs inputs_of(swivel_crowd& crowd)
 {
-    const swivel_rows rows = swivel_input_rows(&crowd, 0);
-    return {rows.base, rows.base + std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES};
+    Inputs inputs;
+    for (std::uint32_t group = 0; group < swivel_group_count(&crowd); ++group) {
+        const swivel_rows rows = swivel_input_rows(&crowd, group);
+        inputs.emplace_back(rows.base, rows.base + std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES);
+    }
+    return inputs;
 }
-void put_inputs(swivel_crowd& crowd, const std::vector<float>& inputs)
+void put_inputs(swivel_crowd& crowd, const Inputs& inputs)
 {
-    std::memcpy(swivel_input_rows(&crowd, 0).base, inputs.data(), inputs.size() * sizeof(float));
+    for (std::uint32_t group = 0; group < inputs.size(); ++group)
+        std::memcpy(swivel_input_rows(&crowd, group).base, inputs[group].data(), inputs[group].size() * sizeof(float));
 }
 
 // All results of all limbs, without padding.
@@ -58,9 +57,9 @@ std::vector<std::uint32_t> results_of(swivel_crowd& crowd, const Shape& shape)
     std::vector<std::uint32_t> words;
     for (int f = SWIVEL_SHOULDER; f < SWIVEL_RESULT_END; ++f) {
         const auto field = static_cast<swivel_field>(f);
-        if (swivel_field_row_count(&crowd, 0, field) == 0) continue;
-        for (std::uint32_t group = 0; group < shape.groups.size(); ++group) {
-            const std::uint32_t count = shape.groups[group].limb_count;
+        for (std::uint32_t group = 0; group < shape.size(); ++group) {
+            if (swivel_field_row_count(&crowd, group, field) == 0) continue;
+            const std::uint32_t count = shape[group].limb_count;
             constexpr std::size_t kMostComponents = 28;  // of seven twist bones
             const std::size_t at = words.size();
             words.resize(at + kMostComponents * count);
@@ -94,12 +93,11 @@ void solve_some_then_others(swivel_crowd& crowd)
 }
 
 // The results after each set of inputs, one after the other.
-std::vector<std::vector<std::uint32_t>> solve_all(const Shape& shape, const std::vector<std::vector<float>>& inputs,
-                                                  Solve solve)
+std::vector<std::vector<std::uint32_t>> solve_all(const Shape& shape, const std::vector<Inputs>& inputs, Solve solve)
 {
     const Crowd crowd = make(shape);
     std::vector<std::vector<std::uint32_t>> results;
-    for (const std::vector<float>& each : inputs) {
+    for (const Inputs& each : inputs) {
         put_inputs(*crowd, each);
         solve(*crowd);
         results.push_back(results_of(*crowd, shape));
@@ -112,11 +110,9 @@ std::vector<std::vector<std::uint32_t>> solve_all(const Shape& shape, const std:
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     Bytes bytes(data, size);
-    Shape shape{features_of(bytes), groups_of(bytes, kMostLimbs), {}, {}};
-    shape.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
-    shape.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
+    const Shape shape = groups_of(bytes, kMostLimbs);
     const bool solves_parts = bytes.one_in(8);  // on all, not on the best alone
-    std::vector<std::vector<float>> inputs;
+    std::vector<Inputs> inputs;
     const Crowd crowd = make(shape);
     for (int frame = 0; frame < 2; ++frame) {
         fill_inputs(bytes, *crowd);

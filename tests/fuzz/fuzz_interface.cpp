@@ -34,7 +34,7 @@ void spoil(Bytes& bytes, swivel_crowd_def& def, std::vector<swivel_group_def>& g
             def.size = bytes.take<std::uint16_t>();
             break;
         case 1:
-            def.features = bytes.take<std::uint32_t>();
+            groups.back().features = bytes.take<std::uint32_t>();
             break;
         case 2:
             def.group_count = bytes.below(2);
@@ -49,7 +49,7 @@ void spoil(Bytes& bytes, swivel_crowd_def& def, std::vector<swivel_group_def>& g
             groups.back().binding.fore_from_arm[0] = bytes.any_float();
             break;
         case 6:
-            def.shoulder_order = static_cast<swivel_euler_order>(bytes.below(8));
+            groups.front().shoulder_order = static_cast<swivel_euler_order>(bytes.below(8));
             break;
         default:
             def.release = [](void*, std::size_t, void*) {};
@@ -84,7 +84,9 @@ void call_one(Session& session)
                                   call_solve,   call_choose,       call_reset,         call_allowed_arcs,
                                   call_forward, call_joint_angles, call_residuals,     call_helper};
     session.arena_before.assign(session.arena.begin(), session.arena.end());
-    session.results_before = result_bytes(*session.crowd);
+    session.results_before.clear();
+    for (std::uint32_t group = 0; group < session.group_count; ++group)
+        session.results_before.push_back(result_bytes(*session.crowd, group));
     calls[session.bytes.take<std::uint8_t>() % calls.size()](session);
 }
 
@@ -94,12 +96,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     Bytes bytes(data, size);
     swivel_crowd_def def = swivel_default_crowd_def();
-    def.features = features_of(bytes);
     std::vector<swivel_group_def> groups = groups_of(bytes, kMostLimbs);
     def.groups = groups.data();
     def.group_count = static_cast<std::uint32_t>(groups.size());
-    def.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
-    def.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
     if (bytes.one_in(32)) return spoil(bytes, def, groups), 0;
 
     const std::size_t needed = swivel_crowd_bytes(&def);
@@ -107,9 +106,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Arena arena = aligned(needed);
     def.memory = arena.get();
     def.memory_bytes = needed;
-    Session session{bytes, nullptr, def.features, def.group_count, {arena.get(), needed}};
+    Session session{bytes, nullptr, def.group_count, {arena.get(), needed}};
     SWIVEL_REQUIRE(swivel_crowd_create(&def, &session.crowd) == SWIVEL_OK);
     session.is_solved.resize(session.lane_count());
+    for (const swivel_group_def& group : groups) session.keeps.push_back(group.on_bad_input == SWIVEL_KEEP_POSE);
     for (int n = 0; n < kMostCalls && !bytes.is_empty(); ++n) call_one(session);
     swivel_crowd_destroy(session.crowd);
     return 0;

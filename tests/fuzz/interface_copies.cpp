@@ -20,10 +20,10 @@ swivel_field take_field(Session& session, std::uint32_t limit)
     return static_cast<swivel_field>(session.bytes.below(limit));
 }
 
-// Bytes of a value; those of a float for a field that the crowd does not have.
-std::size_t value_bytes(const Session& session, swivel_field field)
+// Bytes of a value; those of a float for a field that the group does not have.
+std::size_t value_bytes(const Session& session, std::uint32_t group, swivel_field field)
 {
-    return sizeof(float) * std::max(component_count(session, field), 1u);
+    return sizeof(float) * std::max(component_count(session, group, field), 1u);
 }
 
 bool is_position(swivel_field field)
@@ -49,8 +49,8 @@ void call_write(Session& session)
     const Limbs limbs = take_limbs(session);
     const std::uint32_t kind = session.bytes.take<std::uint8_t>();
     Random random{session.bytes.take<std::uint16_t>()};
-    Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, field), true);
-    const bool is_there = field < SWIVEL_SHOULDER && component_count(session, field) > 0;
+    Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, limbs.group, field), true);
+    const bool is_there = field < SWIVEL_SHOULDER && component_count(session, limbs.group, field) > 0;
     values.fill([&](std::size_t, char* at) {
         std::array<float, 12> value{};
         const std::size_t count = values.value_bytes() / sizeof(float);
@@ -80,11 +80,12 @@ void call_write_doubles(Session& session)
     values.fill(fill);
     origins.fill(fill);
     const bool is_given = has_origins && !origins.is_null(),
-               is_direction = field == SWIVEL_POLE && (session.features & (SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL));
+               is_direction = field == SWIVEL_POLE &&
+                              has_features(session, limbs.group, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL);
     const swivel_status status =
         swivel_write_doubles(session.crowd, field, limbs.group, limbs.first, limbs.count, values.in(),
                              has_origins ? origins.in() : swivel_in{nullptr, origins.stride()});
-    const bool is_there = is_position(field) && component_count(session, field) > 0;
+    const bool is_there = is_position(field) && component_count(session, limbs.group, field) > 0;
     check_status(
         session, status,
         limbs.is_valid && is_there && values.is_valid() && !(is_given && (is_direction || !origins.is_valid())));
@@ -96,8 +97,8 @@ void call_read(Session& session)
     if (field >= SWIVEL_INPUT_END && field < SWIVEL_SHOULDER)  // results, too
         field = static_cast<swivel_field>(field - SWIVEL_INPUT_END + SWIVEL_SHOULDER);
     const Limbs limbs = take_limbs(session);
-    Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, field), false);
-    const bool is_there = component_count(session, field) > 0;
+    Strided values(session.bytes, limbs.is_valid ? limbs.count : 1, value_bytes(session, limbs.group, field), false);
+    const bool is_there = component_count(session, limbs.group, field) > 0;
     const swivel_status status = swivel_read(session.crowd, field, limbs.group, limbs.first, limbs.count, values.out());
     check_status(session, status, limbs.is_valid && is_there && values.is_valid());
     values.check_gaps(status != SWIVEL_OK);

@@ -13,22 +13,24 @@ namespace swivel::fuzz {
 
 // One group's frame and the arrays that it points to.
 struct Frame {
-    swivel_frame frame = swivel_default_frame();
+    swivel_in origin = {};
+    std::vector<swivel_frame_field> fields = {};
     std::vector<Strided> inputs = {}, outputs = {};
     std::vector<swivel_field> output_fields = {};
     bool is_valid = true;
 
     Frame(Session& session, std::uint32_t group);
+    swivel_frame view() const;  // of this, which must outlive it
 
     // Results of chosen limbs are the crowd's; values of others, and all of them if nothing is chosen, are as they
     // were.
     void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const;
 
 private:
-    void take_input(Session& session, swivel_field field, swivel_in swivel_frame::*member, std::uint32_t limb_count);
     void take_origin(Session& session, std::uint32_t limb_count);
-    void take_output(Session& session, swivel_field field, swivel_out swivel_frame::*member, std::uint32_t limb_count);
-    void judge(const Session& session, swivel_field field, const Strided& values);
+    void take_input(Session& session, std::uint32_t group, swivel_field field);
+    void take_output(Session& session, std::uint32_t group, swivel_field field);
+    void add(const Session& session, std::uint32_t group, swivel_field field, const Strided& values);
 };
 
 }  // namespace swivel::fuzz

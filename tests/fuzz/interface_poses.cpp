@@ -171,7 +171,8 @@ void call_reset(Session& session)
 {
     const Limbs limbs = take_limbs(session);
     check_status(session, swivel_reset(session.crowd, limbs.group, limbs.first, limbs.count), limbs.is_valid);
-    for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count && (session.features & SWIVEL_WITH_MOST_SWIVEL); ++n)
+    for (std::uint32_t n = 0;
+         limbs.is_valid && n < limbs.count && has_features(session, limbs.group, SWIVEL_WITH_MOST_SWIVEL); ++n)
         session.is_solved[limbs.first_lane + n] = false;  // their normal is none
 }
 
@@ -226,7 +227,7 @@ void call_forward(Session& session)
     const auto is_sound = [](const Strided& out) { return out.is_null() || out.is_valid(); };
     check_status(session, status,
                  limbs.is_valid && is_sound(elbow) && is_sound(wrist) && is_sound(hand) &&
-                     (hand.is_null() || (session.features & SWIVEL_WITH_HAND)));
+                     (hand.is_null() || has_features(session, limbs.group, SWIVEL_WITH_HAND)));
     for (const Strided* out : {&elbow, &wrist, &hand}) out->check_gaps(status != SWIVEL_OK);
 }
 

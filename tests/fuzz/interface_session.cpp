@@ -33,22 +33,22 @@ Limbs take_limbs(Session& session)
     return limbs;
 }
 
-std::uint32_t component_count(const Session& session, swivel_field field)
+std::uint32_t component_count(const Session& session, std::uint32_t group, swivel_field field)
 {
-    if (field < SWIVEL_SHOULDER || !(session.features & SWIVEL_COMPACT))
-        return swivel_field_row_count(session.crowd, 0, field);
-    switch (field) {
-        case SWIVEL_SHOULDER:
-            return 4;
-        case SWIVEL_ELBOW:
-            return session.features & SWIVEL_JOINTS ? 4 : 2;
-        case SWIVEL_WRIST:
-            return session.features & SWIVEL_WITH_HAND ? 4 : 0;
-        case SWIVEL_FLAGS:
-            return 1;
-        default:
-            return 0;
-    }
+    if (group >= session.group_count) return 0;
+    return swivel_component_count(field, swivel_group_features(session.crowd, group));
+}
+
+bool has_features(const Session& session, std::uint32_t group, swivel_features features)
+{
+    return (swivel_group_features(session.crowd, group) & features) != 0;
+}
+
+bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
+{
+    std::uint32_t flags = 0;
+    swivel_read(session.crowd, SWIVEL_FLAGS, group, limb, 1, {&flags, sizeof flags});
+    return session.keeps[group] && flags == SWIVEL_BAD_INPUT;
 }
 
 void check_status(const Session& session, swivel_status status, bool expected)

@@ -15,12 +15,12 @@ namespace swivel::fuzz {
 struct Session {
     Bytes& bytes;
     swivel_crowd* crowd = nullptr;
-    swivel_features features = 0;
     std::uint32_t group_count = 0;
-    std::span<const char> arena = {};     // all of the crowd's memory, where it is ours
-    std::vector<char> arena_before = {};  // as it was before the call at hand
-    std::vector<char> results_before = {};
-    std::vector<bool> is_solved = {};  // each lane
+    std::span<const char> arena = {};                    // all of the crowd's memory, where it is ours
+    std::vector<char> arena_before = {};                 // as it was before the call at hand
+    std::vector<std::vector<char>> results_before = {};  // of each group
+    std::vector<bool> is_solved = {};                    // each lane
+    std::vector<bool> keeps = {};                        // each group: SWIVEL_KEEP_POSE
 
     std::uint32_t lane_count() const { return swivel_block_count(crowd) * SWIVEL_LANES; }
 };
@@ -33,8 +33,12 @@ struct Limbs {
 };
 Limbs take_limbs(Session& session);
 
-// Floats, or the one word, of a field's value as callers have it; 0: the crowd has no such field.
-std::uint32_t component_count(const Session& session, swivel_field field);
+// Floats, or the one word, of a field's value as callers have it; 0: the group has no such field, or does not exist.
+std::uint32_t component_count(const Session& session, std::uint32_t group, swivel_field field);
+// Whether a group has any of these features.
+bool has_features(const Session& session, std::uint32_t group, swivel_features features);
+// Whether a limb has bad input and keeps its results.
+bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb);
 
 // A call was to succeed or not, and did so; if not, it has changed nothing.
 void check_status(const Session& session, swivel_status status, bool expected);

@@ -103,6 +103,8 @@ struct TakenJob {
     std::vector<std::uint32_t> words = {}, list = {};
     std::vector<Priorities> priorities = {};
     std::vector<Frame> frames = {};
+    std::vector<std::uint32_t> framed_groups = {}, named = {};
+    std::vector<float> urgency = {};
     std::vector<swivel_frame> frame_array = {};
     std::vector<bool> lanes;
     bool is_valid = true;
@@ -125,6 +127,7 @@ struct TakenJob {
                 break;
         }
         if (bytes.one_in(64) && !job.mask) take_mask();  // beside another choice, it may be
+        if (bytes.one_in(4)) take_groups();
         if (bytes.one_in(2)) take_frames();
         if (bytes.one_in(2)) job.solved_count = &solved_count;
         const bool is_part = job.blocks || job.on_this_thread;
@@ -150,6 +153,20 @@ private:
         job.blocks = &blocks;
         is_valid = is_valid && taken.is_valid;
         if (taken.is_valid) keep(lanes_of(session, taken));
+    }
+    bool is_named(std::uint32_t group) const { return !job.groups || (named[group / 32] >> group % 32 & 1) != 0; }
+    void take_groups()
+    {
+        named.assign((session.group_count + 31) / 32, session.bytes.take<std::uint8_t>());
+        job.groups = named.data();
+        job.group_word_count = static_cast<std::uint32_t>(named.size());
+        if (session.bytes.one_in(32)) job.group_word_count = 2, is_valid = false;
+        if (job.priorities) is_valid = false;
+        std::vector<bool> some(lanes.size());
+        for (std::uint32_t group = 0; group < session.group_count; ++group)
+            for (std::uint32_t n = 0; is_named(group) && n < swivel_group_limb_count(session.crowd, group); ++n)
+                some[swivel_group_first_limb(session.crowd, group) + n] = true;
+        keep(some);
     }
     void take_mask()
     {
@@ -183,18 +200,27 @@ private:
         const Priorities& taken = priorities.emplace_back(session);
         job.priorities = taken.in.data();
         job.most_blocks = session.bytes.below(swivel_block_count(session.crowd) + 2);
-        is_valid = is_valid && (session.features & SWIVEL_BUDGET) && taken.are_valid;
+        if (session.bytes.one_in(2)) {
+            urgency.resize(swivel_block_count(session.crowd));
+            for (float& each : urgency) each = session.bytes.any_float();
+            job.urgency = urgency.data();
+        }
+        is_valid = is_valid && taken.are_valid;
     }
     void take_frames()
     {
         for (std::uint32_t group = 0; group < session.group_count; ++group) {
-            frame_array.push_back(frames.emplace_back(session, group).frame);
+            if (!is_named(group)) continue;
+            frames.emplace_back(session, group);
+            framed_groups.push_back(group);
             const std::uint32_t from = swivel_group_first_limb(session.crowd, group) / SWIVEL_LANES,
                                 to = from + (swivel_group_limb_count(session.crowd, group) - 1) / SWIVEL_LANES;
             const bool is_touched =
                 !job.blocks || (blocks.count > 0 && from < blocks.first + blocks.count && to >= blocks.first);
             if (is_touched && !frames.back().is_valid) is_valid = false;  // others are not looked at
         }
+        for (const Frame& frame : frames) frame_array.push_back(frame.view());
+        if (frame_array.empty()) frame_array.push_back(swivel_default_frame());  // for no group: its size is looked at
         job.frames = frame_array.data();
     }
 };
@@ -219,8 +245,8 @@ void call_solve(Session& session)
         SWIVEL_REQUIRE(!taken.job.solved_count || taken.solved_count <= session.lane_count());
         return;
     }
-    for (std::uint32_t group = 0; group < taken.frames.size(); ++group)
-        taken.frames[group].check(session, group, taken.lanes);
+    for (std::size_t n = 0; n < taken.frames.size(); ++n)
+        taken.frames[n].check(session, taken.framed_groups[n], taken.lanes);
     if (!is_solved) return;
     check_solved(session, taken.lanes);
     if (!taken.job.solved_count) return;
@@ -237,10 +263,12 @@ void call_choose(Session& session)
     std::uint32_t count = ~0u;
     std::vector<std::uint32_t> words = take_words(session);
     const std::vector<std::uint32_t> words_before = words;
-    const swivel_status status = swivel_choose(session.crowd, priorities.in.data(), most_blocks, words.data(),
-                                               static_cast<std::uint32_t>(words.size()), &count);
-    check_status(session, status,
-                 (session.features & SWIVEL_BUDGET) && priorities.are_valid && are_enough(session, words));
+    std::vector<float> urgency(swivel_block_count(session.crowd));
+    for (float& each : urgency) each = session.bytes.any_float();
+    const swivel_status status =
+        swivel_choose(session.crowd, priorities.in.data(), session.bytes.one_in(2) ? urgency.data() : nullptr,
+                      most_blocks, words.data(), static_cast<std::uint32_t>(words.size()), &count);
+    check_status(session, status, priorities.are_valid && are_enough(session, words));
     if (status == SWIVEL_OK)
         check_choice(session, words, most_blocks, count);
     else

@@ -150,7 +150,8 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     job.urgency = urgency_of(held, urgency);
     const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames, named);
     if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
-    if (!frames.is_none()) job.frames = arrays.frames;
+    const std::vector<swivel_frame> views(arrays.frames.begin(), arrays.frames.end());
+    if (!frames.is_none()) job.frames = views;
     job.on_this_thread = on_this_thread;
     const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
     const std::uint32_t solved = run(held, way, [&] { return held.crowd.solve(job); });
