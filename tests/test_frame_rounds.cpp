@@ -130,7 +130,8 @@ Problem problem_of_many_rounds(Random& random)
     for (const std::uint32_t limb_count : {5003u, 40u, 4999u}) problem.groups.push_back(group_of(limb_count));
     problem.stride = problem.groups.size() * sizeof(InCharacter);
     fill_characters(random, problem);
-    problem.blocks = {0, swivel_block_count(problem.crowd().get())};
+    const std::uint32_t first = random.below(40);
+    problem.blocks = {first, swivel_block_count(problem.crowd().get()) - first};
     mask_one_in(random, problem, 3);
     return problem;
 }

@@ -16,7 +16,8 @@
 
 namespace swivel::tools {
 
-inline thread_local unsigned thread_limit = 0;  // what the ThreadLimit on this thread allows; 0: all that the machine has
+inline thread_local unsigned thread_limit =
+    0;  // what the ThreadLimit on this thread allows; 0: all that the machine has
 
 // With a limit of one, this and all that ask it call no function of oneTBB, whose start takes memory and threads.
 inline unsigned thread_count()
