@@ -126,7 +126,7 @@ SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
 // keep theirs, too.
 template <class T, swivel_features Features>
 struct StepAside {
-    static constexpr std::uint32_t kRows = result_row_count(Features);
+    static constexpr std::uint32_t kRows = kPlan<Features>.result_count;
     alignas(64) float results[kRows * kLanes];
 
     SWIVEL_INLINE void store(float* to, std::uint32_t lanes) const
@@ -152,10 +152,11 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
     const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
     const Shared<T> shared = shared_by<T, Features>(run);
     const std::size_t from = std::size_t{block} * kLanes, step = blocks * kLanes;
-    const float* input = run.input + row_offset(from, input_row_count(Features), 0);
-    float* results = run.results + row_offset(from, result_row_count(Features), 0);
+    constexpr std::uint32_t inputs = kPlan<Features>.input_count, outputs = kPlan<Features>.result_count;
+    const float* input = run.input + row_offset(from, inputs, 0);
+    float* results = run.results + row_offset(from, outputs, 0);
     for (; block + blocks <= block_count; block += blocks) {
-        if (has(Features, SWIVEL_WORLD) && run.from_memory) call_for_rows(input, blocks * input_row_count(Features));
+        if (has(Features, SWIVEL_WORLD) && run.from_memory) call_for_rows(input, blocks * inputs);
         std::uint32_t fails = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const auto solve_to = [&](float* to) SWIVEL_INLINE_LAMBDA {
@@ -178,8 +179,8 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
             others.add(std::size_t{block} * kLanes, fails);
             if (others.is_full()) return block + blocks;
         }
-        input += row_offset(step, input_row_count(Features), 0);
-        results += row_offset(step, result_row_count(Features), 0);
+        input += row_offset(step, inputs, 0);
+        results += row_offset(step, outputs, 0);
     }
     return block;
 }

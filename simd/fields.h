@@ -22,7 +22,7 @@ struct FeatureRow {
     const char* name;
     swivel_features needs = 0, excludes = 0;
 };
-inline constexpr FeatureRow kFeatures[] = {
+constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WORLD, "WORLD"},
     {SWIVEL_JOINTS, "JOINTS"},
     {SWIVEL_WITH_HAND, "WITH_HAND"},
@@ -91,7 +91,7 @@ constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_
 constexpr const char kPlace[] = "no further than 1e15", kQuaternion[] = "a quaternion of length 1e-9 to 1e9",
                      kCone[] = "a unit axis and a cosine; swivel_cone() makes them",
                      kRanges[] = "ranges of angles; swivel_range() makes them";
-inline constexpr FieldRow kFields[] = {
+constexpr FieldRow kFields[] = {
     {SWIVEL_TARGET, "target", 3, kInput, 0, 0, kPlace, {0, 0, 2}, Start::unknown, Place::yes},
     {SWIVEL_POLE, "pole", 3, kInput, 0, SWIVEL_POLE_INCOMING, kPlace, {0, -1, 0}, Start::neutral, Place::yes},
     {SWIVEL_LENGTHS, "lengths", 2, kInput, 0, 0, "0 or 1e-15 to 1e15 each", {1, 1}, Start::unknown},
@@ -265,7 +265,7 @@ struct FlagRow {
     swivel_flag flag;
     const char* name;
 };
-inline constexpr FlagRow kFlags[] = {
+constexpr FlagRow kFlags[] = {
     {SWIVEL_REACHED, "REACHED"},
     {SWIVEL_SOFTENED, "SOFTENED"},
     {SWIVEL_STRETCHED, "STRETCHED"},

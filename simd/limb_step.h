@@ -215,8 +215,8 @@ template <class T, swivel_features Features>
 SWIVEL_INLINE Rows<T, Features> rows_of(const SolveRun& run, std::size_t limb, std::uint32_t chosen)
 {
     const bool told = Features & kTold;
-    const std::uint32_t inputs = told ? run.input_row_count : input_row_count(Features);
-    const std::uint32_t results = told ? run.result_row_count : result_row_count(Features);
+    const std::uint32_t inputs = told ? run.input_row_count : kPlan<Features>.input_count;
+    const std::uint32_t results = told ? run.result_row_count : kPlan<Features>.result_count;
     return {run, run.input + row_offset(limb, inputs, 0),
             run.results ? run.results + row_offset(limb, results, 0) : nullptr, chosen};
 }

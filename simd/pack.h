@@ -21,25 +21,21 @@ struct PackStep {
     float* held;
     std::size_t first_lane;
 
-    static constexpr std::uint32_t word_row(swivel_field field)
-    {
-        return field_first_row(Features | SWIVEL_COMPACT, field);
-    }
+    static constexpr RowPlan kFloats{Features}, kWords{Features | SWIVEL_COMPACT};
+
     SWIVEL_INLINE T load(swivel_field field, std::uint32_t component) const
     {
-        const std::uint32_t row = field_first_row(Features, field) + component;
+        const std::uint32_t row = kFloats.first[index_of(field)] + component;
         return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-            return results + row_offset(first_lane + lane, result_row_count(Features), row);
+            return results + row_offset(first_lane + lane, kFloats.result_count, row);
         });
     }
     SWIVEL_INLINE void hold(swivel_field field, std::uint32_t word, const T& value) const
     {
-        const std::uint32_t row = word_row(field) + word;
-        store_lanes(
-            [&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-                return held + row_offset(first_lane + lane, result_row_count(Features | SWIVEL_COMPACT), row);
-            },
-            value);
+        const std::uint32_t row = kWords.first[index_of(field)] + word;
+        store_lanes([&](std::size_t lane)
+                        SWIVEL_INLINE_LAMBDA { return held + row_offset(first_lane + lane, kWords.result_count, row); },
+                    value);
     }
     SWIVEL_INLINE void hold_rotation(swivel_field field) const
     {
@@ -85,9 +81,9 @@ SWIVEL_INLINE void pack_block(const float* results, std::uint16_t* words)
         if constexpr (with_hand) step.hold_rotation(SWIVEL_WRIST);
         step.hold(SWIVEL_FLAGS, 0, step.load(SWIVEL_FLAGS, 0));
     }
-    cut_words(held, 0, field_row_count(compact, SWIVEL_SHOULDER), words);
-    cut_words(held + elbow, joints ? 0 : kHalfBit, field_row_count(compact, SWIVEL_ELBOW), words + elbow);
-    if constexpr (with_hand) cut_words(held + wrist, 0, field_row_count(compact, SWIVEL_WRIST), words + wrist);
+    cut_words(held, 0, elbow / kLanes, words);
+    cut_words(held + elbow, joints ? 0 : kHalfBit, (wrist - elbow) / kLanes, words + elbow);
+    if constexpr (with_hand) cut_words(held + wrist, 0, (flags - wrist) / kLanes, words + wrist);
     cut_words(held + flags, 0, 1, words + flags);
     cut_words(held + flags, 16, 1, words + flags + kLanes);
 }

@@ -76,6 +76,19 @@ constexpr std::uint32_t result_row_count(swivel_features features)
     return rows_before(features, kInputCount, kFieldCount);
 }
 
+// The rows that a set of features has. A kernel's own is a constant, so that no loop over the table is left in it.
+struct RowPlan {
+    std::uint32_t input_count, result_count;
+    std::uint16_t first[kFieldCount] = {};  // of each field, among input or result rows
+
+    constexpr explicit RowPlan(swivel_features features)
+        : input_count(input_row_count(features)), result_count(result_row_count(features))
+    {
+        for (std::size_t n = 0; n < kFieldCount; ++n)
+            first[n] = static_cast<std::uint16_t>(field_first_row(features, kFields[n].field));
+    }
+};
+
 // The features with the most rows that a block of floats can have.
 inline constexpr swivel_features kEveryFeature = ~(SWIVEL_COMPACT | SWIVEL_POLE_INCOMING);
 

@@ -20,6 +20,9 @@ inline constexpr swivel_features kToldWithoutBoxes =
     kToldFeatures & ~(SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX);
 
 template <swivel_features Features>
+inline constexpr RowPlan kPlan{Features};
+
+template <swivel_features Features>
 SWIVEL_INLINE constexpr swivel_features features_of(const SolveRun& run)
 {
     return Features & kTold ? run.features & Features : Features;
@@ -40,16 +43,16 @@ struct Rows {
     SWIVEL_INLINE std::uint32_t row(swivel_field field, int component) const
     {
         const std::uint32_t first =
-            Features & kTold ? run.first_row[index_of(field)] : field_first_row(Features, field);
+            Features & kTold ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
         return first + static_cast<std::uint32_t>(component);
     }
     SWIVEL_INLINE T load(swivel_field field, int component) const
     {
-        return lanes(input, input_row_count(Features), row(field, component));
+        return lanes(input, kPlan<Features>.input_count, row(field, component));
     }
     SWIVEL_INLINE T load_result(swivel_field field, int component) const
     {
-        return lanes(results, result_row_count(Features), row(field, component));
+        return lanes(results, kPlan<Features>.result_count, row(field, component));
     }
     SWIVEL_INLINE static T lanes(const float* rows, std::uint32_t row_count, std::uint32_t row)
     {
@@ -84,7 +87,7 @@ struct Rows {
     {
         const std::uint32_t to = row(field, component);
         const auto place = [&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-            return results + row_offset(lane, result_row_count(Features), to);
+            return results + row_offset(lane, kPlan<Features>.result_count, to);
         };
         if (chosen == kEveryLane)
             store_lanes(place, value);

@@ -261,9 +261,9 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
              crowd.limbs[1].joints = {99, 1, 2};
          }},
         {"a limb's joints are not three", [](CachedCrowd& crowd) { crowd.limbs[1].joints.clear(); }},
-        {"has unknown feature bits: 0x8000000000000000",
+        {"unknown features: bits 0x8000000000000000",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.features |= std::uint64_t{1} << 63; }},
-        {"SWIVEL_COMPACT and SWIVEL_WITH_MOST_SWIVEL exclude each other",
+        {"SWIVEL_COMPACT excludes SWIVEL_WITH_MOST_SWIVEL",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.features |= SWIVEL_COMPACT; }},
         {"shoulder_order is 6, not a number from 0 to 5",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.shoulder_order = static_cast<swivel_euler_order>(6); }},

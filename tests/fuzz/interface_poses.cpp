@@ -44,13 +44,14 @@ void call_limits(Bytes& bytes)
     std::array<float, 2> flexion;
     std::array<float, 5> aim;
     range.fill(7), cone.fill(7), flexion.fill(7), aim.fill(7);
-    check_helper(swivel_range(least, most, range.data()), range,
-                 is_near_unit(range, 0, 2) && is_near_unit(range, 2, 2) && range[3] >= 0);
-    check_helper(swivel_cone(axis.data(), most, cone.data()), cone, is_near_unit(cone, 0, 3) && std::abs(cone[3]) <= 1);
-    check_helper(swivel_flexion(least, most, flexion.data()), flexion,
-                 flexion[0] <= 1 && flexion[0] >= flexion[1] && flexion[1] >= 0);
-    check_helper(swivel_aim(axis.data(), most, aim.data()), aim,
-                 is_near_unit(aim, 0, 3) && is_near_unit(aim, 3, 2) && aim[3] >= 0 && aim[4] >= 0);
+    const swivel_status ranged = swivel_range(least, most, range.data()),
+                        coned = swivel_cone(axis.data(), most, cone.data()),
+                        flexed = swivel_flexion(least, most, flexion.data()),
+                        aimed = swivel_aim(axis.data(), most, aim.data());
+    check_helper(ranged, range, is_near_unit(range, 0, 2) && is_near_unit(range, 2, 2) && range[3] >= 0);
+    check_helper(coned, cone, is_near_unit(cone, 0, 3) && std::abs(cone[3]) <= 1);
+    check_helper(flexed, flexion, flexion[0] <= 1 && flexion[0] >= flexion[1] && flexion[1] >= 0);
+    check_helper(aimed, aim, is_near_unit(aim, 0, 3) && is_near_unit(aim, 3, 2) && aim[3] >= 0 && aim[4] >= 0);
     swivel_turn(least, flexion.data());
     SWIVEL_REQUIRE(!std::isfinite(least) || is_near_unit(flexion, 0, 2));
 }
