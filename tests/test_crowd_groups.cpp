@@ -33,7 +33,8 @@ constexpr swivel_features kPlainLeg = SWIVEL_WORLD | SWIVEL_JOINTS, kPlainArm = 
 };
 
 template <std::size_t Size>
-void put(Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t n, const std::array<float, Size>& value)
+void put_value(Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t n,
+               const std::array<float, Size>& value)
 {
     if (swivel_field_row_count(crowd.get(), group, field) > 0) crowd.write(field, group, std::span(&value, 1), n);
 }
@@ -49,17 +50,17 @@ void write_random_limb(Crowd& crowd, std::uint32_t group, std::uint32_t n, Rando
         const Vector3d v = random.direction();
         return std::array{v.x(), v.y(), v.z()};
     };
-    put(crowd, SWIVEL_SHOULDER_CONE, group, n, cone(direction(), random.between(0.5, 2)));
-    put(crowd, SWIVEL_HUMERAL_TWIST, group, n, range(-random.between(0, 2), random.between(0, 2)));
-    put(crowd, SWIVEL_WEIGHTS, group, n,
-        Float3{static_cast<float>(random.between(0, 1)), static_cast<float>(random.between(0, 1)), 1});
+    put_value(crowd, SWIVEL_SHOULDER_CONE, group, n, cone(direction(), random.between(0.5, 2)));
+    put_value(crowd, SWIVEL_HUMERAL_TWIST, group, n, range(-random.between(0, 2), random.between(0, 2)));
+    put_value(crowd, SWIVEL_WEIGHTS, group, n,
+              Float3{static_cast<float>(random.between(0, 1)), static_cast<float>(random.between(0, 1)), 1});
     for (const swivel_field incoming : {SWIVEL_INCOMING_SHOULDER, SWIVEL_INCOMING_ELBOW, SWIVEL_INCOMING_WRIST})
-        put(crowd, incoming, group, n, floats(random.rotation()));
-    put(crowd, SWIVEL_MOST_SWIVEL, group, n, turn(random.between(0, 1)));
+        put_value(crowd, incoming, group, n, floats(random.rotation()));
+    put_value(crowd, SWIVEL_MOST_SWIVEL, group, n, turn(random.between(0, 1)));
     const Vector3d clavicle = 0.3 * random.direction();
-    put(crowd, SWIVEL_CLAVICLE, group, n,
-        Float4{static_cast<float>(clavicle.x()), static_cast<float>(clavicle.y()), static_cast<float>(clavicle.z()),
-               0.5f});
+    put_value(crowd, SWIVEL_CLAVICLE, group, n,
+              Float4{static_cast<float>(clavicle.x()), static_cast<float>(clavicle.y()),
+                     static_cast<float>(clavicle.z()), 0.5f});
 }
 
 std::vector<swivel_group_def> random_groups(Random& random)
@@ -209,7 +210,7 @@ TEST_CASE("bad input keeps the pose where the group says so")
                     for (Crowd* crowd : {&rests, &keeps}) {
                         Random random{1000 + n};
                         write_random_limb(*crowd, 0, n, random);
-                        put(*crowd, SWIVEL_POLE, 0, n, Float3{0.3f, -0.8f, 0.1f});  // all good
+                        put_value(*crowd, SWIVEL_POLE, 0, n, Float3{0.3f, -0.8f, 0.1f});  // all good
                     }
                 solve();
                 std::vector<std::vector<std::uint32_t>> before;
@@ -219,7 +220,7 @@ TEST_CASE("bad input keeps the pose where the group says so")
                 for (std::uint32_t n = 0; n < count; ++n) {
                     bad[n] = random.below(3) == 0 || (n >= 64 && n < 96);  // whole blocks, too
                     if (!bad[n]) continue;
-                    for (Crowd* crowd : {&rests, &keeps}) put(*crowd, SWIVEL_TARGET, 0, n, Float3{kNan, 0, 0});
+                    for (Crowd* crowd : {&rests, &keeps}) put_value(*crowd, SWIVEL_TARGET, 0, n, Float3{kNan, 0, 0});
                 }
                 solve();
                 const std::size_t flags = swivel_field_first_row(keeps.get(), 0, SWIVEL_FLAGS);
