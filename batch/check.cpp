@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -66,9 +67,12 @@ swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
 {
     if (group.limb_count == 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no limbs; give at least one", g);
     if (const swivel_status status = check_features(g, group.features); status != SWIVEL_OK) return status;
-    if (static_cast<unsigned>(group.on_bad_input) > SWIVEL_KEEP_POSE)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: on_bad_input is %d; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE",
-                    g, static_cast<int>(group.on_bad_input));
+    std::uint32_t on_bad_input;  // C lets it be any number
+    static_assert(sizeof on_bad_input == sizeof group.on_bad_input);
+    std::memcpy(&on_bad_input, &group.on_bad_input, sizeof on_bad_input);
+    if (on_bad_input > SWIVEL_KEEP_POSE)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: on_bad_input is %u; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE",
+                    g, on_bad_input);
     if (group.on_bad_input == SWIVEL_KEEP_POSE && (group.features & SWIVEL_COMPACT))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_COMPACT excludes SWIVEL_KEEP_POSE; leave one out", g);
     for (const auto& [order, name] :
