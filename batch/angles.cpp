@@ -123,7 +123,7 @@ swivel_status swivel_mirror(swivel_field field, swivel_euler_order order, const 
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: %s is a result; give an input field", name_of(field));
     if (static_cast<unsigned>(order) > SWIVEL_ZYX)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_mirror: there is no order %d", static_cast<int>(order));
-    float value[12] = {};
+    float value[kMostComponents] = {};
     const std::uint32_t count = row_of(field).component_count;
     for (std::uint32_t n = 0; n < count; ++n) value[n] = from[n];
     switch (field) {

@@ -68,7 +68,7 @@ swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, 
 {
     if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
     const Group& of = crowd->groups[group];
-    constexpr float zeros[12] = {};
+    constexpr float zeros[kMostComponents] = {};
     for (const FieldRow& row : kFields)
         if (row.kind == SWIVEL_FIELD_CARRIED && field_row_count(of.features, row.field) > 0)
             copy_in(rows_of(of, row.field), first, limb_count, {zeros, 0});

@@ -60,12 +60,12 @@ swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swiv
     for (const swivel_frame_field& each : fields_of(frame)) {
         if (status == SWIVEL_OK) status = check_field(each.field);
         if (status != SWIVEL_OK) return status;
+        if (!each.data) continue;
         const std::uint64_t bit = std::uint64_t{1} << index_of(each.field);
         if (seen & bit)
             return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u lists %s twice; list it once", g,
                         name_of(each.field));
         seen |= bit;
-        if (!each.data) continue;
         if (is_packed(crowd.groups[g], each.field))
             return fail(SWIVEL_INVALID_ARGUMENT,
                         "group %u, %s: a frame does not take results out of a group with SWIVEL_COMPACT; use "
@@ -190,7 +190,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
     const Work work{job.groups, job.limbs || job.priorities ? crowd->chosen : job.mask, job.frames,
-                    is_from_memory(*crowd, blocks.count)};
+                    is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks))};
     if (job.on_this_thread)
         solve_here(*crowd, isa->kernels, work, blocks);
     else

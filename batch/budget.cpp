@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "batch/lane_mask.h"
 #include "core/bit_cast.h"
@@ -17,7 +18,6 @@ namespace swivel {
 namespace {
 
 constexpr float kMostPriority = 1e15f;  // as for lengths
-constexpr float kMostUrgency = 3e38f;   // reached after 3e23 calls; more than that is not finite, or the caller's
 
 // The largest priority of a block's limbs, within 0 ... kMostPriority. NaN fails every comparison.
 float largest(const char* priority, std::size_t stride, std::uint32_t limb_count)
@@ -39,7 +39,8 @@ std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& p
     std::uint32_t wanted = 0;
     for (std::uint32_t block = 0; block < group.block_count; ++block, ++urgency) {
         const float priority = largest(at, priorities.stride, limb_count_of(group, block));
-        const float size = *urgency < 0 ? -*urgency : *urgency, waited = size <= kMostUrgency ? size : 0;
+        const float size = *urgency < 0 ? -*urgency : *urgency,
+                    waited = size <= std::numeric_limits<float>::max() ? size : 0;
         *urgency = priority > 0 ? waited + priority : -waited;
         wanted += priority > 0;
         at += SWIVEL_LANES * priorities.stride;

@@ -21,7 +21,7 @@ swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_
 swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
                            std::size_t value_bytes, bool may_repeat);
 
-// A number that is a field's; and a field that the crowd has and, if input, that goes into it.
+// A number that is a field's; and a field that the group has and, if input, that goes into it.
 swivel_status check_field(swivel_field field);
 swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);
 

@@ -65,7 +65,8 @@ void fill_inputs(const Group& group)
 void unknown_inputs(const Group& group)
 {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-    constexpr float unknown[] = {kUnknown, kUnknown, kUnknown};
+    float unknown[kMostComponents];
+    std::fill_n(unknown, kMostComponents, kUnknown);
     for (const FieldRow& row : kFields) {
         if (row.starts != Start::unknown || field_row_count(group.features, row.field) == 0) continue;
         const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
@@ -117,7 +118,7 @@ void place_group(const swivel_group_def& def, std::uint32_t first_block, char* r
         group.first_row[f] =
             static_cast<std::uint16_t>(field_first_row(def.features & ~SWIVEL_COMPACT, kFields[f].field));
     group.input = reinterpret_cast<float*>(rows);
-    char* const results = rows + group.block_count * group.input_row_count * kInputRowBytes;
+    char* const results = rows + std::size_t{group.block_count} * group.input_row_count * kInputRowBytes;
     const bool is_compact = def.features & SWIVEL_COMPACT;
     group.results = is_compact ? nullptr : reinterpret_cast<float*>(results);
     group.words = is_compact ? reinterpret_cast<std::uint16_t*>(results) : nullptr;

@@ -70,15 +70,15 @@ public:
         def.groups = &alone;
         def.group_count = 1;
         crowd_ = place_crowd(def, arena_);
-        copy_lane(of_.input, of_.input_row_count, group().input);
-        if (of_.features & SWIVEL_WITH_MOST_SWIVEL)  // the normal that the next step is from
-            copy_lane(of_.results, of_.result_row_count, group().results);
+        copy_lane(of_.input_row_count, of_.input + row_offset(limb_, of_.input_row_count, 0), group().input);
+        if (of_.features & kCarryingFeatures)  // such as the normal that the next step is from
+            copy_lane(of_.result_row_count, of_.results + row_offset(limb_, of_.result_row_count, 0), group().results);
     }
     LimbPose pose() const { return forward(group(), 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
     double violation(swivel_field limit) const
     {
-        float values[12] = {};
+        float values[kMostComponents] = {};
         const std::uint32_t count = component_count(limit);
         for (std::uint32_t c = 0; c < count; ++c) values[c] = value(limit, c);
         const swivel_euler_order order = limit == SWIVEL_WRIST_BOX ? of_.wrist_order : of_.shoulder_order;
@@ -134,12 +134,6 @@ public:
 
 private:
     const Group& group() const { return crowd_->groups[0]; }
-    void copy_lane(const float* rows, std::uint32_t row_count, float* to) const
-    {
-        for (std::uint32_t row = 0; row < row_count; ++row)
-            to[row_offset(0, 0, row)] = rows[row_offset(limb_, row_count, row)];
-    }
-
     static constexpr std::size_t kArenaBytes = 16 * 1024;
     static_assert(block_bytes(kEveryFeature) + 4096 <= kArenaBytes, "rows, and what stands before them");
     alignas(64) unsigned char arena_[kArenaBytes];
@@ -333,7 +327,7 @@ void explain(const Group& group, std::uint32_t limb, std::span<char> room)
     const std::uint32_t flags = probe.solve();
     const bool is_kept = group.keeps && flags & SWIVEL_BAD_INPUT;
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
-    if (!(group.features & SWIVEL_WITH_MOST_SWIVEL) && !is_kept && !probe.has_bits_of_limb())
+    if (!(group.features & kCarryingFeatures) && !is_kept && !probe.has_bits_of_limb())
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, group.keeps, text);
     explain_reach(probe, flags, text);

@@ -39,13 +39,18 @@ Partitioner& partitioner_of(swivel_crowd& crowd)
     return *std::launder(reinterpret_cast<Partitioner*>(crowd.schedule));
 }
 
-// How many blocks have something to do, or one more.
-std::uint32_t busy_block_count(const Work& work, swivel_blocks blocks)
+// How many blocks have something to do, or a few more.
+std::uint32_t busy_block_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
 {
-    if (!work.mask || blocks.count == 0) return blocks.count;
-    const std::uint32_t* const first = work.mask + blocks.first / 2;
-    const std::uint32_t* const end = work.mask + (blocks.first + blocks.count - 1) / 2 + 1;
-    return 2 * static_cast<std::uint32_t>(std::count_if(first, end, [](std::uint32_t word) { return word > 0; }));
+    if (!work.mask) return block_count_of(crowd, work.groups, blocks);
+    std::uint32_t busy = 0;
+    for_each_group(crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+        const std::uint32_t block = group.first_block + part.first;
+        const std::uint32_t *const first = work.mask + block / 2, *const end =
+                                                                      work.mask + (block + part.count - 1) / 2 + 1;
+        busy += 2 * static_cast<std::uint32_t>(std::count_if(first, end, [](std::uint32_t word) { return word > 0; }));
+    });
+    return busy;
 }
 
 // What threads take parts of: the rounds of a job with frames, or else its blocks. In rounds, one thread has the same
@@ -162,10 +167,10 @@ void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& wo
     // one chunk stays on one thread. Up to 2,000 arms, two threads were no faster than one, with chunks of any size.
     constexpr std::size_t kChunkBytes = 128 * 1024;
     const auto chunk = static_cast<std::uint32_t>(kChunkBytes / crowd.block_bytes);
-    if (busy_block_count(work, blocks) > chunk) {
+    if (busy_block_count(crowd, work, blocks) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         const Parts parts(crowd, kernels, work, blocks);
-        if (!try_on_threads(parts, std::max(1u, chunk / (blocks.count / parts.count)))) parts.solve_rest();
+        if (!try_on_threads(parts, std::max(1u, chunk * parts.count / blocks.count))) parts.solve_rest();
         return;
     }
 #endif

@@ -56,6 +56,13 @@ void for_each_group(const swivel_crowd& crowd, const std::uint32_t* groups, swiv
     }
 }
 
+// Blocks of the named groups in a range.
+inline std::uint32_t block_count_of(const swivel_crowd& crowd, const std::uint32_t* groups, swivel_blocks blocks)
+{
+    std::uint32_t count = 0;
+    for_each_group(crowd, groups, blocks, [&](const Group&, GroupBlocks part, std::uint32_t) { count += part.count; });
+    return count;
+}
 bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 
 // Work with frames goes in rounds, because limbs of one character often share cache lines. Round n is the nth run of

@@ -11,7 +11,7 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Which limits a crowd has, and the axes' orders in its boxes; the same for all arms of a group.
+// Which limits a group has, and the axes' orders in its boxes.
 struct LimitUse {
     bool flexion = false, shoulder_cone = false, hand_cone = false, humeral_twist = false, forearm_twist = false,
          hand_twist = false, shoulder_box = false, wrist_box = false;

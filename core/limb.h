@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The whole limb: everything that a goal may ask of an arm beyond its wrist, its pole and its bones. Each part is
-// computed only if the crowd uses it. The order is the lecture's, with one step more. From the goal comes a wrist
+// computed only if the group uses it. The order is the lecture's, with one step more. From the goal comes a wrist
 // target, and then how far it reaches. Next are the swivel plane that is wished for, the frame along the target's line,
 // and the triangle that lifts the upper arm out of it. The last step is the swivel that the joint limits allow.
 // Everything is in the arm frame.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a goal may ask of a limb beyond its wrist, its pole and its bones, and which parts of it a crowd uses.
-// Everything is in the arm frame. Parts that a crowd does not use may hold anything.
+// What a goal may ask of a limb beyond its wrist, its pole and its bones, and which parts of it a group uses.
+// Everything is in the arm frame. Parts that a group does not use may hold anything.
 #pragma once
 
 #include "core/joint_limits.h"
@@ -10,7 +10,7 @@ namespace swivel::inline SWIVEL_ISA {
 
 enum class Wish { pole, normal, incoming };  // what says where the elbow goes
 
-// What a crowd uses; the same for all of a group's arms.
+// What a group uses.
 struct LimbUse {
     bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false,
          continuity = false, aim = false;
@@ -45,7 +45,7 @@ struct Continuity {
 // has.
 template <class T>
 struct AimGoal {
-    Vector<T> axis;  // in the hand's frame, of any length; a kernel checks the one that a crowd gives
+    Vector<T> axis;  // in the hand's frame, of any length; a kernel checks the one that is given
     T cos_half, sin_half;
 };
 

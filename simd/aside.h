@@ -70,7 +70,7 @@ struct BlockAside {
             const std::size_t from = list.limb[lane < count ? lane : 0];
             copy_lane(rows, run.input + row_offset(from, rows, 0), input + lane);
             // What is carried from solve to solve, and what bad input keeps, is in the results.
-            if (run.features & SWIVEL_WITH_MOST_SWIVEL || run.keeps)
+            if (run.features & kCarryingFeatures || run.keeps)
                 copy_lane(result_rows, run.results + row_offset(from, result_rows, 0), results + lane);
         }
         SolveRun aside = run;

@@ -73,6 +73,7 @@ constexpr const char* feature_name(swivel_features features)
 struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
     std::uint32_t axis_size = 0, pair_count = 0;
 };
+inline constexpr std::uint32_t kMostComponents = 12;   // of an input, and of what is carried
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
 enum class Place : std::uint8_t { no, yes };           // a position: it may be given in double, from an origin
 struct FieldRow {
@@ -81,8 +82,8 @@ struct FieldRow {
     std::uint32_t component_count;  // see field_component_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    const char* range = "";  // what a value must be to be in its range
-    float start[12] = {};    // what padding starts with, and limbs unless unknown
+    const char* range = "";             // what a value must be to be in its range
+    float start[kMostComponents] = {};  // what padding starts with, and limbs unless unknown
     Start starts = Start::neutral;
     Place place = Place::no;
     UnitParts unit = {};
@@ -259,6 +260,22 @@ static_assert([] {
         if (index_of(kFields[n].field) != n || is_input(kFields[n].field) != (kFields[n].kind == kInput)) return false;
     return kFieldCount == kInputCount + SWIVEL_RESULT_END - SWIVEL_SHOULDER;
 }());
+static_assert([] {
+    for (const FieldRow& row : kFields)
+        if ((row.kind != kResult && row.component_count > kMostComponents) ||
+            (row.place == Place::yes && row.component_count != 3) ||
+            row.unit.axis_size + 2 * row.unit.pair_count > row.component_count)
+            return false;
+    return true;
+}());
+
+// The features with which limbs carry something from solve to solve.
+inline constexpr swivel_features kCarryingFeatures = [] {
+    swivel_features carrying = 0;
+    for (const FieldRow& row : kFields)
+        if (row.kind == kCarried) carrying |= row.needs;
+    return carrying;
+}();
 
 // ---- flags
 struct FlagRow {

@@ -39,7 +39,7 @@ inline constexpr std::uint32_t kEveryLane = ~0u;
     return run.mask[lane / 32] >> lane % 32 & ((1u << count) - 1);
 }
 
-// Results of a run of blocks, to be packed into the words of a compact crowd.
+// Results of a run of blocks, to be packed into the words of a compact group.
 struct PackRun {
     const float* results;  // result rows of the run's first block
     std::uint16_t* words;  // compact rows of the same block

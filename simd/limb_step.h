@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One step of the whole limb. It loads the rows that a crowd has, brings them into the arm frame, solves, and stores
+// One step of the whole limb. It loads the rows that a group has, brings them into the arm frame, solves, and stores
 // the results. All limbs of a run have the same rows, so the step asks for them once, and never for a single limb.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace swivel::inline SWIVEL_ISA {
 // A full arm gained 1.25 times, too little for the time that the build takes.
 inline constexpr swivel_features kConeAndTwist = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
 
-// What a crowd's features make the formula use.
+// What a group's features make the formula use.
 template <swivel_features Features>
 SWIVEL_INLINE LimbUse limb_use(const SolveRun& run)
 {

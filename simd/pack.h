@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Converts result rows of floats to rows of 16-bit words, block by block. Compact crowds add this part to the kernels.
+// Converts result rows of floats to rows of 16-bit words, block by block. Compact groups add this part to the kernels.
 // It knows no solver.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The layout of a crowd's rows: which fields a set of features has, in which order, and where a lane of a row lies. No
+// The layout of a group's rows: which fields a set of features has, in which order, and where a lane of a row lies. No
 // other file knows it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace swivel {
 
-// Rows of a result field of a compact crowd, whose rows are words; rotations take the smallest three components.
+// Rows of a result field of a compact group, whose rows are words; rotations take the smallest three components.
 constexpr std::uint32_t compact_row_count(swivel_features features, swivel_field field)
 {
     switch (field) {
@@ -33,7 +33,7 @@ constexpr std::uint32_t twist_bone_count(swivel_features features)
     return static_cast<std::uint32_t>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
 }
 
-// Rows of a field; 0 if crowds with these features do not have it.
+// Rows of a field; 0 if groups with these features do not have it.
 constexpr std::uint32_t field_row_count(swivel_features features, swivel_field field)
 {
     if ((features & SWIVEL_COMPACT) && !is_input(field)) return compact_row_count(features, field);
@@ -43,7 +43,7 @@ constexpr std::uint32_t field_row_count(swivel_features features, swivel_field f
     return (features & row.needs) == row.needs && !(features & row.excludes) ? row.component_count : 0;
 }
 
-// The floats, or the one uint32_t, of a field's value as callers read and write it. 0 if crowds with these features do
+// The floats, or the one uint32_t, of a field's value as callers read and write it. 0 if groups with these features do
 // not have it.
 constexpr std::uint32_t field_component_count(swivel_features features, swivel_field field)
 {

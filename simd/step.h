@@ -103,7 +103,7 @@ struct Rows {
     }
 };
 
-// How a skeleton's joints lie to the arm frame, all of unit length; identities in crowds without joints. They are
+// How a skeleton's joints lie to the arm frame, all of unit length; identities in groups without joints. They are
 // spread over lanes where they are used, because a limb's own values leave no registers for them.
 struct Binding {
     Rotor<float> parent_from_arm, upper_from_arm, elbow_parent_from_arm, fore_from_arm, wrist_parent_from_arm;

@@ -19,7 +19,8 @@ must_print_the_line(${WORK}/arm_cpp)
 
 # The host's programs are compiled and linked with these options. -DNDEBUG and -ffast-math are the host's own.
 quote(${WORK} place)
-must_say_only("the host" "${commands}" "-[IDfm]|-isystem" "-I${place}/[a-z_/-]*/public|-ffast-math|-DNDEBUG")
+quote(${SOURCE} source)
+must_say_only("the host" "${commands}" "-[IDfm]|-isystem" "-I${source}/include|-ffast-math|-DNDEBUG")
 must_say_only("the host" "${commands}" "-[lL]|-Wl,|[^ \n]*[.]so|[^ \n]*lib[a-z]*[.]a"
               "[^ ]*/libswivel[.](so[.0-9]*|a)|-Wl,-rpath,${place}[^ ]*|[^ ]*/libtbb[.]so[.0-9]*")
 if(SHARED AND commands MATCHES "libtbb")

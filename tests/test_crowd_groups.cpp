@@ -337,3 +337,15 @@ TEST_CASE("the library describes the fields, features and flags that the header 
     CHECK(!swivel_describe_feature(1000, &feature));
     CHECK(swivel_component_count(SWIVEL_INPUT_END, 0) == 0);
 }
+
+TEST_CASE("a job whose groups lie outside its blocks solves nothing, on threads, too")
+{
+    Crowd crowd({group(16 * 2000), group(16)});
+    const Float3 target{0.3f, 0.2f, 1};
+    for (std::uint32_t g = 0; g < 2; ++g) crowd.write_all(SWIVEL_LENGTHS, g, Float2{1, 1});
+    const Frame frame = Frame().in(SWIVEL_TARGET, {&target, 0});
+    CHECK(crowd.solve({.blocks = swivel_blocks{0, 2000}, .groups = {1u}, .frames = {frame}}) == 0);
+    CHECK(crowd.solve({.groups = {1u}, .frames = {frame}}) == 16);
+    CHECK(crowd.solve({.groups = {0u}, .frames = {frame}}) == 32000);
+    CHECK_THROWS_WITH(Frame().in(SWIVEL_FLAGS, {&target, 4}), "a frame takes in no result; give it by out()");
+}

@@ -263,8 +263,10 @@ typedef enum swivel_field {
     // 1, WITH_REACH: the factor for both bone lengths, 1 or more.
     SWIVEL_STRETCH,
     // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. The next solve makes it perpendicular to
-    // its own line from shoulder to wrist; SWIVEL_MOST_SWIVEL limits the turn from there. Bad input and swivel_reset()
-    // clear it; call swivel_reset() after a teleport. Without this feature, results depend on the present inputs alone.
+    // its own line from shoulder to wrist; SWIVEL_MOST_SWIVEL limits the turn from there. swivel_reset() clears it, and
+    // so
+    // does bad input, unless the group keeps poses; call swivel_reset() after a teleport. Without this feature, results
+    // depend on the present inputs alone, but for poses that are kept.
     // The swivel is still continuous, with three exceptions. The target crosses the shoulder, the pole crosses the line
     // from shoulder to wrist, or the nearest allowed swivel changes sides.
     SWIVEL_NORMAL,
@@ -300,7 +302,7 @@ typedef struct swivel_field_info {
     swivel_field_kind kind;
     const char* name;          // such as "shoulder_position"; a constant, as is the next
     const char* range;         // what a value of an input must be, in words; empty for results
-    swivel_features needs;     // a group has the field if it has all of these features
+    swivel_features needs;     // a group has the field if it has all of these, and any number of twist bones for theirs
     swivel_features excludes;  // and none of these
     uint32_t is_position;      // 1: it may be given in double, from an origin
     uint32_t reserved;         // 0
@@ -324,7 +326,7 @@ typedef struct swivel_binding {
     float elbow_parent_from_arm[4];  // the same, to the elbow's parent: upper_from_arm where that is the shoulder joint
     float fore_from_arm[4];          // the same, to the elbow joint's own frame
     float wrist_parent_from_arm[4];  // the same, to the wrist's parent: fore_from_arm where that is the elbow joint
-    float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations a limb with bad input gets
+    float shoulder_rest[4], elbow_rest[4], wrist_rest[4];  // local rotations a limb with bad input gets by default
     float lengths[2];                                      // upper arm, forearm; NaN where they are not known
     uint32_t twist_bone_count;  // 0: none is bound, and SWIVEL_TWIST_BONES is relative to their rest
     // The same, to each twist bone's parent and to its own frame. Unused entries hold fore_from_arm.
@@ -368,6 +370,7 @@ typedef enum swivel_euler_order {
 typedef enum swivel_on_bad_input {
     SWIVEL_REST_POSE,  // its rest pose; what it carries from solve to solve is cleared
     // Its results stay as they are, and so do its values in frames: only its flags are written. What it carries stays.
+    // Not with SWIVEL_COMPACT.
     SWIVEL_KEEP_POSE,
 } swivel_on_bad_input;
 
@@ -639,11 +642,12 @@ typedef struct swivel_job {
     // read nor written. limbs and priorities are for the whole crowd, so they exclude blocks and on_this_thread.
     // Priorities exclude groups, too: a group that is not wanted has priority 0.
     //
-    // By bits: limb i of swivel_rows is bit i % 32 of mask[i / 32]. mask_word_count must be (swivel_block_count() + 1)
-    // / 2. Bits of padding lanes, and past the last block, are ignored.
+    // By bits: limb n of a group has the number i = swivel_group_first_limb() + n, which is bit i % 32 of mask[i / 32].
+    // mask_word_count must be (swivel_block_count() + 1) / 2. Bits of padding lanes, and past the last block, are
+    // ignored.
     const uint32_t* mask;
     uint32_t mask_word_count;
-    // By a list of limb indices as in swivel_rows: swivel_group_first_limb() + n. Any order; a limb named twice is
+    // By a list of such numbers. Any order; a limb named twice is
     // solved once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before
     // anything is solved. A list in no order costs some nanoseconds an entry more than bits.
     const swivel_limbs* limbs;

@@ -232,11 +232,13 @@ class Frame {
 public:
     Frame& in(swivel_field field, const swivel_in& values)
     {
+        if (field >= SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "a frame takes in no result; give it by out()");
         fields_.push_back({field, const_cast<void*>(values.data), values.stride});  // inputs are only read
         return *this;
     }
     Frame& out(swivel_field field, const swivel_out& values)
     {
+        if (field < SWIVEL_INPUT_END) fail(SWIVEL_INVALID_ARGUMENT, "a frame puts out no input; give it by in()");
         fields_.push_back({field, values.data, values.stride});
         return *this;
     }

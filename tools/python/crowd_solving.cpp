@@ -120,7 +120,8 @@ std::vector<swivel_in> pointers_of(const std::vector<Input>& inputs)
 
 using Blocks = std::optional<std::pair<std::int64_t, std::int64_t>>;
 
-// Results go straight into the caller's arrays, or through copies of them that hold nothing of limbs not solved.
+// Results go straight into the caller's arrays, or through copies. A copy brings back the whole group's values, over
+// those that another thread solved meanwhile.
 void require_direct(const Frames& frames)
 {
     for (const Output& each : frames.outputs)
