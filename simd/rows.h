@@ -76,6 +76,17 @@ constexpr std::uint32_t result_row_count(swivel_features features)
     return rows_before(features, kInputCount, kFieldCount);
 }
 
+// Compact groups have words for four results. Their features exclude those that bring others.
+static_assert([] {
+    swivel_features excluded = 0;
+    for (const FeatureRow& row : kFeatures)
+        if (row.feature == SWIVEL_COMPACT) excluded = row.excludes;
+    for (const FieldRow& row : kFields)
+        if (!is_input(row.field) && compact_row_count(SWIVEL_WITH_HAND, row.field) == 0 && !(row.needs & excluded))
+            return false;
+    return true;
+}());
+
 // The rows that a set of features has. A kernel's own is a constant, so that no loop over the table is left in it.
 struct RowPlan {
     std::uint32_t input_count, result_count;
