@@ -2,7 +2,6 @@
 #include "batch/check.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -12,7 +11,6 @@
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/status.h"
-#include "core/conformal.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 

@@ -15,8 +15,6 @@ namespace swivel {
 
 namespace {
 
-constexpr swivel_features kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
-
 // With any of these features, a group's limbs are whole limbs, which have one kernel (simd/limb_run.h).
 constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT);
 

@@ -29,14 +29,12 @@ void solve_chosen_group(const Kernels& kernels, const Group& group, const std::u
 std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint32_t limb, swivel_arc* arcs,
                            std::uint32_t capacity);
 
-// Checked members of a swivel_job. groups: bits of those that are named, null for all. mask: which limbs are solved,
-// null for all. frames: where values come from, one for each group that is named, null for rows. from_memory: the job's
-// rows do not fit the caches.
+// Checked members of a swivel_job.
 struct Work {
-    const std::uint32_t* groups = nullptr;
-    const std::uint32_t* mask = nullptr;
-    const swivel_frame* frames = nullptr;
-    bool from_memory = false;
+    const std::uint32_t* groups = nullptr;  // bits of those that are named; null: all
+    const std::uint32_t* mask = nullptr;    // bits of the limbs to solve; null: all
+    const swivel_frame* frames = nullptr;   // of each group that is named; null: values are in rows
+    bool from_memory = false;               // the job's rows do not fit the caches
 };
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 

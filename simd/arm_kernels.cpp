@@ -97,9 +97,6 @@ SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>&
     return holds & ordinary;
 }
 
-// The features of plain arms that change their rows.
-inline constexpr swivel_features kPlainRows = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
-
 // Solves the first limbs of a list, up to a block, as whole limbs. If they are a block of the run, that is done where
 // they lie.
 [[gnu::noinline, gnu::cold]] void solve_others(const SolveRun& run, WaitingLimbs& others)
@@ -107,7 +104,7 @@ inline constexpr swivel_features kPlainRows = SWIVEL_WORLD | SWIVEL_JOINTS | SWI
     if (others.starts_with_block()) {
         limb_kernels.solve(block_of(run, others.limb[0] / kLanes));
     } else {
-        BlockAside<kPlainRows> aside;
+        BlockAside<kFormulaFeatures> aside;
         limb_kernels.solve(aside.gather(run, others));
         aside.give_back(run, others);
     }

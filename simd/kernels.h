@@ -46,11 +46,14 @@ struct PackRun {
     std::uint32_t block_count;
 };
 
+// The features that change the formula of plain arms, and their rows. They number its kernels.
+inline constexpr swivel_features kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
+static_assert(kFormulaFeatures == 7);
+
 // Of plain arms: simd/arm_kernels.cpp.
 struct ArmKernels {
-    // By the features that change the formula: SWIVEL_WORLD, joints and hand.
     void (*solve[8])(const SolveRun& run);
-    // By the features that change the result rows: SWIVEL_JOINTS and hand, over SWIVEL_JOINTS.
+    // By SWIVEL_JOINTS and SWIVEL_WITH_HAND, which change the result rows, over SWIVEL_JOINTS.
     void (*pack[4])(const PackRun& run);
 };
 

@@ -263,11 +263,12 @@ typedef enum swivel_field {
     // 1, WITH_REACH: the factor for both bone lengths, 1 or more.
     SWIVEL_STRETCH,
     // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. The next solve makes it perpendicular to
-    // its own line from shoulder to wrist; SWIVEL_MOST_SWIVEL limits the turn from there. swivel_reset() clears it, and
-    // so
-    // does bad input, unless the group keeps poses; call swivel_reset() after a teleport. Without this feature, results
-    // depend on the present inputs alone, but for poses that are kept.
-    // The swivel is still continuous, with three exceptions. The target crosses the shoulder, the pole crosses the line
+    // its own line from shoulder to wrist. SWIVEL_MOST_SWIVEL limits the turn from there. Bad input clears it, unless
+    // the
+    // group keeps poses. swivel_reset() clears it, too: call it after a teleport. Without this feature, results depend
+    // on
+    // the present inputs alone, but for poses that are kept. The swivel is still continuous, with three exceptions. The
+    // target crosses the shoulder, the pole crosses the line
     // from shoulder to wrist, or the nearest allowed swivel changes sides.
     SWIVEL_NORMAL,
     // 4 n, WITH_TWIST_BONES * n: the rotations of n bones that share the hand's twist about the forearm. Bone i of 1..n
