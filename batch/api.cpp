@@ -12,7 +12,7 @@
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
-#include "batch/unpack.h"
+#include "batch/use.h"
 #include "simd/dispatch.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
@@ -95,7 +95,8 @@ swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** cr
 
 void swivel_crowd_destroy(swivel_crowd* crowd)
 {
-    if (!crowd) return;
+    if (!crowd || Use(crowd, Sharing::alone).status != SWIVEL_OK) return;
+    crowd->alive = 0;
     end_schedule(*crowd);
     if (crowd->release) crowd->release(crowd->arena, crowd->arena_bytes, crowd->user);
 }
@@ -104,10 +105,12 @@ swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding)
 {
     const FloatEnv env;
     if (!chain || !binding) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind: chain or binding is null");
-    if (const swivel_status status = check_size<swivel_chain>("chain", size_of(chain)); status != SWIVEL_OK)
-        return status;
+    swivel_status status = check_size<swivel_chain>("chain", size_of(chain));
+    if (status != SWIVEL_OK) return status;
+    const swivel_chain given = element(chain, 0, swivel_default_chain());
     RestLimb limb;
-    const swivel_status status = rest_limb(element(chain, 0, swivel_default_chain()), limb);
+    status = check_reserved("chain", given);
+    if (status == SWIVEL_OK) status = rest_limb(given, limb);
     return status == SWIVEL_OK ? bind("swivel_bind", limb, *binding) : status;
 }
 
@@ -120,9 +123,12 @@ swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_l
     swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(skeleton));
     if (status == SWIVEL_OK) status = check_size<swivel_limb_joints>("limb joints", size_of(joints));
     if (status != SWIVEL_OK) return status;
+    const swivel_skeleton whole = element(skeleton, 0, swivel_default_skeleton());
+    const swivel_limb_joints given = element(joints, 0, swivel_default_limb_joints(0, 0, 0));
     RestLimb limb;
-    status = rest_limb(element(skeleton, 0, swivel_default_skeleton()),
-                       element(joints, 0, swivel_default_limb_joints(0, 0, 0)), limb);
+    status = check_reserved("skeleton", whole);
+    if (status == SWIVEL_OK) status = check_reserved("limb joints", given);
+    if (status == SWIVEL_OK) status = rest_limb(whole, given, limb);
     return status == SWIVEL_OK ? bind("swivel_bind_joints", limb, *binding) : status;
 }
 
@@ -139,7 +145,8 @@ swivel_status swivel_arm_axis(const swivel_binding* binding, const float parent_
     const float parent[4] = {parent_rotation[0], parent_rotation[1], parent_rotation[2], parent_rotation[3]};
     const double wanted[3] = {direction[0], direction[1], direction[2]};
     double found[3];
-    const swivel_status status = arm_axis(*binding, parent, wanted, found);
+    swivel_status status = check_size<swivel_binding>("binding", size_of(binding));
+    if (status == SWIVEL_OK) status = arm_axis(element(binding, 0, swivel_default_binding()), parent, wanted, found);
     if (status == SWIVEL_OK) std::copy(found, found + 3, axis);
     return status;
 }
@@ -179,27 +186,14 @@ swivel_rows swivel_input_rows(swivel_crowd* crowd, uint32_t group)
 swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group)
 {
     const Group* const of = group_of(crowd, group);
-    return of ? swivel_rows{of->results, of->block_count, of->results ? of->result_row_count : 0} : swivel_rows{};
+    return of ? swivel_rows{of->results, of->block_count, of->result_row_count} : swivel_rows{};
 }
-swivel_words swivel_compact_rows(swivel_crowd* crowd, uint32_t group)
-{
-    const Group* const of = group_of(crowd, group);
-    return of ? swivel_words{of->words, of->block_count, of->words ? of->result_row_count : 0} : swivel_words{};
-}
-
-void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4])
-{
-    const FloatEnv env;
-    const std::array<float, 4> q = unpack_rotation(words, word_stride);
-    std::copy(q.begin(), q.end(), xyzw);
-}
-float swivel_unpack_half(uint16_t word) { return unpack_half(word); }
-
 swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first, uint32_t limb_count,
                            swivel_in values)
 {
-    swivel_status status = check(crowd, group, first, limb_count);
-    if (status == SWIVEL_OK) status = check_values(*crowd, group, field, values.data, values.stride, true);
+    const Use use(crowd, Sharing::alone);
+    swivel_status status = use.of(group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_values(*crowd, group, field, limb_count, values.data, values.stride, true);
     if (status != SWIVEL_OK) return status;
     copy_in(rows_of(crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
@@ -209,7 +203,8 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
                                    uint32_t limb_count, swivel_in values, swivel_in origins)
 {
     const FloatEnv env;
-    swivel_status status = check(crowd, group, first, limb_count);
+    const Use use(crowd, Sharing::alone);
+    swivel_status status = use.of(group, first, limb_count);
     if (status == SWIVEL_OK) status = check_field(*crowd, group, field, true);
     if (status != SWIVEL_OK) return status;
     const Group& of = crowd->groups[group];
@@ -220,9 +215,9 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     if (origins.data && !has_origin(of.features, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",
                     group, name_of(field));
-    status = check_values(*crowd, group, field, values.data, values.stride, true, sizeof(double));
+    status = check_values(*crowd, group, field, limb_count, values.data, values.stride, true, sizeof(double));
     if (status == SWIVEL_OK && origins.data)
-        status = check_stride(group, "origin", origins.data, origins.stride, 3 * sizeof(double), true);
+        status = check_stride(group, "origin", limb_count, origins.data, origins.stride, 3 * sizeof(double), true);
     if (status != SWIVEL_OK) return status;
     copy_doubles_in(rows_of(of, field), first, limb_count, values, origins);
     return SWIVEL_OK;
@@ -231,15 +226,11 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
 swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                           uint32_t limb_count, swivel_out values)
 {
-    const FloatEnv env;
-    swivel_status status = check(crowd, group, first, limb_count);
-    if (status == SWIVEL_OK) status = check_values(*crowd, group, field, values.data, values.stride, false);
+    const Use use(crowd, Sharing::shared);
+    swivel_status status = use.of(group, first, limb_count);
+    if (status == SWIVEL_OK) status = check_values(*crowd, group, field, limb_count, values.data, values.stride, false);
     if (status != SWIVEL_OK) return status;
-    const Group& of = crowd->groups[group];
-    if (is_packed(of, field))
-        unpack_out(of, field, first, limb_count, values);
-    else
-        copy_out(rows_of(of, field), first, limb_count, values);
+    copy_out(rows_of(crowd->groups[group], field), first, limb_count, values);
     return SWIVEL_OK;
 }
 

@@ -13,6 +13,7 @@
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
+#include "batch/use.h"
 #include "simd/float_env.h"
 #include "simd/rows.h"
 
@@ -33,7 +34,6 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
 std::uint32_t flags_of(const Group& group, std::size_t limb)
 {
     const std::size_t at = row_offset(limb, group.result_row_count, field_first_row(group.features, SWIVEL_FLAGS));
-    if (group.words) return group.words[at] | std::uint32_t{group.words[at + SWIVEL_LANES]} << 16;
     std::uint32_t flags = 0;
     std::memcpy(&flags, group.results + at, sizeof flags);
     return flags;
@@ -58,7 +58,8 @@ int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* group, uint
 swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text, size_t size)
 {
     const FloatEnv env;
-    if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     explain(crowd->groups[group], limb, {text, size});
     return SWIVEL_OK;
@@ -66,7 +67,8 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
 
 swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count)
 {
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    const Use use(crowd, Sharing::alone);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
     const Group& of = crowd->groups[group];
     constexpr float zeros[kMostComponents] = {};
     for (const FieldRow& row : kFields)
@@ -79,7 +81,8 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
                                   uint32_t capacity, uint32_t* arc_count)
 {
     const FloatEnv env;
-    if (const swivel_status status = check(crowd, group, limb, 1); status != SWIVEL_OK) return status;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
     *arc_count = allowed_arcs(find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
@@ -91,7 +94,8 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
                                   swivel_out angles)
 {
     const FloatEnv env;
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
     for (const auto& [order, name] :
          {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)
@@ -100,7 +104,7 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
     if (family != 0 && family != 1)
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_joint_angles: family is %d; it is 0 or 1", family);
     if (const swivel_status status =
-            check_stride(group, "angles", angles.data, angles.stride, 7 * sizeof(double), false);
+            check_stride(group, "angles", limb_count, angles.data, angles.stride, 7 * sizeof(double), false);
         status != SWIVEL_OK)
         return status;
     const Group& g = crowd->groups[group];
@@ -115,15 +119,16 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
                              swivel_out elbow, swivel_out wrist, swivel_out hand)
 {
     const FloatEnv env;
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
                     group);
     for (const auto& [name, out, component_count] :
          {std::tuple{"elbow", elbow, 3u}, {"wrist", wrist, 3u}, {"hand", hand, 4u}})
         if (out.data)
-            if (const swivel_status status =
-                    check_stride(group, name, out.data, out.stride, component_count * sizeof(double), false);
+            if (const swivel_status status = check_stride(group, name, limb_count, out.data, out.stride,
+                                                          component_count * sizeof(double), false);
                 status != SWIVEL_OK)
                 return status;
     const Group& of = crowd->groups[group];
@@ -140,9 +145,10 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
                                swivel_out distance)
 {
     const FloatEnv env;
-    if (const swivel_status status = check(crowd, group, first, limb_count); status != SWIVEL_OK) return status;
+    const Use use(crowd, Sharing::shared);
+    if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
     if (const swivel_status status =
-            check_stride(group, "distance", distance.data, distance.stride, sizeof(double), false);
+            check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
         status != SWIVEL_OK)
         return status;
     const Group& of = crowd->groups[group];

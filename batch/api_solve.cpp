@@ -11,7 +11,7 @@
 #include "batch/sized.h"
 #include "batch/solve.h"
 #include "batch/status.h"
-#include "batch/unpack.h"
+#include "batch/use.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -34,7 +34,8 @@ swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* prior
                     crowd.group_count);
     swivel_status status = SWIVEL_OK;
     for (std::uint32_t g = 0; g < crowd.group_count && status == SWIVEL_OK; ++g)
-        status = check_stride(g, "priority", priorities[g].data, priorities[g].stride, sizeof(float), true);
+        status = check_stride(g, "priority", crowd.groups[g].limb_count, priorities[g].data, priorities[g].stride,
+                              sizeof(float), true);
     return status;
 }
 
@@ -52,9 +53,9 @@ swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swiv
 {
     if (!frame.fields && frame.field_count > 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: its %u fields are null", g, frame.field_count);
-    swivel_status status = SWIVEL_OK;
-    if (frame.origin.data)
-        status = check_stride(g, "origin", frame.origin.data, frame.origin.stride, 3 * sizeof(double), true);
+    swivel_status status = check_reserved("frame", frame);
+    if (status == SWIVEL_OK && frame.origin.data)
+        status = check_stride(g, "origin", 1, frame.origin.data, frame.origin.stride, 3 * sizeof(double), true);
     std::uint64_t seen = 0;
     static_assert(kFieldCount <= 64, "a bit for each");
     for (const swivel_frame_field& each : fields_of(frame)) {
@@ -66,13 +67,8 @@ swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swiv
             return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u lists %s twice; list it once", g,
                         name_of(each.field));
         seen |= bit;
-        if (is_packed(crowd.groups[g], each.field))
-            return fail(SWIVEL_INVALID_ARGUMENT,
-                        "group %u, %s: a frame does not take results out of a group with SWIVEL_COMPACT; use "
-                        "swivel_read() or swivel_compact_rows()",
-                        g, name_of(each.field));
         const bool is_double = frame.origin.data && is_position(each.field);
-        status = check_values(crowd, g, each.field, each.data, each.stride, is_input(each.field),
+        status = check_values(crowd, g, each.field, 1, each.data, each.stride, is_input(each.field),
                               is_double ? sizeof(double) : sizeof(float));
     }
     return status;
@@ -87,6 +83,7 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_job& job, swi
         const auto g = static_cast<std::uint32_t>(&group - crowd.groups);
         if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(job.frames, n));
     });
+    if (kChecksUse && status == SWIVEL_OK) status = check_overlap(crowd, job, blocks);
     return status;
 }
 
@@ -149,10 +146,10 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
     return SWIVEL_OK;
 }
 
-std::uint32_t count_limbs(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
+std::uint32_t count_limbs(const Work& work)
 {
     std::uint32_t limb_count = 0;
-    for_each_group(crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
         const std::uint32_t last = part.first + part.count - 1;
         if (!work.mask) {
             limb_count += (part.count - 1) * SWIVEL_LANES + limb_count_of(group, last);
@@ -168,7 +165,6 @@ std::uint32_t count_limbs(const swivel_crowd& crowd, const Work& work, swivel_bl
 
 swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_solve: crowd is null");
     if (!given) {
         const swivel_job everything = swivel_default_job();
         return swivel_solve(crowd, &everything);
@@ -177,6 +173,9 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     swivel_job filled;
     const swivel_job& job = whole(given, swivel_default_job, filled);
+    const Use use(crowd, job.on_this_thread ? Sharing::shared : Sharing::alone);
+    status = use.status;
+    if (status != SWIVEL_OK) return status;
     if (job.blocks) status = check_blocks(*crowd, *job.blocks);
     const swivel_blocks blocks = job.blocks ? *job.blocks : swivel_blocks{0, crowd->block_count};
     if (status == SWIVEL_OK) status = check_groups(*crowd, job);
@@ -189,13 +188,18 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
-    const Work work{job.groups, job.limbs || job.priorities ? crowd->chosen : job.mask, job.frames,
+    const Work work{*crowd,
+                    isa->kernels,
+                    blocks,
+                    job.groups,
+                    job.limbs || job.priorities ? crowd->chosen : job.mask,
+                    job.frames,
                     is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks))};
     if (job.on_this_thread)
-        solve_here(*crowd, isa->kernels, work, blocks);
+        solve_here(work);
     else
-        solve_in_chunks(*crowd, isa->kernels, work, blocks);
-    if (job.solved_count) *job.solved_count = count_limbs(*crowd, work, blocks);
+        solve_in_chunks(work);
+    if (job.solved_count) *job.solved_count = count_limbs(work);
     if (job.limbs) clear(crowd->chosen, job.limbs->indices, job.limbs->count);
     if (job.priorities) std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
     return SWIVEL_OK;
@@ -204,8 +208,9 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
 swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,
                             uint32_t* mask, uint32_t word_count, uint32_t* chosen_count)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_choose: crowd is null");
-    swivel_status status = check_priorities(*crowd, priorities);
+    const Use use(crowd, Sharing::alone);
+    swivel_status status = use.status;
+    if (status == SWIVEL_OK) status = check_priorities(*crowd, priorities);
     if (status == SWIVEL_OK) status = check_mask(*crowd, mask, word_count);
     if (status != SWIVEL_OK) return status;
     const uint32_t picked = choose(*crowd, priorities, urgency, most_blocks, mask);

@@ -26,6 +26,9 @@ swivel_status check_binding(std::uint32_t group, const swivel_binding& binding, 
 {
     if (std::all_of(std::begin(binding.parent_from_arm), std::end(binding.parent_from_arm), is_zero))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u has no binding; make it with swivel_bind()", group);
+    if (const swivel_status status = check_size<swivel_binding>("the group's binding", size_of(&binding));
+        status != SWIVEL_OK)
+        return status;
     if (!is_binding(binding))
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "group %u's binding holds a quaternion not of unit length; make it with swivel_bind()", group);
@@ -71,8 +74,6 @@ swivel_status check_group(std::uint32_t g, const swivel_group_def& group)
     if (on_bad_input > SWIVEL_KEEP_POSE)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u: on_bad_input is %u; it is SWIVEL_REST_POSE or SWIVEL_KEEP_POSE",
                     g, on_bad_input);
-    if (group.on_bad_input == SWIVEL_KEEP_POSE && (group.features & SWIVEL_COMPACT))
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u: SWIVEL_COMPACT excludes SWIVEL_KEEP_POSE; leave one out", g);
     for (const auto& [order, name] :
          {std::pair{group.shoulder_order, "shoulder_order"}, std::pair{group.wrist_order, "wrist_order"}})
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)
@@ -93,6 +94,7 @@ swivel_status check(const swivel_crowd_def* given)
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;
     const swivel_crowd_def def = full_def(given);
+    if (const swivel_status status = check_reserved("crowd def", def); status != SWIVEL_OK) return status;
     if (def.group_count == 0 || !def.groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def.allocate != !def.release)
@@ -116,22 +118,21 @@ swivel_status check(const swivel_crowd_def* given)
     return SWIVEL_OK;
 }
 
-swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
+swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count)
 {
-    if (!crowd) return fail(SWIVEL_INVALID_ARGUMENT, "crowd is null");
-    if (group >= crowd->group_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u does not exist; this crowd has %u", group, crowd->group_count);
-    const std::uint32_t has = crowd->groups[group].limb_count;
+    if (group >= crowd.group_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u does not exist; this crowd has %u", group, crowd.group_count);
+    const std::uint32_t has = crowd.groups[group].limb_count;
     if (first > has || limb_count > has - first)
         return fail(SWIVEL_INVALID_ARGUMENT, "%u limbs from limb %u on are not all in group %u, which has %u",
                     limb_count, first, group, has);
     return SWIVEL_OK;
 }
 
-swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
-                           std::size_t value_bytes, bool may_repeat)
+swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t limb_count, const void* data,
+                           std::size_t stride, std::size_t value_bytes, bool may_repeat)
 {
-    if (!data) return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: data is null", group, name);
+    if (!data && limb_count > 0) return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: data is null", group, name);
     if (stride < value_bytes && !(may_repeat && stride == 0))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: stride %zu is smaller than a value, %zu bytes", group, name,
                     stride, value_bytes);
@@ -150,18 +151,18 @@ swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel
     if (input && !is_input(field))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", row.name);
     const swivel_features features = crowd.groups[group].features;
-    if (field_component_count(features, field) != 0) return SWIVEL_OK;
+    if (field_row_count(features, field) != 0) return SWIVEL_OK;
     const swivel_features missing = row.needs & ~features;
     return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this group; create it with%s SWIVEL_%s", group,
                 row.name, missing ? "" : "out", feature_name(missing ? missing : row.excludes));
 }
 
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
-                           std::size_t stride, bool input, std::size_t component_bytes)
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, std::uint32_t limb_count,
+                           const void* data, std::size_t stride, bool input, std::size_t component_bytes)
 {
     if (const swivel_status status = check_field(crowd, group, field, input); status != SWIVEL_OK) return status;
-    const std::uint32_t count = field_component_count(crowd.groups[group].features, field);
-    return check_stride(group, name_of(field), data, stride, count * component_bytes, input);
+    const std::uint32_t count = field_row_count(crowd.groups[group].features, field);
+    return check_stride(group, name_of(field), limb_count, data, stride, count * component_bytes, input);
 }
 
 swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks)

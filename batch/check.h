@@ -15,22 +15,26 @@ swivel_status check(const swivel_crowd_def* def);
 swivel_crowd_def full_def(const swivel_crowd_def* def);
 
 // A range of limbs of a group.
-swivel_status check(const swivel_crowd* crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
+swivel_status check(const swivel_crowd& crowd, std::uint32_t group, std::uint32_t first, std::uint32_t limb_count);
 
-// A caller's array, named in the line.
-swivel_status check_stride(std::uint32_t group, const char* name, const void* data, std::size_t stride,
-                           std::size_t value_bytes, bool may_repeat);
+// A caller's array for some limbs, named in the line.
+swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t limb_count, const void* data,
+                           std::size_t stride, std::size_t value_bytes, bool may_repeat);
 
 // A number that is a field's; and a field that the group has and, if input, that goes into it.
 swivel_status check_field(swivel_field field);
 swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, bool input);
 
 // The caller's values of a field, to be read if they are input: components of component_bytes each.
-swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, const void* data,
-                           std::size_t stride, bool input, std::size_t component_bytes = sizeof(float));
+swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, std::uint32_t limb_count,
+                           const void* data, std::size_t stride, bool input,
+                           std::size_t component_bytes = sizeof(float));
 
 // A range of blocks.
 swivel_status check_blocks(const swivel_crowd& crowd, swivel_blocks blocks);
+
+// The frames of a job, each of which is right. For builds with SWIVEL_CHECK_USE.
+swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks);
 
 // The kernels to solve with; or null, with the reason in status and last_error().
 const Isa* usable_isa(swivel_status& status);

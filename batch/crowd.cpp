@@ -75,8 +75,7 @@ void unknown_inputs(const Group& group)
 }
 
 // Copies the first lane of each row of the first block to all lanes of this row, in all blocks of the run.
-template <class Word>
-void spread(Word* rows, std::uint32_t row_count, std::uint32_t block_count)
+void spread(float* rows, std::uint32_t row_count, std::uint32_t block_count)
 {
     for (std::uint32_t block = block_count; block-- > 0;)
         for (std::uint32_t row = 0; row < row_count; ++row)
@@ -92,14 +91,8 @@ void rest(Group& group)
     const bool keeps = std::exchange(group.keeps, false);
     solve_group(find_isa("scalar")->kernels, group, {0, 1});
     group.keeps = keeps;
-    const std::size_t flags = std::size_t{field_first_row(group.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
-    if (group.words) {
-        group.words[flags] = group.words[flags + SWIVEL_LANES] = 0;
-        spread(group.words, group.result_row_count, group.block_count);
-    } else {
-        group.results[flags] = 0;
-        spread(group.results, group.result_row_count, group.block_count);
-    }
+    group.results[std::size_t{group.first_row[index_of(SWIVEL_FLAGS)]} * SWIVEL_LANES] = 0;
+    spread(group.results, group.result_row_count, group.block_count);
 }
 
 // Makes a group whose rows begin at `rows`.
@@ -115,14 +108,10 @@ void place_group(const swivel_group_def& def, std::uint32_t first_block, char* r
     group.input_row_count = input_row_count(def.features);
     group.result_row_count = result_row_count(def.features);
     for (std::size_t f = 0; f < kFieldCount; ++f)
-        group.first_row[f] =
-            static_cast<std::uint16_t>(field_first_row(def.features & ~SWIVEL_COMPACT, kFields[f].field));
+        group.first_row[f] = static_cast<std::uint16_t>(field_first_row(def.features, kFields[f].field));
     group.input = reinterpret_cast<float*>(rows);
-    char* const results = rows + std::size_t{group.block_count} * group.input_row_count * kInputRowBytes;
-    const bool is_compact = def.features & SWIVEL_COMPACT;
-    group.results = is_compact ? nullptr : reinterpret_cast<float*>(results);
-    group.words = is_compact ? reinterpret_cast<std::uint16_t*>(results) : nullptr;
-    group.binding = def.binding;
+    group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
+    group.binding = element(&def.binding, 0, swivel_default_binding());
     fill_inputs(group);
     unknown_inputs(group);
     rest(group);
@@ -143,6 +132,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     char* const base = static_cast<char*>(arena);
     std::memset(base, 0, static_cast<std::size_t>(layout.end));
     swivel_crowd* const crowd = new (base) swivel_crowd{};
+    crowd->alive = swivel_crowd::kAlive;
     crowd->group_count = def.group_count;
     crowd->block_count = layout.block_count;
     crowd->block_bytes = static_cast<std::size_t>((layout.end - layout.rows) / layout.block_count);

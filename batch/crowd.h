@@ -4,6 +4,7 @@
 // of each.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,14 +21,16 @@ struct Group {
     swivel_euler_order shoulder_order, wrist_order;
     std::uint32_t input_row_count, result_row_count;
     std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows of floats
-    float *input, *results;                // rows; results: null with SWIVEL_COMPACT, which has words instead
-    std::uint16_t* words;
+    float *input, *results;                // rows
     swivel_binding binding;
 };
 
 }  // namespace swivel
 
 struct swivel_crowd {
+    static constexpr std::uint64_t kAlive = 0x6c6576697773;  // "swivel"
+    std::uint64_t alive;                                     // until it is destroyed: see use.h
+    mutable std::atomic<std::int32_t> users;
     std::uint32_t group_count, block_count;
     std::size_t block_bytes;  // of a block's rows, on average
     swivel::Group* groups;

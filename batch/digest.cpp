@@ -29,14 +29,13 @@ std::uint32_t bits_of(float number)
     std::memcpy(&bits, &number, sizeof bits);
     return bits;
 }
-std::uint32_t bits_of(std::uint16_t word) { return word; }
 
 // A hash for each lane, so that sixteen products are under way at once.
 using Hashes = std::array<std::uint64_t, kLanes>;
 
-template <class Number>
-void add(Hashes& hashes, const Group& group, const Number* rows)
+void add(Hashes& hashes, const Group& group)
 {
+    const float* rows = group.results;
     for (std::uint32_t first = 0; first < group.limb_count; first += kLanes) {
         const std::uint32_t lane_count = std::min(group.limb_count - first, kLanes);
         for (std::uint32_t row = 0; row < group.result_row_count; ++row, rows += kLanes)
@@ -50,8 +49,7 @@ uint64_t swivel_digest(const swivel_crowd* crowd)
 {
     if (!crowd) return 0;
     Hashes hashes{};
-    for (const Group* group = crowd->groups; group != crowd->groups + crowd->group_count; ++group)
-        group->words ? add(hashes, *group, group->words) : add(hashes, *group, group->results);
+    for (const Group* group = crowd->groups; group != crowd->groups + crowd->group_count; ++group) add(hashes, *group);
     std::uint64_t whole = 0;
     for (const std::uint64_t hash : hashes) add(whole, hash);
     return whole;

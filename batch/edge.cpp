@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "batch/unpack.h"
 #include "core/arm.h"
 #include "simd/rows.h"
 
@@ -19,7 +18,6 @@ struct Reader {
     double operator()(swivel_field field, std::uint32_t component) const { return lane(field, component); }
     float lane(swivel_field field, std::uint32_t component) const
     {
-        if (is_packed(group, field)) return unpack_value(group, field, limb)[component];
         const float* rows = is_input(field) ? group.input : group.results;
         const std::uint32_t row_count = is_input(field) ? group.input_row_count : group.result_row_count;
         return rows[row_offset(limb, row_count, field_first_row(group.features, field) + component)];

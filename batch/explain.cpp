@@ -58,11 +58,11 @@ private:
 class Probe {
 public:
     Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), crowd_(nullptr) { take(); }
-    // Takes the limb as it is, in a group without some of its features.
-    void take(swivel_features without = 0)
+    // Takes the limb as it is.
+    void take()
     {
         swivel_group_def alone = swivel_default_group_def(1);
-        alone.features = of_.features & ~without;
+        alone.features = of_.features;
         alone.shoulder_order = of_.shoulder_order;
         alone.wrist_order = of_.wrist_order;
         alone.binding = of_.binding;
@@ -105,7 +105,6 @@ public:
         const Group& of = group();
         solve_group(find_isa("scalar")->kernels, of, {0, 1});
         const std::size_t at = std::size_t{field_first_row(of.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
-        if (of.words) return of.words[at] | std::uint32_t{of.words[at + SWIVEL_LANES]} << 16;
         return bit_cast<std::uint32_t>(of.results[at]);
     }
     // Whether these are the results that the limb has.
@@ -113,9 +112,7 @@ public:
     {
         for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
             const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
-            if (of_.words ? of_.words[theirs] != group().words[ours]
-                          : std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0)
-                return false;
+            if (std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
         }
         return true;
     }
@@ -276,7 +273,7 @@ double swivel_between(const LimbPose& a, const LimbPose& b)
 // How far the place that violates all limits least is outside of each.
 void explain_violations(Probe& probe, Text& text)
 {
-    probe.take(SWIVEL_COMPACT);  // words of 16 bits are good to 0.009 degrees
+    probe.take();
     probe.solve();
     bool is_first = true;
     for (const Limit& limit : kLimits) {

@@ -99,9 +99,9 @@ struct GroupFrame {
     swivel_frame frame;
 };
 
-// Calls take(frames, group_count, round_count) for the groups that a job's blocks touch, a few at a time.
+// Calls take(frames, group_count, round_count) for the groups that a job touches, a few at a time.
 template <class Take>
-void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks all, const Take& take)
+void for_each_bundle(const Work& work, const Take& take)
 {
     GroupFrame frames[kGroupsTogether];
     std::uint32_t count = 0, most = 0, streams = 0;
@@ -111,7 +111,7 @@ void for_each_bundle(const swivel_crowd& crowd, const Work& work, swivel_blocks 
         take(frames, count, (most + run - 1) / run);
         count = most = streams = 0;
     };
-    for_each_group(crowd, work.groups, all, [&](const Group& group, GroupBlocks blocks, std::uint32_t n) {
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks blocks, std::uint32_t n) {
         const swivel_frame frame = frame_at(work.frames, n);
         const std::uint32_t more = stream_count_of(group, frame);
         if (count == kGroupsTogether || streams + more > kMostStreams) flush();
@@ -186,13 +186,12 @@ private:
 
 // Groups whose runs make the same rounds.
 struct Bundle {
-    const Kernels& kernels;
     const Work& work;
     std::uint32_t count, run;  // how many groups, and how many blocks of each in a round
     Share shares[kGroupsTogether];
     Stream streams[kMostStreams];  // of all shares
 
-    Bundle(const Kernels& with, const Work& todo) : kernels(with), work(todo) {}
+    explicit Bundle(const Work& todo) : work(todo) {}
 
     void set(const GroupFrame* frames, std::uint32_t group_count)
     {
@@ -213,9 +212,9 @@ private:
     {
         copy_run(share, blocks, &Share::copy_in);
         if (work.mask)
-            solve_chosen_group(kernels, *share.group, work.mask, blocks);
+            solve_chosen_group(work.kernels, *share.group, work.mask, blocks);
         else
-            solve_group(kernels, *share.group, blocks);
+            solve_group(work.kernels, *share.group, blocks);
         copy_run(share, blocks, &Share::copy_out);
     }
     void copy_run(const Share& share, GroupBlocks blocks,
@@ -228,27 +227,24 @@ private:
 
 }  // namespace
 
-std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
+std::uint32_t round_count(const Work& work)
 {
     std::uint32_t all = 0;
-    for_each_bundle(crowd, work, blocks,
-                    [&](const GroupFrame*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
+    for_each_bundle(work, [&](const GroupFrame*, std::uint32_t, std::uint32_t rounds) { all += rounds; });
     return all;
 }
 
-void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
-                  std::uint32_t first, std::uint32_t end)
+void solve_rounds(const Work& work, std::uint32_t first, std::uint32_t end)
 {
     const FloatEnv env;
-    Bundle bundle(kernels, work);
+    Bundle bundle(work);
     std::uint32_t before = 0;  // rounds of earlier bundles
-    const auto solve = [&](const GroupFrame* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
+    for_each_bundle(work, [&](const GroupFrame* of_groups, std::uint32_t group_count, std::uint32_t rounds) {
         const std::uint32_t from = std::max(first, before), to = std::min(end, before + rounds);
         if (from < to) bundle.set(of_groups, group_count);
         for (std::uint32_t round = from; round < to; ++round) bundle.solve(round - before);
         before += rounds;
-    };
-    for_each_bundle(crowd, work, blocks, solve);
+    });
 }
 
 }  // namespace swivel

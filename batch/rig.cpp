@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 
+#include "batch/sized.h"
 #include "batch/status.h"
 #include "core/arm.h"
 #include "core/frame_rotor.h"
@@ -93,8 +95,11 @@ swivel_status rest_limb(const swivel_chain& chain, RestLimb& limb)
     return SWIVEL_OK;
 }
 
-swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& binding)
+swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& to)
 {
+    const std::size_t size = size_of(&to);
+    if (const swivel_status status = check_size<swivel_binding>("binding", size); status != SWIVEL_OK) return status;
+    swivel_binding binding = swivel_default_binding();
     const Vector<double>&upper = limb.elbow.place, &fore = limb.wrist.place;
     if (!is_usable_bone(upper) || !is_usable_bone(fore))
         return fail(SWIVEL_INVALID_ARGUMENT, "%s: the %s has no direction; offsets must have a length in 1e-15..1e15",
@@ -125,6 +130,8 @@ swivel_status bind(const char* call, const RestLimb& limb, swivel_binding& bindi
         store(parent, binding.twist_parent_from_arm[n]);
         store(is_known ? ~limb.twist_bones[n].rotation * parent : parent, binding.twist_from_arm[n]);
     }
+    binding.size = size;
+    std::memcpy(&to, &binding, size);
     return SWIVEL_OK;
 }
 

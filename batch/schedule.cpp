@@ -40,11 +40,11 @@ Partitioner& partitioner_of(swivel_crowd& crowd)
 }
 
 // How many blocks have something to do, or a few more.
-std::uint32_t busy_block_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks)
+std::uint32_t busy_block_count(const Work& work)
 {
-    if (!work.mask) return block_count_of(crowd, work.groups, blocks);
+    if (!work.mask) return block_count_of(work.crowd, work.groups, work.blocks);
     std::uint32_t busy = 0;
-    for_each_group(crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
         const std::uint32_t block = group.first_block + part.first;
         const std::uint32_t *const first = work.mask + block / 2, *const end =
                                                                       work.mask + (block + part.count - 1) / 2 + 1;
@@ -57,29 +57,24 @@ std::uint32_t busy_block_count(const swivel_crowd& crowd, const Work& work, swiv
 // characters of all groups. A part must be solved once, because a solve may read what it wrote: the last normal, or a
 // pose that is read and written in place. So each part's byte in the crowd says whether it is done.
 struct Parts {
-    swivel_crowd& crowd;
-    const Kernels& kernels;
     const Work& work;
-    const swivel_blocks blocks;
     const std::uint32_t count;
     std::uint8_t* const done;
 
-    Parts(swivel_crowd& of, const Kernels& with, const Work& todo, swivel_blocks in)
-        : crowd(of),
-          kernels(with),
-          work(todo),
-          blocks(in),
-          count(todo.frames ? round_count(of, todo, in) : in.count),
-          done(of.done)
+    explicit Parts(const Work& todo)
+        : work(todo), count(todo.frames ? round_count(todo) : todo.blocks.count), done(todo.crowd.done)
     {
         std::fill_n(done, count, std::uint8_t{0});
     }
     void solve(std::uint32_t first, std::uint32_t end) const
     {
-        if (work.frames)
-            solve_rounds(crowd, kernels, work, blocks, first, end);
-        else
-            solve_here(crowd, kernels, work, {blocks.first + first, end - first});
+        if (work.frames) {
+            solve_rounds(work, first, end);
+        } else {
+            Work part = work;
+            part.blocks = {work.blocks.first + first, end - first};
+            solve_here(part);
+        }
         std::fill(done + first, done + end, std::uint8_t{1});
     }
     void solve_rest() const
@@ -139,7 +134,7 @@ void solve_on_threads(const Parts& parts, std::uint32_t grain)
     const auto on_range = [&](const Range& range) { parts.solve(range.begin(), range.end()); };
     // While this thread waits for the others, it runs none of the caller's other tasks, which may be long.
     oneapi::tbb::this_task_arena::isolate([&] {
-        oneapi::tbb::parallel_for(Range(0, parts.count, grain), on_range, partitioner_of(parts.crowd), context);
+        oneapi::tbb::parallel_for(Range(0, parts.count, grain), on_range, partitioner_of(parts.work.crowd), context);
     });
 }
 
@@ -160,21 +155,21 @@ bool try_on_threads(const Parts& parts, std::uint32_t grain)
 
 }  // namespace
 
-void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)
+void solve_in_chunks(const Work& work)
 {
 #ifdef SWIVEL_WITH_TBB
     // The rows of a chunk fill a quarter of a level 2 cache of 512 KiB, which is some microseconds of work. A crowd of
     // one chunk stays on one thread. Up to 2,000 arms, two threads were no faster than one, with chunks of any size.
     constexpr std::size_t kChunkBytes = 128 * 1024;
-    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / crowd.block_bytes);
-    if (busy_block_count(crowd, work, blocks) > chunk) {
+    const auto chunk = static_cast<std::uint32_t>(kChunkBytes / work.crowd.block_bytes);
+    if (busy_block_count(work) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
-        const Parts parts(crowd, kernels, work, blocks);
-        if (!try_on_threads(parts, std::max(1u, chunk * parts.count / blocks.count))) parts.solve_rest();
+        const Parts parts(work);
+        if (!try_on_threads(parts, std::max(1u, chunk * parts.count / work.blocks.count))) parts.solve_rest();
         return;
     }
 #endif
-    solve_here(crowd, kernels, work, blocks);
+    solve_here(work);
 }
 
 void begin_schedule([[maybe_unused]] swivel_crowd& crowd)

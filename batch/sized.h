@@ -33,6 +33,14 @@ swivel_status check_size(const char* name, std::size_t size)
     return SWIVEL_OK;
 }
 
+// What is kept for later releases must be 0 until then.
+template <class Struct>
+swivel_status check_reserved(const char* name, const Struct& given)
+{
+    if (given.reserved == 0) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: reserved is not 0; start from its default", name);
+}
+
 // Element n of an array has the size of the first.
 template <class Struct>
 swivel_status check_element(const char* name, const Struct* array, std::size_t n)

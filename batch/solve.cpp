@@ -16,24 +16,18 @@ namespace swivel {
 namespace {
 
 // With any of these features, a group's limbs are whole limbs, which have one kernel (simd/limb_run.h).
-constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT);
+constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
 
 // Rows of more bytes than this are not in the caches from one solve to the next. It is a common size of level 3 caches.
 constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
-
-// Result rows of a compact group are on the stack until they are packed. Those of so many blocks stay in the nearest
-// cache.
-constexpr std::uint32_t kPackBlocks = 4;
-constexpr std::uint32_t kMostResultRows = result_row_count(SWIVEL_JOINTS | SWIVEL_WITH_HAND),
-                        kMostWordRows = result_row_count(SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_COMPACT);
 
 SolveRun run_of(const Group& group, GroupBlocks blocks, bool from_memory, const std::uint32_t* mask)
 {
     const std::size_t limb = std::size_t{blocks.first} * SWIVEL_LANES;
     return {group.input + row_offset(limb, group.input_row_count, 0),
-            group.words ? nullptr : group.results + row_offset(limb, group.result_row_count, 0),
+            group.results + row_offset(limb, group.result_row_count, 0),
             group.input_row_count,
-            result_row_count(group.features & ~SWIVEL_COMPACT),
+            group.result_row_count,
             std::size_t{blocks.count} * SWIVEL_LANES,
             group.features,
             static_cast<std::uint32_t>(group.shoulder_order),
@@ -47,59 +41,16 @@ SolveRun run_of(const Group& group, GroupBlocks blocks, bool from_memory, const 
             group.limb_count - limb};
 }
 
-void solve_run(const Kernels& kernels, const SolveRun& run)
-{
-    if (run.features & kLimbFeatures)
-        kernels.limbs.solve(run);
-    else
-        kernels.arms.solve[run.features & kFormulaFeatures](run);
-}
-
-// Packs a block's results into words and copies those of some lanes to where they belong.
-void pack_lanes(const Group& group, void (*pack)(const PackRun&), const float* results, LaneMask lanes,
-                std::uint16_t* to)
-{
-    std::uint16_t words[kMostWordRows * SWIVEL_LANES];
-    pack({results, words, 1});
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const int lane = std::countr_zero(lanes);
-        copy_lane(group.result_row_count, words + lane, to + lane);
-    }
-}
-
-void solve_compact(const Kernels& kernels, const Group& group, GroupBlocks blocks, bool from_memory,
-                   const std::uint32_t* mask)
-{
-    alignas(64) float results[kPackBlocks * kMostResultRows * SWIVEL_LANES];
-    if (mask) std::fill_n(results, std::size(results), 0.0f);  // lanes that are not chosen are packed, too
-    void (*const pack)(const PackRun&) =
-        kernels.arms.pack[(group.features & (SWIVEL_JOINTS | SWIVEL_WITH_HAND)) / SWIVEL_JOINTS];
-    for (std::uint32_t done = 0; done < blocks.count; done += kPackBlocks) {
-        const GroupBlocks part{blocks.first + done, std::min(kPackBlocks, blocks.count - done)};
-        SolveRun run = run_of(group, part, from_memory, mask);
-        run.results = results;
-        solve_run(kernels, run);
-        const auto words = [&](std::uint32_t block) {
-            return group.words + row_offset(std::size_t{block} * SWIVEL_LANES, group.result_row_count, 0);
-        };
-        if (!mask) {
-            pack({results, words(part.first), part.count});
-            continue;
-        }
-        for (std::uint32_t n = 0; n < part.count; ++n)
-            if (const LaneMask lanes = chosen_limbs(group, part.first + n, mask))
-                pack_lanes(group, pack, results + row_offset(std::size_t{n} * SWIVEL_LANES, run.result_row_count, 0),
-                           lanes, words(part.first + n));
-    }
-}
-
 }  // namespace
 
 void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, bool from_memory,
                  const std::uint32_t* mask)
 {
-    if (group.words) return solve_compact(kernels, group, blocks, from_memory, mask);
-    solve_run(kernels, run_of(group, blocks, from_memory, mask));
+    const SolveRun run = run_of(group, blocks, from_memory, mask);
+    if (run.features & kLimbFeatures)
+        kernels.limbs.solve(run);
+    else
+        kernels.arms.solve[run.features & kFormulaFeatures](run);
 }
 
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
@@ -139,15 +90,15 @@ std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint3
     return count;
 }
 
-void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks)
+void solve_here(const Work& work)
 {
-    if (work.frames) return solve_rounds(crowd, kernels, work, blocks, 0, ~0u);
+    if (work.frames) return solve_rounds(work, 0, ~0u);
     const FloatEnv env;
-    for_each_group(crowd, work.groups, blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
         if (work.mask)
-            solve_chosen_group(kernels, group, work.mask, part, work.from_memory);
+            solve_chosen_group(work.kernels, group, work.mask, part, work.from_memory);
         else
-            solve_group(kernels, group, part, work.from_memory);
+            solve_group(work.kernels, group, part, work.from_memory);
     });
 }
 

@@ -29,12 +29,15 @@ void solve_chosen_group(const Kernels& kernels, const Group& group, const std::u
 std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint32_t limb, swivel_arc* arcs,
                            std::uint32_t capacity);
 
-// Checked members of a swivel_job.
+// A swivel_job, checked.
 struct Work {
-    const std::uint32_t* groups = nullptr;  // bits of those that are named; null: all
-    const std::uint32_t* mask = nullptr;    // bits of the limbs to solve; null: all
-    const swivel_frame* frames = nullptr;   // of each group that is named; null: values are in rows
-    bool from_memory = false;               // the job's rows do not fit the caches
+    swivel_crowd& crowd;
+    const Kernels& kernels;
+    swivel_blocks blocks;
+    const std::uint32_t* groups;  // bits of those that are named; null: all
+    const std::uint32_t* mask;    // bits of the limbs to solve; null: all
+    const swivel_frame* frames;   // of each group that is named; null: values are in rows
+    bool from_memory;             // the job's rows do not fit the caches
 };
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 
@@ -65,13 +68,12 @@ bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 
 // Work with frames goes in rounds, because limbs of one character often share cache lines. Round n is the nth run of
 // blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.
-void solve_rounds(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks,
-                  std::uint32_t first, std::uint32_t end);
-std::uint32_t round_count(const swivel_crowd& crowd, const Work& work, swivel_blocks blocks);
+void solve_rounds(const Work& work, std::uint32_t first, std::uint32_t end);
+std::uint32_t round_count(const Work& work);
 
-// Solves blocks on this thread; or in chunks in the caller's oneTBB arena, if there are enough.
-void solve_here(const swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
-void solve_in_chunks(swivel_crowd& crowd, const Kernels& kernels, const Work& work, swivel_blocks blocks);
+// Solves a job on this thread; or in chunks in the caller's oneTBB arena, if there are enough.
+void solve_here(const Work& work);
+void solve_in_chunks(const Work& work);
 
 // A crowd's memory of which thread solved which chunk: from its creation to its end.
 void begin_schedule(swivel_crowd& crowd);

@@ -7,7 +7,7 @@
 
 namespace swivel {
 
-// A field's rows in the blocks of one group. Not for packed results (unpack.h).
+// A field's rows in the blocks of one group.
 struct FieldRows {
     float* base;              // lane 0 of its first row in the group's first block
     std::uint32_t row_count;  // of a block

@@ -2,7 +2,7 @@
 //
 // Crowds with features, from rows to rows. Resident crowds (world targets to local rotations) run with each instruction
 // set. Other sets of features, among them whole limbs, run with the best one. They are within the level 2 cache;
-// resident crowds and compact results are also measured in memory.
+// resident crowds are also measured in memory.
 #include "bench/shares.h"
 
 namespace bench {
@@ -28,12 +28,6 @@ void add_features(Suite& suite)
     for (const std::size_t level : {0u, 2u, 3u})
         add_solve(suite, "resident/" + suite.best_isa() + "/" + kMemoryLevels[level], suite.best_isa(), kResident,
                   arms_within(level, kResident));
-    // As many arms as without: the memory saved is the point.
-    for (std::size_t level = 0; level < kMemoryLevels.size(); ++level)
-        add_solve(suite, "compact/" + suite.best_isa() + "/" + kMemoryLevels[level], suite.best_isa(), SWIVEL_COMPACT,
-                  arms_within(level, 0));
-    add_solve(suite, "resident_compact/" + suite.best_isa() + "/memory", suite.best_isa(), kResident | SWIVEL_COMPACT,
-              arms_within(3, kResident));
     for (const auto& [name, features] : {std::pair("cone+twist", SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST),
                                          {"box", SWIVEL_WITH_SHOULDER_BOX},
                                          {"full_arm", kFullArm},
@@ -47,8 +41,7 @@ void add_features(Suite& suite)
     for (const auto& [name, features] :
          {Named{"world", SWIVEL_WORLD}, Named{"joints", SWIVEL_JOINTS}, Named{"hand", SWIVEL_WITH_HAND},
           Named{"world+hand", SWIVEL_WORLD | SWIVEL_WITH_HAND}, Named{"joints+hand", SWIVEL_JOINTS | SWIVEL_WITH_HAND},
-          Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"compact", SWIVEL_COMPACT},
-          Named{"resident+compact", kResident | SWIVEL_COMPACT}, Named{"at_rest", SWIVEL_WITH_ANGLE},
+          Named{"world+joints+hand", kResident | SWIVEL_WITH_HAND}, Named{"at_rest", SWIVEL_WITH_ANGLE},
           Named{"reach", SWIVEL_WITH_REACH}, Named{"flexion_limit", SWIVEL_WITH_FLEXION_LIMIT},
           Named{"most_swivel", SWIVEL_WITH_MOST_SWIVEL}, Named{"incoming", SWIVEL_WITH_INCOMING},
           Named{"incoming+weights", SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS},

@@ -3,7 +3,7 @@
 // Results read right after the solve, as callers read them. In each level of memory:
 // - read/: problem P, then a reader that copies the result rows.
 // - read_fields/: P, then swivel_read() of rotations, flexions and flags, into arrays of the caller.
-// - read_resident/, read_compact/: a resident crowd, and P with compact results, then the same reader.
+// - read_resident/: a resident crowd, then the same reader.
 #include "bench/rivals/probe.h"
 #include "bench/suite.h"
 
@@ -33,14 +33,10 @@ void solve(swivel::Crowd& crowd)
     crowd.solve({.blocks = swivel_blocks{0, swivel_block_count(crowd.get())}, .on_this_thread = true});
 }
 
-// Reads every whole cache line of the results, which are floats or words.
 Work reader(const swivel::Crowd& crowd, const Probe& probe)
 {
     const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
-    if (rows.row_count > 0) return [&probe, rows] { probe.read_rows(rows.base, rows.row_count, rows.block_count); };
-    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
-    const std::size_t lines = std::size_t{words.block_count} * words.row_count / 2;
-    return [&probe, words, lines] { probe.read_rows(reinterpret_cast<const float*>(words.base), 1, lines); };
+    return [&probe, rows] { probe.read_rows(rows.base, rows.row_count, rows.block_count); };
 }
 
 // In a level of memory; make(crowd) gives what is timed.
@@ -48,7 +44,7 @@ template <class Make>
 void add_row(Suite& suite, const std::string& family, const std::string& isa, std::size_t level,
              swivel_features features, Make make)
 {
-    const std::size_t arm_count = arms_within(level, features & ~SWIVEL_COMPACT);
+    const std::size_t arm_count = arms_within(level, features);
     add(family + "/" + isa + "/" + kMemoryLevels[level], arm_count, Clock::cpu,
         [&suite, isa, features, arm_count, make]() -> Work {
             swivel::check(swivel_use_isa(isa.c_str()));
@@ -65,7 +61,6 @@ void add_level(Suite& suite, const std::string& isa, std::size_t level)
     add_row(suite, "read", isa, level, 0, solve_and_read);
     if (isa != suite.best_isa()) return;
     add_row(suite, "read_resident", isa, level, kResident, solve_and_read);
-    add_row(suite, "read_compact", isa, level, SWIVEL_COMPACT, solve_and_read);
     add_row(suite, "read_fields", isa, level, 0, [](swivel::Crowd& crowd) -> Work {
         const auto fields = std::make_shared<Fields>(swivel_group_limb_count(crowd.get(), 0));
         return [&crowd, fields] { solve(crowd), fields->read(crowd); };

@@ -232,8 +232,7 @@ def memory(result):
     rows = []
     for isa in result.isas:
         for family, text in (("P", "P"), ("read", "P, and read the rows"), ("read_fields", "P, and `swivel_read`"),
-                             ("resident", "resident"), ("read_resident", "resident, and read"),
-                             ("compact", "P, compact"), ("read_compact", "P, compact, and read")):
+                             ("resident", "resident"), ("read_resident", "resident, and read")):
             times = [result.ns(f"{family}/{isa}/{level}") for level in MEMORY]
             if all(times):
                 rows.append([f"{text}, {ISAS[isa]}", *map(number, times)])

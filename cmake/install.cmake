@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
-# `cmake --install` puts these under the prefix: two headers, the library, the command with swivel-race, its man page, completions and page,
+# `cmake --install` puts these under the prefix: the headers, both libraries, the command with swivel-race, its man page, completions and page,
 # package files and the licence. You may move the whole prefix, because no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(FILES include/swivel/swivel.h include/swivel/swivel.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
+install(FILES include/swivel/swivel.h include/swivel/swivel.hpp include/swivel/lecture.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swivel)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-target_include_directories(swivel INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS swivel EXPORT swivelTargets)
+foreach(library swivel swivel_lecture)
+  target_include_directories(${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  install(TARGETS ${library} EXPORT swivelTargets)
+endforeach()
 if(SWIVEL_TOOLS)
   if(BUILD_SHARED_LIBS)  # the command finds the library beside itself
     file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

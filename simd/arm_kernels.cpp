@@ -202,13 +202,10 @@ void solve(const SolveRun& run)
     if (others.count > 0) solve_others(run, others);
 }
 
-using PackNumber = typename KernelNumber<SWIVEL_ARCH, 1>::type;
-
 }  // namespace
 
 extern const ArmKernels arm_kernels;
 const ArmKernels arm_kernels{{solve<0>, solve<1>, solve<2>, solve<3>, solve<4>, solve<5>, solve<6>, solve<7>},
-                             {pack<PackNumber, 0>, pack<PackNumber, SWIVEL_JOINTS>, pack<PackNumber, SWIVEL_WITH_HAND>,
-                              pack<PackNumber, SWIVEL_JOINTS | SWIVEL_WITH_HAND>}};
+                             pack<typename KernelNumber<SWIVEL_ARCH, 1>::type>};
 
 }  // namespace swivel::inline SWIVEL_ISA

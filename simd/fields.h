@@ -27,7 +27,6 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_JOINTS, "JOINTS"},
     {SWIVEL_WITH_HAND, "WITH_HAND"},
     {SWIVEL_POLE_DIRECTION, "POLE_DIRECTION", SWIVEL_WORLD, SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING},
-    {SWIVEL_COMPACT, "COMPACT", 0, SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_CLAVICLE | kTwistBones},
     {SWIVEL_WITH_EFFECTOR, "WITH_EFFECTOR", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_ANGLE, "WITH_ANGLE"},
     {SWIVEL_POLE_NORMAL, "POLE_NORMAL", 0, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_INCOMING},
@@ -79,7 +78,7 @@ enum class Place : std::uint8_t { no, yes };           // a position: it may be 
 struct FieldRow {
     swivel_field field;
     const char* name;
-    std::uint32_t component_count;  // see field_component_count()
+    std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
     const char* range = "";             // what a value must be to be in its range

@@ -39,22 +39,28 @@ inline constexpr std::uint32_t kEveryLane = ~0u;
     return run.mask[lane / 32] >> lane % 32 & ((1u << count) - 1);
 }
 
-// Results of a run of blocks, to be packed into the words of a compact group.
+// Results of a run of blocks, to be packed into words of 16 bits.
+enum class Packing : std::uint8_t { rotation, half, flags };
+struct PackedValue {
+    Packing how;
+    std::uint16_t from, to;  // its first row of floats, and of words
+};
 struct PackRun {
     const float* results;  // result rows of the run's first block
-    std::uint16_t* words;  // compact rows of the same block
-    std::uint32_t block_count;
+    std::uint16_t* words;  // rows of words of the same block
+    std::uint32_t block_count, result_row_count, word_row_count;
+    const PackedValue* values;
+    std::uint32_t value_count;
 };
 
 // The features that change the formula of plain arms, and their rows. They number its kernels.
 inline constexpr swivel_features kFormulaFeatures = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND;
 static_assert(kFormulaFeatures == 7);
 
-// Of plain arms: simd/arm_kernels.cpp.
+// Of plain arms, and packing: simd/arm_kernels.cpp.
 struct ArmKernels {
     void (*solve[8])(const SolveRun& run);
-    // By SWIVEL_JOINTS and SWIVEL_WITH_HAND, which change the result rows, over SWIVEL_JOINTS.
-    void (*pack[4])(const PackRun& run);
+    void (*pack)(const PackRun& run);  // of any group
 };
 
 // How many arcs of swivels limits can leave: core/allowed_arcs.h has as many.

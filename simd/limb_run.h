@@ -119,8 +119,7 @@ void solve_told(const SolveRun& run)
 template <class T, class Boxed>
 void solve_limbs(const SolveRun& run)
 {
-    const swivel_features seen = run.features & ~SWIVEL_COMPACT;  // kernels do not see it
-    if (seen == kConeAndTwist)
+    if (run.features == kConeAndTwist)
         search_limbs<T, kConeAndTwist, false, ShortSearch>(run);
     else if (run.features & SWIVEL_WITH_AIM)
         solve_told<T, Boxed, true>(run);

@@ -1,51 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Converts result rows of floats to rows of 16-bit words, block by block. Compact groups add this part to the kernels.
-// It knows no solver.
+// Converts result rows of floats to rows of 16-bit words, block by block. It knows no solver and no features.
 #pragma once
 
 #include <cstring>
 
-#include "core/compact.h"
+#include "core/pack.h"
 #include "simd/kernels.h"
 #include "simd/lanes.h"
 #include "simd/rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
-
-// The rows of one step of T's lanes in a block: its results, and floats that hold a word each. Features without
-// SWIVEL_COMPACT.
-template <class T, swivel_features Features>
-struct PackStep {
-    const float* results;
-    float* held;
-    std::size_t first_lane;
-
-    static constexpr RowPlan kFloats{Features}, kWords{Features | SWIVEL_COMPACT};
-
-    SWIVEL_INLINE T load(swivel_field field, std::uint32_t component) const
-    {
-        const std::uint32_t row = kFloats.first[index_of(field)] + component;
-        return load_lanes<T>([&](std::size_t lane) SWIVEL_INLINE_LAMBDA {
-            return results + row_offset(first_lane + lane, kFloats.result_count, row);
-        });
-    }
-    SWIVEL_INLINE void hold(swivel_field field, std::uint32_t word, const T& value) const
-    {
-        const std::uint32_t row = kWords.first[index_of(field)] + word;
-        store_lanes([&](std::size_t lane)
-                        SWIVEL_INLINE_LAMBDA { return held + row_offset(first_lane + lane, kWords.result_count, row); },
-                    value);
-    }
-    SWIVEL_INLINE void hold_rotation(swivel_field field) const
-    {
-        const CompactRotation<T> words =
-            compact_rotation(rotor(load(field, 0), load(field, 1), load(field, 2), load(field, 3)));
-        hold(field, 0, words.first);
-        hold(field, 1, words.second);
-        hold(field, 2, words.third);
-    }
-};
 
 // 16 bits of every float, from bit `from` on. The loop is not unrolled. Otherwise g++ would unroll the 16 turns of a
 // single row before it could vectorise them, which took half as long again on AVX2.
@@ -59,44 +24,57 @@ SWIVEL_INLINE void cut_words(const float* held, std::uint32_t from, std::uint32_
     }
 }
 
-template <class T, swivel_features Features>
-SWIVEL_INLINE void pack_block(const float* results, std::uint16_t* words)
+template <class T>
+SWIVEL_INLINE T load_row(const float* rows, std::size_t row, std::size_t first_lane)
 {
-    constexpr swivel_features compact = Features | SWIVEL_COMPACT;
-    constexpr std::uint32_t row_count = result_row_count(compact);
-    constexpr std::uint32_t elbow = field_first_row(compact, SWIVEL_ELBOW) * kLanes,
-                            wrist = field_first_row(compact, SWIVEL_WRIST) * kLanes,
-                            flags = field_first_row(compact, SWIVEL_FLAGS) * kLanes;
-    constexpr bool joints = Features & SWIVEL_JOINTS, with_hand = Features & SWIVEL_WITH_HAND;
-    alignas(64) float held[row_count * kLanes];
+    return load_lanes<T>([&](std::size_t lane)
+                             SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + first_lane + lane; });
+}
+template <class T>
+SWIVEL_INLINE void store_row(float* rows, std::size_t row, std::size_t first_lane, const T& value)
+{
+    store_lanes([&](std::size_t lane) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + first_lane + lane; }, value);
+}
+
+template <class T>
+SWIVEL_INLINE void pack_rotation(const float* rows, std::uint16_t* words)
+{
+    alignas(64) float held[3 * kLanes];
     for (std::size_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const PackStep<T, Features> step{results, held, lane};
-        step.hold_rotation(SWIVEL_SHOULDER);
-        if constexpr (joints) {
-            step.hold_rotation(SWIVEL_ELBOW);
-        } else {
-            step.hold(SWIVEL_ELBOW, 0, compact_half(step.load(SWIVEL_ELBOW, 0)));
-            step.hold(SWIVEL_ELBOW, 1, compact_half(step.load(SWIVEL_ELBOW, 1)));
-        }
-        if constexpr (with_hand) step.hold_rotation(SWIVEL_WRIST);
-        step.hold(SWIVEL_FLAGS, 0, step.load(SWIVEL_FLAGS, 0));
+        const PackedRotation<T> packed = packed_rotation(rotor(load_row<T>(rows, 0, lane), load_row<T>(rows, 1, lane),
+                                                               load_row<T>(rows, 2, lane), load_row<T>(rows, 3, lane)));
+        store_row(held, 0, lane, packed.first);
+        store_row(held, 1, lane, packed.second);
+        store_row(held, 2, lane, packed.third);
     }
-    cut_words(held, 0, elbow / kLanes, words);
-    cut_words(held + elbow, joints ? 0 : kHalfBit, (wrist - elbow) / kLanes, words + elbow);
-    if constexpr (with_hand) cut_words(held + wrist, 0, (flags - wrist) / kLanes, words + wrist);
-    cut_words(held + flags, 0, 1, words + flags);
-    cut_words(held + flags, 16, 1, words + flags + kLanes);
+    cut_words(held, 0, 3, words);
+}
+template <class T>
+SWIVEL_INLINE void pack_half(const float* row, std::uint16_t* words)
+{
+    alignas(64) float held[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; lane += lane_count<T>)
+        store_row(held, 0, lane, packed_half(load_row<T>(row, 0, lane)));
+    cut_words(held, kHalfBit, 1, words);
 }
 
 // T's lanes fit a block.
-template <class T, swivel_features Features>
+template <class T>
 SWIVEL_FLATTEN void pack(const PackRun& run)
 {
-    constexpr std::uint32_t row_count = result_row_count(Features),
-                            word_count = result_row_count(Features | SWIVEL_COMPACT);
     for (std::size_t block = 0; block < run.block_count; ++block)
-        pack_block<T, Features>(run.results + row_offset(block * kLanes, row_count, 0),
-                                run.words + row_offset(block * kLanes, word_count, 0));
+        for (const PackedValue* value = run.values; value != run.values + run.value_count; ++value) {
+            const float* const rows = run.results + row_offset(block * kLanes, run.result_row_count, value->from);
+            std::uint16_t* const words = run.words + row_offset(block * kLanes, run.word_row_count, value->to);
+            if (value->how == Packing::rotation) {
+                pack_rotation<T>(rows, words);
+            } else if (value->how == Packing::half) {
+                pack_half<T>(rows, words);
+            } else {
+                cut_words(rows, 0, 1, words);
+                cut_words(rows, 16, 1, words + kLanes);
+            }
+        }
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

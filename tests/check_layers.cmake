@@ -89,8 +89,8 @@ may_include(include "include/swivel/swivel[.]hpp$" "${standard}|\"swivel[.]h\"")
 may_include(include "" "${standard}|\"swivel[.]h\"|<(std(def|int)|string)[.]h>")
 
 # ---- core: formulas and the standard library; the oracle shares nothing with the formulas. arm.h takes the bits of flags from swivel.h
-may_include(core "core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
-            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|compact|arm|reach|frame_rotor|solve_arm|space)[.]h\"|${public}")
+may_include(core "core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space|pipeline)[.]h$"
+            "<(bit|cmath|cstddef|cstdint|utility)>|\"core/(isa|bit_cast|num|algebra|conformal|pack|arm|reach|frame_rotor|solve_arm|space)[.]h\"|${public}")
 may_include(core "core/dense[.]h$" "<cmath>")
 may_include(core "core/reference[.]h$" "none")
 may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"")
@@ -105,7 +105,7 @@ may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twi
 may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(aside|limb_step)[.]h\"")
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
 may_include(simd "simd/step[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
-may_include(simd "simd/pack[.]h$" "${standard}|\"core/compact[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/pack[.]h$" "${standard}|\"core/pack[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/fields[.]h$" "${standard}|${public}")
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$" "${standard}|\"simd/(dispatch|fields|kernels)[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
@@ -113,17 +113,20 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 
 # ---- batch: never lanes; the files of one line below know core, and the others do not
 set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
-may_include(batch "batch/(api|api_solve|api_pose|sized|crowd|describe|digest|frame|lane_mask|solve|status|streams)[.](h|cpp)$" "${standard}|${batch}")
+may_include(batch "batch/(api|api_solve|api_pose|sized|crowd|describe|digest|frame|lane_mask|overlap|solve|status|streams|use)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(rig|skeleton|angles|budget|check|edge|explain|joint_angles|steps|unpack|verify)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|skeleton|angles|budget|check|edge|explain|joint_angles|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
+
+# ---- lecture: formulas in double and the oracle; it needs no crowd
+may_include(lecture "" "${standard}|\"include/swivel/lecture[.]h\"|\"core/[a-z_]+[.]h\"|\"simd/float_env[.]h\"")
 
 # ---- tools and bench: the public headers and their own; a format knows no solver
 foreach(folder tools bench)
   # To count a formula's operations, op_counts needs the formula itself.
   must_not_say(${folder} "#[ \t]*include[ \t]*\"(core|simd|batch|tests)/[^\n]*" "bench/rivals/(counted[.]h|op_counts[.]cpp)$"
                "only the public headers are for it")
-  must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h and swivel.hpp")
+  must_not_say(${folder} "#[ \t]*include[ \t]*[\"<]swivel/[^\n]*[^.hp\">\n][\">]" ${nowhere} "the public headers are swivel.h, swivel.hpp and lecture.h")
 endforeach()
 may_include(tools/corpus "" "${standard}|\"swivel/swivel[.]hpp\"|\"tools/corpus/[a-z_]+[.]h\"")
 must_not_say(tools/corpus "[^a-zA-Z_](SWIVEL|swivel)_[a-zA-Z_]+" "tools/corpus/interface[.]cpp$" "the library's names are known to interface.cpp alone")

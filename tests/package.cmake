@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 #
-# The promise: an installed swivel consists of two headers, the library, its command with man page and completions, package files and the
+# The promise: an installed swivel consists of the headers, both libraries, the command with man page and completions, package files and the
 # licence. The page's program is installed where tools/view/build has made it. You may move all. C11 and C++20 programs outside the tree
 # find it through CMake and pkg-config. They get its place and no other options.
 #   BUILD: the build folder to install from. WORK: an own folder. SOURCE: the repository. LIBDIR, BINDIR, DOCDIR, MANDIR, DATADIR, VERSION,
@@ -10,7 +10,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/package/host.cmake)
 unset(ENV{SWIVEL_FORCE_ISA})  # the library may be built for scalar alone
 
 # ---- exactly these files, then moved
-set(wanted include/swivel/swivel.h include/swivel/swivel.hpp ${DOCDIR}/LICENSE ${LIBDIR}/cmake/swivel/swivelConfig.cmake
+set(wanted include/swivel/lecture.h include/swivel/swivel.h include/swivel/swivel.hpp ${DOCDIR}/LICENSE ${LIBDIR}/libswivel_lecture.a ${LIBDIR}/cmake/swivel/swivelConfig.cmake
     ${LIBDIR}/cmake/swivel/swivelConfigVersion.cmake ${LIBDIR}/cmake/swivel/swivelTargets-release.cmake
     ${LIBDIR}/cmake/swivel/swivelTargets.cmake ${LIBDIR}/pkgconfig/swivel.pc)
 if(SHARED)

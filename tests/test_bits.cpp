@@ -84,12 +84,9 @@ void for_each_padding_lane(const Crowd& crowd, std::uint32_t group, const swivel
 // and without every feature, and whole limbs, some of which keep their swivel from frame to frame.
 std::vector<const Recipe*> few_crowds()
 {
-    return {&recipe_of(Part::ordinary, "world-joints-hand"),
-            &recipe_of(Part::hard, "arms"),
+    return {&recipe_of(Part::ordinary, "world-joints-hand"), &recipe_of(Part::hard, "arms"),
             &recipe_of(Part::hard, "world-joints-hand-direction"),
-            &recipe_of(Part::hard, "world-joints-hand-compact"),
-            &recipe_of(Part::limbs, "set-world-joints-normal-angle-step"),
-            &recipe_of(Part::limbs, "set-all-limits")};
+            &recipe_of(Part::limbs, "set-world-joints-normal-angle-step"), &recipe_of(Part::limbs, "set-all-limits")};
 }
 // Limbs enough for several chunks of any of them.
 std::uint32_t large(const Recipe& recipe) { return recipe.part == Part::limbs ? 1000 : 8000; }
@@ -198,7 +195,7 @@ TEST_CASE("every number of threads gives the scalar build's bits")
 TEST_CASE("blocks outside the range are not written, and what lies in them does not matter")
 {
     for (const Recipe& recipe : recipes_of(Part::hard)) {
-        if (recipe.features & corpus::kCompact) continue;  // see test_compact
+        if (recipe.features & corpus::kCompact) continue;  // only what is digested differs
         Crowd whole = make_crowd(recipe, 200);
         whole.solve();
         const std::vector<std::span<float>> expected = block_rows(whole, swivel_result_rows);

@@ -32,7 +32,7 @@ inline void write_arms(Crowd& crowd, swivel_features features, std::uint32_t gro
         }
 }
 
-// Every lane's results as 16- or 32-bit words, lane after lane.
+// Every lane's results as words, lane after lane.
 struct Results {
     std::uint32_t row_count;
     std::vector<std::uint32_t> words;
@@ -40,19 +40,15 @@ struct Results {
     explicit Results(const Crowd& crowd)
     {
         // All groups have the same features.
-        row_count = swivel_result_rows(crowd.get(), 0).row_count + swivel_compact_rows(crowd.get(), 0).row_count;
+        row_count = swivel_result_rows(crowd.get(), 0).row_count;
         for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
             const swivel_rows rows = swivel_result_rows(crowd.get(), group);
-            const swivel_words compact = swivel_compact_rows(crowd.get(), group);
             const std::size_t lanes = std::size_t{rows.block_count} * SWIVEL_LANES;
             for (std::size_t limb = 0; limb < lanes; ++limb)
                 for (std::uint32_t row = 0; row < row_count; ++row) {
                     const std::size_t at = (limb / 16 * row_count + row) * 16 + limb % 16;
                     std::uint32_t word = 0;
-                    if (compact.base)
-                        word = compact.base[at];
-                    else
-                        std::memcpy(&word, rows.base + at, sizeof word);
+                    std::memcpy(&word, rows.base + at, sizeof word);
                     words.push_back(word);
                 }
         }
@@ -74,10 +70,6 @@ inline void poison_results(Crowd& crowd)
             const std::uint32_t word = 0x7fa00000u + n++;  // a signalling NaN
             std::memcpy(&at, &word, sizeof word);
         }
-        const swivel_words compact = swivel_compact_rows(crowd.get(), group);
-        for (std::uint16_t& at :
-             std::span(compact.base, std::size_t{compact.block_count} * compact.row_count * SWIVEL_LANES))
-            at = static_cast<std::uint16_t>(0x8000u + n++);
     }
 }
 

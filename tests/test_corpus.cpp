@@ -25,8 +25,7 @@ std::vector<std::array<float, N>> values_of(const Crowd& crowd, const Recipe& re
 {
     if (std::ranges::find(recipe.inputs, field) == recipe.inputs.end()) return {};
     const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
-    std::vector<std::uint32_t> words(count * N);
-    read_field(crowd, field, group, words);
+    const std::vector<std::uint32_t> words = read_field(crowd, recipe, field, group);
     std::vector<std::array<float, N>> values(count);
     for (std::size_t n = 0; n < words.size(); ++n) values[n / N][n % N] = std::bit_cast<float>(words[n]);
     return values;
@@ -94,9 +93,7 @@ std::uint32_t flags_of(Part part)
         digest_of(recipe, [&](Crowd& crowd) {
             crowd.solve();
             for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-                std::vector<std::uint32_t> words(swivel_group_limb_count(crowd.get(), group));
-                read_field(crowd, Field::flags, group, words);
-                for (const std::uint32_t word : words) flags |= word;
+                for (const std::uint32_t word : read_field(crowd, recipe, Field::flags, group)) flags |= word;
             }
         });
     return flags;
@@ -152,10 +149,8 @@ TEST_CASE("limbs have the same numbers in crowds of any size")
         const Crowd small = make_crowd(recipe, 70), large = make_crowd(recipe, 200);
         for (const Field field : recipe.inputs) {
             if (field == Field::none) continue;
-            const std::uint32_t components = component_count(recipe, field);
-            std::vector<std::uint32_t> few(70 * components), many(200 * components);
-            read_field(small, field, 0, few);
-            read_field(large, field, 0, many);
+            const std::vector<std::uint32_t> few = read_field(small, recipe, field, 0),
+                                             many = read_field(large, recipe, field, 0);
             CHECK(std::equal(few.begin(), few.end(), many.begin()));
         }
     }
@@ -169,10 +164,8 @@ TEST_CASE("goals change from frame to frame, and nothing else does")
     write_goals(crowd, recipe, 1);
     for (const Field field : recipe.inputs) {
         if (field == Field::none) continue;
-        std::vector<std::uint32_t> now(100 * component_count(recipe, field)), then = now;
-        read_field(crowd, field, 0, now);
-        read_field(before, field, 0, then);
-        CHECK((now != then) == (field == Field::target || field == Field::pole));
+        const bool changes = read_field(crowd, recipe, field, 0) != read_field(before, recipe, field, 0);
+        CHECK(changes == (field == Field::target || field == Field::pole));
     }
 }
 

@@ -63,9 +63,21 @@ static_assert(Maskable<std::vector<std::uint32_t>&> && Maskable<std::span<std::u
 static_assert(!Maskable<std::vector<int>> && !Maskable<std::vector<std::uint64_t>> && !Maskable<std::vector<bool>>);
 static_assert(!Maskable<std::list<std::uint32_t>> && !Maskable<const std::uint32_t*> && !Maskable<std::uint32_t>);
 
+struct Leg {
+    Float3 target;
+    std::array<float, 16> world;
+};
 struct Person {
     Float3 grip;
+    Leg legs[2];
 };
+template <class Frames>
+concept TakesFrames = requires(Frames&& frames)
+{
+    Job{.frames = std::forward<Frames>(frames)};
+};
+static_assert(TakesFrames<Frame&> && TakesFrames<std::vector<Frame>&>);
+static_assert(!TakesFrames<Frame> && !TakesFrames<std::vector<Frame>>);  // a job would view what ends with its line
 template <class Range>
 concept Streamable = requires(Range&& range)
 {
@@ -93,7 +105,7 @@ TEST_CASE("C++: a job with a name keeps values in braces")
     changed.mask = {0x30u};
     scribble();
     CHECK(solved_by(crowd, changed) == 0x30u);
-    changed.mask = {};
+    changed.mask = everything;
     CHECK(solved_by(crowd, changed) == 0xfffffu);
     CHECK(solved_by(crowd, job_of_a_function()) == 0x14u);
     CHECK(solved_by(crowd, {.mask = {0xfu}}) == 0xfu);
@@ -135,6 +147,43 @@ TEST_CASE("C++: a job views ranges with a name, and spans, without an allocation
     mask[0] = 0x300u;
     for (const Job* job : {&named, &span, &pointer}) CHECK(solved_by(crowd, *job) == 0x300u);
     CHECK(solved_by(crowd, own) == 0x21u);
+}
+
+TEST_CASE("C++: a stream reaches members of members and elements of arrays")
+{
+    std::vector<Person> people(3);
+    const swivel_out left = stream(people, &Person::legs, 1, &Leg::target);
+    CHECK((left.data == &people[0].legs[1].target && left.stride == sizeof(Person)));
+    CHECK(swivel_in(stream(people, &Person::grip, 2)).data == &people[0].grip[2]);
+}
+
+TEST_CASE("C++: a matrix is no rotation, and other arrays of floats are no other field's")
+{
+    std::vector<Person> people(3);
+    std::vector<std::array<float, 16>> matrices(3);
+    std::vector<std::array<float, 12>> boxes(3);
+    Crowd crowd(group(3, SWIVEL_WORLD | SWIVEL_WITH_SHOULDER_BOX));
+    Frame frame;
+    const auto no_value = Catch::Contains("floats is no value of");
+    CHECK_THROWS_WITH(frame.in(SWIVEL_PARENT_ROTATION, stream(people, &Person::legs, 0, &Leg::world)), no_value);
+    CHECK_THROWS_WITH(crowd.write(SWIVEL_PARENT_ROTATION, 0, matrices), no_value);
+    CHECK_THROWS_WITH(crowd.write_all(SWIVEL_PARENT_ROTATION, 0, matrices[0]), no_value);
+    CHECK_THROWS_WITH(crowd.read(SWIVEL_SHOULDER, 0, matrices), no_value);
+    CHECK_NOTHROW(crowd.write(SWIVEL_SHOULDER_BOX, 0, boxes));
+}
+
+TEST_CASE("C++: one frame and one group need no braces, an empty list is nothing")
+{
+    Crowd crowd(group(20)), two({group(20), group(3)});
+    std::vector<Frame> frames(2);
+    CHECK(crowd.solve({.frames = frames[0]}) == 20);
+    CHECK(two.solve({.frames = frames}) == 23);
+    CHECK(two.solve({.groups = {1}}) == 3);
+    CHECK(two.solve({.groups = {}}) == 0);
+    CHECK(two.solve({.limbs = {}}) == 0);
+    CHECK(two.solve({.groups = everything}) == 23);
+    CHECK_THROWS_WITH(two.solve({.mask = {}}), Catch::Contains("a mask of 0 words"));
+    CHECK_THROWS_WITH(two.solve({.frames = frames[0]}), Catch::Contains("1 frames for 2 groups"));
 }
 
 TEST_CASE("C++: an explanation is whole, however long")

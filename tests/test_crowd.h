@@ -95,14 +95,14 @@ inline std::vector<std::span<float>> block_rows(const Crowd& crowd,
     }
     return blocks;
 }
-// The whole of a crowd's rows; without the results of compact groups.
+// The whole of a crowd's rows.
 inline std::vector<std::uint32_t> all_words(const Crowd& crowd)
 {
     std::vector<std::uint32_t> words;
     for_all_rows(crowd, [&](const swivel_rows& rows) {
         const std::size_t at = words.size();
         words.resize(at + float_count(rows));
-        if (rows.base) std::memcpy(words.data() + at, rows.base, float_count(rows) * sizeof(float));
+        std::memcpy(words.data() + at, rows.base, float_count(rows) * sizeof(float));
     });
     return words;
 }

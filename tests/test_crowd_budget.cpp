@@ -125,7 +125,7 @@ TEST_CASE("solving within a budget is choosing and solving what was chosen, on a
     const global_control threads_of_process(global_control::max_allowed_parallelism, 4);
 #endif
     const swivel_group_def groups[] = {group_of(6000), group_of(100), group_of(3333)};
-    for (const swivel_features features : {swivel_features{0}, kEverything | SWIVEL_COMPACT}) {
+    for (const swivel_features features : {swivel_features{0}, kEverything}) {
         const IsaScope scope;
         std::vector<std::vector<std::uint32_t>> history;
         for (const std::string& isa : runnable_isas()) {

@@ -20,8 +20,7 @@ namespace {
 
 constexpr double kFar = 1e7;
 constexpr swivel_features kFeatureSets[] = {SWIVEL_WORLD, SWIVEL_WORLD | SWIVEL_WITH_HAND, SWIVEL_WORLD | SWIVEL_JOINTS,
-                                            SWIVEL_WORLD | SWIVEL_POLE_DIRECTION,
-                                            SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_COMPACT};
+                                            SWIVEL_WORLD | SWIVEL_POLE_DIRECTION};
 
 using Double3 = std::array<double, 3>;
 
@@ -77,13 +76,6 @@ void write_far(Crowd& crowd, swivel_features features, const std::vector<FarLimb
     for (std::uint32_t n = 0; n < count; ++n) write_rest(crowd, n, limbs[n].rest);
 }
 
-std::vector<std::uint32_t> results(const Crowd& crowd)
-{
-    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
-    if (!words.base) return all_words(crowd);
-    return {words.base, words.base + std::size_t{words.block_count} * words.row_count * SWIVEL_LANES};
-}
-
 }  // namespace
 
 TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whichever way they are given")
@@ -111,7 +103,7 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
             write_far(far, features, limbs);
             far.solve();
             CHECK(all_words(far) == all_words(home));
-            CHECK(results(far) == results(home));
+            CHECK(all_words(far) == all_words(home));
 
             Frame frame;
             frame.in(SWIVEL_TARGET, {&limbs[0].target, sizeof limbs[0]});
@@ -120,7 +112,7 @@ TEST_CASE("exact shifts, of each limb or of all, give the bits of home, whicheve
             frame.origin({&limbs[0].origin, one_for_all ? 0 : sizeof limbs[0]});
             framed.solve({.frames = {frame}});
             CHECK(all_words(framed) == all_words(home));
-            CHECK(results(framed) == results(home));
+            CHECK(all_words(framed) == all_words(home));
         }
 }
 

@@ -29,7 +29,6 @@ constexpr swivel_features kPlainLeg = SWIVEL_WORLD | SWIVEL_JOINTS, kPlainArm = 
                               SWIVEL_WITH_MOST_SWIVEL | SWIVEL_WITH_SHOULDER_CONE,
                               kPlainArm | SWIVEL_WITH_CLAVICLE | 3 * SWIVEL_WITH_TWIST_BONES,
                               kPlainArm | SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING,
-                              kPlainLeg | SWIVEL_COMPACT,
 };
 
 template <std::size_t Size>
@@ -90,7 +89,6 @@ std::vector<std::uint32_t> group_words(const Crowd& crowd, std::uint32_t group)
     };
     take(swivel_input_rows(crowd.get(), group));
     take(swivel_result_rows(crowd.get(), group));
-    take(swivel_compact_rows(crowd.get(), group));
     return words;
 }
 
@@ -190,7 +188,6 @@ TEST_CASE("bad input keeps the pose where the group says so")
     for (const std::string& isa : runnable_isas()) {
         REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
         for (const swivel_features features : kKinds) {
-            if (features & SWIVEL_COMPACT) continue;
             for (const bool masked : {false, true}) {
                 INFO(isa << ", features " << features << (masked ? ", masked" : ""));
                 const std::uint32_t count = 200;
@@ -267,7 +264,7 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
             const std::vector<std::uint32_t> mask(4, 0xffffbfffu);
             const swivel_blocks all{0, swivel_block_count(crowd.get())};
             crowd.solve({.blocks = on_this_thread ? std::optional(all) : std::nullopt,
-                         .mask = masked ? Given<std::uint32_t>(mask) : Given<std::uint32_t>(),
+                         .mask = masked ? Given<std::uint32_t>(mask) : Given<std::uint32_t>(everything),
                          .frames = {frame},
                          .on_this_thread = on_this_thread});
             for (std::uint32_t n = 0; n < count; ++n) {
@@ -316,7 +313,7 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         // A group has the field just if it has what the field needs and lacks what it excludes.
         for (const swivel_features features : kKinds) {
             const Crowd crowd({group(1, group_of(1).binding, features)});
-            const std::uint32_t count = swivel_component_count(field.field, features & ~SWIVEL_COMPACT);
+            const std::uint32_t count = swivel_component_count(field.field, features);
             const bool has = (features & field.needs) == field.needs && !(features & field.excludes);
             CHECK((swivel_field_row_count(crowd.get(), 0, field.field) > 0) == has);
             CHECK((count > 0) == has);

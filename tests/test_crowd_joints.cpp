@@ -306,7 +306,7 @@ TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
     const auto refuse = [&](const char* what, Rest rest, auto spoil) {
         INFO(what);
         swivel_chain chain = random_chain(random, rest);
-        swivel_binding binding;
+        swivel_binding binding = swivel_default_binding();
         REQUIRE(swivel_bind(&chain, &binding) == SWIVEL_OK);
         std::memset(&binding, 0x5a, sizeof binding);
         const swivel_binding untouched = binding;
@@ -350,7 +350,7 @@ TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
     refuse("of a later header", Rest::bent, [](swivel_chain& c) { c.size += 8; });
 
     swivel_chain chain = random_chain(random, Rest::bent);
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     CHECK_REFUSED(swivel_bind(nullptr, &binding), SWIVEL_INVALID_ARGUMENT);
     CHECK_REFUSED(swivel_bind(&chain, nullptr), SWIVEL_INVALID_ARGUMENT);
     CHECK(swivel_bind(&chain, &binding) == SWIVEL_OK);

@@ -427,7 +427,7 @@ TEST_CASE("swivel_arm_axis refuses what has no direction, and takes its own outp
     CHECK_REFUSED(swivel_arm_axis(&binding, none.data(), up, axis), wrong);
     for (const double* direction : {nothing, bad})
         CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), direction, axis), wrong);
-    const swivel_binding zeros{};
+    const swivel_binding zeros = swivel_default_binding();
     CHECK_REFUSED(swivel_arm_axis(&zeros, turned.data(), up, axis), wrong);
     CHECK((axis[0] == 7 && axis[1] == 7 && axis[2] == 7));
     REQUIRE(swivel_arm_axis(&binding, turned.data(), up, axis) == SWIVEL_OK);

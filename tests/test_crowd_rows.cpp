@@ -115,8 +115,7 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
                               limb = SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL | 3 * SWIVEL_WITH_TWIST_BONES |
                                      SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_INCOMING;
     std::vector<swivel_features> sets = {plain | limb, SWIVEL_WORLD | SWIVEL_WITH_HAND | limb};
-    for (swivel_features n = 0; n < 8; ++n)
-        for (const swivel_features compact : {swivel_features{0}, SWIVEL_COMPACT}) sets.push_back(n | compact);
+    for (swivel_features n = 0; n < 8; ++n) sets.push_back(n);
     for (const swivel_features features : sets) {
         INFO("features " << features);
         Crowd crowd = crowd_with(features, groups);
@@ -139,7 +138,7 @@ TEST_CASE("limbs that were never solved have the bits of bad input, but for its 
         const Float4 shoulder = read<Float4>(crowd, SWIVEL_SHOULDER, 1)[6];
         const bool joints = features & SWIVEL_JOINTS;
         const Float4 rest = joints ? Float4{-0.2f, 0.4f, 0.4f, 0.8f} : Float4{0, 0, 0, 1};
-        CHECK(distance(quat(shoulder), quat(rest)) <= (features & SWIVEL_COMPACT ? 1.54e-4 : 1e-6));
+        CHECK(distance(quat(shoulder), quat(rest)) <= 1e-6);
         if (features & SWIVEL_WITH_REACH) CHECK(read<Float1>(crowd, SWIVEL_STRETCH, 0)[32] == Float1{1});
         if (features & SWIVEL_WITH_MOST_SWIVEL) CHECK(read<Float3>(crowd, SWIVEL_NORMAL, 0)[32] == Float3{});
     }
@@ -150,7 +149,7 @@ TEST_CASE("streams of any stride and alignment land in the documented place, bit
     const swivel_group_def groups[] = {group_of(5), group_of(37)};
     // Every field there is: all features that go together.
     constexpr swivel_features others =
-        SWIVEL_COMPACT | SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_AIM;
+        SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL | SWIVEL_POLE_INCOMING | SWIVEL_WITH_AIM;
     swivel_features every = 0;
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) every |= info.feature & ~others;
@@ -218,12 +217,11 @@ std::uint64_t described_digest(const Crowd& crowd)
     };
     for (std::uint32_t g = 0; g < swivel_group_count(crowd.get()); ++g) {
         const swivel_rows floats = swivel_result_rows(crowd.get(), g);
-        const swivel_words words = swivel_compact_rows(crowd.get(), g);
-        const std::uint32_t row_count = floats.row_count + words.row_count;  // one is 0
+        const std::uint32_t row_count = floats.row_count;
         for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), g); ++n)
             for (std::uint32_t row = 0; row < row_count; ++row) {
                 const std::size_t at = (std::size_t{n / 16} * row_count + row) * 16 + n % 16;
-                step(hashes[n % 16], floats.base ? std::bit_cast<std::uint32_t>(floats.base[at]) : words.base[at]);
+                step(hashes[n % 16], std::bit_cast<std::uint32_t>(floats.base[at]));
             }
     }
     for (const std::uint64_t hash : hashes) step(whole, hash);
@@ -235,7 +233,7 @@ std::uint64_t described_digest(const Crowd& crowd)
 TEST_CASE("the digest is that of the results, and of nothing else")
 {
     const std::uint32_t counts[] = {1, 16, 37};
-    for (const swivel_features features : {swivel_features{0}, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_COMPACT}) {
+    for (const swivel_features features : {swivel_features{0}, SWIVEL_JOINTS | SWIVEL_WITH_HAND}) {
         INFO("features " << features);
         std::vector<swivel_group_def> groups;
         for (const std::uint32_t count : counts) groups.push_back(group_of(count));
@@ -260,13 +258,9 @@ TEST_CASE("the digest is that of the results, and of nothing else")
         CHECK(crowd.digest() == solved);
         const auto change = [&](std::uint32_t g, std::uint32_t limb, std::uint32_t row) {
             const swivel_rows floats = swivel_result_rows(crowd.get(), g);
-            const swivel_words words = swivel_compact_rows(crowd.get(), g);
-            const std::uint32_t row_count = floats.row_count + words.row_count;
+            const std::uint32_t row_count = floats.row_count;
             const std::size_t at = (std::size_t{limb / 16} * row_count + row) * 16 + limb % 16;
-            if (floats.base)
-                floats.base[at] = -floats.base[at];
-            else
-                words.base[at] ^= 1;
+            floats.base[at] = -floats.base[at];
         };
         change(0, 1, 0);   // padding of the first group
         change(2, 37, 0);  // and of the last

@@ -55,7 +55,7 @@ Parent root_of(const RestSkeleton& skeleton, const swivel_binding& bound, const 
 
 struct Posed {
     RestSkeleton skeleton;
-    swivel_binding bound;
+    swivel_binding bound = swivel_default_binding();
     Crowd crowd;
     std::vector<Limb> limbs;
     std::vector<Parent> roots;
@@ -321,9 +321,10 @@ template <class Spoil>
 void refuse(const std::string& said, Spoil spoil)
 {
     Figure figure;
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     REQUIRE(swivel_bind_joints(&figure.skeleton, &figure.joints, &binding) == SWIVEL_OK);
     std::memset(&binding, 0x5a, sizeof binding);
+    binding.size = sizeof binding;
     const swivel_binding untouched = binding;
     spoil(figure);
     INFO(said);
@@ -386,7 +387,7 @@ TEST_CASE("swivel_bind_joints refuses rest poses that are none, and skeletons wi
     refuse("skeleton has size 0", [](Figure& f) { f.skeleton.size = 0; });
     refuse("limb joints has size 4096", [](Figure& f) { f.joints.size = 4096; });
     Figure figure;
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     const auto bad = SWIVEL_INVALID_ARGUMENT;
     CHECK_REFUSED(swivel_bind_joints(nullptr, &figure.joints, &binding), bad);
     CHECK_REFUSED(swivel_bind_joints(&figure.skeleton, nullptr, &binding), bad);

@@ -146,7 +146,7 @@ TEST_CASE("axes and pairs that the library makes from angles are valid, for join
                 float* const value = values[n].data();
                 REQUIRE(swivel_mirror(part.field, SWIVEL_XYZ, value, value) == SWIVEL_OK);
             }
-            const auto flags = flags_of(part, values, joints ? chained(random).bound : swivel_binding{});
+            const auto flags = flags_of(part, values, joints ? chained(random).bound : swivel_default_binding());
             CHECK(std::ranges::count_if(flags, [](std::uint32_t f) { return (f & SWIVEL_BAD_INPUT) != 0; }) == 0);
         }
     }

@@ -128,7 +128,7 @@ TEST_CASE("hard arms among ordinary ones have the bits of each arm alone")
     rc::prop("any features, counts, shares and block ranges, on every instruction set", [&](std::uint64_t seed) {
         Random random{seed};
         const swivel_features features = random.below(8);
-        const swivel_binding binding = features & SWIVEL_JOINTS ? chained(random).bound : swivel_binding{};
+        const swivel_binding binding = features & SWIVEL_JOINTS ? chained(random).bound : swivel_default_binding();
         Crowd crowd = mixed_crowd(random, features, 1 + random.below(400), binding);
         const Words alone = solve_each_alone(crowd, features, binding);
         const std::uint32_t block_count = swivel_block_count(crowd.get()), first = random.below(block_count);

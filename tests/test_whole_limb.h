@@ -33,7 +33,7 @@ inline swivel_chain skewed_chain(Random& random)
 
 struct Chained {
     swivel_chain chain;
-    swivel_binding bound;
+    swivel_binding bound = swivel_default_binding();
 };
 inline Chained chained(Random& random)
 {

@@ -153,9 +153,7 @@ swivel::Crowd make_crowd(swivel_features features, std::size_t arm_count, std::s
 std::size_t row_bytes(swivel_features features)
 {
     const swivel::Crowd crowd({swivel::group(1, binding(), features)});
-    return sizeof(float) *
-               (swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count) +
-           sizeof(std::uint16_t) * swivel_compact_rows(crowd.get(), 0).row_count;
+    return sizeof(float) * (swivel_input_rows(crowd.get(), 0).row_count + swivel_result_rows(crowd.get(), 0).row_count);
 }
 
 std::size_t arms_within(std::size_t memory_level, swivel_features features)

@@ -89,26 +89,23 @@ TEST_CASE("docs: joint angles")
               .norm() < 1e-6);
 }
 
-TEST_CASE("docs: compact results")
+TEST_CASE("docs: packed results")
 {
-    // [compact]
-    swivel::Crowd crowd({swivel::group(2, SWIVEL_COMPACT)});
-    // [end]
+    swivel::Crowd crowd({swivel::group(2)});
     give_arms(crowd);
     crowd.solve();
-    // [compact_read]
-    // 16-bit rows: send these, or give them to a GPU.
-    const swivel_words words = swivel_compact_rows(crowd.get(), 0);
-    const std::uint32_t row = swivel_field_first_row(crowd.get(), 0, SWIVEL_SHOULDER);
+    // [pack]
+    // 16-bit rows: keep these, send them, or give them to a GPU.
+    const std::uint32_t rows = swivel_packed_row(0, SWIVEL_RESULT_END);
+    std::vector<std::uint16_t> words(SWIVEL_LANES * rows);  // one block
+    crowd.pack(0, words);
+    const std::uint32_t row = swivel_packed_row(0, SWIVEL_SHOULDER);
     Float4 shoulder;  // limb 1 of block 0
-    swivel_unpack_rotation(words.base + row * SWIVEL_LANES + 1, SWIVEL_LANES,
+    swivel_unpack_rotation(words.data() + row * SWIVEL_LANES + 1, SWIVEL_LANES,
                            shoulder.data());
     // [end]
-    swivel::Crowd plain({swivel::group(2)});
-    give_arms(plain);
-    plain.solve();
     std::array<Float4, 2> want;
-    plain.read(SWIVEL_SHOULDER, 0, want);
+    crowd.read(SWIVEL_SHOULDER, 0, want);
     CHECK(turn_between(shoulder, want[1]) < 1.54e-4);
 }
 

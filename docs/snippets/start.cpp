@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // [shown]
-#include <algorithm>
 #include <cstdio>
 #include <swivel/swivel.hpp>
 #include <vector>
@@ -51,7 +50,9 @@ int main()
 
     std::vector<double> off(characters.size());  // from target to wrist, in arm lengths
     crowd.residuals(0, off);
-    const double worst = *std::max_element(off.begin(), off.end());
+    double worst = 0;
+    for (const double each : off)
+        if (!(each <= worst)) worst = each;  // NaN where input is bad
     std::printf("%zu arms, the worst wrist is off by %.7f\n", off.size(), worst);
 }
 // [end]

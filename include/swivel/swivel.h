@@ -41,7 +41,10 @@
 //
 // SIZES. Structures that may grow start with their size. Start each from its swivel_default_ function. A library
 // accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
-// first.
+// first. Data may be null for zero limbs.
+//
+// CHECKED BUILDS. Built with SWIVEL_CHECK_USE, as debug builds are, the library also refuses a crowd that is destroyed,
+// a crowd that two threads use against the rules, and frames whose results overlap other limbs' inputs.
 //
 // Read next: swivel_field for every value's meaning, swivel_bind() for skeletons, and swivel_solve(). The folder docs/
 // has guides with pictures; docs/speed.md says what each feature costs.
@@ -112,15 +115,13 @@ typedef enum swivel_flag {
 // time. SWIVEL_WITH_F adds the field F. SWIVEL_WITH_INCOMING adds the three fields of the incoming pose.
 // - POLE_DIRECTION and WITH_CLAVICLE need WORLD. POLE_INCOMING and WITH_WEIGHTS need WITH_INCOMING. WITH_EFFECTOR,
 //   WITH_TWIST_BONES and limits of the hand need WITH_HAND. At most one of the three kinds of pole is given.
-// - COMPACT excludes WITH_REACH, WITH_MOST_SWIVEL, WITH_TWIST_BONES and WITH_CLAVICLE. WITH_AIM excludes WITH_WEIGHTS,
-//   WITH_REACH, WITH_FLEXION_LIMIT and limits of the hand.
+// - WITH_AIM excludes WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT and limits of the hand.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
 #define SWIVEL_JOINTS (UINT64_C(1) << 1)          // results are local rotations of the skeleton's joints
 #define SWIVEL_WITH_HAND (UINT64_C(1) << 2)       // a wanted hand orientation goes in, a wrist rotation comes out
 #define SWIVEL_POLE_DIRECTION (UINT64_C(1) << 3)  // poles are directions, not points
-#define SWIVEL_COMPACT (UINT64_C(1) << 4)         // results in 16-bit words: see swivel_words
 #define SWIVEL_WITH_EFFECTOR (UINT64_C(1) << 5)
 #define SWIVEL_WITH_ANGLE (UINT64_C(1) << 6)
 #define SWIVEL_POLE_NORMAL (UINT64_C(1) << 7)  // poles are normals of the swivel plane
@@ -203,7 +204,7 @@ typedef enum swivel_field {
     // 4 each, WITH_INCOMING; the wrist also WITH_HAND: the pose so far, whole quaternions for the elbow, too. With
     // JOINTS they are local rotations. Otherwise the shoulder is in the arm frame, the forearm relative to the upper
     // arm, the hand relative to the forearm. If the pole does not define the swivel, the incoming pose does. Each
-    // result has the sign nearer to its incoming rotation; compact results keep w >= 0.
+    // result has the sign nearer to its incoming rotation.
     SWIVEL_INCOMING_SHOULDER,
     SWIVEL_INCOMING_ELBOW,
     SWIVEL_INCOMING_WRIST,
@@ -264,12 +265,10 @@ typedef enum swivel_field {
     SWIVEL_STRETCH,
     // 3, WITH_MOST_SWIVEL: unit normal of the swivel plane, in the arm frame. The next solve makes it perpendicular to
     // its own line from shoulder to wrist. SWIVEL_MOST_SWIVEL limits the turn from there. Bad input clears it, unless
-    // the
-    // group keeps poses. swivel_reset() clears it, too: call it after a teleport. Without this feature, results depend
-    // on
-    // the present inputs alone, but for poses that are kept. The swivel is still continuous, with three exceptions. The
-    // target crosses the shoulder, the pole crosses the line
-    // from shoulder to wrist, or the nearest allowed swivel changes sides.
+    // the group keeps poses. swivel_reset() clears it, too: call it after a teleport. Without this feature, results
+    // depend on the present inputs alone, but for poses that are kept. The swivel is still continuous, with three
+    // exceptions. The target crosses the shoulder, the pole crosses the line from shoulder to wrist, or the nearest
+    // allowed swivel changes sides.
     SWIVEL_NORMAL,
     // 4 n, WITH_TWIST_BONES * n: the rotations of n bones that share the hand's twist about the forearm. Bone i of 1..n
     // turns by i / (n + 1) of it, within 0.12 degrees. With JOINTS and a binding of these bones (swivel_bind_joints())
@@ -322,6 +321,7 @@ SWIVEL_API const char* swivel_flag_name(uint32_t flags);
 // Maps the arm frame to a skeleton's joints. It holds unit quaternions (x, y, z, w), the rest pose and the bone
 // lengths. Made by swivel_bind() or swivel_bind_joints().
 typedef struct swivel_binding {
+    size_t size;                     // sizeof(swivel_binding), set by swivel_default_binding()
     float parent_from_arm[4];        // arm frame to the shoulder's parent joint
     float upper_from_arm[4];         // arm frame, bones and hinge at rest, to the shoulder joint's own frame
     float elbow_parent_from_arm[4];  // the same, to the elbow's parent: upper_from_arm where that is the shoulder joint
@@ -333,6 +333,15 @@ typedef struct swivel_binding {
     // The same, to each twist bone's parent and to its own frame. Unused entries hold fore_from_arm.
     float twist_parent_from_arm[SWIVEL_MOST_TWIST_BONES][4], twist_from_arm[SWIVEL_MOST_TWIST_BONES][4];
 } swivel_binding;
+
+// Not bound yet.
+static inline swivel_binding swivel_default_binding(void)
+{
+    swivel_binding binding;
+    memset(&binding, 0, sizeof binding);
+    binding.size = sizeof binding;
+    return binding;
+}
 
 // A shoulder, elbow and wrist joint at rest, as a skeleton stores them.
 typedef struct swivel_chain {
@@ -371,7 +380,6 @@ typedef enum swivel_euler_order {
 typedef enum swivel_on_bad_input {
     SWIVEL_REST_POSE,  // its rest pose; what it carries from solve to solve is cleared
     // Its results stay as they are, and so do its values in frames: only its flags are written. What it carries stays.
-    // Not with SWIVEL_COMPACT.
     SWIVEL_KEEP_POSE,
 } swivel_on_bad_input;
 
@@ -392,6 +400,7 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
     memset(&group, 0, sizeof group);
     group.size = sizeof group;
     group.limb_count = limb_count;
+    group.binding = swivel_default_binding();
     return group;
 }
 
@@ -429,24 +438,6 @@ typedef struct swivel_rows {
     uint32_t block_count;  // of the group
     uint32_t row_count;
 } swivel_rows;
-
-// Result rows of a group with SWIVEL_COMPACT: 16 uint16_t, 32 bytes; word r of limb i is base[((i / 16) * row_count +
-// r) * 16 + i % 16]. The fields have the same order.
-// - SWIVEL_SHOULDER, SWIVEL_WRIST, and SWIVEL_ELBOW with JOINTS: 3 words, the quaternion's smallest three components.
-//   The component of largest size (the first of x, y, z, w if equal) is left out; its index 0..3 is word0 >> 15 |
-//   (word1 >> 15) << 1. The other three follow in the order x, y, z, w; each is ((word & 32767) - 16384) / (16383 *
-//   sqrt 2). The sign of the quaternion makes the component left out positive: it is sqrt(1 - the sum of their
-//   squares). Bit 15 of word2 is 0. Three words of 0 are four zeros; no solve writes them.
-// - SWIVEL_ELBOW without JOINTS: 2 words, cos and sin as IEEE half floats, rounded to nearest.
-// - SWIVEL_FLAGS: 2 words, the low and the high half of the uint32_t.
-// A rotation is within 1.54e-4 rad of the one without SWIVEL_COMPACT. A wrist is within 1.13e-3 arm lengths of the one
-// without, for any bones; with JOINTS within 3.1e-4. The words are the same on every CPU, too. Packing takes up to half
-// as long as solving. It pays where memory or its bandwidth is short, or where results are sent to another machine.
-typedef struct swivel_words {
-    uint16_t* base;  // borrowed as well
-    uint32_t block_count;
-    uint32_t row_count;
-} swivel_words;
 
 // The version the library was built as: compare with SWIVEL_VERSION. Any thread.
 SWIVEL_API uint32_t swivel_version(void);
@@ -536,30 +527,20 @@ SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t 
 SWIVEL_API uint32_t swivel_group_limb_count(const swivel_crowd* crowd, uint32_t group);
 SWIVEL_API swivel_features swivel_group_features(const swivel_crowd* crowd, uint32_t group);
 // The first row of a field within each block of a group, and its number of rows. Both are 0 if the group does not have
-// the field. For results of a group with SWIVEL_COMPACT these are rows of words.
+// the field.
 SWIVEL_API uint32_t swivel_field_first_row(const swivel_crowd* crowd, uint32_t group, swivel_field field);
 SWIVEL_API uint32_t swivel_field_row_count(const swivel_crowd* crowd, uint32_t group, swivel_field field);
 
 // Direct access to a group's rows: the fast way in and out. Padding lanes of inputs may hold anything and are left
-// alone; those of results are overwritten and mean nothing. Results are in swivel_compact_rows() with SWIVEL_COMPACT,
-// otherwise in swivel_result_rows(). The other one has a null base and no rows.
+// alone; those of results are overwritten and mean nothing.
 SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd, uint32_t group);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group);
-SWIVEL_API swivel_words swivel_compact_rows(swivel_crowd* crowd, uint32_t group);
-
-// Words of swivel_words as numbers, the same as swivel_read() gives. A rotation's three words lie word_stride words
-// apart, SWIVEL_LANES in compact rows; xyzw is a unit quaternion with w >= 0, or four zeros. Words that no solve wrote
-// may give a quaternion of another length. Any thread.
-SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
-// The value of any half float, exactly. Any thread.
-SWIVEL_API float swivel_unpack_half(uint16_t word);
 
 // swivel_write() copies a field of limb_count limbs of one group from the caller's strided data; swivel_read() copies
 // it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write
 // takes input fields, read takes any. Values must not overlap the crowd's own memory. Copying all fields takes up to
 // about as long as a solve, less while the values are in cache. Writing to rows needs no copy, and a solve with frames
-// fetches each value once. Results of a group with SWIVEL_COMPACT are unpacked to floats and the uint32_t, one limb
-// after the other.
+// fetches each value once.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
@@ -648,9 +629,9 @@ typedef struct swivel_job {
     // ignored.
     const uint32_t* mask;
     uint32_t mask_word_count;
-    // By a list of such numbers. Any order; a limb named twice is
-    // solved once; an empty list solves nothing. Fails for an index that is out of range or a padding lane, before
-    // anything is solved. A list in no order costs some nanoseconds an entry more than bits.
+    // By a list of such numbers. Any order; a limb named twice is solved once; an empty list solves nothing. Fails for
+    // an index that is out of range or a padding lane, before anything is solved. A list in no order costs some
+    // nanoseconds an entry more than bits.
     const swivel_limbs* limbs;
     // The most urgent blocks, at most most_blocks of them, as swivel_choose() picks them; urgency is its, or null.
     const swivel_in* priorities;
@@ -690,8 +671,7 @@ static inline swivel_job swivel_default_job(void)
 // its own inputs: a pose may be read and written in place. Inputs of other limbs may be read later, by any thread. So a
 // limb's result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each other.
 // No value may overlap the crowd's own memory. It fails for a field that the group does not have and for a stride
-// smaller than a value. It also fails for results of a group with SWIVEL_COMPACT: those are read with swivel_read() or
-// where they lie. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
+// smaller than a value. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
 //     const size_t stride = sizeof characters[0];
 //     const swivel_frame_field fields[] = {
 //         {SWIVEL_TARGET, &characters[0].grip, stride},
@@ -824,44 +804,39 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
+// Results in 16-bit words, for memory or for another machine: a third to half of the rows' bytes. swivel_pack() packs
+// blocks of a group, counted within it. words gets SWIVEL_LANES words for each row of words of each block: row r of
+// lane l of the nth block is words[(n * rows + r) * SWIVEL_LANES + l]. rows is swivel_packed_row() of
+// SWIVEL_RESULT_END. Results keep the order of swivel_field; swivel_packed_row() is the row in which a field begins.
+// - Rotations take 3 words: the quaternion's smallest three components. The component of largest size (the first of x,
+//   y, z, w if equal) is left out; its index 0..3 is word0 >> 15 | (word1 >> 15) << 1. The other three follow in the
+//   order x, y, z, w; each is ((word & 32767) - 16384) / (16383 * sqrt 2). The sign of the quaternion makes the
+//   component left out positive: it is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0.
+// - SWIVEL_ELBOW without JOINTS takes 2 words and SWIVEL_STRETCH 1, IEEE half floats, rounded to nearest.
+// - SWIVEL_FLAGS takes 2 words, the low and the high half of the uint32_t.
+// - SWIVEL_NORMAL takes none: it is for the next solve alone.
+// A rotation is within 1.54e-4 rad of the result. A wrist is within 1.13e-3 arm lengths of its place, for any bones;
+// with JOINTS within 3.1e-4; and by half a thousandth of the arm's length more with WITH_REACH. The words are the same
+// on every CPU. Any thread, while nothing solves these blocks; no allocation; up to half as long as a solve of plain
+// arms.
+SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
+// The first row of words of a field of groups with these features; the end of the field before it, if they do not have
+// it. Any thread.
+SWIVEL_API uint32_t swivel_packed_row(swivel_features features, swivel_field field);
+// The rotation of three words that lie word_stride words apart, SWIVEL_LANES in rows: a unit quaternion with w >= 0.
+// Other words may give one of another length. Any thread.
+SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
+// The value of any half float, exactly. Any thread.
+SWIVEL_API float swivel_unpack_half(uint16_t word);
+
 // A digest of all results, to compare machines by. Crowds with the same groups have equal digests if their results are
 // equal, and almost surely other ones if not, also in their low 32 bits. Padding lanes do not count. Each of the
 // SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. Group after group and block after block, it takes the
-// lane's number of every row, in the order of the group's rows: a float's bits, or a word of SWIVEL_COMPACT. To take a
+// bits of the lane's number of every row, in the order of the group's rows. To take a
 // number, h becomes (h ^ number) * 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the
 // lanes, lane 0 first. 0 for a null crowd. It protects from accidents, not from forgers. On the calling thread; no
 // allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
-
-// One entity of the lecture's five steps. Coefficients are of the 32 blades of G(4,1): bits 0 to 4 of a blade's number
-// say whether e1, e2, e3, einf and e0 are in it. Products of two of e1, e2 and e3 are the lecture's units i = e3^e2,
-// j = e1^e3 and k = e2^e1, alone and as a factor. swivel_blade_name() names them. A cosine has a scalar part alone.
-typedef struct swivel_entity {
-    const char* name;     // as the lecture calls it, such as "S1"; a constant, as is the next
-    const char* meaning;  // in a few words
-    uint32_t step;        // 1 to 5
-    uint32_t reserved;    // 0
-    double coefficients[32];
-} swivel_entity;
-
-// The lecture's five steps for one arm, entity by entity, in double, in the arm frame. Source: D. Hildenbrand, Inverse
-// Kinematics of a Virtual Character (TU Darmstadt, 2019). This is for people who learn or check the formulas;
-// swivel_solve() takes others, which hold for every arm. All lengths are in one unit, the caller's.
-// target: where the wrist goes, 3 components of at most 1e15 in magnitude.
-// pole: a point on the elbow's side, 3 components, likewise; at least 1e-15 from the shoulder.
-// upper, fore: the bones' lengths, 1e-15..1e15.
-// entities: an array of capacity elements, which overlaps no other argument; null if capacity is 0. The first entities
-//     are stored, in the order of the steps, as many as fit.
-// entity_count: becomes how many entities there are, whatever the capacity; or null.
-// closing_error: becomes the distance from the target to the wrist that the rotors give, in arm lengths; or null.
-// It fails for values outside these ranges, and for an arm whose formulas divide by zero. Such an arm is out of reach,
-// straight or folded, has its pole on the line to the target, or its upper arm along e3 or -e3. The message names the
-// entity, and nothing is written. Any thread; no allocation.
-SWIVEL_API swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
-                                      swivel_entity* entities, uint32_t capacity, uint32_t* entity_count,
-                                      double* closing_error);
-// The name of a blade, such as "e1^einf"; null from 32 on. Any thread.
-SWIVEL_API const char* swivel_blade_name(uint32_t blade);
 
 // The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this
 // CPU runs. Null, with swivel_last_error() set, if SWIVEL_FORCE_ISA names one that cannot be used; solving then fails
@@ -873,23 +848,6 @@ SWIVEL_API swivel_status swivel_use_isa(const char* name);
 SWIVEL_API const char* swivel_isa_at(uint32_t index);
 // 1 if this CPU and operating system run it, else 0 (also for unknown names).
 SWIVEL_API int swivel_isa_runs(const char* name);
-
-// One line of a self-check: an error measured over many arms against its limit.
-typedef struct swivel_check {
-    const char* name;  // what is compared, e.g. "production<float>, wrist to target"
-    const char* set;   // over which arms, e.g. "reach 5-98 %"
-    uint64_t arm_count;
-    double max, rms;              // in arm lengths, or as the name says
-    double max_limit, rms_limit;  // an rms_limit of 0: not limited
-} swivel_check;
-
-// Checks the formulas. It compares the lecture's steps with a slow reference implementation, and the solver's wrists
-// with their targets by forward kinematics. Each check takes arm_count random arms in each of five bands of reach, with
-// bone ratios from 1:1 to 1000:1. It calls report once for each check, and for hard poses. *passed becomes 1 if every
-// limit was kept, else 0. Takes about a microsecond an arm on one thread; allocates nothing. The same seed gives the
-// same arms everywhere.
-SWIVEL_API swivel_status swivel_verify(uint64_t arm_count, uint64_t seed,
-                                       void (*report)(const swivel_check* check, void* user), void* user, int* passed);
 
 #ifdef __cplusplus
 }

@@ -77,17 +77,16 @@ inline swivel_group_def group(std::uint32_t limb_count, const swivel_binding& bi
     return made;
 }
 
-// A limb's alignments and bone lengths from its rest pose: swivel_bind().
+// A limb's alignments and bone lengths from its rest pose: swivel_bind(), swivel_bind_joints().
 inline swivel_binding bind(const swivel_chain& chain)
 {
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     check(swivel_bind(&chain, &binding));
     return binding;
 }
-// The same from joints of a skeleton: swivel_bind_joints().
 inline swivel_binding bind(const swivel_skeleton& skeleton, const swivel_limb_joints& joints)
 {
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     check(swivel_bind_joints(&skeleton, &joints, &binding));
     return binding;
 }
@@ -101,31 +100,23 @@ inline std::array<double, 3> arm_axis(const swivel_binding& binding, const std::
     return axis;
 }
 
-// Values of limit fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
-// swivel_turn().
-inline std::array<float, 4> range(double least, double most)
+// Values of limit fields from angles in radians: swivel_range() and its neighbours.
+template <std::size_t size, class Make, class... Angles>
+std::array<float, size> made_by(Make make, Angles... angles)
 {
-    std::array<float, 4> value;
-    check(swivel_range(least, most, value.data()));
+    std::array<float, size> value;
+    check(make(angles..., value.data()));
     return value;
 }
+inline std::array<float, 4> range(double least, double most) { return made_by<4>(swivel_range, least, most); }
 inline std::array<float, 4> cone(const std::array<double, 3>& axis, double most)
 {
-    std::array<float, 4> value;
-    check(swivel_cone(axis.data(), most, value.data()));
-    return value;
+    return made_by<4>(swivel_cone, axis.data(), most);
 }
-inline std::array<float, 2> flexion(double least, double most)
-{
-    std::array<float, 2> value;
-    check(swivel_flexion(least, most, value.data()));
-    return value;
-}
+inline std::array<float, 2> flexion(double least, double most) { return made_by<2>(swivel_flexion, least, most); }
 inline std::array<float, 5> aim(const std::array<double, 3>& axis, double flexion)
 {
-    std::array<float, 5> value;
-    check(swivel_aim(axis.data(), flexion, value.data()));
-    return value;
+    return made_by<5>(swivel_aim, axis.data(), flexion);
 }
 inline std::array<float, 2> turn(double angle)
 {
@@ -133,22 +124,6 @@ inline std::array<float, 2> turn(double angle)
     swivel_turn(angle, value.data());
     return value;
 }
-
-// The lecture's five steps for one arm, entity by entity: swivel_steps().
-struct Steps {
-    std::vector<swivel_entity> entities;
-    double closing_error;  // from target to wrist, in arm lengths
-};
-inline Steps steps(const std::array<double, 3>& target, const std::array<double, 3>& pole, double upper, double fore)
-{
-    Steps made{{}, 0};
-    std::uint32_t count = 0;
-    check(swivel_steps(target.data(), pole.data(), upper, fore, nullptr, 0, &count, &made.closing_error));
-    made.entities.resize(count);
-    check(swivel_steps(target.data(), pole.data(), upper, fore, made.entities.data(), count, nullptr, nullptr));
-    return made;
-}
-
 // An angle in radians, as all of swivel takes them.
 constexpr double degrees(double angle) { return angle * (3.14159265358979323846 / 180); }
 
@@ -187,41 +162,57 @@ template <class Value>
 concept FieldValue = holds<Value, float, std::uint32_t>();
 template <class Value>
 concept DoubleValue = holds<Value, double>();
-// What structures have beside: an int32_t is a skeleton's parent.
-template <class Value>
-concept StreamValue = FieldValue<Value> || holds<Value, std::int32_t>();
 template <class Range>
 concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ranges::range_value_t<Range>>;
 template <class Range>
 concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
-// A member of the caller's structures as frames take it: for a field of a frame, swivel_in, or swivel_out unless it is
-// const.
-template <class Byte>
+// A larger value is stepped over by its size, but an array of floats that is no quaternion must be the field's: a
+// matrix is no rotation.
+template <class Value>
+void check_value(swivel_field field)
+{
+    constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
+    if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
+        if (swivel_component_count(field, ~swivel_features{0}) <= 4)
+            fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
+                                              " floats is no value of field " + std::to_string(field));
+}
+
+// A member of the caller's structures, for fields of a frame, for swivel_in, or for swivel_out unless it is const.
+template <class Value>
 struct Stream {
-    Byte* data;
+    Value* data;
     std::size_t stride;
 
     operator swivel_in() const { return {data, stride}; }
-    operator swivel_out() const requires(!std::is_const_v<Byte>) { return {data, stride}; }
+    operator swivel_out() const requires(!std::is_const_v<Value>) { return {data, stride}; }
 };
-template <std::ranges::contiguous_range Range, class Struct, class Value>
-auto stream_of(Range&& values, Value Struct::*member)
+template <class At>
+At& reached(At& at)
 {
-    using Element = std::remove_reference_t<std::ranges::range_reference_t<Range>>;
-    using Byte = std::conditional_t<std::is_const_v<Element> || std::is_const_v<Value>, const void, void>;
-    const auto data = std::ranges::data(values);
-    return Stream<Byte>{std::ranges::empty(values) ? nullptr : &(data->*member), sizeof(Element)};
+    return at;
 }
-// swivel::stream(characters, &Character::grip): where the first one's member is, and the stride. Of no characters it is
-// null, which leaves the field out.
-template <class Range, class Struct, StreamValue Value>
-requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
-auto stream(Range&& values, Value Struct::*member) { return stream_of(values, member); }
-// The same for positions in double, beside a frame's origin.
-template <class Range, class Struct, DoubleValue Value>
-requires std::ranges::contiguous_range<Range> && std::ranges::borrowed_range<Range>
-auto stream_doubles(Range&& values, Value Struct::*member) { return stream_of(values, member); }
+template <class At, class Step, class... Steps>
+auto& reached(At& at, Step step, Steps... steps)
+{
+    if constexpr (std::is_member_pointer_v<Step>)
+        return reached(at.*step, steps...);
+    else
+        return reached(at[static_cast<std::size_t>(step)], steps...);
+}
+// Where the first structure's member is, and the stride: swivel::stream(characters, &Character::grip). Members of
+// members and elements of arrays follow: stream(characters, &Character::legs, 1, &Leg::target). Of no characters it is
+// null, which leaves the field out. Doubles are for positions of frames with an origin, int32_t for skeletons' parents.
+template <std::ranges::contiguous_range Range, class... Steps>
+requires std::ranges::borrowed_range<Range>
+auto stream(Range&& values, Steps... steps)
+{
+    auto* const first = std::ranges::data(values);
+    using Value = std::remove_reference_t<decltype(reached(*first, steps...))>;
+    static_assert(holds<Value, float, double, std::uint32_t, std::int32_t>());
+    return Stream<Value>{std::ranges::empty(values) ? nullptr : &reached(*first, steps...), sizeof *first};
+}
 
 // A group's values in the caller's own arrays, which must outlive it. It becomes a swivel_frame, which views it. Keep
 // it from solve to solve while the arrays stay where they are.
@@ -242,43 +233,69 @@ public:
         fields_.push_back({field, values.data, values.stride});
         return *this;
     }
+    template <class Value>
+    Frame& in(swivel_field field, const Stream<Value>& values)
+    {
+        check_value<std::remove_cv_t<Value>>(field);
+        has_doubles_ = has_doubles_ || DoubleValue<Value>;
+        return in(field, swivel_in(values));
+    }
+    template <FieldValue Value>
+    Frame& out(swivel_field field, const Stream<Value>& values)
+    {
+        check_value<Value>(field);
+        return out(field, swivel_out(values));
+    }
     // Positions are doubles, and this is subtracted.
     Frame& origin(const swivel_in& values)
     {
         origin_ = values;
         return *this;
     }
-    operator swivel_frame() const
+    operator swivel_frame() const&
     {
+        if (has_doubles_ && !origin_.data) fail(SWIVEL_INVALID_ARGUMENT, "a frame has doubles and no origin()");
         swivel_frame frame = swivel_default_frame();
         frame.fields = fields_.data();
         frame.field_count = static_cast<std::uint32_t>(fields_.size());
         frame.origin = origin_;
         return frame;
     }
+    operator swivel_frame() const&& = delete;  // which would view what ends with its line
 
 private:
     std::vector<swivel_frame_field> fields_;
     swivel_in origin_ = {};
+    bool has_doubles_ = false;
 };
 
-// A range that was given, empty or not; or none. It views a std::span, or a range that has a name, and that range must
-// outlive it. Values in braces and other ranges without a name end with their line. It keeps copies of those, which
-// allocates.
+// Some things, none of them, or everything. It views a std::span, or a range that has a name, and that range must
+// outlive it. Of other ranges, values in braces and a single one it keeps copies, which allocates.
+struct Everything {};
+inline constexpr Everything everything;
 template <class Each>
 class Given {
 public:
-    Given() = default;
+    Given(Everything) {}
     Given(const Each* first, std::size_t count) : values_(std::span<const Each>(first, count)) {}
     Given(std::initializer_list<Each> values) : values_(std::vector<Each>(values)) {}
+    template <std::convertible_to<Each> One>
+    requires(!std::is_arithmetic_v<Each>) Given(One&& one) : Given({static_cast<Each>(std::forward<One>(one))}) {}
     template <std::convertible_to<std::span<const Each>> Range>
-    Given(Range&& range)
+    requires(!std::convertible_to<Range, Each>) Given(Range&& range)
     {
         const std::span<const Each> values(range);
         if constexpr (std::is_lvalue_reference_v<Range> || std::ranges::borrowed_range<Range>)
             values_ = values;
         else
             values_ = std::vector<Each>(values.begin(), values.end());
+    }
+    template <std::ranges::contiguous_range Range>  // with a name, of what becomes such a thing, as a Frame does
+    requires(std::is_lvalue_reference_v<Range> && !std::convertible_to<Range, std::span<const Each>> &&
+             !std::is_arithmetic_v<Each> && std::convertible_to<std::ranges::range_reference_t<Range>, Each>)
+        Given(Range&& range)
+        : values_(std::vector<Each>(std::ranges::begin(range), std::ranges::end(range)))
+    {
     }
     explicit operator bool() const { return values_.index() > 0; }
     std::span<const Each> operator*() const
@@ -288,19 +305,19 @@ public:
     }
 
 private:
-    std::variant<std::monostate, std::span<const Each>, std::vector<Each>> values_;
+    std::variant<Everything, std::span<const Each>, std::vector<Each>> values_;
 };
 
 // What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB. Of mask, limbs and
 // priorities at most one is given.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
-    Given<std::uint32_t> groups = {};  // their numbers, which a solve allocates bits for
-    Given<std::uint32_t> mask = {}, limbs = {};
-    Given<swivel_in> priorities = {};  // one for each group
-    std::span<float> urgency = {};     // with priorities: one for each block, kept by the caller
-    std::uint32_t most_blocks = 0;     // with priorities
-    Given<swivel_frame> frames = {};   // one for each group that is named; a Frame converts to one
+    Given<std::uint32_t> groups = everything;  // their numbers, which a solve allocates bits for
+    Given<std::uint32_t> mask = everything, limbs = everything;
+    Given<swivel_in> priorities = everything;  // one for each group
+    std::span<float> urgency = {};             // with priorities: one for each block, kept by the caller
+    std::uint32_t most_blocks = 0;             // with priorities
+    Given<swivel_frame> frames = everything;   // one for each group that is named, such as a Frame with a name
     bool on_this_thread = false;
 };
 
@@ -309,6 +326,8 @@ struct Job {
 // larger values are stepped over by size.
 class Crowd {
 public:
+    using First = std::optional<std::uint32_t>;
+
     explicit Crowd(std::span<const swivel_group_def> groups)
     {
         swivel_crowd_def def = swivel_default_crowd_def();
@@ -319,6 +338,7 @@ public:
     // Groups in braces: {left_arms, right_arms}. Their addresses would be taken for the ends of a range.
     Crowd(std::initializer_list<swivel_group_def> groups) : Crowd(std::span(groups.begin(), groups.size())) {}
     Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
+    explicit Crowd(const swivel_group_def& group) : Crowd(std::span(&group, 1)) {}
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
     Crowd& operator=(Crowd&& other) noexcept
@@ -331,29 +351,32 @@ public:
     swivel_crowd* get() const { return crowd_; }
 
     template <FieldRange R>
-    void write(swivel_field field, std::uint32_t group, const R& values, std::optional<std::uint32_t> first = {})
+    void write(swivel_field field, std::uint32_t group, const R& values, First first = {})
     {
-        check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, count(values), first), in(values)));
+        check_value<std::ranges::range_value_t<R>>(field);
+        check(swivel_write(crowd_, field, group, first.value_or(0), checked(group, values, first), in(values)));
     }
     // The same value for every limb of the group.
     template <FieldValue Value>
     void write_all(swivel_field field, std::uint32_t group, const Value& value)
     {
+        check_value<Value>(field);
         check(swivel_write(crowd_, field, group, 0, 0, {&value, sizeof value}));  // group, field and size are right
         check(swivel_write(crowd_, field, group, 0, swivel_group_limb_count(crowd_, group), {&value, 0}));
     }
     // Positions in double, from origins as in swivel.h: {&origin, 0} is one for all.
     template <DoubleRange R>
     void write_doubles(swivel_field field, std::uint32_t group, const R& values, swivel_in origins = {},
-                       std::optional<std::uint32_t> first = {})
+                       First first = {})
     {
-        check(swivel_write_doubles(crowd_, field, group, first.value_or(0), checked(group, count(values), first),
-                                   in(values), origins));
+        check(swivel_write_doubles(crowd_, field, group, first.value_or(0), checked(group, values, first), in(values),
+                                   origins));
     }
     template <FieldRange R>
-    void read(swivel_field field, std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
+    void read(swivel_field field, std::uint32_t group, R&& values, First first = {}) const
     {
-        check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, count(values), first), out(values)));
+        check_value<std::ranges::range_value_t<R>>(field);
+        check(swivel_read(crowd_, field, group, first.value_or(0), checked(group, values, first), out(values)));
     }
 
     // swivel_solve(): crowd.solve(), or crowd.solve({.frames = {frame}}). Returns how many limbs were solved.
@@ -362,7 +385,6 @@ public:
         swivel_job job = swivel_default_job();
         const swivel_limbs limbs =
             wanted.limbs ? swivel_limbs{(*wanted.limbs).data(), count(*wanted.limbs)} : swivel_limbs{};
-        const std::uint32_t group_count = swivel_group_count(crowd_);
         std::vector<std::uint32_t> named;
         if (wanted.blocks) job.blocks = &*wanted.blocks;
         if (wanted.groups) {
@@ -371,15 +393,21 @@ public:
             job.group_word_count = count(named);
         }
         if (wanted.mask) {
-            job.mask = data(*wanted.mask);
+            static constexpr std::uint32_t no_words = 0;  // which the library refuses; a null mask would be none
+            job.mask = (*wanted.mask).empty() ? &no_words : (*wanted.mask).data();
             job.mask_word_count = count(*wanted.mask);
         }
         if (wanted.limbs) job.limbs = &limbs;
-        if (wanted.priorities) job.priorities = for_groups("priorities", *wanted.priorities, group_count).data();
-        if (!wanted.urgency.empty()) job.urgency = for_blocks(wanted.urgency);
+        if (wanted.priorities) job.priorities = checked(*wanted.priorities);
+        job.urgency = checked(wanted.urgency);
         job.most_blocks = wanted.most_blocks;
-        if (wanted.frames)
-            job.frames = for_groups("frames", *wanted.frames, wanted.groups ? bit_count(named) : group_count).data();
+        if (wanted.frames) {
+            std::size_t named_count = 0;
+            for (const std::uint32_t word : named) named_count += static_cast<std::size_t>(std::popcount(word));
+            check_count((*wanted.frames).size(), "frames", wanted.groups ? named_count : swivel_group_count(crowd_),
+                        "groups");
+            job.frames = (*wanted.frames).data();
+        }
         job.on_this_thread = wanted.on_this_thread;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
@@ -391,8 +419,7 @@ public:
                          std::span<std::uint32_t> mask)
     {
         std::uint32_t chosen = 0;
-        check(swivel_choose(crowd_, for_groups("priorities", priorities, swivel_group_count(crowd_)).data(),
-                            urgency.empty() ? nullptr : for_blocks(urgency), most_blocks, mask.data(), count(mask),
+        check(swivel_choose(crowd_, checked(priorities), checked(urgency), most_blocks, mask.data(), count(mask),
                             &chosen));
         return chosen;
     }
@@ -426,66 +453,81 @@ public:
         return arcs;
     }
 
+    // swivel_forward(), of one joint; swivel_joint_angles(); swivel_residuals().
     template <DoubleRange R>
-    void elbows(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
+    void elbows(std::uint32_t group, R&& values, First first = {}) const
     {
-        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, count(values), first), out(values), {},
-                             {}));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), out(values), {}, {}));
     }
     template <DoubleRange R>
-    void wrists(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
+    void wrists(std::uint32_t group, R&& values, First first = {}) const
     {
-        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, count(values), first), {}, out(values),
-                             {}));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), {}, out(values), {}));
     }
     template <DoubleRange R>
-    void hands(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
+    void hands(std::uint32_t group, R&& values, First first = {}) const
     {
-        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, count(values), first), {}, {},
-                             out(values)));
+        check(swivel_forward(crowd_, group, first.value_or(0), checked(group, values, first), {}, {}, out(values)));
     }
     template <DoubleRange R>
     void joint_angles(std::uint32_t group, swivel_euler_order shoulder, swivel_euler_order wrist, int family,
-                      R&& values, std::optional<std::uint32_t> first = {}) const
+                      R&& values, First first = {}) const
     {
-        check(swivel_joint_angles(crowd_, group, first.value_or(0), checked(group, count(values), first), shoulder,
-                                  wrist, family, out(values)));
+        check(swivel_joint_angles(crowd_, group, first.value_or(0), checked(group, values, first), shoulder, wrist,
+                                  family, out(values)));
     }
     template <DoubleRange R>
-    void residuals(std::uint32_t group, R&& values, std::optional<std::uint32_t> first = {}) const
+    void residuals(std::uint32_t group, R&& values, First first = {}) const
     {
-        check(swivel_residuals(crowd_, group, first.value_or(0), checked(group, count(values), first), out(values)));
+        check(swivel_residuals(crowd_, group, first.value_or(0), checked(group, values, first), out(values)));
+    }
+    // swivel_pack(): the words of a group's results, all of its blocks.
+    void pack(std::uint32_t group, std::span<std::uint16_t> words) const
+    {
+        const std::uint32_t blocks = (swivel_group_limb_count(crowd_, group) + SWIVEL_LANES - 1) / SWIVEL_LANES;
+        const std::size_t wanted = std::size_t{SWIVEL_LANES} * blocks *
+                                   swivel_packed_row(swivel_group_features(crowd_, group), SWIVEL_RESULT_END);
+        if (blocks > 0 && words.size() != wanted)  // 0: the call says that there is no group
+            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(words.size()) + " words; group " + std::to_string(group) +
+                                              " takes " + std::to_string(wanted));
+        check(swivel_pack(crowd_, group, {0, blocks}, words.data()));
     }
     std::uint64_t digest() const { return swivel_digest(crowd_); }
 
 private:
     // How many values there are for limbs from `first` on: without it one for each limb of the group.
-    std::uint32_t checked(std::uint32_t group, std::uint32_t given, std::optional<std::uint32_t> first) const
+    template <class R>
+    std::uint32_t checked(std::uint32_t group, const R& values, First first) const
     {
         const std::uint32_t has = swivel_group_limb_count(crowd_, group);  // 0: the call says that there is no group
-        if (!first && given != has && has > 0)
-            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " values for the " + std::to_string(has) +
-                                              " limbs of group " + std::to_string(group) +
-                                              "; give one for each, or say from which limb on");
-        return given;
+        if (!first && has > 0) check_count(count(values), "values", has, "limbs; or say from which limb on");
+        return count(values);
     }
-    // Where values lie. An empty range may have null data, which calls refuse.
-    template <class R>
-    static auto data(R&& values) -> decltype(std::ranges::data(values))
+    const swivel_in* checked(std::span<const swivel_in> priorities) const
     {
-        static std::max_align_t nothing;
-        using Data = decltype(std::ranges::data(values));
-        return std::ranges::empty(values) ? reinterpret_cast<Data>(&nothing) : std::ranges::data(values);
+        check_count(priorities.size(), "priorities", swivel_group_count(crowd_), "groups");
+        return priorities.data();
+    }
+    float* checked(std::span<float> urgency) const
+    {
+        if (!urgency.empty()) check_count(urgency.size(), "urgencies", swivel_block_count(crowd_), "blocks");
+        return urgency.empty() ? nullptr : urgency.data();
+    }
+    static void check_count(std::size_t given, const char* what, std::size_t wanted, const char* of_what)
+    {
+        if (given != wanted)
+            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(given) + " " + what + " for " + std::to_string(wanted) + " " +
+                                              of_what + "; give one for each");
     }
     template <class R>
     static swivel_in in(const R& values)
     {
-        return {data(values), sizeof(std::ranges::range_value_t<R>)};
+        return {std::ranges::data(values), sizeof(std::ranges::range_value_t<R>)};
     }
     template <class R>
     static swivel_out out(R& values)
     {
-        return {data(values), sizeof(std::ranges::range_value_t<R>)};
+        return {std::ranges::data(values), sizeof(std::ranges::range_value_t<R>)};
     }
     template <class R>
     static std::uint32_t count(const R& values)
@@ -493,22 +535,6 @@ private:
         return static_cast<std::uint32_t>(std::ranges::size(values));
     }
 
-    template <class Each>
-    static std::span<const Each> for_groups(const char* what, std::span<const Each> each, std::uint32_t groups)
-    {
-        if (each.size() != groups)
-            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(each.size()) + " " + what + " for " + std::to_string(groups) +
-                                              " groups; give one for each");
-        return each;
-    }
-    float* for_blocks(std::span<float> urgency) const
-    {
-        const std::uint32_t blocks = swivel_block_count(crowd_);
-        if (urgency.size() != blocks)
-            fail(SWIVEL_INVALID_ARGUMENT, std::to_string(urgency.size()) + " urgencies for " + std::to_string(blocks) +
-                                              " blocks; give one for each");
-        return urgency.data();
-    }
     // A bit for each group, set for these.
     std::vector<std::uint32_t> bits_of(std::span<const std::uint32_t> groups) const
     {
@@ -521,12 +547,6 @@ private:
             words[group / 32] |= 1u << group % 32;
         }
         return words;
-    }
-    static std::uint32_t bit_count(std::span<const std::uint32_t> words)
-    {
-        int bits = 0;
-        for (const std::uint32_t word : words) bits += std::popcount(word);
-        return static_cast<std::uint32_t>(bits);
     }
 
     swivel_crowd* crowd_ = nullptr;

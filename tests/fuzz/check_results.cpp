@@ -57,7 +57,7 @@ struct Reader {
 void check_rotations(Reader& reader)
 {
     const swivel_features features = swivel_group_features(reader.session.crowd, reader.group);
-    const bool follows_incoming = (features & SWIVEL_WITH_INCOMING) && !(features & SWIVEL_COMPACT);
+    const bool follows_incoming = features & SWIVEL_WITH_INCOMING;
     reader.check_quaternions(SWIVEL_SHOULDER, follows_incoming);
     reader.check_quaternions(SWIVEL_WRIST, follows_incoming);
     reader.check_quaternions(SWIVEL_TWIST_BONES, follows_incoming);
@@ -65,8 +65,7 @@ void check_rotations(Reader& reader)
     if (features & SWIVEL_JOINTS) return reader.check_quaternions(SWIVEL_ELBOW, follows_incoming);
     reader.read(SWIVEL_ELBOW);
     SWIVEL_REQUIRE(reader.value[0] >= 0 && reader.value[1] >= 0);
-    const double slack = features & SWIVEL_COMPACT ? 1e-3 : 1e-6;  // half floats have 11 bits
-    SWIVEL_REQUIRE(is_unit(reader.value.data(), 2, slack));
+    SWIVEL_REQUIRE(is_unit(reader.value.data(), 2, 1e-6));
 }
 
 void check_places(const Session& session, std::uint32_t group, std::uint32_t limb)
@@ -84,11 +83,8 @@ void check_places(const Session& session, std::uint32_t group, std::uint32_t lim
 std::vector<char> result_bytes(swivel_crowd& crowd, std::uint32_t group)
 {
     const swivel_rows rows = swivel_result_rows(&crowd, group);
-    const swivel_words words = swivel_compact_rows(&crowd, group);
-    const char* const base =
-        rows.base ? reinterpret_cast<const char*>(rows.base) : reinterpret_cast<const char*>(words.base);
-    const std::size_t row_bytes = SWIVEL_LANES * (rows.base ? sizeof(float) : sizeof(std::uint16_t));
-    return {base, base + std::size_t{rows.block_count} * (rows.row_count + words.row_count) * row_bytes};
+    const char* const base = reinterpret_cast<const char*>(rows.base);
+    return {base, base + std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES * sizeof(float)};
 }
 
 void check_results(const Session& session, std::uint32_t group, std::uint32_t limb)
@@ -115,8 +111,7 @@ void check_others(Session& session, const std::vector<bool>& chosen)
         const std::vector<char> now = result_bytes(*session.crowd, group), &before = session.results_before[group];
         const std::size_t first = swivel_group_first_limb(session.crowd, group),
                           limb_count = swivel_group_limb_count(session.crowd, group),
-                          lanes = (limb_count + SWIVEL_LANES - 1) / SWIVEL_LANES * SWIVEL_LANES,
-                          bytes = has_features(session, group, SWIVEL_COMPACT) ? 2 : 4,
+                          lanes = (limb_count + SWIVEL_LANES - 1) / SWIVEL_LANES * SWIVEL_LANES, bytes = sizeof(float),
                           row_count = now.size() / bytes / lanes;
         SWIVEL_REQUIRE(now.size() == before.size());
         for (std::size_t limb = 0; limb < limb_count; ++limb)

@@ -10,8 +10,7 @@ namespace swivel::fuzz {
 namespace {
 
 // What the kernels of plain arms know. With any other feature, limbs have another kernel.
-constexpr swivel_features kPlain =
-    SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION | SWIVEL_COMPACT;
+constexpr swivel_features kPlain = SWIVEL_WORLD | SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
 
 float hard_number(Random& random)
 {
@@ -118,7 +117,7 @@ swivel_binding binding_of(Random random)
         for (float& x : *q) x = random.share();
     for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.bend})
         for (float& x : *v) x = random.share();
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     if (swivel_bind(&chain, &binding) != SWIVEL_OK) {
         chain = swivel_default_chain();
         chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
@@ -170,7 +169,7 @@ std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)
         group.features = &group == groups.data() || bytes.one_in(2) ? features_of(bytes) : groups.front().features;
         group.shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
         group.wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
-        if (bytes.one_in(2) && !(group.features & SWIVEL_COMPACT)) group.on_bad_input = SWIVEL_KEEP_POSE;
+        if (bytes.one_in(2)) group.on_bad_input = SWIVEL_KEEP_POSE;
         group.binding = binding_of({bytes.take<std::uint16_t>()});
     }
     return groups;

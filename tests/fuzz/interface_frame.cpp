@@ -26,7 +26,6 @@ Frame::Frame(Session& session, std::uint32_t group)
     swivel_field_info info;
     for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n) {
         const bool is_input = info.kind == SWIVEL_FIELD_INPUT;
-        if (!is_input && has_features(session, group, SWIVEL_COMPACT) && !session.bytes.one_in(64)) continue;
         if (!is_given(session, group, info.field)) continue;
         is_input ? take_input(session, group, info.field) : take_output(session, group, info.field);
     }
@@ -90,7 +89,6 @@ void Frame::take_output(Session& session, std::uint32_t group, swivel_field fiel
                                            components * sizeof(float), false);
     output_fields.push_back(field);
     add(session, group, field, values);
-    if (!values.is_null() && has_features(session, group, SWIVEL_COMPACT)) is_valid = false;
 }
 
 void Frame::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const

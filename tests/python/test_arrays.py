@@ -180,8 +180,6 @@ class Mistakes(unittest.TestCase):
         self.fails(ValueError, "2 limbs from limb 99 on are not all in group 0, which has 100", crowd.read, Field.TARGET, 0, 99, 2)
         self.fails(ValueError, "8 blocks from block 0 on do not all exist; this crowd has 7", crowd.solve, blocks=(0, 8))
         self.fails(ValueError, "group 0: Feature.POLE_DIRECTION needs Feature.WORLD; add it", swivel.Crowd, 1, Feature.POLE_DIRECTION)
-        self.fails(ValueError, "group 1: Feature.COMPACT excludes OnBadInput.KEEP_POSE", swivel.Crowd,
-                   [1, swivel.Group(1, features=Feature.COMPACT, on_bad_input=swivel.OnBadInput.KEEP_POSE)])
         self.fails(ValueError, "group 0 has no binding; make it with bind()", swivel.Crowd, 1, Feature.JOINTS)
         self.fails(ValueError, "no instruction set 'mmx'", swivel.use_isa, "mmx")
         self.fails(ValueError, "the rest pose is straight", swivel.bind, (0, 0, 1), (0, 0, 1))

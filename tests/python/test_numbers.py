@@ -469,19 +469,23 @@ class Bits(unittest.TestCase):
             way(crowd)
             self.assertEqual(self.results(crowd), wanted)
 
-    def test_compact_words(self):
-        sample = Sample(N)
-        plain, packed = crowd_of(sample), crowd_of(sample, Feature.COMPACT)
-        plain.solve(), packed.solve()
-        rotations = packed.read(Field.SHOULDER)
+    def test_packed_words(self):
+        crowd = crowd_of(Sample(N))
+        crowd.solve()
+        packed, rotations = crowd.pack(), crowd.read(Field.SHOULDER)
+
+        def words_of(field, count):
+            first = crowd.packed_row(field)
+            return np.moveaxis(packed[:, first:first + count], 1, 2).reshape(-1, count)[crowd.limbs()]
         forearm = np.array([0.1, 0.2, 0.3])  # a rotation is within 1.54e-4 rad
-        apart = rotate(rotations, forearm) - rotate(plain.read(Field.SHOULDER), forearm)
+        unpacked = swivel.unpack_rotations(words_of(Field.SHOULDER, 3))
+        apart = rotate(unpacked, forearm) - rotate(rotations, forearm)
         self.assertLess(np.linalg.norm(apart, axis=1).max(), 1.54e-4 * np.linalg.norm(forearm))
-        words = np.moveaxis(packed.rows(Field.SHOULDER), 1, 2).reshape(-1, 3)[packed.limbs()]
-        np.testing.assert_array_equal(swivel.unpack_rotations(words), rotations)
-        np.testing.assert_array_equal(swivel.unpack_rotations(words[7]), rotations[7])
-        halves = np.moveaxis(packed.rows(Field.ELBOW), 1, 2).reshape(-1, 2)[packed.limbs()].copy().view(np.float16)
-        np.testing.assert_array_equal(halves.astype(np.float32), packed.read(Field.ELBOW))
+        np.testing.assert_array_equal(swivel.unpack_rotations(words_of(Field.SHOULDER, 3)[7]), unpacked[7])
+        halves = words_of(Field.ELBOW, 2).copy().view(np.float16)
+        np.testing.assert_array_equal(halves, crowd.read(Field.ELBOW).astype(np.float16))
+        low, high = words_of(Field.FLAGS, 2).T.astype(np.uint32)
+        np.testing.assert_array_equal(low | high << 16, crowd.read(Field.FLAGS))
 
     def test_the_lectures_steps(self):
         entities, closing_error = swivel.steps((1.1, 1.1, 1.1), (1.1, 1.1, 0), 1.4, 1.3)

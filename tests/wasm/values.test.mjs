@@ -37,9 +37,9 @@ test('values are views of memory, which solves read and write', () => {
   crowd.dispose();
 });
 
-// Features that go together, by the library's rules: each feature is in one of these sets. COMPACT packs results, so frames lack them.
+// Features that go together, by the library's rules: each feature is in one of these sets.
 function featureSets() {
-  const rules = Object.entries(featureRules).filter(([name]) => name !== 'COMPACT').map(([name, rule]) => ({ bit: Feature[name], ...rule }));
+  const rules = Object.entries(featureRules).map(([name, rule]) => ({ bit: Feature[name], ...rule }));
   const withNeeds = (features) => rules.reduce((all, { bit, needs }) => (all & bit ? all | needs : all), features);
   const fits = (features) => rules.every(({ bit, excludes }) => !(features & bit && features & excludes));
   const sets = [];
@@ -91,17 +91,17 @@ test('calls beside solves see what views hold now', () => {
 });
 
 test('packed results and rows', () => {
-  const crowd = swivel.crowd([20], Feature.COMPACT), plain = swivel.crowd([20]);
-  for (const each of [crowd, plain]) each.write(Field.LENGTHS, [1, 1]), each.write(Field.TARGET, [0.2, 0.5, 1]), each.solve();
-  refuses(() => crowd.values(Field.SHOULDER), 'compactRows()');
-  close([...crowd.read(Field.SHOULDER)], [...plain.read(Field.SHOULDER)], 1e-4);
-  assert.equal(crowd.compactRows().length, 2 * 16 * (3 + 2 + 2));
-  assert.equal(crowd.resultRows().length, 0);
+  const plain = swivel.crowd([20]);
+  plain.write(Field.LENGTHS, [1, 1]), plain.write(Field.TARGET, [0.2, 0.5, 1]), plain.solve();
+  const packed = plain.pack(), low = plain.packedRow(Field.FLAGS);
+  assert.deepEqual([packed.length, low, plain.packedRow(Field.SHOULDER)], [2 * 16 * (3 + 2 + 2), 5, 0]);
+  assert.equal(packed[(7 + low) * 16 + 3], plain.read(Field.FLAGS)[19] & 0xffff);  // block 1, lane 3
+  refuses(() => plain.pack(1), 'group 1 does not exist');
   const rows = plain.resultRows(), first = plain.fieldFirstRow(Field.SHOULDER);
   assert.equal(rows.length, 2 * 16 * (4 + 2 + 1));
   assert.equal(rows[(7 + first) * 16 + 3], plain.read(Field.SHOULDER)[4 * 19]);  // block 1, lane 3
   const target = plain.inputRows(), row = plain.fieldFirstRow(Field.TARGET);
   assert.deepEqual([0, 1, 2].map((c) => target[(row + c) * 16]), [0.2, 0.5, 1].map(Math.fround));
   assert.equal(plain.fieldRowCount(Field.TARGET), 3);
-  for (const each of [crowd, plain]) each.dispose();
+  plain.dispose();
 });

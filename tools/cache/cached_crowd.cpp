@@ -96,7 +96,7 @@ void get(const Json& json, Number (&to)[Count])
 
 swivel_binding binding_of(const Json& json)
 {
-    swivel_binding binding{};
+    swivel_binding binding = swivel_default_binding();
     for (const auto& [name, rotation] : kBindingRotations) get(json.at(name), binding.*rotation);
     get(json.at("lengths"), binding.lengths);
     binding.twist_bone_count = whole(json, "twist_bone_count", 0, SWIVEL_MOST_TWIST_BONES);

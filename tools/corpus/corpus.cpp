@@ -104,7 +104,7 @@ void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
     std::uint32_t inputs = 0, results = 0;
     for_each_field(recipe.inputs, [&](Field field) { inputs += component_count(recipe, field); });
-    for_each_field(recipe.results, [&](Field field) { results += result_row_count(recipe, field); });
+    for_each_field(recipe.results, [&](Field field) { results += component_count(recipe, field); });
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
         if (listed != has)
             throw std::logic_error("corpus: crowd " + full_name(recipe) + " lists " + std::to_string(listed) +
@@ -152,14 +152,9 @@ void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
 
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash)
 {
-    const LimbCounts counts = limb_counts(crowd);
-    std::vector<std::uint32_t> words;
     for_each_field(recipe.results, [&](Field field) {
-        for (std::uint32_t group = 0; group < counts.size(); ++group) {
-            words.resize(std::size_t{counts[group]} * component_count(recipe, field));
-            read_field(crowd, field, group, words);
-            for (const std::uint32_t word : words) hash = add_bytes(hash, word, 4);
-        }
+        for (std::uint32_t group = 0; group < kGroupCount; ++group)
+            for (const std::uint32_t word : read_field(crowd, recipe, field, group)) hash = add_bytes(hash, word, 4);
     });
     return hash;
 }

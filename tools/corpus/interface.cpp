@@ -20,7 +20,6 @@ constexpr FeatureName kFeatures[] = {
     {kJoints, SWIVEL_JOINTS},
     {kHand, SWIVEL_WITH_HAND},
     {kPoleDirection, SWIVEL_POLE_DIRECTION},
-    {kCompact, SWIVEL_COMPACT},
     {kEffector, SWIVEL_WITH_EFFECTOR},
     {kAngle, SWIVEL_WITH_ANGLE},
     {kPoleNormal, SWIVEL_POLE_NORMAL},
@@ -117,6 +116,22 @@ const FieldName& name_of(Field field)
     throw std::logic_error("corpus: interface.cpp has no row for field " + std::to_string(static_cast<int>(field)));
 }
 
+// The 16-bit words of a field, limb by limb.
+std::vector<std::uint32_t> packed_field(const Crowd& crowd, Field field, std::uint32_t group)
+{
+    const swivel_features features = swivel_group_features(crowd.get(), group);
+    const swivel_field of = name_of(field).library, next = static_cast<swivel_field>(of + 1);
+    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group), first = swivel_packed_row(features, of),
+                        end = swivel_packed_row(features, next), rows = swivel_packed_row(features, SWIVEL_RESULT_END);
+    std::vector<std::uint16_t> packed(std::size_t{(limbs + 15) / 16} * 16 * rows);
+    crowd.pack(group, packed);
+    std::vector<std::uint32_t> words;
+    for (std::size_t limb = 0; limb < limbs; ++limb)
+        for (std::uint32_t row = first; row < end; ++row)
+            words.push_back(packed[(limb / 16 * rows + row) * 16 + limb % 16]);
+    return words;
+}
+
 std::uint32_t own_flags(std::uint32_t library)
 {
     std::uint32_t flags = 0;
@@ -131,7 +146,7 @@ void copy(const Quaternion& q, float (&to)[4]) { to[0] = q.x, to[1] = q.y, to[2]
 
 swivel_binding library_binding(const Binding& own)
 {
-    swivel_binding binding{};
+    swivel_binding binding = swivel_default_binding();
     copy(own.parent_from_arm, binding.parent_from_arm);
     copy(own.upper_from_arm, binding.upper_from_arm);
     copy(own.upper_from_arm, binding.elbow_parent_from_arm);
@@ -177,16 +192,7 @@ LimbCounts limb_counts(const Crowd& crowd)
 }
 
 std::uint32_t input_row_count(const Crowd& crowd) { return swivel_input_rows(crowd.get(), 0).row_count; }
-std::uint32_t result_row_count(const Crowd& crowd)
-{
-    return swivel_result_rows(crowd.get(), 0).row_count + swivel_compact_rows(crowd.get(), 0).row_count;  // one is 0
-}
-std::uint32_t result_row_count(const Recipe& recipe, Field field)
-{
-    const std::uint32_t components = component_count(recipe, field);
-    if (!(recipe.features & kCompact)) return components;
-    return field == Field::flags ? 2 : components == 4 ? 3 : components;
-}
+std::uint32_t result_row_count(const Crowd& crowd) { return swivel_result_rows(crowd.get(), 0).row_count; }
 
 std::uint32_t component_count(const Recipe& recipe, Field field)
 {
@@ -202,13 +208,17 @@ void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const
     check(swivel_write(crowd.get(), name_of(field).library, group, 0, count, in));
 }
 
-void read_field(const Crowd& crowd, Field field, std::uint32_t group, std::span<std::uint32_t> words)
+std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group)
 {
-    const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
-    const swivel_out out{words.data(), words.size() / count * sizeof(std::uint32_t)};
-    check(swivel_read(crowd.get(), name_of(field).library, group, 0, count, out));
-    if (field != Field::flags) return;
-    for (std::uint32_t& word : words) word = own_flags(word);
+    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group);
+    if ((recipe.features & kCompact) && field >= Field::shoulder && field != Field::flags)
+        return packed_field(crowd, field, group);
+    std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(recipe, field));
+    const swivel_out out{words.data(), words.size() / limbs * sizeof(std::uint32_t)};
+    check(swivel_read(crowd.get(), name_of(field).library, group, 0, limbs, out));
+    if (field == Field::flags)
+        for (std::uint32_t& word : words) word = own_flags(word);
+    return words;
 }
 
 }  // namespace swivel::corpus

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/corpus/bindings.h"
@@ -27,12 +28,11 @@ std::uint32_t component_count(const Recipe& recipe, Field field);
 // The crowd's own numbers of rows: what the lists of a recipe must add up to.
 std::uint32_t input_row_count(const Crowd& crowd);
 std::uint32_t result_row_count(const Crowd& crowd);
-// Rows that a result takes, by the corpus's own count.
-std::uint32_t result_row_count(const Recipe& recipe, Field field);
 
 // values: component_count() floats for each limb of the group.
 void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const float> values);
-// words: component_count() for each limb of the group; flag words have the corpus's bits.
-void read_field(const Crowd& crowd, Field field, std::uint32_t group, std::span<std::uint32_t> words);
+// The words of a field, limb by limb: its component_count() floats, or what results are packed into with kCompact. Flag
+// words have the corpus's bits.
+std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group);
 
 }  // namespace swivel::corpus

@@ -21,7 +21,7 @@ enum Feature : std::uint32_t {
     kJoints = 1u << 1,
     kHand = 1u << 2,
     kPoleDirection = 1u << 3,
-    kCompact = 1u << 4,
+    kCompact = 1u << 4,  // results are digested as they are packed
     kEffector = 1u << 5,
     kAngle = 1u << 6,
     kPoleNormal = 1u << 7,

@@ -19,7 +19,7 @@ struct FixedField {
 };
 
 struct LimbSetup {
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     swivel_features features;
     swivel_euler_order shoulder_order, wrist_order;
     std::vector<FixedField> fields;

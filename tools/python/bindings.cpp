@@ -88,7 +88,7 @@ swivel_binding make_binding(const py::object& parent_from_arm, const py::object&
                                        &elbow_rest,
                                        &wrist_rest};
     static_assert(std::size(given) == std::size(kQuaternions));
-    swivel_binding binding;
+    swivel_binding binding = swivel_default_binding();
     for (std::size_t n = 0; n < std::size(kQuaternions); ++n)
         copy(kQuaternions[n].name, *given[n], binding.*kQuaternions[n].quaternion);
     copy("lengths", lengths, binding.lengths);

@@ -87,7 +87,6 @@ Memory memory_of(swivel_crowd* crowd)
     for (std::uint32_t group = 0; group < swivel_group_count(crowd); ++group) {
         include(swivel_input_rows(crowd, group));
         include(swivel_result_rows(crowd, group));
-        include(swivel_compact_rows(crowd, group));
     }
     return {begin, static_cast<std::size_t>(end - begin)};
 }

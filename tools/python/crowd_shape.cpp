@@ -27,12 +27,9 @@ py::array view(const py::object& self, const py::dtype& type, void* base, py::ss
     return rows;
 }
 
-template <class Rows>
-py::array all_rows(const py::object& self, Rows rows, bool writeable)
+py::array all_rows(const py::object& self, const swivel_rows& rows, bool writeable)
 {
-    const auto type = py::dtype::of<std::remove_pointer_t<decltype(rows.base)>>();
-    if (!rows.base) throw py::value_error("this group does not have these rows; see Feature.COMPACT");
-    return view(self, type, rows.base, rows.block_count, rows.row_count, rows.row_count, writeable);
+    return view(self, py::dtype::of<float>(), rows.base, rows.block_count, rows.row_count, rows.row_count, writeable);
 }
 
 py::array input_rows(const py::object& self, std::int64_t number)
@@ -47,10 +44,21 @@ py::array result_rows(const py::object& self, std::int64_t number)
     return all_rows(self, swivel_result_rows(held.crowd.get(), limbs_of(held, number, 0, {}).group), false);
 }
 
-py::array compact_rows(const py::object& self, std::int64_t number)
+std::uint32_t packed_row(const HeldCrowd& held, std::int64_t field, std::int64_t group)
 {
-    const HeldCrowd& held = self.cast<const HeldCrowd&>();
-    return all_rows(self, swivel_compact_rows(held.crowd.get(), limbs_of(held, number, 0, {}).group), false);
+    const std::uint32_t g = limbs_of(held, group, 0, {}).group;
+    return swivel_packed_row(swivel_group_features(held.crowd.get(), g), field_of(field));
+}
+
+py::array pack(const HeldCrowd& held, std::int64_t number)
+{
+    const Limbs limbs = limbs_of(held, number, 0, {});
+    const std::uint32_t rows =
+        swivel_packed_row(swivel_group_features(held.crowd.get(), limbs.group), SWIVEL_RESULT_END);
+    const std::vector<py::ssize_t> shape{(limbs.count + SWIVEL_LANES - 1) / SWIVEL_LANES, rows, SWIVEL_LANES};
+    py::array_t<std::uint16_t> words(shape);
+    held.crowd.pack(limbs.group, {words.mutable_data(), static_cast<std::size_t>(words.size())});
+    return words;
 }
 
 py::array field_rows(const py::object& self, std::int64_t field_number, std::int64_t group_number)
@@ -61,15 +69,11 @@ py::array field_rows(const py::object& self, std::int64_t field_number, std::int
     const std::uint32_t group = limbs_of(held, group_number, 0, {}).group;
     float none[1];
     check(swivel_read(crowd, field, group, 0, 0, {none, SIZE_MAX}));  // this group has the field
-    const auto some_rows = [&](auto rows, const py::dtype& type, bool writeable) {
-        return view(self, type, rows.base + std::size_t{swivel_field_first_row(crowd, group, field)} * SWIVEL_LANES,
-                    rows.block_count, rows.row_count, swivel_field_row_count(crowd, group, field), writeable);
-    };
-    if (info_of(field).kind == SWIVEL_FIELD_INPUT)
-        return some_rows(swivel_input_rows(crowd, group), type_of(field), true);
-    if (swivel_group_features(crowd, group) & SWIVEL_COMPACT)
-        return some_rows(swivel_compact_rows(crowd, group), py::dtype::of<std::uint16_t>(), false);
-    return some_rows(swivel_result_rows(crowd, group), type_of(field), false);
+    const bool is_input = info_of(field).kind == SWIVEL_FIELD_INPUT;
+    const swivel_rows rows = is_input ? swivel_input_rows(crowd, group) : swivel_result_rows(crowd, group);
+    return view(self, type_of(field),
+                rows.base + std::size_t{swivel_field_first_row(crowd, group, field)} * SWIVEL_LANES, rows.block_count,
+                rows.row_count, swivel_field_row_count(crowd, group, field), is_input);
 }
 
 py::object limb_range(const HeldCrowd& held, std::int64_t group)
@@ -119,19 +123,20 @@ void add_shape(CrowdClass& crowd)
         },
         py::arg("field"), py::arg("group") = 0,
         "How many numbers a value of the field has; 0 if the group does not have it.");
-    crowd.def("rows", &field_rows, py::arg("field"), py::arg("group") = 0,
-              "The field's rows as an array of shape (blocks, rows, LANES) that shares the crowd's memory: limb i of\n"
-              "the group is [i // LANES, :, i % LANES]. float32; uint32 for Field.FLAGS; uint16 words for results\n"
-              "with Feature.COMPACT. Inputs may be written to, the fast way in; results are for reading. The array\n"
-              "keeps the crowd alive. ValueError if the group does not have the field.");
+    crowd.def(
+        "rows", &field_rows, py::arg("field"), py::arg("group") = 0,
+        "The field's rows as an array of shape (blocks, rows, LANES) that shares the crowd's memory: limb i of\n"
+        "the group is [i // LANES, :, i % LANES]. float32; uint32 for Field.FLAGS. Inputs may be written to, the\n"
+        "fast way in; results are for reading. The array keeps the crowd alive. ValueError if the group does not\n"
+        "have the field.");
     crowd.def("input_rows", &input_rows, py::arg("group") = 0,
               "All input rows of a group, shape (blocks, rows, LANES) float32, sharing the crowd's memory.");
     crowd.def("result_rows", &result_rows, py::arg("group") = 0,
-              "All result rows of a group, shape (blocks, rows, LANES) float32, to read. ValueError with\n"
-              "Feature.COMPACT.");
-    crowd.def("compact_rows", &compact_rows, py::arg("group") = 0,
-              "All result rows of a group with Feature.COMPACT, shape (blocks, rows, LANES) uint16, to read; else\n"
-              "ValueError.");
+              "All result rows of a group, shape (blocks, rows, LANES) float32, to read.");
+    crowd.def("pack", &pack, py::arg("group") = 0,
+              "The results of a group in 16-bit words, shape (blocks, rows, LANES) uint16, as swivel_pack() says.");
+    crowd.def("packed_row", &packed_row, py::arg("field"), py::arg("group") = 0,
+              "The row in which a field of pack() begins: 3 rows a rotation, 1 a number, 2 for the flags.");
 }
 
 }  // namespace swivel::python

@@ -10,7 +10,7 @@ namespace swivel::python {
 void add_limits(pybind11::module_& module);    // range, cone, flexion, turn, aim, mirror, needed features
 void add_steps(pybind11::module_& module);     // Entity, steps, blade names
 void add_bindings(pybind11::module_& module);  // Binding, bind
-void add_library(pybind11::module_& module);   // version, instruction sets, verify, compact words
+void add_library(pybind11::module_& module);   // version, instruction sets, verify, packed words
 void add_cache(pybind11::module_& module);     // filling crowds in folders
 
 }  // namespace swivel::python

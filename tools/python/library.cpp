@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "swivel/lecture.h"
 #include "tools/python/arrays.h"
 #include "tools/python/crowd.h"
 #include "tools/python/helpers.h"
@@ -30,10 +31,9 @@ std::pair<bool, std::vector<Check>> verify(std::uint64_t arm_count, std::uint64_
         static_cast<std::vector<Check>*>(user)->push_back(
             {c->name, c->set, c->arm_count, c->max, c->rms, c->max_limit, c->rms_limit});
     };
-    int passed = 0;
     const py::gil_scoped_release released;
-    swivel::check(swivel_verify(arm_count, seed, note, &checks, &passed));
-    return {passed != 0, checks};
+    const bool passed = swivel_verify(arm_count, seed, note, &checks);
+    return {passed, checks};
 }
 
 std::string isa_name()
@@ -109,8 +109,8 @@ void add_library(py::module_& module)
         "unknown name, RuntimeError for one that this CPU does not run.");
     module.def("isas", &isas, "The built-in instruction sets, best first: pairs of name and whether this CPU runs it.");
     module.def("unpack_rotations", &unpack_rotations, py::arg("words"),
-               "Quaternions x, y, z, w of compact results: (4,) or (n, 4) float32 from words of shape (3,) or (n, 3)\n"
-               "uint16, as Crowd.compact_rows has them. Half floats are NumPy's: words.view(np.float16).");
+               "Quaternions x, y, z, w of packed results: (4,) or (n, 4) float32 from words of shape (3,) or (n, 3)\n"
+               "uint16, as Crowd.pack() gives them. Half floats are NumPy's: words.view(np.float16).");
     add_check(module);
 }
 

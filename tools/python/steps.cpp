@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "swivel/lecture.h"
 #include "tools/python/arrays.h"
 #include "tools/python/helpers.h"
 
@@ -32,8 +33,12 @@ std::array<double, 3> array3(const char* name, const py::object& values)
 std::pair<std::vector<swivel_entity>, double> steps_of(const py::object& target, const py::object& pole, double upper,
                                                        double fore)
 {
-    Steps made = steps(array3("target", target), array3("pole", pole), upper, fore);
-    return {std::move(made.entities), made.closing_error};
+    std::vector<swivel_entity> entities(SWIVEL_ENTITY_COUNT);
+    double closing_error = 0;
+    const std::array<double, 3> to = array3("target", target), side = array3("pole", pole);
+    if (const char* const why = swivel_steps(to.data(), side.data(), upper, fore, entities.data(), &closing_error))
+        throw py::value_error(why);
+    return {std::move(entities), closing_error};
 }
 
 std::string blade_name(std::int64_t blade)

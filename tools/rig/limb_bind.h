@@ -22,7 +22,7 @@ struct Limb {
     LimbJoints joints{-1, -1, -1};                         // shoulder, elbow and wrist, or hip, knee and ankle
     LimbChain chain;                                       // these and what lies between
     std::string from;                                      // who names these, for people; see FoundJoints
-    swivel_binding bound{};                                // lengths at rest, in the world
+    swivel_binding bound = swivel_default_binding();       // lengths at rest, in the world
     Eigen::Vector3d upper_bone = Eigen::Vector3d::Zero();  // its direction at rest, in the upper joint's axes
     Eigen::Vector3d lower_bone = Eigen::Vector3d::Zero();  // the same of the lower bone, in the lower joint's
     Eigen::Vector3d bend = Eigen::Vector3d::Zero();        // where flexion carries the lower bone, in the upper

@@ -18,7 +18,6 @@ CHAPTERS = {
     "swivel_range": "Values of limits and turns",
     "swivel_forward": "Forward kinematics",
     "swivel_isa_name": "Instruction sets",
-    "swivel_check": "Self-check",
 }
 NAME = re.compile(r"\b(?:swivel|SWIVEL)_\w+")
 NOT_OURS_TO_CALL = {"SWIVEL_API", "SWIVEL_SHARED"}  # how the header is compiled

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "swivel/swivel.hpp"
+#include "swivel/lecture.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
@@ -47,12 +47,17 @@ struct StepsArm {
     double upper, fore;
 };
 
+struct Steps {
+    std::array<swivel_entity, SWIVEL_ENTITY_COUNT> entities;
+    double closing_error;
+};
+
 std::array<double, 3> array3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // Throws CommandError for a value that swivel_steps() does not take, and names its option.
 StepsArm given_arm(const StepsOptions& options)
 {
-    constexpr double kShortest = 1e-15, kLongest = 1e15;  // as swivel.h has them
+    constexpr double kShortest = 1e-15, kLongest = 1e15;  // as lecture.h has them
     const auto require_all = [](const char* option, const std::string& text, auto fits, const char* range) {
         if (!std::ranges::all_of(numbers_of(text), fits))
             throw CommandError(2, fmt::format("{} {}: each number must be {}", option, text, range));
@@ -159,17 +164,14 @@ void print_steps(const StepsArm& arm, const Steps& made)
 // The library says what is undefined; this says of which arm, and what to do.
 Steps steps_of(const StepsArm& arm, const StepsOptions& options)
 {
-    try {
-        return steps(arm.target, arm.pole, arm.upper, arm.fore);
-    } catch (const Error& error) {
-        std::string why = error.what();
-        constexpr std::string_view kFunction = "swivel_steps: ";
-        if (why.starts_with(kFunction)) why.erase(0, kFunction.size());
-        if (!options.file.empty())
-            throw formats::InputError(options.file, fmt::format("frame {}, {}: {}; take another --frame or --limb",
-                                                                options.frame, options.limb, why));
-        throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
-    }
+    Steps steps;
+    const char* const why = swivel_steps(arm.target.data(), arm.pole.data(), arm.upper, arm.fore, steps.entities.data(),
+                                         &steps.closing_error);
+    if (!why) return steps;
+    if (!options.file.empty())
+        throw formats::InputError(options.file, fmt::format("frame {}, {}: {}; take another --frame or --limb",
+                                                            options.frame, options.limb, why));
+    throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
 }
 
 }  // namespace

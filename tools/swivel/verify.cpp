@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "swivel/lecture.h"
 #include "swivel/swivel.hpp"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
@@ -192,8 +193,7 @@ void run_verify(const VerifyOptions& options)
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     require_report_file(options.report);
     Listener listener{options.json};
-    int passed = 0;
-    check(swivel_verify(options.arms, options.seed, hear, &listener, &passed));
+    const bool passed = swivel_verify(options.arms, options.seed, hear, &listener);
     if (listener.failure) std::rethrow_exception(listener.failure);
 
     const std::vector<Digest> digests = all_digests(options.quiet);

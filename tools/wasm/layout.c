@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "swivel/lecture.h"
 #include "swivel/swivel.h"
 
 #define NUMBER(NAME) printf("    %s: %u,\n", #NAME, (unsigned)SWIVEL_##NAME)
@@ -81,7 +82,8 @@ static void print_structures(void)
     BEGIN(swivel_limb_joints), OFFSET(swivel_limb_joints, size), OFFSET(swivel_limb_joints, shoulder);
     OFFSET(swivel_limb_joints, elbow), OFFSET(swivel_limb_joints, wrist), OFFSET(swivel_limb_joints, bend);
     OFFSET(swivel_limb_joints, twist_bone_count), OFFSET(swivel_limb_joints, twist_bones), END();
-    BEGIN(swivel_binding), OFFSET(swivel_binding, parent_from_arm), OFFSET(swivel_binding, upper_from_arm);
+    BEGIN(swivel_binding), OFFSET(swivel_binding, size), OFFSET(swivel_binding, parent_from_arm),
+        OFFSET(swivel_binding, upper_from_arm);
     OFFSET(swivel_binding, elbow_parent_from_arm), OFFSET(swivel_binding, fore_from_arm);
     OFFSET(swivel_binding, wrist_parent_from_arm), OFFSET(swivel_binding, wrist_rest), OFFSET(swivel_binding, lengths);
     END();
@@ -101,6 +103,8 @@ static void print_structures(void)
     OFFSET(swivel_frame, field_count), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
+    printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);
+    printf("export const RESULT_END = %d;\n", SWIVEL_RESULT_END);
     printf("export const EXPLANATION_BYTES = %d;\n", SWIVEL_EXPLANATION_BYTES);
     printf("export const VERSION = \"%d.%d.%d\";\n", SWIVEL_VERSION_MAJOR, SWIVEL_VERSION_MINOR, SWIVEL_VERSION_PATCH);
 }

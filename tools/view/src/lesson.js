@@ -50,7 +50,7 @@ function stepsOf(stage, selection) {
         return { geometry, made, entities, off, turned: turnedBy(stage, selection, geometry) };
     } catch (error) {
         if (!(error instanceof SwivelError)) throw error;
-        return { geometry, why: error.message.replace("swivel_steps: ", "") };
+        return { geometry, why: error.message };
     }
 }
 

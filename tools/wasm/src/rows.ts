@@ -3,7 +3,7 @@
 // A crowd's memory: what goes in and what comes out.
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
 import type { Binding } from "./binding.js";
-import { Feature, Field, LANES, layout } from "./layout.js";
+import { Field, LANES, layout, RESULT_END } from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
 
 /** Limbs that share features and a binding, as swivel_group_def. */
@@ -120,8 +120,6 @@ export class CrowdRows {
         const limbCount = this.limbCount(group), components = this.componentCount(field, group);
         const held = this.crowd && this.held[group].get(field);
         if (held) return held;
-        if (field >= Field.SHOULDER && this.features(group) & Feature.COMPACT)
-            refuse(`${nameOf(field)} of a group with Feature.COMPACT is packed: use read() or compactRows()`);
         const at = this.memory.allocate(Math.max(4 * components, 4) * limbCount);
         try {
             this.readTo(at, field, { group, first: 0, count: limbCount });
@@ -166,16 +164,21 @@ export class CrowdRows {
         const { at, length } = this.rows("swivel_input_rows", group);
         return this.memory.floats(at, length);
     }
-    /** Rows of results; of no length with Feature.COMPACT. */
     resultRows(group = 0): Float32Array {
         const { at, length } = this.rows("swivel_result_rows", group);
         return this.memory.floats(at, length);
     }
-    /** Rows of words; of no length without Feature.COMPACT. */
-    compactRows(group = 0): Uint16Array {
-        const { at, length } = this.rows("swivel_compact_rows", group);
-        return new Uint16Array(this.memory.buffer, at, length);
+    /** A group's results in 16-bit words, a copy, as swivel_pack says. */
+    pack(group = 0): Uint16Array {
+        const count = Math.ceil(this.limbCount(group) / LANES), rows = this.packedRow(RESULT_END, group);
+        return this.memory.borrow((borrowed) => {
+            const words = borrowed.bytes(2 * rows * count * LANES);
+            this.memory.check(this.memory.calls.swivel_pack(this.crowd, group, borrowed.words([0, count]), words));
+            return new Uint16Array(this.memory.buffer, words, rows * count * LANES).slice();
+        });
     }
+    /** The row of words in which a field begins. */
+    packedRow(field: FieldNumber, group = 0): number { return this.memory.calls.swivel_packed_row(this.features(group), field); }
     /** A field's first row in a block of the group. */
     fieldFirstRow(field: FieldNumber, group = 0): number { return this.rowsOf("swivel_field_first_row", field, group); }
     /** A field's rows in a block; 0 if the group does not have the field. */
@@ -236,8 +239,7 @@ export class CrowdRows {
         this.group(group);
         return this.memory.calls[call](this.crowd, group, field);
     }
-    /** swivel_words has the members of swivel_rows. */
-    private rows(call: "swivel_input_rows" | "swivel_result_rows" | "swivel_compact_rows", group: number): { at: number; length: number } {
+    private rows(call: "swivel_input_rows" | "swivel_result_rows", group: number): { at: number; length: number } {
         this.group(group);
         return this.memory.borrow((borrowed) => {
             const rows = borrowed.structure("swivel_rows");

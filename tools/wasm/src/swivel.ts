@@ -2,7 +2,7 @@
 import { Numbers, numbers, refuse, shown, whole } from "./arguments.js";
 import { bind, bindJoints, Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 import { Crowd, Group } from "./crowd.js";
-import { layout } from "./layout.js";
+import { ENTITY_COUNT, layout } from "./layout.js";
 import { Memory, vector } from "./memory.js";
 
 /** One entity of the lecture's five steps, as swivel_entity: 32 coefficients, whose blades bladeName() names. */
@@ -69,12 +69,10 @@ export class Swivel {
         const { memory } = this, { bytes, name, meaning, step, coefficients } = layout.swivel_entity;
         return memory.borrow((borrowed) => {
             const [to, side] = [vector("target", target, borrowed), vector("pole", pole, borrowed)];
-            const count = borrowed.bytes(4), closing = borrowed.bytes(8);
-            memory.check(memory.calls.swivel_steps(to, side, upper, fore, 0, 0, count, closing));
-            const [capacity] = memory.words(count, 1);
-            const list = borrowed.bytes(bytes * capacity);
-            memory.check(memory.calls.swivel_steps(to, side, upper, fore, list, capacity, 0, 0));
-            const entities = Array.from({ length: capacity }, (_, n): Entity => {
+            const list = borrowed.bytes(bytes * ENTITY_COUNT), closing = borrowed.bytes(8);
+            const why = memory.calls.swivel_steps(to, side, upper, fore, list, closing) >>> 0;
+            if (why) refuse(memory.text(why));
+            const entities = Array.from({ length: ENTITY_COUNT }, (_, n): Entity => {
                 const at = list + n * bytes, word = (member: number): number => memory.words(at + member, 1)[0];
                 return { name: memory.text(word(name)), meaning: memory.text(word(meaning)), step: word(step),
                     coefficients: memory.doubles(at + coefficients, 32).slice() };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Rotations and half flexions in 16-bit words. Float arithmetic alone rounds them: adding a large number leaves an
+// Rotations and numbers in 16-bit words. Float arithmetic alone rounds them: adding a large number leaves an
 // integer, or a half float's digits, in the low bits of the sum. They are rounded to nearest, ties to even. The words
 // stay in the bits of a T; the code that stores them cuts them out. swivel.h documents the words and how to read them.
 #pragma once
@@ -10,12 +10,12 @@
 namespace swivel::inline SWIVEL_ISA {
 
 // Steps of a component in -1/sqrt 2 to 1/sqrt 2: 15 bits, 0 in the middle.
-inline constexpr double kCompactSteps = 16383 * 1.41421356237309505;
-inline constexpr int kCompactZero = 16384, kCompactTopBit = 32768;
+inline constexpr double kPackedSteps = 16383 * 1.41421356237309505;
+inline constexpr int kPackedZero = 16384, kPackedTopBit = 32768;
 
 // A rotation's three words, in the low 16 bits of each.
 template <class T>
-struct CompactRotation {
+struct PackedRotation {
     T first, second, third;
 };
 
@@ -25,7 +25,7 @@ inline constexpr double kIntegers = 12582912;
 // The smallest three components of a unit quaternion q. The component of largest size is left out (the first, if
 // equal). It is positive in one of q and -q, and the other three are taken from that one.
 template <class T>
-SWIVEL_INLINE constexpr CompactRotation<T> compact_rotation(const Rotor<T>& q)
+SWIVEL_INLINE constexpr PackedRotation<T> packed_rotation(const Rotor<T>& q)
 {
     const T x = q.template at<kI>(), y = q.template at<kJ>(), z = q.template at<kK>(), w = q.template at<kScalar>();
     const T size_x = abs(x), size_y = abs(y), size_z = abs(z), size_w = abs(w);
@@ -36,19 +36,20 @@ SWIVEL_INLINE constexpr CompactRotation<T> compact_rotation(const Rotor<T>& q)
     // In the order x, y, z, w without it: the index of the largest is y_of_xy or 2 + w_of_zw.
     const T first = select(of_zw | y_of_xy, x, y), second = select(of_zw, y, z), third = select(of_zw & w_of_zw, z, w);
     const Mask<T> odd = (of_zw & w_of_zw) | (of_xy & y_of_xy);
-    const T plain = T(kIntegers + kCompactZero), marked = T(kIntegers + kCompactZero + kCompactTopBit);
-    const T steps = flip_sign(T(kCompactSteps), largest);
+    const T plain = T(kIntegers + kPackedZero), marked = T(kIntegers + kPackedZero + kPackedTopBit);
+    const T steps = flip_sign(T(kPackedSteps), largest);
     return {steps * first + select(odd, marked, plain), steps * second + select(of_zw, marked, plain),
             steps * third + plain};
 }
 
-// v in 0..1 as a half float, in bits kHalfBit to kHalfBit + 15. For v in [2^e, 2^(e+1)), the last digit of a half is
-// worth 2^(e-10), but no less than 2^-24. The last digit of a float in [m, 2m) is worth as much. A float's exponent is
-// biased by 127 and a half's by 15, and the half keeps the lowest six bits. So 2^-48 serves as well as 2^-112, and it
-// avoids denormal floats, which are slow. A denormal half has its digits under exponent bits 0, as 2 has them.
+// v in 0..65504, the largest half float, as one in bits kHalfBit to kHalfBit + 15. For v in [2^e, 2^(e+1)), the last
+// digit of a half is worth 2^(e-10), but no less than 2^-24. The last digit of a float in [m, 2m) is worth as much. A
+// float's exponent is biased by 127 and a half's by 15, and the word keeps the lowest six bits. So 2^-48 serves as well
+// as 2^-112, and it avoids denormal floats, which are slow. A denormal half has its digits under exponent bits 0, as 2
+// has them.
 inline constexpr int kHalfBit = 13;
 template <class T>
-SWIVEL_INLINE constexpr T compact_half(const T& v)
+SWIVEL_INLINE constexpr T packed_half(const T& v)
 {
     const T m = hi(power_of_two(v) * T(8192), T(0.5));
     const T rounded = (v + m) - m;

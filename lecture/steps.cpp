@@ -2,10 +2,10 @@
 //
 // The lecture's five steps for people: every entity that core/pipeline.h makes, and why an arm has none.
 #include <cmath>
+#include <cstdio>
 
-#include "batch/status.h"
 #include "core/pipeline.h"
-#include "include/swivel/swivel.h"
+#include "include/swivel/lecture.h"
 #include "simd/float_env.h"
 
 using namespace swivel;
@@ -26,21 +26,17 @@ void store(const Mv<double, S>& m, double (&to)[32])
 void store(double scalar, double (&to)[32]) { to[kScalar] = scalar; }
 
 struct Entities {
-    swivel_entity* to;
-    uint32_t capacity, count = 0;
+    swivel_entity* next;
 
     template <class Value>
     void add(uint32_t step, const char* name, const Value& value, const char* meaning)
     {
-        if (count < capacity) {
-            to[count] = {name, meaning, step, 0, {}};
-            store(value, to[count].coefficients);
-        }
-        ++count;
+        *next = {name, meaning, step, {}};
+        store(value, next++->coefficients);
     }
 };
 
-void add_all(const PipelineSteps<double>& m, Entities& to)
+void add_all(const PipelineSteps<double>& m, Entities to)
 {
     to.add(1, "p_w", m.p_w, "the wrist's target, a point");
     to.add(1, "pi_swivel", m.pi_swivel, "the swivel plane: through shoulder, target and pole");
@@ -71,27 +67,28 @@ bool is_valid(const Vector<double>& v)
 bool is_valid(double length) { return length >= kShortest && length <= kLongest; }
 double length(const Vector<double>& v) { return std::sqrt(len2(v)); }
 
-swivel_status refuse(const char* why) { return fail(SWIVEL_INVALID_ARGUMENT, "swivel_steps: %s", why); }
-swivel_status refuse_by(const char* why, double distance)
+const char* no_circle(const char* why, double distance)
 {
-    return fail(SWIVEL_INVALID_ARGUMENT, "swivel_steps: S1 and S2 meet in no circle: %s by %g", why, distance);
+    thread_local char line[128];
+    std::snprintf(line, sizeof line, "S1 and S2 meet in no circle: %s by %g", why, distance);
+    return line;
 }
 
-// Whether spheres and plane are there and meet in two points.
-swivel_status check_goal(const Vector<double>& target, const Vector<double>& pole, double upper, double fore)
+// Why spheres and plane are not there or do not meet in two points; null: they do.
+const char* refuse(const Vector<double>& target, const Vector<double>& pole, double upper, double fore)
 {
     const double distance = length(target), sum = upper + fore, difference = std::fabs(upper - fore);
     if (!is_valid(target) || !is_valid(pole))
-        return refuse("target or pole is not finite or too large; components are at most 1e15");
-    if (!is_valid(upper) || !is_valid(fore)) return refuse("upper or fore is no length; give 1e-15 to 1e15");
-    if (distance < kLeast * sum) return refuse("pi_swivel is undefined: the target is on the shoulder");
+        return "target or pole is not finite or too large; components are at most 1e15";
+    if (!is_valid(upper) || !is_valid(fore)) return "upper or fore is no length; give 1e-15 to 1e15";
+    if (distance < kLeast * sum) return "pi_swivel is undefined: the target is on the shoulder";
     if (length(pole) < kShortest || length(cross(target, pole)) < kLeast * distance * length(pole))
-        return refuse("pi_swivel is undefined: the pole is on the line from shoulder to target");
-    if (distance > sum * (1 + kLeast)) return refuse_by("the target is too far", distance - sum);
-    if (distance < difference - kLeast * sum) return refuse_by("the target is too near", difference - distance);
-    if (distance > sum * (1 - kLeast)) return refuse("PP is one point: the arm is straight");
-    if (distance < difference + kLeast * sum) return refuse("PP is one point: the arm is folded");
-    return SWIVEL_OK;
+        return "pi_swivel is undefined: the pole is on the line from shoulder to target";
+    if (distance > sum * (1 + kLeast)) return no_circle("the target is too far", distance - sum);
+    if (distance < difference - kLeast * sum) return no_circle("the target is too near", difference - distance);
+    if (distance > sum * (1 - kLeast)) return "PP is one point: the arm is straight";
+    if (distance < difference + kLeast * sum) return "PP is one point: the arm is folded";
+    return nullptr;
 }
 
 // How far the rotors put the wrist from the target, in arm lengths.
@@ -104,22 +101,18 @@ double closing_error_of(const PipelineSteps<double>& m, const Vector<double>& ta
 
 }  // namespace
 
-swivel_status swivel_steps(const double target[3], const double pole[3], double upper, double fore,
-                           swivel_entity* entities, uint32_t capacity, uint32_t* entity_count, double* closing_error)
+const char* swivel_steps(const double target[3], const double pole[3], double upper, double fore,
+                         swivel_entity entities[SWIVEL_ENTITY_COUNT], double* closing_error)
 {
     const FloatEnv env(upper, fore);
-    if (!target || !pole) return refuse("target or pole is null");
-    if (!entities && capacity > 0) return refuse("entities is null, capacity is not 0");
     const Vector<double> to = vector(target[0], target[1], target[2]), side = vector(pole[0], pole[1], pole[2]);
-    if (const swivel_status status = check_goal(to, side, upper, fore); status != SWIVEL_OK) return status;
+    if (const char* const why = refuse(to, side, upper, fore)) return why;
     const PipelineSteps<double> steps = solve_pipeline(to, normalise(cross(to, side)), upper, fore);
     if (!(length(steps.pi_e) >= kLeast * upper * upper))
-        return refuse("l_M is undefined: the upper arm is along e3 or -e3, so pi_e or pi_M is no plane");
-    Entities all{entities, capacity};
-    add_all(steps, all);
-    if (entity_count) *entity_count = all.count;
-    if (closing_error) *closing_error = closing_error_of(steps, to, upper, fore);
-    return SWIVEL_OK;
+        return "l_M is undefined: the upper arm is along e3 or -e3, so pi_e or pi_M is no plane";
+    add_all(steps, {entities});
+    *closing_error = closing_error_of(steps, to, upper, fore);
+    return nullptr;
 }
 
 const char* swivel_blade_name(uint32_t blade)

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// Finds results in frames that overlap inputs of other limbs, for builds with SWIVEL_CHECK_USE. It knows strides that
+// are equal, and values that all limbs share.
+#include <cstdint>
+
+#include "batch/check.h"
+#include "batch/frame.h"
+#include "batch/solve.h"
+#include "batch/status.h"
+#include "simd/rows.h"
+
+namespace swivel {
+
+namespace {
+
+// Values in the caller's arrays: the first limb's address, and so on.
+struct FrameValue {
+    std::intptr_t at, stride, bytes, limb_count;
+    std::uint32_t group;
+    const char* name;
+};
+
+// Whether a value of `out` overlaps a value of `in` that is another limb's.
+bool overlaps(const FrameValue& out, const FrameValue& in)
+{
+    if (in.stride != 0 && in.stride != out.stride) return false;
+    const std::intptr_t apart = in.at - out.at, step = out.stride;
+    const std::intptr_t least = 1 - out.limb_count, most = in.stride == 0 ? 0 : in.limb_count - 1;
+    // Limb i + k of `in` overlaps limb i of `out` if -in.bytes < apart + k step < out.bytes.
+    std::intptr_t k = (-in.bytes - apart) / step - 1;
+    while (apart + k * step <= -in.bytes) ++k;
+    for (; apart + k * step < out.bytes; ++k) {
+        const bool is_own = k == 0 && in.group == out.group && (in.stride != 0 || in.limb_count == 1);
+        if (k >= least && k <= most && !is_own) return true;
+    }
+    return false;
+}
+
+// Calls take(place, is_input) for all values of a job's frames.
+template <class Take>
+void for_each_place(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks, const Take& take)
+{
+    for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
+        const swivel_frame frame = frame_at(job.frames, n);
+        const auto place = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
+            return FrameValue{reinterpret_cast<std::intptr_t>(data),
+                              static_cast<std::intptr_t>(stride),
+                              static_cast<std::intptr_t>(bytes),
+                              group.limb_count,
+                              static_cast<std::uint32_t>(&group - crowd.groups),
+                              name};
+        };
+        if (frame.origin.data) take(place(frame.origin.data, frame.origin.stride, 3 * sizeof(double), "origin"), true);
+        for (const swivel_frame_field& each : fields_of(frame)) {
+            const bool is_double = frame.origin.data && is_position(each.field);
+            const std::size_t bytes =
+                field_row_count(group.features, each.field) * (is_double ? sizeof(double) : sizeof(float));
+            if (each.data) take(place(each.data, each.stride, bytes, name_of(each.field)), is_input(each.field));
+        }
+    });
+}
+
+}  // namespace
+
+swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
+{
+    swivel_status status = SWIVEL_OK;
+    for_each_place(crowd, job, blocks, [&](const FrameValue& out, bool is_no_result) {
+        if (is_no_result) return;
+        for_each_place(crowd, job, blocks, [&](const FrameValue& in, bool is_input) {
+            if (is_input && status == SWIVEL_OK && overlaps(out, in))
+                status = fail(SWIVEL_INVALID_ARGUMENT,
+                              "frames: group %u's %s overlaps another limb's input, group %u's %s; give it a place of "
+                              "its own",
+                              out.group, out.name, in.group, in.name);
+        });
+    });
+    return status;
+}
+
+}  // namespace swivel
