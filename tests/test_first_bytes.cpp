@@ -104,15 +104,14 @@ TEST_CASE("first bytes: blanks before a text count among the 4096 that are looke
     CHECK_THAT(outcome.err, StartsWith("swivel: farther: begins with '\\x0a\\x0a"));
 }
 
-TEST_CASE("first bytes: solve, store and steps take a clip of any name")
+TEST_CASE("first bytes: solve and store take a clip of any name")
 {
     const TempFolder folder;
     spill(folder / "walk.vrma", two_shapes().glb);
     spill(folder / "walk.txt", kTwoArms);
     for (const std::string name : {"walk.vrma", "walk.txt"})
         for (const Words& words : std::vector<Words>{{"solve", name, "--out", name + ".csv"},
-                                                     {"store", name, name + ".cache", "--characters", "3"},
-                                                     {"steps", name, "--limb", "left_arm"}}) {
+                                                     {"store", name, name + ".cache", "--characters", "3"}}) {
             const Outcome outcome = run_command(folder.path, words);
             INFO(words[0] << ' ' << name << ": " << outcome.err);
             CHECK(outcome.exit_code == 0);
