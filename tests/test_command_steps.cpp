@@ -23,7 +23,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Outcome run(Words words)
+Outcome run_words(Words words)
 {
     const TempFolder folder;
     words.insert(words.begin(), "steps");
@@ -31,10 +31,10 @@ Outcome run(Words words)
 }
 
 // What --json has of a run that must succeed.
-Json told(Words words)
+Json told_steps(Words words)
 {
     words.push_back("--json");
-    const Outcome outcome = run(words);
+    const Outcome outcome = run_words(words);
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     return Json::parse(outcome.out);
@@ -44,7 +44,7 @@ Json told(Words words)
 
 TEST_CASE("steps: without an option it is the lecture's example, whose answer is known")
 {
-    const Json json = told({});
+    const Json json = told_steps({});
     std::map<std::string, std::map<std::string, double>> entities;  // blade by blade
     for (const Json& entity : json.at("entities"))
         entity.at("coefficients").get_to(entities[entity.at("name").get<std::string>()]);
@@ -64,7 +64,7 @@ TEST_CASE("steps: without an option it is the lecture's example, whose answer is
     CHECK((rotor("q_s") - Vector4d(0.251667, 0.288289, 0.695991, 0.607577)).norm() < 2e-6);
     CHECK(json.at("closing_error").get<double>() < 1e-15);
 
-    const Outcome text = run({});
+    const Outcome text = run_words({});
     REQUIRE(text.exit_code == 0);
     CHECK_THAT(text.out,
                StartsWith("arm      target (1.1, 1.1, 1.1), pole (1.1, 1.1, 0), upper arm 1.4, forearm 1.3\n"));
@@ -72,7 +72,7 @@ TEST_CASE("steps: without an option it is the lecture's example, whose answer is
         CHECK_THAT(text.out, Contains(step));
     CHECK_THAT(text.out, Contains("\np_e        = 0.98088") && Contains("\nq_e        = 0.70516") &&
                              Contains("the sphere about the target"));
-    const Json given = told({"--target", "1,0,0.5", "--pole", "0,1,0", "--lengths", "0.75,0.625"});
+    const Json given = told_steps({"--target", "1,0,0.5", "--pole", "0,1,0", "--lengths", "0.75,0.625"});
     CHECK(given.at("target") == Json({1.0, 0.0, 0.5}));
     CHECK(given.at("pole") == Json({0.0, 1.0, 0.0}));
     CHECK(given.at("lengths") == Json({0.75, 0.625}));
@@ -89,7 +89,7 @@ TEST_CASE("steps: what gives no steps is refused, with what to do")
              {{"--pole", "1e16,0,0"}, 2, "--pole 1e16,0,0: each number"},
              {{"--target", "1,0"}, 2, "'1,0' is not 3 numbers"},
              {{"--lengths", "0,1"}, 2, "above 0"}}) {
-        const Outcome outcome = run(words);
+        const Outcome outcome = run_words(words);
         INFO(outcome.err);
         CHECK(outcome.exit_code == exit_code);
         CHECK(outcome.out.empty());

@@ -137,7 +137,9 @@ TEST_CASE("an edit of one exported row moves that wrist alone")
     CHECK(edited.lines[kFrame] != before.lines[kFrame]);
 }
 
-TEST_CASE("the columns size and start say how a character's poses come from the clip's, in the table and in JSON")
+TEST_CASE(
+    "characters stand on the documented grid, and the columns size and start say how a character's poses come from the "
+    "clip's, in the table and in JSON")
 {
     const CrowdStage stage;
     const std::string toml = "[crowd]\ncharacters = 6\nsize = [0.5, 2]\n";
@@ -146,6 +148,7 @@ TEST_CASE("the columns size and start say how a character's poses come from the 
     REQUIRE(each.size() == 6);
     const std::size_t frames = stage.clip.lines.size();
     REQUIRE(rows.size() == 6 * frames);
+    const double span = 2 * std::max(stage.arms[0].length(), stage.arms[1].length());
     std::size_t bent = 0, starts = 0;
     for (std::size_t frame = 0; frame < frames; ++frame)
         for (std::size_t c = 0; c < 6; ++c) {
@@ -155,6 +158,9 @@ TEST_CASE("the columns size and start say how a character's poses come from the 
             CHECK(each.at(c).at("start") == start);
             CHECK(each.at(c).at("place") ==
                   nlohmann::json({row.number("place_x"), row.number("place_y"), row.number("place_z")}));
+            CHECK(row.number("place_x") == Approx(3 * span * static_cast<double>(c % 3)).epsilon(1e-6));  // the grid
+            CHECK(row.number("place_y") == 0);
+            CHECK(row.number("place_z") == Approx(3 * span * static_cast<double>(c / 3)).epsilon(1e-6));
             if (c == 0) CHECK((start == 0 && row.number("size") == 1));
             starts += frame == 0 && start > 0;
             const std::size_t clip_frame = (frame + start) % frames;

@@ -30,7 +30,8 @@ void run_bench(const BenchOptions& options)
     const std::filesystem::path suite = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "swivel-bench";
     const std::string families = fmt::format("--benchmark_filter={}", kFamilies),
                       time = fmt::format("--benchmark_min_time={:.6f}", options.seconds / kTurns);
-    std::vector<const char*> words = {"swivel-bench", families.c_str(), time.c_str()};
+    std::vector<const char*> words = {"swivel-bench", families.c_str(), time.c_str(),
+                                      "--benchmark_enable_random_interleaving=false"};  // rows in order, as they come
     if (options.json) words.push_back("--benchmark_format=json");
     words.push_back(nullptr);
     execv(suite.c_str(), const_cast<char* const*>(words.data()));  // which changes none of them
