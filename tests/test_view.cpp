@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "swivel/swivel.hpp"
-#include "tests/gltf_rig.h"
 #include "tests/plain_motion.h"
 #include "tests/pose_rows.h"
 #include "tests/run_program.h"
@@ -214,17 +213,6 @@ TEST_CASE("names cannot end a page's script")
     fs::copy_file(stage.at("clip.bvh"), stage.at(name));
     REQUIRE(stage.run({"view", name}).exit_code == 0);
     CHECK(stage.page(name + ".html").at("title") == name);
-
-    GltfRig rig;
-    const int hips = rig.add("Hips", -1, {0, 1, 0}), upper = rig.add("LeftArm", hips, {0.2, 0.4, 0});
-    const int fore = rig.add("LeftForeArm", upper, {0.3, 0, 0});
-    rig.add("LeftHand", fore, {0.25, 0, 0});
-    rig.add_keys(rig.add_animation(kEvil), fore, "rotation", {0, 1}, {0, -0.5f, 0, 0.866f, 0, -0.7f, 0, 0.714f});
-    rig.write(stage.at("clip.glb"));
-    const Outcome outcome = stage.run({"solve", "clip.glb", "--view", "a.html"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    CHECK_THAT(stage.page("a.html").at("clip").get<std::string>(), Contains(kEvil));
 }
 
 TEST_CASE("a demo's page holds its crowd")

@@ -35,11 +35,9 @@ void run_bench(const BenchOptions& options)
     if (options.json) words.push_back("--benchmark_format=json");
     words.push_back(nullptr);
     execv(suite.c_str(), const_cast<char* const*>(words.data()));  // which changes none of them
-    if (errno == ENOENT)
-        throw CommandError(1,
-                           fmt::format("bench: {} is missing; configure with -DSWIVEL_BENCH=ON and build swivel_bench",
-                                       suite.string()));
-    throw CommandError(1, fmt::format("bench: {} does not start: {}", suite.string(), std::strerror(errno)));
+    throw CommandError(1, fmt::format("bench: {} does not start: {}; configure with -DSWIVEL_BENCH=ON and build "
+                                      "swivel_bench",
+                                      suite.string(), std::strerror(errno)));
 }
 
 }  // namespace swivel::tools

@@ -4,11 +4,9 @@
 // `swivel view` does the same for the page alone.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,9 +15,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/crowd_checks.h"
-#include "tools/crowd/given_targets.h"
 #include "tools/crowd/parallel.h"
-#include "tools/formats/error.h"
 #include "tools/formats/output_file.h"
 #include "tools/formats/poses_csv.h"
 #include "tools/formats/text.h"
