@@ -22,7 +22,7 @@ using Words = std::vector<std::string>;
 TEST_CASE("crowd: the table holds every frame, character and limb in order, and unit quaternions")
 {
     const CrowdStage stage;
-    const std::vector<PoseLine> rows = pose_lines(stage.output("", "poses.csv", {"--characters", "50"}));
+    const std::vector<PoseLine> rows = pose_lines(stage.output("[crowd]\n", "poses.csv", {"--characters", "50"}));
     const std::size_t frames = stage.clip.lines.size();
     REQUIRE(rows.size() == frames * 50 * 2);
     std::size_t misplaced = 0, unreached = 0;
@@ -42,7 +42,7 @@ TEST_CASE("crowd: the table holds every frame, character and limb in order, and 
     CHECK(worst_length < 1e-6);
     CHECK(poses_of_frame_0.size() > 80);  // characters differ
 
-    const std::vector<PoseLine> alone = pose_lines(stage.output("", "alone.csv"));
+    const std::vector<PoseLine> alone = pose_lines(stage.output("[crowd]\n", "alone.csv"));
     REQUIRE(alone.size() == frames * 2);
     for (std::size_t n = 0; n < alone.size(); ++n)
         for (std::size_t j = 0; j < 3; ++j)
@@ -55,7 +55,7 @@ TEST_CASE("crowd: the seed and nothing else decides the bytes")
     const auto solve = [&](const Words& more) {
         Words all = {"--characters", "300"};
         all.insert(all.end(), more.begin(), more.end());
-        return stage.output("", "poses.csv", all);
+        return stage.output("[crowd]\n", "poses.csv", all);
     };
     const std::string first = solve({"--threads", "1"});
     CHECK(first == solve({"--threads", "2"}));

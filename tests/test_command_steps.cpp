@@ -81,7 +81,9 @@ TEST_CASE("steps: without an option it is the lecture's example, whose answer is
 TEST_CASE("steps: what gives no steps is refused, with what to do")
 {
     for (const auto& [words, exit_code, said] : std::vector<std::tuple<Words, int, std::string>>{
-             {{"--target", "9,0,0"}, 1, "steps: the target is too far by 6.3; change --target"},
+             {{"--target", "9,0,0"},
+              1,
+              "swivel: steps: S1 and S2 meet in no circle: the target is too far by 6.3; change --target"},
              {{"--pole", "2.2,2.2,2.2"}, 1, "; change --target, --pole or --lengths"},
              {{"--lengths", "1e30,1"}, 2, "--lengths 1e30,1: each number must be a bone's length, 1e-15"},
              {{"--lengths", "1,1e-30"}, 2, "--lengths 1,1e-30: each number"},
