@@ -7,14 +7,16 @@
 //
 //   cmake --preset dev && cmake --build --preset dev && bench/run
 //
-// bench/run starts it and then makes tables of ratios by tables.py. Repetitions are in random order, and medians are
-// shown: of the CPU time, or of threads by the clock on the wall. It takes some minutes and 2 GB. Google Benchmark's
-// own flags come after: --benchmark_filter=P/, --benchmark_repetitions=..., --benchmark_out=result.json. Debian's
-// libbenchmark says that it "was built as DEBUG"; that is its own build and does not touch what is measured.
+// bench/run starts it and then makes tables of ratios by tables.py. `swivel bench` runs a few families of it.
+// Repetitions are in random order, and medians are shown: of the CPU time, or of threads by the clock on the wall. It
+// takes some minutes and 2 GB. Google Benchmark's own flags come after: --benchmark_filter=P/,
+// --benchmark_repetitions=..., --benchmark_out=result.json.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 
 #include "bench/progress.h"
 #include "bench/rivals/level.h"
@@ -68,6 +70,7 @@ void note_context(const Suite& suite)
 
 int run(int argc, char** argv)
 {
+    const bool is_json = std::ranges::count(argv, argv + argc, std::string_view("--benchmark_format=json")) > 0;
     // Defaults first, so that the caller's flags win.
     std::vector<std::string> defaults{"swivel_bench", "--benchmark_repetitions=9", "--benchmark_min_time=0.05",
                                       "--benchmark_enable_random_interleaving=true",
@@ -82,6 +85,7 @@ int run(int argc, char** argv)
 
     Suite suite;
     note_context(suite);
+    if (!is_json) std::printf("cpu      %s\nlibrary  %s\n", suite.machine.cpu.c_str(), library_build().c_str());
     add_bounds(suite);
     add_problem_p(suite);
     add_hard(suite);
@@ -96,7 +100,8 @@ int run(int argc, char** argv)
     add_growth(suite);
 
     Progress progress;
-    benchmark::RunSpecifiedBenchmarks(&progress);
+    benchmark::JSONReporter json;
+    benchmark::RunSpecifiedBenchmarks(is_json ? static_cast<benchmark::BenchmarkReporter*>(&json) : &progress);
     benchmark::Shutdown();
     return 0;
 }

@@ -28,7 +28,7 @@ def main(arguments):
     parser.add_argument("--busy", action="store_true", help="on a machine that does something else, too; for trying this script")
     parser.add_argument("--results", default=str(BENCH / "results"), metavar="FOLDER")
     parser.add_argument("--page", action="append", default=[], metavar="FILE", help="a page to fill, as for pages.py")
-    parser.add_argument("--binary", default=str(BENCH.parent / "build/dev/bench/swivel_bench"), metavar="FILE")
+    parser.add_argument("--binary", default=str(BENCH.parent / "build/dev/bin/swivel-bench"), metavar="FILE")
     options = parser.parse_args(arguments)
     try:
         if not re.fullmatch(r"[\w-]+", options.name):

@@ -9,7 +9,7 @@ import { join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const root = resolve(fileURLToPath(import.meta.url), '../..');
-const [folder = `${root}/build/wasm/tools/wasm/package`, bench = `${root}/build/dev/bench/swivel_bench`] = process.argv.slice(2);
+const [folder = `${root}/build/wasm/tools/wasm/package`, bench = `${root}/build/dev/bin/swivel-bench`] = process.argv.slice(2);
 const { Field, load } = await import(pathToFileURL(`${resolve(folder)}/node.js`));
 
 const median = (numbers) => [...numbers].sort((a, b) => a - b)[numbers.length >> 1];

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# `cmake --install` puts these under the prefix: the headers, both libraries, the command with swivel-race, its man page, completions and page,
+# `cmake --install` puts these under the prefix: the headers, both libraries, the command with its benchmarks and page,
 # package files and the licence. You may move the whole prefix, because no file names its place.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -11,28 +11,17 @@ foreach(library swivel swivel_lecture)
   install(TARGETS ${library} EXPORT swivelTargets)
 endforeach()
 if(SWIVEL_TOOLS)
+  set(programs swivel_command)
+  if(SWIVEL_BENCH)
+    list(APPEND programs swivel_bench)
+  endif()
   if(BUILD_SHARED_LIBS)  # the command finds the library beside itself
     file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-    set_target_properties(swivel_command swivel_race PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
+    set_target_properties(${programs} PROPERTIES INSTALL_RPATH "\$ORIGIN/${bin_to_lib}")
   endif()
-  install(TARGETS swivel_command swivel_race)
+  install(TARGETS ${programs})
   # The program of the pages that it writes, where tools/view/build has made it.
   install(FILES ${PROJECT_SOURCE_DIR}/build/view/view.html DESTINATION ${CMAKE_INSTALL_DATADIR}/swivel OPTIONAL)
-  # The command prints its man page and completions itself, which takes a machine, or an emulator, that runs it.
-  function(swivel_text folder file)  # remaining arguments: what prints it
-    set(path ${CMAKE_CURRENT_BINARY_DIR}/texts/${file})
-    add_custom_command(OUTPUT ${path} COMMAND swivel_command ${ARGN} > ${path} DEPENDS swivel_command)
-    set(texts ${texts} ${path} PARENT_SCOPE)
-    install(FILES ${path} DESTINATION ${folder})
-  endfunction()
-  if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
-    file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/texts)
-    swivel_text(${CMAKE_INSTALL_MANDIR}/man1 swivel.1 help --man)
-    swivel_text(${CMAKE_INSTALL_DATADIR}/bash-completion/completions swivel completion bash)
-    swivel_text(${CMAKE_INSTALL_DATADIR}/zsh/site-functions _swivel completion zsh)
-    swivel_text(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d swivel.fish completion fish)
-    add_custom_target(swivel_texts ALL DEPENDS ${texts})
-  endif()
 endif()
 
 # ---- find_package(swivel)

@@ -137,7 +137,6 @@ must_not_say(tools/rig "#[ \t]*include[ \t]*\"tools/(crowd|cli|swivel|corpus)/[^
 must_not_say(tools/crowd "#[ \t]*include[ \t]*\"tools/(cli|swivel|corpus)/[^\n]*" ${nowhere} "a crowd knows no command")
 must_not_say(tools/cache "#[ \t]*include[ \t]*(\"tools/(rig|cli|swivel|corpus)/|<Eigen/)[^\n]*" ${nowhere} "a cache knows no clip and no command")
 must_not_say(tools/cache "#[ \t]*include[ \t]*\"tools/crowd/(clip|characters|crowd_|demo|given|limb_setups)[^\n]*" ${nowhere} "a cache knows goals alone")
-must_not_say(tools/report "#[ \t]*include[ \t]*\"(swivel/|tools/(rig|crowd|cli|swivel|corpus)/)[^\n]*" ${nowhere} "a report knows numbers and names alone")
 must_not_say(tools/cli "#[ \t]*include[ \t]*\"tools/(rig|crowd|swivel|corpus)/[^\n]*" ${nowhere} "a command line knows no subcommand")
 must_not_say(tools "[^a-zA-Z_]toml::" "tools/formats/(toml_table|crowd_file)[.](h|cpp)$" "TOML is read in tools/formats/toml_table alone")
 must_not_say(tools/swivel "#[ \t]*include[ \t]*\"bench/[a-z_]+[.]h[^\n]*" ${nowhere} "the command does not know the suite")

@@ -111,7 +111,6 @@ void listen(pid_t child, const std::string& program, const Surroundings& surroun
         if (::poll(ends.data(), ends.size(), 10) <= 0) continue;
         if (ends[0].revents) take(out.reading, outcome.out);
         if (ends[1].revents) take(err.reading, outcome.err);
-        if (surroundings.hangs_up && !outcome.err.empty()) Channel::close_end(err.reading);
     }
 }
 
@@ -139,7 +138,6 @@ Outcome run_program(const std::filesystem::path& folder, std::vector<std::string
         ::alarm(surroundings.max_seconds);
         if (::chdir(folder.c_str()) == 0 && ::dup2(out.writing, STDOUT_FILENO) >= 0 &&
             ::dup2(err.writing, STDERR_FILENO) >= 0) {
-            for (const int descriptor : surroundings.closed) ::close(descriptor);
             if (surroundings.before) surroundings.before();
             ::execve(argv[0], argv.data(), envp.data());
         }

@@ -22,9 +22,7 @@ struct Surroundings {
     std::vector<std::string> environment{};  // "NAME=value" on top of this process's own; "NAME" alone removes it
     bool terminal = false;                   // stderr is a terminal
     unsigned short columns = 0;              // of that; 0: it does not say
-    bool hangs_up = false;                   // it goes away once something has been written to it
     std::string stdout_file{};               // where stdout goes instead of Outcome::out
-    std::vector<int> closed{};               // descriptors that the program does not get, such as 1 for stdout
     std::function<void()> before{};          // called in the process before it becomes the program: only calls that
                                              // are safe after fork(), such as for limits and signals
     std::function<void(pid_t)> meanwhile{};  // called some 100 times a second while it runs

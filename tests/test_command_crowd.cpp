@@ -1,97 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// What `swivel solve` writes for crowds and for given targets, on real motion. This checks order, unit length,
-// reproducibility, the meaning of a target, and the grid that characters stand on. Memory must not grow with the length
-// of a crowd's clip.
+// What `swivel solve` writes for crowds, on real motion: its order, unit length and reproducibility. Memory must not
+// grow with the length of a crowd's clip.
 #include <catch2/catch.hpp>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 
 #include "swivel/swivel.h"
-#include "tests/plain_motion.h"
-#include "tests/pose_rows.h"
-#include "tests/run_command.h"
-#include "tests/test_data.h"
+#include "tests/crowd_stage.h"
 
 using namespace swivel::test;
-using Eigen::Matrix3d;
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
 
 namespace {
 
 using Words = std::vector<std::string>;
 
-using Row = PoseLine;
-std::vector<Row> rows_of(const std::string& text) { return pose_lines(text); }
-
-// The jump, every step-th frame from `first` on, as clip.bvh in a folder of its own, and a command to solve it.
-struct Stage {
-    TempFolder folder;
-    PlainMotion clip;
-    std::vector<PlainArm> arms;
-
-    explicit Stage(std::size_t first = 100, std::size_t step = 25)
-    {
-        spill(folder / "clip.bvh", cut(plain_motion_of(must_find_jump()), first, step));
-        clip = plain_motion_of(folder / "clip.bvh");
-        arms = arms_of(clip);
-    }
-    std::string solve(Words more, const std::string& out = "") const
-    {
-        more.insert(more.begin(), {"solve", "clip.bvh"});
-        if (!out.empty()) more.insert(more.end(), {"--out", out});
-        const Outcome outcome = run_command(folder.path, more);
-        INFO(outcome.err);
-        REQUIRE(outcome.exit_code == 0);
-        REQUIRE(outcome.err.empty());
-        return out.empty() ? outcome.out : slurp(folder / out);
-    }
-    void write_targets(const std::string& rows) const
-    {
-        spill(folder / "t.csv", "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n" + rows);
-    }
-};
-
-std::string row_text(std::size_t frame, std::size_t character, const std::string& limb, const Vector3d& wrist,
-                     const Vector3d& pole, const Matrix3d* hand = nullptr)
-{
-    std::string row = std::to_string(frame) + "," + std::to_string(character) + "," + limb;
-    const auto add = [&](double value) {
-        std::array<char, 40> digits{};
-        std::snprintf(digits.data(), digits.size(), ",%.17g", value);
-        row += digits.data();
-    };
-    for (const double value : wrist) add(value);
-    for (const double value : pole) add(value);
-    if (!hand) return row + ",,,,\n";
-    const Quaterniond q(*hand);
-    for (const double value : q.coeffs()) add(value);
-    return row + "\n";
-}
-
-double distance(const Row& a, const Row& b)
-{
-    double worst = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-        const double same = (a.joint[j].coeffs() - b.joint[j].coeffs()).cwiseAbs().maxCoeff();
-        const double opposite = (a.joint[j].coeffs() + b.joint[j].coeffs()).cwiseAbs().maxCoeff();
-        worst = std::max(worst, std::min(same, opposite));  // q and -q are one rotation
-    }
-    return worst;
-}
-
 }  // namespace
 
 TEST_CASE("crowd: the table holds every frame, character and limb in order, and unit quaternions")
 {
-    const Stage stage;
-    const std::vector<Row> rows = rows_of(stage.solve({"--characters", "50"}, "poses.csv"));
+    const CrowdStage stage;
+    const std::vector<PoseLine> rows = pose_lines(stage.output("[crowd]\n", "poses.csv", {"--characters", "50"}));
     const std::size_t frames = stage.clip.lines.size();
     REQUIRE(rows.size() == frames * 50 * 2);
     std::size_t misplaced = 0, unreached = 0;
@@ -101,6 +32,7 @@ TEST_CASE("crowd: the table holds every frame, character and limb in order, and 
         misplaced +=
             rows[n].place() != std::tuple(n / 100, n / 2 % 50, std::string(n % 2 == 0 ? "left_arm" : "right_arm"));
         unreached += (rows[n].flags & SWIVEL_REACHED) == 0;
+        misplaced += rows[n].number("size") < 0.85 || rows[n].number("size") > 1.15;
         for (const Quaterniond& q : rows[n].joint) worst_length = std::max(worst_length, std::abs(q.norm() - 1));
         if (n < 100)
             poses_of_frame_0.insert(std::to_string(rows[n].joint[0].x()) + std::to_string(rows[n].joint[1].x()));
@@ -110,21 +42,20 @@ TEST_CASE("crowd: the table holds every frame, character and limb in order, and 
     CHECK(worst_length < 1e-6);
     CHECK(poses_of_frame_0.size() > 80);  // characters differ
 
-    const std::vector<Row> alone = rows_of(stage.solve({}, "alone.csv"));
+    const std::vector<PoseLine> alone = pose_lines(stage.output("[crowd]\n", "alone.csv"));
     REQUIRE(alone.size() == frames * 2);
-    double worst = 0;
     for (std::size_t n = 0; n < alone.size(); ++n)
-        worst = std::max(worst, distance(alone[n], rows[n / 2 * 100 + n % 2]));
-    CHECK(worst == 0);  // the same bits
+        for (std::size_t j = 0; j < 3; ++j)
+            CHECK(alone[n].joint[j].coeffs() == rows[n / 2 * 100 + n % 2].joint[j].coeffs());  // the same bits
 }
 
 TEST_CASE("crowd: the seed and nothing else decides the bytes")
 {
-    const Stage stage;
+    const CrowdStage stage;
     const auto solve = [&](const Words& more) {
         Words all = {"--characters", "300"};
         all.insert(all.end(), more.begin(), more.end());
-        return stage.solve(all, "poses.csv");
+        return stage.output("[crowd]\n", "poses.csv", all);
     };
     const std::string first = solve({"--threads", "1"});
     CHECK(first == solve({"--threads", "2"}));
@@ -133,135 +64,6 @@ TEST_CASE("crowd: the seed and nothing else decides the bytes")
     const std::string other = solve({"--seed", "2"});
     CHECK(first != other);
     CHECK(other == solve({"--seed", "2", "--threads", "1"}));
-}
-
-TEST_CASE("targets: the clip's own wrists, elbows and hands give the clip's poses")
-{
-    const Stage stage;
-    const std::vector<Row> want = rows_of(stage.solve({}, "clip.csv"));
-    std::string rows;
-    std::size_t given = 0;
-    for (std::size_t frame = 0; frame < stage.clip.lines.size(); frame += 3)
-        for (const PlainArm& arm : stage.arms) {
-            const PlainArmPose at = arm_pose(stage.clip, arm, frame);
-            if (at.bend() < 0.1) continue;  // straighter: a rounded elbow point turns the arm by more than 1e-5
-            rows += row_text(frame, 0, arm.side + "_arm", at.wrist, at.elbow, &at.hand);
-            ++given;
-        }
-    REQUIRE(given > 50);
-    stage.write_targets(rows);
-    const std::vector<Row> got = rows_of(stage.solve({"--targets", "t.csv"}, "given.csv"));
-    REQUIRE(got.size() == want.size());
-    double worst = 0;
-    for (std::size_t n = 0; n < got.size(); ++n) worst = std::max(worst, distance(got[n], want[n]));
-    CHECK(worst < 1e-5);
-}
-
-TEST_CASE("targets: the written wrist follows a moved target, the other arm stays")
-{
-    const Stage stage;
-    const PlainArm& left = stage.arms[0];
-    std::string rows;
-    std::vector<Vector3d> wanted;
-    for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
-        const PlainArmPose at = arm_pose(stage.clip, left, frame);
-        REQUIRE((at.wrist - at.shoulder).norm() > 1 + left.upper - left.fore);  // the move stays in reach
-        wanted.push_back(at.wrist + (at.shoulder - at.wrist).normalized());
-        rows += row_text(frame, 0, "left_arm", wanted.back(), at.elbow);
-    }
-    stage.write_targets(rows);
-    stage.solve({"--targets", "t.csv"}, "moved.bvh");
-    const PlainMotion moved = plain_motion_of(stage.folder / "moved.bvh");
-    double off = 0, move_error = 0, hand = 0, other = 0;
-    for (std::size_t frame = 0; frame < wanted.size(); ++frame) {
-        const PlainArmPose from = arm_pose(stage.clip, left, frame), to = arm_pose(moved, left, frame);
-        off = std::max(off, (to.wrist - wanted[frame]).norm());
-        move_error = std::max(move_error, std::abs((to.wrist - from.wrist).norm() - 1));
-        hand = std::max(hand, (to.hand - from.hand).norm());
-        other = std::max(
-            other,
-            (arm_pose(moved, stage.arms[1], frame).wrist - arm_pose(stage.clip, stage.arms[1], frame).wrist).norm());
-    }
-    CHECK(off < 1e-5 * left.length());
-    CHECK(move_error < 1e-5 * left.length());
-    CHECK(hand < 1e-4);  // rows without an orientation keep the clip's
-    CHECK(other < 1e-5 * left.length());
-}
-
-TEST_CASE("targets: out of reach gives a straight arm towards the target, and the flag")
-{
-    const Stage stage;
-    const PlainArm& right = stage.arms[1];
-    const Vector3d away = Vector3d(-1, 2, 1).normalized();
-    const PlainArmPose at = arm_pose(stage.clip, right, 5);
-    stage.write_targets(
-        row_text(5, 0, "right_arm", at.shoulder + 1.5 * right.length() * away, at.shoulder - Vector3d::UnitY()));
-    for (const Row& row : rows_of(stage.solve({"--targets", "t.csv"}, "far.csv"))) {
-        const bool is_far = row.frame == 5 && row.limb == "right_arm";
-        CHECK(((row.flags & SWIVEL_CLAMPED_FAR) != 0) == is_far);
-        CHECK(((row.flags & SWIVEL_REACHED) != 0) == !is_far);
-    }
-    stage.solve({"--targets", "t.csv"}, "far.bvh");
-    const PlainArmPose to = arm_pose(plain_motion_of(stage.folder / "far.bvh"), right, 5);
-    CHECK((to.wrist - (at.shoulder + right.length() * away)).norm() < 1e-5 * right.length());
-    CHECK((to.elbow - (at.shoulder + right.upper * away)).norm() < 1e-5 * right.length());
-    CHECK_THAT(stage.solve({"--targets", "t.csv"}),
-               Catch::Matchers::Contains("clamped far 1, first in frame 5, character 0, right_arm"));
-}
-
-TEST_CASE("targets: the report says where it is worst, and where a flag comes first")
-{
-    const Stage stage;
-    const auto far = [&](std::size_t frame, const PlainArm& arm, double times) {
-        const PlainArmPose at = arm_pose(stage.clip, arm, frame);
-        return row_text(frame, 0, arm.side + "_arm", at.shoulder + Vector3d(0, -times * arm.length(), 0), at.elbow);
-    };
-    stage.write_targets(far(3, stage.arms[1], 2.5) + far(7, stage.arms[0], 4) + far(9, stage.arms[1], 3));
-    const nlohmann::json report = nlohmann::json::parse(stage.solve({"--targets", "t.csv", "--json"}));
-    const nlohmann::json& missed = report.at("missed").at("wrist");
-    CHECK(missed.at("count") == 3);
-    CHECK(missed.at("worst").get<double>() == Approx(3).epsilon(1e-5));
-    CHECK(missed.at("worst_pose") == nlohmann::json{{"frame", 7}, {"character", 0}, {"limb", "left_arm"}});
-    CHECK(report.at("first_flagged").at("clamped far") ==
-          nlohmann::json{{"frame", 3}, {"character", 0}, {"limb", "right_arm"}});
-    CHECK_FALSE(report.at("first_flagged").contains("bad input"));
-}
-
-TEST_CASE("targets: characters stand on the documented grid")
-{
-    // One frame, so that all start at it. A character's arms are the clip's by an unknown factor; in the clip's lengths
-    // its wrist must point at its target, and that factor follows from the distance.
-    const Stage stage(1200, 100000);
-    REQUIRE(stage.clip.lines.size() == 1);
-    const double span = 2 * std::max(stage.arms[0].length(), stage.arms[1].length());
-    const PlainArm& left = stage.arms[0];
-    const PlainArmPose at = arm_pose(stage.clip, left, 0);
-    const Vector3d goal = at.shoulder + left.length() * Vector3d(0.1, -0.3, 0.5);
-    std::string rows;
-    for (std::size_t n = 0; n < 7; ++n) {  // w = 3
-        const Vector3d place = 3 * span * Vector3d(static_cast<double>(n % 3), 0, static_cast<double>(n / 3));
-        rows += row_text(0, n, "left_arm", goal + place, at.elbow + place);
-    }
-    stage.write_targets(rows);
-    std::set<int> factors;
-    for (const Row& row : rows_of(stage.solve({"--characters", "7", "--targets", "t.csv"}, "grid.csv"))) {
-        if (row.limb != "left_arm") continue;
-        INFO("character " << row.character);
-        const Matrix3d shoulder = at.parent * row.joint[0].toRotationMatrix();
-        const Vector3d reach =
-            shoulder * (stage.clip.joint(left.elbow).offset + row.joint[1] * stage.clip.joint(left.wrist).offset);
-        const double factor = (goal - at.shoulder).norm() / reach.norm();
-        CHECK((factor * reach - (goal - at.shoulder)).norm() < 2e-5 * left.length());
-        CHECK(factor > 0.85 - 1e-5);
-        CHECK(factor < 1.15 + 1e-5);
-        if (row.character == 0) CHECK(factor == Approx(1).epsilon(1e-5));
-        CHECK(row.number("size") == Approx(factor).epsilon(1e-5));
-        CHECK(row.number("place_x") == Approx(3 * span * static_cast<double>(row.character % 3)).epsilon(1e-6));
-        CHECK(row.number("place_y") == 0);
-        CHECK(row.number("place_z") == Approx(3 * span * static_cast<double>(row.character / 3)).epsilon(1e-6));
-        factors.insert(static_cast<int>(factor * 1e4));
-    }
-    CHECK(factors.size() > 4);
 }
 
 TEST_CASE("crowd: memory is bounded by clip and crowd, not by their product")

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Bad input of every kind. The exit code is 1, and one line on stderr names file, line and cause. No new file appears,
-// whole or partial. A file that was there keeps its bytes.
+// Bad input of every kind: the exit code is 1, and one line on stderr names file, line and cause. No new file appears,
+// whole or partial, and a file that was there keeps its bytes. The readers' own tests, such as test_bvh.cpp, have each
+// way of being wrong.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/plain_motion.h"
 #include "tests/run_command.h"
@@ -55,22 +57,6 @@ void require_clip_refused(std::string_view text, const Words& said)
     require_refused(folder, {"clip.bvh"}, said);
 }
 
-// kTwoArms is taken, with this done to it it must not be.
-void require_edit_refused(std::string_view from, std::string_view to, const Words& said)
-{
-    INFO("'" << from << "' -> '" << to << "'");
-    require_clip_refused(edited(kTwoArms, from, to), said);
-}
-
-// kTwoArms with the names of legs.
-const std::string kTwoLegs = [] {
-    std::string text = kTwoArms;
-    for (const auto& [from, to] : {std::pair("ForeArm", "Leg"), {"Arm", "UpLeg"}, {"Hand", "Foot"}})
-        for (std::size_t at; (at = text.find(from)) != std::string::npos;)
-            text.replace(at, std::string_view(from).size(), to);
-    return text;
-}();
-
 void require_table_refused(const std::string& text, const Words& said, const Words& more = {})
 {
     const TempFolder folder;
@@ -118,34 +104,16 @@ TEST_CASE("input: clips that are not there or not text")
     require_clip_refused(kTwoArms + std::string(5, '\0'), {"clip.bvh: ", "binary"});
 }
 
-TEST_CASE("input: malformed skeletons")
+TEST_CASE("input: malformed clips")
 {
     require_clip_refused(kTwoArms.substr(0, kTwoArms.find("RightForeArm")), {"clip.bvh:29: "});
-    require_clip_refused(kTwoArms.substr(0, kTwoArms.find("MOTION")), {"clip.bvh:44: ", "MOTION"});
-    require_edit_refused("ROOT Hips", "ROOT", {"clip.bvh:2: ", "name"});
-    require_edit_refused("OFFSET 2 5 0", "OFFSET 2 5", {"clip.bvh:8: ", "OFFSET"});
-    require_edit_refused("OFFSET 2 5 0", "OFFSET 2 x 0", {"clip.bvh:8: ", "'x'"});
-    require_edit_refused("CHANNELS 3", "CHANNELS 4", {"clip.bvh:9: ", "CHANNELS announces 4 and names 3"});
-    require_edit_refused("CHANNELS 3 Zrotation", "CHANNELS 3 Wrotation", {"clip.bvh:9: ", "Wrotation"});
-    require_edit_refused("End Site\n{\n", "End Site\n", {"clip.bvh:19: "});
-    require_edit_refused("}\nMOTION", "MOTION", {"clip.bvh:44: "});
-}
-
-TEST_CASE("input: malformed motion")
-{
     require_clip_refused(kTwoArms.substr(0, kTwoArms.find("1 2 4")), {"clip.bvh:48: ", "1 of the 2 frames"});
-    require_clip_refused(kTwoArms.substr(0, kTwoArms.size() - 9), {"clip.bvh:49: ", "values"});
-    require_edit_refused("Frames: 2", "Frames: 3", {"clip.bvh:49: ", "2 of the 3 frames"});
-    require_edit_refused("Frames: 2", "Frames: 0", {"clip.bvh:46: ", "Frames"});
-    require_edit_refused("Frames: 2", "Frames: many", {"clip.bvh:46: ", "many"});
-    require_edit_refused("Frames: 2", "Frames: 4000000000000000000",
-                         {"clip.bvh:49: ", "2 of the 4000000000000000000 frames"});
-    require_edit_refused("Frame Time: .01", "Frame Time: 0", {"clip.bvh:47: ", "Frame Time"});
-    require_edit_refused("1 2 4", "1 2", {"clip.bvh:49: ", "23 values, the channels need 24"});
-    require_edit_refused("1 2 4", "1 2 4 4", {"clip.bvh:49: ", "25 values, the channels need 24"});
-    for (const std::string word : {"nan", "-inf", "1e999", "0x10", "4,5"})
-        require_edit_refused("1 2 4", "1 2 " + word, {"clip.bvh:49: ", "'" + word + "'", "Hips Zposition"});
-    require_clip_refused(kTwoArms + "1 2 5\n", {"clip.bvh:50: ", "3 values, the channels need 24"});
+    for (const auto& [from, to, said] : {std::tuple("OFFSET 2 5 0", "OFFSET 2 x 0", "clip.bvh:8: OFFSET: 'x'"),
+                                         {"}\nMOTION", "MOTION", "clip.bvh:44: "},
+                                         {"Frames: 2", "Frames: many", "clip.bvh:46: Frames: 'many'"},
+                                         {"1 2 4", "1 2", "clip.bvh:49: 23 values, the channels need 24"},
+                                         {"1 2 4", "1 2 nan", "clip.bvh:49: value 3 (Hips Zposition): 'nan'"}})
+        require_clip_refused(edited(kTwoArms, from, to), {said});
 }
 
 TEST_CASE("input: skeletons without arms, and --arm that names none")
@@ -156,12 +124,9 @@ TEST_CASE("input: skeletons without arms, and --arm that names none")
     require_arms_refused({"LeftArm,LeftForeArm,Nope"}, {"clip.bvh: ", "'Nope'"});
     require_arms_refused({"LeftArm,LeftForeArm"}, {"clip.bvh: ", "'LeftArm,LeftForeArm'", "SHOULDER,ELBOW,WRIST"});
     require_arms_refused({"LeftHand,LeftForeArm,LeftArm"}, {"clip.bvh: ", "'LeftHand,LeftForeArm,LeftArm'"});
-    require_arms_refused({"LeftArm,RightForeArm,RightHand"}, {"clip.bvh: ", "one below it"});
     require_arms_refused({"LeftArm,LeftForeArm,LeftHand", "left:RightArm,RightForeArm,RightHand"},
                          {"clip.bvh: ", "two arms are taken as left"});
-    require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:LeftArm,LeftForeArm,LeftHand"}, {"clip.bvh: "});
     require_arms_refused({"left:LeftArm,LeftForeArm,LeftHand", "right:Hips,LeftArm,LeftForeArm"}, {"clip.bvh: "});
-    require_arms_refused(Words(3, "LeftArm,LeftForeArm,LeftHand"), {"clip.bvh: ", "two arms are taken as left"});
 }
 
 TEST_CASE("input: a limb that cannot be bound refuses no other, unless it was named")
@@ -196,16 +161,6 @@ TEST_CASE("input: skeletons without legs, and --leg that names none")
         {"t.csv:2: the left leg is not solved; take it in with --limbs, or name it with --leg HIP,KNEE,ANKLE"});
 }
 
-TEST_CASE("input: targets of a limb that is not solved")
-{
-    const TempFolder folder;
-    spill(folder / "clip.bvh", kTwoLegs);
-    spill(folder / "t.csv", edited(kColumns, "side", "limb") + "0,0,right_leg,6,8,3,4,8,9\n");
-    require_refused(folder, {"clip.bvh", "--targets", "t.csv", "--leg", "LeftUpLeg,LeftLeg,LeftFoot"},
-                    {"t.csv:2: the right leg is not solved; take it in with --limbs"});
-    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--targets", "t.csv", "--limbs", "legs"}).exit_code == 0);
-}
-
 TEST_CASE("input: what a crowd file names wrongly is said with file, line and key")
 {
     const TempFolder folder;
@@ -233,6 +188,10 @@ TEST_CASE("input: what a crowd file names wrongly is said with file, line and ke
             "[limb.arms.pole]\nkind = \"" + kind + "\"\n[limb.left_arm.pole]\nfixed = [0, 0, 0]\n",
             "c.toml:4: limb.left_arm.pole.fixed: has no length, so no direction, and limb.arms.pole.kind in line 2");
 
+    spill(folder / "clip.bvh", edited(kTwoArms, "JOINT LeftArm", "JOINT Arm,L"));  // commas may be in names
+    spill(folder / "c.toml", "[limb.left_arm]\njoints = [\"Arm,L\", \"LeftForeArm\", \"LeftHand\"]\n");
+    CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml"}).exit_code == 0);
+    spill(folder / "clip.bvh", kTwoArms);
     spill(folder / "c.toml", "[limb.left_arm.pole]\nfixed = [0, 0, 0]\n");  // of a point: the shoulder
     CHECK(run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml"}).exit_code == 0);
     spill(folder / "c.toml", "[crowd]\nlimbs = \"legs\"\n");
@@ -240,22 +199,6 @@ TEST_CASE("input: what a crowd file names wrongly is said with file, line and ke
         run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml", "--arm", "LeftArm,LeftForeArm,LeftHand"});
     CHECK(clash.exit_code == 2);
     CHECK_THAT(clash.err, Contains("--arm names an arm, but crowd.limbs = \"legs\" in line 2 of c.toml solves none"));
-}
-
-TEST_CASE("input: a crowd file names joints with commas")
-{
-    const auto renamed = [](std::string text, const std::string& from, const std::string& to) {
-        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-            text.replace(at, from.size(), to);
-        return text;
-    };
-    const TempFolder folder;
-    spill(folder / "clip.bvh", renamed(kTwoArms, "JOINT LeftArm", "JOINT Arm,L"));
-    spill(folder / "c.toml", "[limb.left_arm]\njoints = [\"Arm,L\", \"LeftForeArm\", \"LeftHand\"]\n");
-    const Outcome outcome = run_command(folder.path, {"solve", "clip.bvh", "--crowd", "c.toml", "--json"});
-    INFO(outcome.err);
-    CHECK(outcome.exit_code == 0);
-    CHECK_THAT(outcome.out, Contains("\"Arm,L\""));
 }
 
 TEST_CASE("input: arms whose channels cannot take a rotation")
@@ -278,24 +221,11 @@ TEST_CASE("input: tables of targets")
     require_refused(folder, {"clip.bvh", "--targets", "no.csv"}, {"no.csv: ", "No such file"});
     require_refused(folder, {"clip.bvh", "--targets", "dir.csv"}, {"dir.csv: ", "directory"});
     require_table_refused("", {"t.csv: ", "empty"});
-    require_table_refused(kColumns, {"t.csv: ", "no targets"});
-    require_table_refused("frame,character,side,x,y,z,pole_x,pole_y\n0,0,left,1,2,3,4,5\n", {"t.csv:1: ", "pole_z"});
-    require_table_refused("frame,character,side,x,y,z,pole_x\n0,0,left,1,2,3,4\n", {"t.csv:1: ", "pole_y,pole_z"});
-    require_table_refused(kColumns + "0,0,left,6,8,3,4,,9\n", {"t.csv:2: ", "column pole_y is empty"});
-    require_table_refused(edited(kColumns, "x,y", "x,w") + kGoodRow, {"t.csv:1: ", "'w'"});
     require_table_refused(kColumns + kGoodRow + "1,0,left,6,eight,3,4,8,9\n", {"t.csv:3: ", "column y", "'eight'"});
-    require_table_refused(kColumns + kGoodRow + "1,0,left,6,nan,3,4,8,9\n", {"t.csv:3: ", "column y", "'nan'"});
-    require_table_refused(kColumns + kGoodRow + "1,0,left,6,8,3\n", {"t.csv:3: ", "fewer values"});
-    require_table_refused(kColumns + kGoodRow + "1,0,left,6,8,3,4,8,9,1\n", {"t.csv:3: ", "more values"});
-    require_table_refused(kColumns + kGoodRow + kGoodRow, {"t.csv:3: ", "0,0,left", "line 2"});
     require_table_refused(kColumns + kGoodRow + "2,0,left,6,8,3,4,8,9\n", {"t.csv:3: ", "frame 2", "0 to 1"});
-    require_table_refused(kColumns + "-1,0,left,6,8,3,4,8,9\n", {"t.csv:2: ", "column frame", "'-1'"});
     require_table_refused(kColumns + kGoodRow + "1,1,left,6,8,3,4,8,9\n", {"t.csv:3: ", "character 1"});
-    require_table_refused(kColumns + "1,0,up,6,8,3,4,8,9\n", {"t.csv:2: ", "column side", "'up'"});
     require_table_refused(kColumns + "1,0,right,6,8,3,4,8,9\n", {"t.csv:2: ", "right arm"},
                           {"--arm", "LeftArm,LeftForeArm,LeftHand"});
-    require_table_refused("\x89PNG\r\n\x1a\n", {"t.csv:1: "});
-    require_table_refused(kColumns + std::string(3, '\0'), {"t.csv: ", "binary"});
 }
 
 TEST_CASE("input: output that cannot be written")
@@ -303,27 +233,14 @@ TEST_CASE("input: output that cannot be written")
     const TempFolder folder;
     spill(folder / "clip.bvh", kTwoArms);
     for (const std::string suffix : {".bvh", ".csv"}) {
-        fs::create_directory(folder / ("dir" + suffix));
         fs::create_symlink("/dev/full", folder / ("full" + suffix));
-        fs::create_symlink("self" + suffix, folder / ("self" + suffix));
-        const auto refuse = [&](const std::string& out, const Words& said) {
-            const auto before = contents(folder.path);
-            require_one_line(run_command(folder.path, {"solve", "clip.bvh", "--out", out}), said);
+        const auto before = contents(folder.path);
+        for (const auto& [out, said] :
+             {std::pair("no/out" + suffix, "No such file"), {"full" + suffix, "No space left"}}) {
+            require_one_line(run_command(folder.path, {"solve", "clip.bvh", "--out", out}), {out + ": ", said});
             CHECK(contents(folder.path) == before);
-        };
-        refuse("no/out" + suffix, {"no/out" + suffix + ": ", "No such file"});
-        refuse("clip.bvh/out" + suffix, {"clip.bvh/out" + suffix + ": ", "Not a directory"});
-        refuse("dir" + suffix, {"dir" + suffix + ": ", "directory"});
-        refuse("full" + suffix, {"full" + suffix + ": ", "No space left"});
-        refuse("self" + suffix, {"self" + suffix + ": "});
-        refuse(std::string(300, 'n') + suffix, {"nnn" + suffix + ": ", "too long"});
+        }
     }
-}
-
-TEST_CASE("input: a file name with a line end stays in its line")
-{
-    const TempFolder folder;
-    require_refused(folder, {"two\nlines.bvh"}, {"two", "lines.bvh: ", "No such file"});
 }
 
 TEST_CASE("input: a file's name is one line, on standard output too")

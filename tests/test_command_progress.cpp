@@ -47,23 +47,17 @@ TEST_CASE("progress: the bar is for terminals alone, and wiped")
     CHECK_THAT(silent.out, Contains("million arms/s"));
 }
 
-TEST_CASE("progress: the bar is narrower than the terminal, whoever says how wide that is")
+TEST_CASE("progress: the bar is narrower than the terminal, as wide as that says it is")
 {
     const TempFolder folder;
-    for (const Surroundings& narrow :
-         {Surroundings{{"TERM=xterm", "COLUMNS=200"}, true, 24}, Surroundings{{"TERM=xterm", "COLUMNS=24"}, true}}) {
-        const Outcome outcome = spawn_command(folder.path, kLongRun, narrow);
-        CHECK_THAT(outcome.err, Contains(" %"));
-        std::size_t widest = 0;
-        for (std::size_t at = 0; at < outcome.err.size();) {
-            const std::size_t end = outcome.err.find("\x1b[K", at);
-            REQUIRE(end != std::string::npos);
-            CHECK(outcome.err[at] == '\r');
-            widest = std::max(widest, end - at - 1);
-            at = end + 3;
-        }
-        CHECK(widest > 0);
-        CHECK(widest < 24);
+    const Outcome outcome = spawn_command(folder.path, kLongRun, {{"TERM=xterm"}, true, 24});
+    CHECK_THAT(outcome.err, Contains(" %"));
+    for (std::size_t at = 0; at < outcome.err.size();) {
+        const std::size_t end = outcome.err.find("\x1b[K", at);
+        REQUIRE(end != std::string::npos);
+        CHECK(outcome.err[at] == '\r');
+        CHECK(end - at - 1 < 24);
+        at = end + 3;
     }
 }
 

@@ -54,33 +54,6 @@ void require_clips_own(const TargetTable& table, const PlainGltf& clip, const Fi
 
 }  // namespace
 
-TEST_CASE("exported targets are the clip's wrists, elbows and hands, of legs ankles, knees and feet")
-{
-    const CrowdStage stage;
-    const Outcome outcome =
-        run_command(stage.folder.path, {"solve", "clip.bvh", "--limbs", "all", "--export-targets", "t.csv", "--json"});
-    REQUIRE(outcome.exit_code == 0);
-    CHECK(nlohmann::json::parse(outcome.out).at("export_targets") == "t.csv");
-    CHECK(stage.folder.file_count() == 2);  // no other is written
-    const std::string text = slurp(stage.folder / "t.csv");
-    CHECK_THAT(text, Catch::Matchers::StartsWith(std::string(kTargetHeader) + "\n"));
-    const TargetTable table(text);
-    REQUIRE(table.rows.size() == 4 * stage.clip.lines.size());
-    double worst = 0;
-    for (std::size_t n = 0; n < table.rows.size(); ++n) {
-        const Cells& row = table.rows[n];
-        const bool is_arm = n % 4 < 2;
-        const PlainArm& limb = (is_arm ? stage.arms : stage.legs)[n % 2];
-        REQUIRE(row.at("frame") == std::to_string(n / 4));
-        REQUIRE(row.at("character") == "0");
-        REQUIRE(row.at("limb") == limb.side + (is_arm ? "_arm" : "_leg"));
-        const PlainArmPose at = arm_pose(stage.clip, limb, n / 4);
-        worst = std::max({worst, (point(row, "") - at.wrist).norm(), (point(row, "pole_") - at.elbow).norm(),
-                          (hand_of(row) - at.hand).norm()});
-    }
-    CHECK(worst < 1e-11);  // doubles, of places some 30 units away
-}
-
 TEST_CASE("exported targets, given back unchanged, change nothing")
 {
     const CrowdStage stage;
@@ -164,36 +137,9 @@ TEST_CASE("an edit of one exported row moves that wrist alone")
     CHECK(edited.lines[kFrame] != before.lines[kFrame]);
 }
 
-TEST_CASE("a row without a pole has the clip's, column or cells left out")
-{
-    const CrowdStage stage;
-    const Words pole = {"pole_x", "pole_y", "pole_z"};
-    stage.output(kPlainCrowd, "own.bvh", {"--export-targets", "t.csv"});
-    TargetTable table(slurp(stage.folder / "t.csv"));
-    for (Cells& row : table.rows) {  // so that an elbow that goes elsewhere would be seen
-        const PlainArmPose at = arm_pose(stage.clip, stage.arms[row.at("limb") == "right_arm"],
-                                         static_cast<std::size_t>(number(row, "frame")));
-        const Vector3d moved = at.wrist + 0.1 * (at.shoulder - at.wrist);
-        for (int axis = 0; axis < 3; ++axis) row[std::string(1, "xyz"[axis])] = std::to_string(moved[axis]);
-    }
-    const auto solved = [&](const TargetTable& given) {
-        spill(stage.folder / "t.csv", given.text());
-        return stage.output(kPlainCrowd, "out.bvh", {"--targets", "t.csv"});
-    };
-    const std::string own = solved(table);  // with the clip's poles, written down
-    TargetTable bare = table;
-    bare.leave_out(pole);
-    CHECK(solved(bare) == own);
-    TargetTable empty = table;
-    for (Cells& row : empty.rows)
-        for (const std::string& column : pole) row[column] = "";
-    CHECK(solved(empty) == own);
-    TargetTable other = table;
-    for (Cells& row : other.rows) row["pole_y"] = "99";
-    CHECK(solved(other) != own);
-}
-
-TEST_CASE("the columns size and start say how a character's poses come from the clip's, in the table and in JSON")
+TEST_CASE(
+    "characters stand on the documented grid, and the columns size and start say how a character's poses come from the "
+    "clip's, in the table and in JSON")
 {
     const CrowdStage stage;
     const std::string toml = "[crowd]\ncharacters = 6\nsize = [0.5, 2]\n";
@@ -202,6 +148,7 @@ TEST_CASE("the columns size and start say how a character's poses come from the 
     REQUIRE(each.size() == 6);
     const std::size_t frames = stage.clip.lines.size();
     REQUIRE(rows.size() == 6 * frames);
+    const double span = 2 * std::max(stage.arms[0].length(), stage.arms[1].length());
     std::size_t bent = 0, starts = 0;
     for (std::size_t frame = 0; frame < frames; ++frame)
         for (std::size_t c = 0; c < 6; ++c) {
@@ -211,6 +158,9 @@ TEST_CASE("the columns size and start say how a character's poses come from the 
             CHECK(each.at(c).at("start") == start);
             CHECK(each.at(c).at("place") ==
                   nlohmann::json({row.number("place_x"), row.number("place_y"), row.number("place_z")}));
+            CHECK(row.number("place_x") == Approx(3 * span * static_cast<double>(c % 3)).epsilon(1e-6));  // the grid
+            CHECK(row.number("place_y") == 0);
+            CHECK(row.number("place_z") == Approx(3 * span * static_cast<double>(c / 3)).epsilon(1e-6));
             if (c == 0) CHECK((start == 0 && row.number("size") == 1));
             starts += frame == 0 && start > 0;
             const std::size_t clip_frame = (frame + start) % frames;

@@ -197,7 +197,7 @@ TEST_CASE("crowd bounds: the swivel turns no further in a frame than it may")
     const PlainMotion by_time = stage.motion(swivel + "second = " + std::to_string(1.5 / frame_time) + "\n");
     CHECK(most(steps(by_time, left)) < 1.52);
     CHECK(most(steps(by_time, left)) > 1.48);
-    CHECK(stage.json(swivel + "frame = 1.5\n").at("flags").at("limited by most swivel") > 10);
+    CHECK(stage.json(swivel + "frame = 1.5\n").at("flags").at("limited step") > 10);
 
     // Character 1 starts within the clip. Where it starts the clip again nothing holds its elbow back.
     const std::string crowd = "[crowd]\ncharacters = 2\nsize = [1, 1]\n";

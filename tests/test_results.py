@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The scripts that read result files of swivel_bench, as people run them: compare.py, plot.py, tables.py, pages.py, record.py and
+"""The scripts that read result files of swivel_bench, as people run them: plot.py, tables.py, pages.py, record.py and
 in_turns.py. The pages that show results show those of bench/results."""
 import importlib.util
 import json
@@ -15,14 +15,14 @@ BENCH = Path(__file__).resolve().parent.parent / "bench"
 LEVELS = ["L1", "L2", "L3", "memory"]
 
 
-def result(ns, cpu="A"):
+def result(ns):
     """A result with one aggregate and two rounds of each benchmark; ns: nanoseconds an arm by name."""
     entries = []
     for name, value in ns.items():
         entries += [{"run_name": name, "run_type": "iteration", "time/arm": value * 3e-9},
                     {"run_name": name, "run_type": "aggregate", "aggregate_name": "mean", "time/arm": value * 2e-9},
                     {"run_name": name, "run_type": "aggregate", "aggregate_name": "median", "time/arm": value * 1e-9}]
-    return {"context": {"cpu": cpu, "isas": "avx2 sse2", "commit": "abc"}, "benchmarks": entries}
+    return {"context": {"cpu": "A", "isas": "avx2 sse2", "commit": "abc"}, "benchmarks": entries}
 
 
 def full_result():
@@ -57,38 +57,14 @@ class Scripts(unittest.TestCase):
         self.assertIn(said, run.stderr)
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
 
-    def test_ratio_of_medians(self):
-        old = self.file("old.json", result({"P/avx2/L1": 2, "same": 3, "gone": 1}))
-        new = self.file("new.json", result({"P/avx2/L1": 2.5, "same": 3.1, "came": 1}))
-        run = self.run_script("compare.py", old, new)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertRegex(run.stdout, r"P/avx2/L1 +2\.000 +2\.500 +1\.250  slower\n")
-        self.assertRegex(run.stdout, r"same +3\.000 +3\.100 +1\.033\n")
-        self.assertIn("only in the old file: gone\n", run.stdout)
-        self.assertIn("only in the new file: came\n", run.stdout)
-        self.assertIn("1 moved by more than 5 %, 1 of them slower", run.stdout)
-        self.assertEqual(self.run_script("compare.py", old, new, "--fail").returncode, 1)
-        self.assertEqual(self.run_script("compare.py", new, old, "--fail").returncode, 0)
-        self.assertIn("\n0 moved", self.run_script("compare.py", old, new, "--threshold", "30").stdout)
-
-    def test_rounds_without_aggregates(self):
-        rounds = {"context": {"cpu": "A"}, "benchmarks": [
-            {"run_name": "x", "run_type": "iteration", "cpu_time": value, "time_unit": "us"} for value in (1, 9, 2)]}
-        path = self.file("rounds.json", rounds)
-        self.assertRegex(self.run_script("compare.py", path, path).stdout, r"x +2000\.000 +2000\.000 +1\.000\n")
-
     def test_refused_input(self):
-        good, other = self.file("good.json", result({"x": 1})), self.file("other.json", result({"x": 1}, cpu="B"))
-        self.require_refused("compare.py", "different CPUs, A and B", good, other)
-        self.assertEqual(self.run_script("compare.py", good, other, "--other-cpu").returncode, 0)
-        self.require_refused("compare.py", "No such file", good, str(self.folder / "missing.json"))
-        self.require_refused("compare.py", "not JSON", good, self.file("text.json", "ns"))
-        self.require_refused("compare.py", "not a result", self.file("list.json", "[]"), good)
-        self.require_refused("compare.py", "no benchmark", self.file("empty.json", result({})), good)
-        self.require_refused("plot.py", "no growth/", good)
         self.require_refused("tables.py", "No such file", str(self.folder / "missing.json"))
+        self.require_refused("tables.py", "not JSON", self.file("text.json", "ns"))
+        self.require_refused("tables.py", "not a result", self.file("list.json", "[]"))
+        self.require_refused("tables.py", "no benchmark", self.file("empty.json", result({})))
+        self.require_refused("plot.py", "no growth/", self.file("good.json", result({"x": 1})))
         self.require_refused("record.py", "not a name", "../elsewhere")
-        for script in ("compare.py", "plot.py", "tables.py", "pages.py", "record.py", "in_turns.py"):
+        for script in ("plot.py", "tables.py", "pages.py", "record.py", "in_turns.py"):
             self.assertIn("usage:", self.run_script(script, "--help").stdout)
 
     def test_tables(self):

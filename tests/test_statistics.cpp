@@ -73,41 +73,6 @@ TEST_CASE("statistics: a run went wrong where most limbs are out of reach or hav
     });
 }
 
-TEST_CASE("statistics: in any order, in any parts, the worst limbs are those of all, each in its worst pose")
-{
-    rc::prop("", [](std::uint32_t seed) {
-        std::mt19937 random(seed);
-        std::vector<Pose> poses;
-        const auto characters = 1 + random() % 8, kinds = 2 + random() % 20;  // errors repeat
-        for (std::uint64_t frame = 0; frame < 1 + random() % 5; ++frame)
-            for (std::uint32_t character = 0; character < characters; ++character)
-                for (const auto limb : kLimbNames)
-                    if (random() % 4 != 0)
-                        poses.push_back({{frame, character, limb}, 0.25 * static_cast<double>(random() % kinds), 0});
-        LimbStatistics parts[3], all;
-        std::shuffle(poses.begin(), poses.end(), random);
-        for (const Pose& pose : poses) parts[random() % 3].worst.add(pose.error, pose.name);
-        for (const LimbStatistics& part : parts) all.add(part);
-
-        const auto is_worse = [](const Pose& a, const Pose& b) {
-            return a.error != b.error ? a.error > b.error : a.name < b.name;
-        };
-        std::sort(poses.begin(), poses.end(), is_worse);
-        std::vector<Pose> worst;  // the first of each limb
-        for (const Pose& pose : poses)
-            if (std::none_of(worst.begin(), worst.end(), [&](const Pose& other) {
-                    return other.name.character == pose.name.character && other.name.limb == pose.name.limb;
-                }))
-                worst.push_back(pose);
-        const auto listed = all.worst.limbs();
-        RC_ASSERT(listed.size() == std::min(worst.size(), WorstLimbs::kMost));
-        for (std::size_t n = 0; n < listed.size(); ++n) {
-            RC_ASSERT(listed[n].pose == worst[n].name);
-            RC_ASSERT(listed[n].error == worst[n].error);
-        }
-    });
-}
-
 TEST_CASE("statistics: errors are counted from the targets as they were asked for, before the solver's are rounded")
 {
     const swivel::formats::Clip clip = demo_clip(3);

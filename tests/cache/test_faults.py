@@ -277,7 +277,7 @@ class Stops(Stage):
                     pass
                 process.send_signal(signal.SIGINT)
                 said = process.communicate()[1]
-                self.assertEqual((process.returncode, said), (-2, "swivel: interrupted; unfinished files are removed\n"))
+                self.assertEqual((process.returncode, said), (-2, "swivel: Interrupt; unfinished files are removed\n"))
                 self.assertEqual([path.name for path in self.folder.iterdir()], ["crowd.toml"])
 
     def test_a_terminal_shows_how_far_a_store_is(self):
@@ -296,17 +296,17 @@ class Stops(Stage):
             pass
         os.close(terminal)
         self.assertEqual(process.wait(), -2)
-        self.assertRegex(said, r"\x1b\[Kswivel: interrupted; unfinished files are removed\s*$")
+        self.assertRegex(said, r"\x1b\[Kswivel: Interrupt; unfinished files are removed\s*$")
         self.assertEqual(list(self.folder.iterdir()), [])
 
-    def test_a_signal_ends_a_fill_between_chunks(self):
+    def test_a_signal_ends_a_fill_that_may_go_on(self):
         cache = self.store(characters=4000, frames=400)
         process = subprocess.Popen([SWIVEL, "fill", cache, "--quiet"], stderr=subprocess.PIPE, text=True)
         while not any((cache / "digest").glob("[0-9]*")):
             pass
         process.terminate()
         said = process.communicate()[1]
-        self.assertEqual((process.returncode, said), (-15, "swivel: interrupted; unfinished files are removed\n"))
+        self.assertEqual((process.returncode, said), (-15, "swivel: Terminated; unfinished files are removed\n"))
         self.assertEqual([path for path in cache.rglob(".swivel-*")], [])
         self.fill(cache, "--resume")
 

@@ -4,12 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 
-#include "tools/cli/command_outline.h"
-#include "tools/cli/completions.h"
-#include "tools/cli/man_page.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
 #include "tools/formats/suggestion.h"
@@ -48,14 +44,6 @@ std::string meant_by(const std::string& wrong, const CLI::App& command)
     return nearest ? fmt::format("did you mean --{}?", *nearest) : help_of(command);
 }
 
-// Whether an option that was not taken stands before the command that has it. Without a command any may have it.
-bool is_misplaced(const std::string& option, const CLI::App& app)
-{
-    const CLI::App& used = used_command(app);
-    const auto has = [&](const CLI::App* command) { return command->get_option_no_throw(option) != nullptr; };
-    return &used == &app ? std::ranges::any_of(app.get_subcommands({}), has) : has(&used);
-}
-
 // An option that was given more often than it may be, as one word of the command line; empty: there is none.
 std::string repeated_option(const CLI::App& command)
 {
@@ -76,8 +64,6 @@ std::string unknown_words(const CLI::App& app)
         const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
         if (option != words.end()) {
             const std::string bare = option->substr(0, option->find('='));
-            if (is_misplaced(bare, app))
-                return fmt::format("{} is an option of a command; write it after the command", bare);
             return fmt::format("there is no option {}; {}", bare, meant_by(bare, *command));
         }
         if (!words.empty()) return fmt::format("'{}' is one word too many; {}", words[0], help_of(used));
@@ -87,43 +73,15 @@ std::string unknown_words(const CLI::App& app)
 
 }  // namespace
 
-void add_completion(CLI::App& app)
-{
-    using Script = std::string (*)(const Outline&);
-    static const std::map<std::string, Script> scripts = {
-        {"bash", bash_completion}, {"fish", fish_completion}, {"zsh", zsh_completion}};
-    CLI::App* command = app.add_subcommand("completion", "Print what a shell reads to complete swivel's options");
-    auto shell = std::make_shared<std::string>();
-    takes(command->add_option("SHELL", *shell, "Which shell: bash, fish or zsh"), one_of({"bash", "fish", "zsh"}))
-        ->required()
-        ->option_text(" ");
-    command->footer(
-        "Shells find it in these files from their next start on; make the folders where there are none.\n"
-        "bash: swivel completion bash > ~/.local/share/bash-completion/completions/swivel\n"
-        "zsh: swivel completion zsh > ~/.zfunc/_swivel, with fpath+=~/.zfunc before compinit in ~/.zshrc\n"
-        "fish: swivel completion fish > ~/.config/fish/completions/swivel.fish");
-    command->callback([&app, shell] { say_text(stdout, scripts.at(*shell)(outline_of(app))); });
-}
-
 void add_help(CLI::App& app)
 {
     CLI::App* command = app.add_subcommand("help", "Print help on the whole or on a command, as COMMAND --help does");
-    struct Wish {
-        std::string command;
-        bool man = false;
-    };
-    auto wish = std::make_shared<Wish>();
-    CLI::Option* name =
-        takes(command->add_option("COMMAND", wish->command, "On which command"), one_of(command_names(app)))
-            ->option_text(" ");
-    command->add_flag("--man", wish->man, "Print the manual page instead, for man")->excludes(name);
-    command->callback([&app, wish] {
-        if (wish->man)
-            say_text(stdout, man_page(outline_of(app)));
-        else if (wish->command.empty())
-            say_text(stdout, app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
-        else
-            say_text(stdout, app.get_subcommand(wish->command)->help(app.get_name()));
+    auto name = std::make_shared<std::string>();
+    takes(command->add_option("COMMAND", *name, "On which command"), one_of(command_names(app)))->option_text(" ");
+    command->callback([&app, name] {
+        say_text(stdout, name->empty()
+                             ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
+                             : app.get_subcommand(*name)->help(app.get_name()));
     });
 }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The subcommands that say what the others take, and what to say of words that none takes.
+// The subcommand that says what the others take, and what to say of words that none takes.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 namespace swivel::tools {
-
-void add_completion(CLI::App& app);
 
 // To be added last: it knows the others.
 void add_help(CLI::App& app);

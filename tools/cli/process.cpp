@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
+// sigdescr_np() takes no memory; it needs glibc 2.32.
 #include "tools/cli/process.h"
 
 #include <unistd.h>
 
-#include <atomic>
+#include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
-#include <string_view>
 
 #include "tools/cli/command_error.h"
-#include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/formats/partial.h"
 
@@ -19,53 +20,68 @@ namespace swivel::tools {
 
 namespace {
 
-std::atomic_flag is_ending;
+// Those that ask a process to end, those about a write, and faults.
+constexpr int kEnds[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGXCPU, SIGPIPE,
+                         SIGXFSZ, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT};
 
-// One line, whichever threads fail. What is unfinished is removed without memory, and nothing else needs an owner.
-[[noreturn]] void end(std::string_view cause, std::string_view advice) noexcept
+// One line on stderr, without memory. A progress bar may stand in the terminal's line.
+void write_line(const char* cause, const char* rest)
 {
-    while (is_ending.test_and_set()) ::pause();  // another thread ends the process
+    std::array<char, 200> line;
+    const int size = std::snprintf(line.data(), line.size(), "%sswivel: %s%s\n",
+                                   ::isatty(STDERR_FILENO) ? "\r\x1b[K" : "", cause, rest);
+    static_cast<void>(!::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(size)));
+}
+
+// The signal's second coming is the process's end: when this returns.
+void end_by(int signal)
+{
     formats::Partial::remove_all();
-    std::fflush(stdout);
-    ::_exit(fail(1, cause, advice));
+    // Where nobody reads any more, a run ends without a word, as other tools do.
+    if (signal != SIGPIPE) write_line(::sigdescr_np(signal), "; unfinished files are removed");
+    ::raise(signal);
+}
+
+void end_by_signals()
+{
+    struct sigaction once = {}, before = {};
+    once.sa_handler = end_by;
+    once.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigfillset(&once.sa_mask);
+    for (const int signal : kEnds)
+        if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
+            ::sigaction(signal, &once, nullptr);
 }
 
 // Where memory lacks, no exception is thrown. Unwinding would run destructors that ask for memory, or that find an
 // object half made: those of nlohmann's JSON do both.
-[[noreturn]] void end_without_memory() { end(kNotEnoughMemory, memory_advice()); }
-
-[[noreturn]] void end_in_one_line() noexcept
-{
-    if (std::current_exception()) {
-        try {
-            throw;
-        } catch (const std::bad_alloc&) {  // of those who ask malloc(), such as oneTBB
-            end_without_memory();
-        } catch (const std::exception& error) {
-            end(error.what(), "");
-        } catch (...) {
-        }
-    }
-    std::fflush(stdout);
-    std::abort();
-}
-
-void end_by_fault()
+[[noreturn]] void end_without_memory()
 {
     formats::Partial::remove_all();
-    fail(1, "a fault in swivel or in a library ends this run; unfinished files are removed; please report it");
+    write_line(kNotEnoughMemory, "");
+    ::_exit(1);
 }
 
-// Before the constructors of variables in the program's own libraries, some of which take memory.
-[[gnu::constructor(101)]] void expect_the_worst()
+// For exceptions that nobody can catch, as in oneTBB's threads. It asks malloc().
+[[noreturn]] void end_by_exception() noexcept
 {
-    set_last_words(end_by_fault);
-    std::set_new_handler(end_without_memory);
-    std::set_terminate(end_in_one_line);
+    try {
+        if (std::current_exception()) throw;
+    } catch (const std::bad_alloc&) {
+        end_without_memory();
+    } catch (...) {
+    }
+    std::abort();
 }
 
 }  // namespace
 
-int run_process(const std::function<int()>& run) { return open_closed_streams() ? end_as(run()) : 1; }
+int run_process(const std::function<int()>& run)
+{
+    end_by_signals();
+    std::set_new_handler(end_without_memory);
+    std::set_terminate(end_by_exception);
+    return open_closed_streams() ? run() : 1;
+}
 
 }  // namespace swivel::tools

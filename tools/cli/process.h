@@ -7,9 +7,9 @@
 
 namespace swivel::tools {
 
-// For main(): what run() gives, as the process's end. Closed standard streams are no file's; a run that a signal ended
-// ends by that signal. Where nobody can catch an exception, as in threads and before main(), it is one line and exit
-// code 1, too.
+// For main(): what run() returns. Whatever ends the process from now on, a signal, a fault or a lack of memory, first
+// removes unfinished files and says one line. A signal that is ignored, or that something else waits for, such as a
+// sanitizer, is left to that. Closed standard streams are no file's.
 int run_process(const std::function<int()>& run);
 
 }  // namespace swivel::tools

@@ -23,14 +23,11 @@ bool is_watched()
     return isatty(STDERR_FILENO) && terminal && std::strcmp(terminal, "dumb") != 0;
 }
 
-// Of the terminal; 80, as terminals are by custom, where neither it nor COLUMNS says.
+// Of the terminal; 80, as terminals are by custom, where it does not say.
 std::size_t column_count()
 {
     winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-    const char* said = std::getenv("COLUMNS");
-    const long columns = said ? std::strtol(said, nullptr, 10) : 0;
-    return columns > 0 ? static_cast<std::size_t>(columns) : 80;
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "tools/cli/streams.h"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <unistd.h>
 
 namespace swivel::tools {
@@ -25,12 +24,6 @@ bool is_output_whole()
     const bool is_whole = std::fflush(stdout) == 0 && !std::ferror(stdout);
     std::clearerr(stdout);
     return is_whole;
-}
-
-bool has_lost_its_reader()
-{
-    pollfd output = {STDOUT_FILENO, POLLOUT, 0};
-    return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
 }  // namespace swivel::tools

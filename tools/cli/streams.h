@@ -32,7 +32,4 @@ void say(std::FILE* to, fmt::format_string<Values...> text, Values&&... values)
 // Whether all that was said on standard output since the last call has been written.
 bool is_output_whole();
 
-// Whether standard output is a pipe or a socket that nobody reads any more.
-bool has_lost_its_reader();
-
 }  // namespace swivel::tools

@@ -182,11 +182,5 @@ std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t
         if (digests.at(n) != golden_of(recipes[n])) names.push_back(full_name(recipes[n]));
     return names;
 }
-std::string shortened(const std::vector<std::string>& names)
-{
-    std::string text;
-    for (std::size_t n = 0; n < names.size() && n < 3; ++n) text += (n == 0 ? "" : ", ") + names[n];
-    return names.size() <= 3 ? text : text + " and " + std::to_string(names.size() - 3) + " more";
-}
 
 }  // namespace swivel::corpus

@@ -74,7 +74,5 @@ std::uint64_t digest_of(Part part, Solve&& solve, std::uint32_t limb_count = 0)
 std::uint64_t golden_of(const Recipe& recipe);
 // The names of a part's crowds whose digests, at their own sizes, are not the golden ones.
 std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t>& digests);
-// "hard joints, hard world and 3 more": at most three of the names. Empty for none.
-std::string shortened(const std::vector<std::string>& names);
 
 }  // namespace swivel::corpus

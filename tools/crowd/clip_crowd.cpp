@@ -204,18 +204,6 @@ formats::PoseRow ClipCrowd::solved_pose(std::size_t limb, std::uint32_t characte
     return row;
 }
 
-std::uint32_t ClipCrowd::flags(formats::LimbName limb, std::uint32_t character) const
-{
-    std::uint32_t flags;
-    crowds().read(limb_index(limb), SWIVEL_FLAGS, character, 1, {&flags, sizeof flags});
-    return flags;
-}
-
-std::string ClipCrowd::explain(formats::LimbName limb, std::uint32_t character) const
-{
-    return crowds().explain(limb_index(limb), character);
-}
-
 Quaterniond ClipCrowd::clavicle(std::size_t limb, std::uint32_t character) const
 {
     float turn[4];

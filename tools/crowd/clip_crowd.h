@@ -53,10 +53,6 @@ public:
     std::span<const formats::PoseExtra> extras();
     formats::PoseColumns columns() const;
 
-    // What the solver says of a limb that is solved: its flags, and why it is as it is.
-    std::uint32_t flags(formats::LimbName limb, std::uint32_t character) const;
-    std::string explain(formats::LimbName limb, std::uint32_t character) const;
-
     // What is solved, for a page or a cache that solves it again.
     const GoalCrowd& goal_crowd() const { return crowd_; }
     const ClipMotion& motion() const { return motion_; }

@@ -3,7 +3,6 @@
 // What a solved crowd's errors are, and how far it is from its clip, by forward kinematics in double.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <numbers>
 
@@ -72,15 +71,11 @@ void ClipCrowd::measure_range(std::size_t limb, std::uint32_t begin, std::uint32
             aims ? residuals[n - begin] : (Vector3d(at.wrist) + effector - Vector3d(wanted.target)).norm() / length;
         const std::uint32_t word = flags[n - begin];
         statistics.add_flags(word, distance, pose);
-        if (word & SWIVEL_BAD_INPUT) {  // counted and listed; its errors mean nothing
-            statistics.worst.add(std::numeric_limits<double>::quiet_NaN(), pose);
-            continue;
-        }
+        if (word & SWIVEL_BAD_INPUT) continue;  // it is counted; its errors mean nothing
         if (aims)
             (word & SWIVEL_REACHED ? statistics.aimed : statistics.aim_missed).add(distance, pose);
         else if (!plan.blends_position)
             (word & SWIVEL_REACHED ? statistics.reached : statistics.missed).add(distance, pose);
-        if (aims || !plan.blends_position) statistics.worst.add(distance, pose);
         if (hand && !plan.blends_hand && !aims)
             statistics.orientation.add(angle(Quaterniond(wanted.hand).conjugate() * Quaterniond(at.hand)), pose);
         measure_against_clip(limb, pose, Vector3d(at.elbow), statistics);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <bit>
 
 #include "tools/crowd/parallel.h"
@@ -123,13 +122,6 @@ void LimbCrowds::forward(std::size_t limb, std::uint32_t first, std::uint32_t co
 void LimbCrowds::residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const
 {
     check(swivel_residuals(crowd_of(limb).get(), places_[limb].group, first, count, distance));
-}
-
-std::string LimbCrowds::explain(std::size_t limb, std::uint32_t character) const
-{
-    std::array<char, SWIVEL_EXPLANATION_BYTES> text;
-    check(swivel_explain(crowd_of(limb).get(), places_[limb].group, character, text.data(), text.size()));
-    return text.data();
 }
 
 void LimbCrowds::reset(std::size_t limb, std::uint32_t character)

@@ -33,8 +33,6 @@ public:
     void forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
                  swivel_out hand) const;
     void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
-    // Why the limb is as it is; see swivel_explain().
-    std::string explain(std::size_t limb, std::uint32_t character) const;
     // Forgets a limb's swivel, where it is carried.
     void reset(std::size_t limb, std::uint32_t character);
 

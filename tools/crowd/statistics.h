@@ -10,8 +10,6 @@
 #include <compare>
 #include <cstdint>
 #include <limits>
-#include <span>
-#include <utility>
 
 #include "swivel/swivel.h"
 #include "tools/formats/limb_name.h"
@@ -57,48 +55,6 @@ struct ErrorStat {
     double rms() const { return count ? std::sqrt(sum2 / static_cast<double>(count)) : 0; }
 };
 
-struct WorstLimb {
-    PoseName pose;
-    double error = 0;
-};
-
-// The limbs with the largest errors, each in its worst frame: the largest first, no limb of a character twice. Those
-// with bad input come before all others: their error is NaN.
-class WorstLimbs {
-public:
-    static constexpr std::size_t kMost = 10;
-
-    void add(double error, const PoseName& pose)
-    {
-        const WorstLimb limb{pose, error};
-        if (count_ == kMost && !is_worse(limb, limbs_.back())) return;
-        WorstLimb* const same = std::find_if(limbs_.data(), limbs_.data() + count_, [&](const WorstLimb& other) {
-            return other.pose.character == pose.character && other.pose.limb == pose.limb;
-        });
-        const bool is_new = same == limbs_.data() + count_;
-        if (!is_new && !is_worse(limb, *same)) return;
-        if (is_new && count_ < kMost) ++count_;
-        WorstLimb* to = is_new ? limbs_.data() + count_ - 1 : same;  // in the place of the least, or of itself
-        *to = limb;
-        for (; to != limbs_.data() && is_worse(*to, to[-1]); --to) std::swap(*to, to[-1]);
-    }
-    void add(const WorstLimbs& other)
-    {
-        for (const WorstLimb& limb : other.limbs()) add(limb.error, limb.pose);
-    }
-    std::span<const WorstLimb> limbs() const { return {limbs_.data(), count_}; }
-
-private:
-    static bool is_worse(const WorstLimb& a, const WorstLimb& b)
-    {
-        const double rank = rank_of(a.error), other = rank_of(b.error);
-        return rank > other || (rank == other && a.pose < b.pose);
-    }
-
-    std::array<WorstLimb, kMost> limbs_;
-    std::size_t count_ = 0;
-};
-
 struct FlagStat {
     std::uint64_t count = 0;
     PoseName first_pose = kNoPose;
@@ -120,7 +76,6 @@ struct LimbStatistics {
     ErrorStat missed;       // the same, of the others
     ErrorStat aimed;        // the same, between the hand's ray and the target, of limbs that aim and hit it
     ErrorStat aim_missed;   // the same, of limbs that aim and do not
-    WorstLimbs worst;       // by these four; bad input is NaN
     ErrorStat orientation;  // radians, between hand or foot and its wanted orientation
     // Differences from the clip, of elbow or knee in limb lengths:
     ErrorStat given;  // of limbs that were given another goal, pole or aim than the clip's; all others follow it
@@ -147,7 +102,6 @@ struct LimbStatistics {
         missed.add(other.missed);
         aimed.add(other.aimed);
         aim_missed.add(other.aim_missed);
-        worst.add(other.worst);
         orientation.add(other.orientation);
         given.add(other.given);
         bent.add(other.bent);

@@ -172,8 +172,6 @@ void OutputFile::fail(std::string_view action)
 {
     const std::error_code reason(errno, std::generic_category());
     discard();
-    if (reason == std::errc::broken_pipe && target_.empty() && named_ == kStandardOutput)
-        throw std::system_error(reason, kStandardOutput);
     throw InputError(named_, fmt::format("{}: {}; {}", action, reason.message(), advice(reason)));
 }
 

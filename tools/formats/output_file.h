@@ -34,8 +34,7 @@ public:
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    // Appends `bytes`. They may stay in the buffer, so a full disk can show here or at commit(): InputError. Where
-    // nobody reads standard output any more, that is a std::system_error with EPIPE: no fault of a file's.
+    // Appends `bytes`. They may stay in the buffer, so a full disk can show here or at commit(): InputError.
     void write(std::string_view bytes);
 
     // Writes out the buffer, waits until the disk has it all, closes and renames. Throws InputError when any of it

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// getdents64() and strerrordesc_np() take no memory; they need glibc 2.32.
 #include "tools/formats/partial.h"
 
 #include <dirent.h>
@@ -7,21 +6,36 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <csignal>
 #include <mutex>
 #include <utility>
 
 namespace swivel::formats {
 namespace {
 
-std::mutex list_mutex;  // nothing takes memory while it is held
+std::mutex list_mutex;
 Partial* all_partials = nullptr;
 constexpr int kMostRounds = 100;
-std::array<char, 512> unremoved_buffer;
-std::atomic<const char*> unremoved_text{""};  // set once, so any thread may read it at any time
+
+// Nothing takes memory while it is held, and no signal comes between: a handler never waits for its own thread.
+sigset_t lock_list() noexcept
+{
+    sigset_t all, before;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);
+    list_mutex.lock();
+    return before;
+}
+
+struct ListLock {
+    sigset_t before = lock_list();
+    ~ListLock()
+    {
+        list_mutex.unlock();
+        ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    }
+};
 
 bool remove_at(int folder, const char* name) noexcept;
 
@@ -44,17 +58,13 @@ void empty_folder(int folder) noexcept
     }
 }
 
-// False: errno says why.
+// False: it stays.
 bool remove_at(int folder, const char* name) noexcept
 {
     if (::unlinkat(folder, name, 0) == 0 || errno == ENOENT) return true;
-    const int reason = errno;
-    if (reason != EISDIR && reason != EPERM) return false;
+    if (errno != EISDIR && errno != EPERM) return false;
     const int inner = ::openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (inner < 0) {
-        errno = reason;  // of a plain file that may not be removed
-        return false;
-    }
+    if (inner < 0) return false;
     empty_folder(inner);
     ::close(inner);
     return ::unlinkat(folder, name, AT_REMOVEDIR) == 0;
@@ -64,13 +74,13 @@ bool remove_at(int folder, const char* name) noexcept
 
 Partial::Partial(int folder) : folder_(folder)
 {
-    const std::lock_guard lock(list_mutex);
+    const ListLock lock;
     next_ = std::exchange(all_partials, this);
 }
 
 Partial::~Partial()
 {
-    const std::lock_guard lock(list_mutex);
+    const ListLock lock;
     remove_locked();
     Partial** place = &all_partials;
     while (*place != this) place = &(*place)->next_;
@@ -81,7 +91,7 @@ int Partial::make(const std::filesystem::path& folder, const std::function<int(c
 {
     for (int n = 0;; ++n) {
         std::string name = (folder / fmt::format(".swivel-{}-{}", ::getpid(), n)).string();
-        const std::lock_guard lock(list_mutex);  // so that whatever is there has an owner that remove_all() sees
+        const ListLock lock;  // so that whatever is there has an owner that remove_all() sees
         const int made = create(name.c_str());
         if (made < 0 && errno == EEXIST) continue;
         if (made >= 0) name_ = std::move(name);
@@ -91,7 +101,7 @@ int Partial::make(const std::filesystem::path& folder, const std::function<int(c
 
 bool Partial::rename(const std::filesystem::path& target) noexcept
 {
-    const std::lock_guard lock(list_mutex);
+    const ListLock lock;
     if (::renameat(folder_, name_.c_str(), folder_, target.c_str()) != 0) return false;
     name_.clear();
     return true;
@@ -99,26 +109,20 @@ bool Partial::rename(const std::filesystem::path& target) noexcept
 
 void Partial::remove() noexcept
 {
-    const std::lock_guard lock(list_mutex);
+    const ListLock lock;
     remove_locked();
 }
 
 void Partial::remove_locked() noexcept
 {
-    if (!name_.empty() && !remove_at(folder_, name_.c_str()) && unremoved().empty()) {
-        std::snprintf(unremoved_buffer.data(), unremoved_buffer.size(), "%s cannot be removed: %s", name_.c_str(),
-                      ::strerrordesc_np(errno));
-        unremoved_text = unremoved_buffer.data();
-    }
+    if (!name_.empty()) remove_at(folder_, name_.c_str());
     name_.clear();
 }
 
 void Partial::remove_all() noexcept
 {
-    const std::lock_guard lock(list_mutex);
+    lock_list();
     for (Partial* each = all_partials; each; each = each->next_) each->remove_locked();
 }
-
-std::string_view Partial::unremoved() noexcept { return unremoved_text.load(); }
 
 }  // namespace swivel::formats

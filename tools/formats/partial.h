@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 
 namespace swivel::formats {
 
@@ -35,13 +34,9 @@ public:
     // Removes it, a folder with all in it. Takes no memory.
     void remove() noexcept;
 
-    // Removes those of all objects of the process. For its last moments: the objects are of no use then. Any thread may
-    // call it, whatever others do.
+    // Removes those of all objects of the process. For its last moments: from then on any use of an object, and another
+    // call, waits for ever. Any thread may call it, a signal's handler, too, whatever others do.
     static void remove_all() noexcept;
-
-    // What the process first could not remove, and why, cut to 511 bytes; empty: it has removed all. The text stays
-    // where it is. Any thread.
-    static std::string_view unremoved() noexcept;
 
 private:
     void remove_locked() noexcept;

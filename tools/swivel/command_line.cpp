@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <new>
 #include <sstream>
 #include <string_view>
 
@@ -51,24 +50,14 @@ void add_solve(CLI::App& app)
                               "Write the clip's wrists, poles and hands, or those given, as a table to edit and to "
                               "give back by --targets"),
           file_name());
-    CLI::Option* out =
-        takes(command->add_option(
-                  "-o,--out", options->out,
-                  "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A motion "
-                  "file holds one character and keeps all else of the asset. - is standard output, and the "
-                  "report then goes to standard error. Without it "
-                  "there are statistics only"),
-              file_name());
-    takes(command->add_option("--format", options->format,
-                              "Format of --out. Without it the suffix says it; standard output is CSV"),
-          one_of({"csv", "bvh", "glb", "gltf"}))
-        ->needs(out);
+    takes(command->add_option(
+              "-o,--out", options->out,
+              "Write the poses to .csv, or to the clip's own format, .bvh or .glb, .gltf and .vrm. A motion "
+              "file holds one character and keeps all else of the asset. - is standard output, as CSV, and the "
+              "report then goes to standard error. Without it "
+              "there are statistics only"),
+          file_name());
     add_view(*command, options->view);
-    add_report(*command, options->report,
-               "errors, flags over time and the worst limbs, which link into the page of --view. - is standard output");
-    command->add_flag("--strict", options->strict,
-                      "Fail with exit code 1, after writing --out, if most limbs are out of reach or have bad input. "
-                      "Without it a note says so");
     add_quiet(*command, options->quiet, "Print errors, and what --json and --out - ask for, and nothing else");
     add_json(*command, options->json);
     command->callback([options] { run_solve(*options); });
@@ -89,7 +78,6 @@ void add_view_command(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "view", "Write a page that shows the crowd of a clip or a cache, solves it live and lets you drag its limbs");
     auto options = std::make_shared<SolveOptions>();
-    options->view_option = "--out";
     add_crowd_of_clip(*command, *options);
     takes(command->add_option("-o,--out", options->view,
                               "The page, to open in a browser; it needs no network and no other file. Without it it is "
@@ -109,10 +97,11 @@ void add_rig(CLI::App& app)
     CLI::App* command = app.add_subcommand(
         "rig", "Show what a skeleton is to the solver: its arms and legs, lengths, axes, bends, and what is missing");
     auto options = std::make_shared<RigOptions>();
-    add_file(*command, options->file, "Skeleton, with or without motion");
-    add_kinds(*command, options->kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
-    add_named_limbs(*command, options->arms, options->legs, "The other side is still looked for");
-    add_motion(*command, options->motion,
+    options->clip.kinds = "all";
+    add_file(*command, options->clip.file, "Skeleton, with or without motion");
+    add_kinds(*command, options->clip.kinds, "Which limbs to look for: arms, legs or all")->capture_default_str();
+    add_named_limbs(*command, options->clip.arms, options->clip.legs, "The other side is still looked for");
+    add_motion(*command, options->clip.motion,
                "It decides the limits that are printed. Where the rest pose is straight or bends otherwise, it decides "
                "bends and axes, too");
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
@@ -127,38 +116,17 @@ void add_steps(CLI::App& app)
     CLI::App* command =
         app.add_subcommand("steps", "Print the lecture's five steps for one arm, entity by entity, as multivectors");
     auto options = std::make_shared<StepsOptions>();
-    const auto vector = [] { return numbers(3, -HUGE_VAL); };
-    CLI::Option* file =
-        takes(command->add_option("FILE", options->file,
-                                  "A clip, instead of an arm by its numbers: BVH or glTF, as its first bytes say. "
-                                  "- is standard input"),
-              file_name())
-            ->option_text(" ");
-    takes(command->add_option("--target", options->target, "Where the wrist goes, in the arm frame")
-              ->capture_default_str(),
-          vector())
-        ->excludes(file);
-    takes(command->add_option("--pole", options->pole, "A point on the elbow's side, in the arm frame")
-              ->capture_default_str(),
-          vector())
-        ->excludes(file);
-    takes(command->add_option("--lengths", options->lengths, "Upper arm and forearm")->capture_default_str(),
-          numbers(2, 0))
-        ->excludes(file);
-    takes(command->add_option("--limb", options->limb, "Which limb of the clip")->capture_default_str(),
-          one_of({"left_arm", "right_arm", "left_leg", "right_leg"}))
-        ->needs(file);
-    takes(command->add_option("--frame", options->frame, "Which frame of the clip, counted from 0")
-              ->capture_default_str(),
-          whole_number(0, 1'000'000'000))
-        ->needs(file);
-    add_named_limbs(*command, options->arms, options->legs, "Without it names in use tell the joints");
-    add_motion(*command, options->motion, "A file without animations has its rest pose alone");
-    for (const char* about_file : {"--arm", "--leg", "--clip", "--fps"}) command->get_option(about_file)->needs(file);
+    const auto add = [&](const char* name, std::string& text, const OptionValue& value, const char* meaning) {
+        takes(command->add_option(name, text, meaning)->capture_default_str(), value);
+    };
+    const OptionValue vector = numbers(3, -HUGE_VAL);
+    add("--target", options->target, vector, "Where the wrist goes, in the arm frame");
+    add("--pole", options->pole, vector, "A point on the elbow's side, in the arm frame");
+    add("--lengths", options->lengths, numbers(2, 0), "Upper arm and forearm");
     add_json(*command, options->json);
     command->footer(
         "The arm frame has the shoulder at its origin; a straight arm at rest lies along e3. Without any option\n"
-        "the arm is the example of docs/mathematics.md.");
+        "the arm is the example of docs/mathematics.md. The page of swivel view shows the steps of a clip's limbs.");
     command->callback([options] { run_steps(*options); });
 }
 
@@ -171,7 +139,6 @@ void add_verify(CLI::App& app)
               ->capture_default_str(),
           whole_number(1, 1'000'000'000));
     add_seed(*command, options->seed, "the random arms");
-    add_report(*command, options->report, "checks, errors by band of reach, digests");
     add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->callback([options] { run_verify(*options); });
@@ -185,11 +152,10 @@ void add_bench(CLI::App& app)
     takes(command->add_option("--seconds", options->seconds, "Seconds to share among all that is timed, 0.1 to 3600")
               ->capture_default_str(),
           number(0.1, 3600));
-    add_report(*command, options->report, "rivals, speed by size of the crowd, roofline");
-    add_quiet(*command, options->quiet);
     add_json(*command, options->json);
     command->footer(
-        "Takes about two seconds more, and some 500 MB. For figures to keep, leave the machine alone meanwhile.");
+        "Prints nanoseconds an arm: medians, on one thread but for the rows of threads. Takes some seconds more, and\n"
+        "some 500 MB. docs/speed.md says what the rows are. For figures to keep, leave the machine alone meanwhile.");
     command->callback([options] { run_bench(*options); });
 }
 
@@ -203,17 +169,6 @@ void add_info(CLI::App& app)
 
 // ---- the run
 
-// What takes less memory, by the options that the command has.
-std::string memory_advice_for(const CLI::App& command, bool is_thread)
-{
-    const auto has = [&](const char* option) { return command.get_option_no_throw(option) != nullptr; };
-    std::vector<std::string> ways;
-    if (is_thread && has("--threads")) ways.push_back("--threads 1");
-    if (has("--characters")) ways.push_back("fewer --characters");
-    if (has("FILE")) ways.push_back("a shorter clip");
-    return fmt::format("{}{}", ways.empty() ? "" : "; try ", fmt::join(ways, " or "));
-}
-
 // Lets the words do what they say. Throws whatever fails.
 void parse(CLI::App& app, int argc, const char* const* argv)
 {
@@ -225,15 +180,11 @@ void parse(CLI::App& app, int argc, const char* const* argv)
         say_text(stdout, text.str());
     } catch (const CLI::ParseError& error) {
         throw CommandError(2, cause_of(app, error));
-    } catch (const std::bad_alloc&) {
-        throw CommandError(1, fmt::format("{}{}", kNotEnoughMemory, memory_advice()));
     } catch (const Error& error) {
-        if (error.status != SWIVEL_OUT_OF_MEMORY) throw;
-        throw CommandError(1, fmt::format("{}{}", kNotEnoughMemory, memory_advice()));
+        throw CommandError(1, error.status == SWIVEL_OUT_OF_MEMORY ? kNotEnoughMemory : error.what());
     } catch (const std::runtime_error& error) {
         if (!std::string_view(error.what()).starts_with("pthread_create ")) throw;  // so oneTBB begins
-        throw CommandError(1, fmt::format("{} to start a thread{}", kNotEnoughMemory,
-                                          memory_advice_for(*app.get_subcommands().at(0), true)));
+        throw CommandError(1, kNotEnoughMemory);
     }
 }
 
@@ -258,10 +209,7 @@ void run(int argc, const char* const* argv)
     add_verify(app);
     add_bench(app);
     add_info(app);
-    add_completion(app);
     add_help(app);
-    for (CLI::App* command : app.get_subcommands({}))
-        command->preparse_callback([command](std::size_t) { note_memory_advice(memory_advice_for(*command, false)); });
     parse(app, argc, argv);
 }
 

@@ -9,9 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "tools/swivel/motion_choice.h"
-
 namespace swivel::tools {
+
+// Which of a file's animations, and how densely.
+struct MotionChoice {
+    std::string clip;  // name or index of an animation; empty: the first
+    double rate = 0;   // frames a second; 0: as the file has them
+};
 
 struct DemoOptions {
     std::uint32_t characters = 10'000, frames = 240;
@@ -24,11 +28,8 @@ void run_demo(const DemoOptions& options);
 
 struct SolveOptions {
     std::string file, crowd, out, export_targets;
-    std::string view;                    // the page to write; empty: none
-    const char* view_option = "--view";  // which names it
-    std::string report;                  // the report to write as HTML; empty: none
-    std::uint32_t frames = 0;            // of the clip, from its first; 0: all
-    std::string format;                  // of out; empty: its suffix's
+    std::string view;          // the page to write; empty: none
+    std::uint32_t frames = 0;  // of the clip, from its first; 0: all
     MotionChoice motion;
     std::vector<std::string> arms, legs;
     std::string kinds;
@@ -37,7 +38,7 @@ struct SolveOptions {
     std::optional<std::uint32_t> characters;
     std::optional<std::uint64_t> seed;
     unsigned threads = 0;
-    bool strict = false, quiet = false, json = false;
+    bool quiet = false, json = false;
 };
 void run_solve(const SolveOptions& options);
 // The same for the page alone, whose name comes from the file's unless `view` says it. The file may be a cache.
@@ -80,34 +81,26 @@ struct ReplayOptions {
 void run_replay(const ReplayOptions& options);
 
 struct RigOptions {
-    std::string file, kinds = "all";
-    MotionChoice motion;
-    std::vector<std::string> arms, legs;
+    SolveOptions clip;  // its file, motion and limbs
     bool joints = false, toml = false, json = false;
 };
 void run_rig(const RigOptions& options);
 
 struct StepsOptions {
     std::string target = "1.1,1.1,1.1", pole = "1.1,1.1,0", lengths = "1.4,1.3";  // of an arm, in its arm frame
-    std::string file, limb = "left_arm";                                          // or of a clip's limb in a frame
-    std::uint32_t frame = 0;
-    MotionChoice motion;
-    std::vector<std::string> arms, legs;
     bool json = false;
 };
 void run_steps(const StepsOptions& options);
 
 struct VerifyOptions {
     std::uint64_t arms = 1'000'000, seed = 1;
-    std::string report;  // the report to write as HTML; empty: none
     bool quiet = false, json = false;
 };
 void run_verify(const VerifyOptions& options);
 
 struct BenchOptions {
     double seconds = 8;
-    std::string report;  // the same
-    bool quiet = false, json = false;
+    bool json = false;
 };
 void run_bench(const BenchOptions& options);
 

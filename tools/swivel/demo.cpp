@@ -10,7 +10,6 @@
 
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
-#include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/clip_crowd.h"
 #include "tools/crowd/demo_clip.h"
@@ -19,7 +18,6 @@
 #include "tools/swivel/cached_clip.h"
 #include "tools/swivel/commands.h"
 #include "tools/swivel/report.h"
-#include "tools/swivel/report_file.h"
 #include "tools/swivel/view_page.h"
 
 namespace swivel::tools {
@@ -48,7 +46,6 @@ CrowdPlan demo_plan(const DemoOptions& options, std::size_t limb_count)
 
 Statistics solve_demo(const DemoOptions& options)
 {
-    const StopSignals signals;  // there may be a page to remove
     std::optional<ViewPage> page;
     if (!options.view.empty()) page.emplace(options.view);
     const formats::Clip clip = demo_clip(std::min<std::size_t>(options.frames, kDemoFrames));
@@ -59,7 +56,6 @@ Statistics solve_demo(const DemoOptions& options)
     {
         Progress progress("frames", options.frames, options.quiet);
         for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
-            signals.check();
             progress.show(frame);
             crowd.set_frame(frame, {});
             crowd.solve(statistics);
@@ -67,7 +63,6 @@ Statistics solve_demo(const DemoOptions& options)
             if (page && frame < clip.frame_count) page->add_frame(crowd.goal_crowd(), crowd.given_places());
         }
     }
-    signals.check();
     if (page)
         page->commit(cached_clip({"swivel demo", "a made-up crowd"}, clip, limbs, plan, crowd.motion()),
                      crowd.goal_crowd());
@@ -78,7 +73,6 @@ Statistics solve_demo(const DemoOptions& options)
 
 void run_demo(const DemoOptions& options)
 {
-    require_html_name("--view", options.view);
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const ThreadLimit limit(options.threads);
     std::FILE* const reports = formats::is_standard_stream(options.view) ? stderr : stdout;

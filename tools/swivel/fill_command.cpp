@@ -12,7 +12,6 @@
 #include "tools/cli/command_error.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/progress.h"
-#include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
@@ -63,16 +62,12 @@ void require_done(const Cache& cache, std::span<const ChunkAt> chunks)
                                                                         : "take the files in digest/ from a copy"));
 }
 
-// Fills, compares or mends with progress on stderr, and stops for signals between chunks.
+// Fills, compares or mends with progress on stderr.
 template <class Work>
 FillReport run_visibly(FillOptions options, std::size_t chunk_count, bool quiet, Work work)
 {
-    const StopSignals signals;
     Progress progress("chunks", std::max<std::size_t>(chunk_count, 1), quiet);
-    options.progress = [&](std::uint64_t done) {
-        signals.check();
-        progress.show(done);
-    };
+    options.progress = [&](std::uint64_t done) { progress.show(done); };
     return work(options);
 }
 
@@ -128,12 +123,10 @@ void print_fill(const FillReport& report)
 std::vector<ChunkAt> damaged_poses(const Cache& cache, std::span<const ChunkAt> chunks, bool quiet)
 {
     const CachedCrowd& crowd = cache.crowd();
-    const StopSignals signals;
     Progress progress("chunks", chunks.size(), quiet);
     std::vector<ChunkAt> damaged;
     std::unique_ptr<Column> column;
     for (std::size_t n = 0; n < chunks.size(); ++n) {
-        signals.check();
         progress.show(n);
         const ChunkAt at = chunks[n];
         if (!column || column->index() != at.column) {

@@ -109,12 +109,13 @@ std::vector<std::string> MotionFile::notes() const
                         bvh->surplus_count == 1 ? "is" : "are")};
 }
 
-void MotionFile::require_can_write(const OutPlace& out) const
+void MotionFile::require_can_write(const std::filesystem::path& out) const
 {
     const bool is_bvh_clip = std::holds_alternative<BvhFile>(file_);
-    if (is_bvh_clip ? !is_bvh(out.suffix) : !is_gltf(out.suffix))
-        throw CommandError(2, fmt::format("--out {}: this clip is a {} file; its poses go to {} or .csv",
-                                          out.path.string(), format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm"));
+    const std::string suffix = formats::lower_suffix(out);
+    if (is_bvh_clip ? !is_bvh(suffix) : !is_gltf(suffix))
+        throw CommandError(2, fmt::format("--out {}: this clip is a {} file; its poses go to {} or .csv", out.string(),
+                                          format_, is_bvh_clip ? ".bvh" : ".glb, .gltf, .vrm"));
 }
 
 void MotionFile::require_can_key(int joint) const
@@ -122,12 +123,12 @@ void MotionFile::require_can_key(int joint) const
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_)) formats::require_can_key(*gltf, joint);
 }
 
-void MotionFile::write(const OutPlace& out, std::span<const formats::RotationOverride> overrides) const
+void MotionFile::write(const std::filesystem::path& out, std::span<const formats::RotationOverride> overrides) const
 {
     if (const GltfFile* gltf = std::get_if<GltfFile>(&file_))
-        formats::write_gltf(out.path, *gltf, overrides, out.suffix != ".gltf");
+        formats::write_gltf(out, *gltf, overrides, formats::lower_suffix(out) != ".gltf");
     else
-        formats::write_bvh(out.path, std::get<BvhFile>(file_), overrides);
+        formats::write_bvh(out, std::get<BvhFile>(file_), overrides);
 }
 
 }  // namespace swivel::tools

@@ -12,15 +12,9 @@
 
 #include "tools/formats/bvh.h"
 #include "tools/formats/gltf.h"
-#include "tools/swivel/motion_choice.h"
+#include "tools/swivel/commands.h"
 
 namespace swivel::tools {
-
-// Where poses go, and in which format.
-struct OutPlace {
-    std::filesystem::path path;
-    std::string suffix;  // of the format, in lower case: ".csv", ".bvh", ".glb"; mostly the path's own
-};
 
 class MotionFile {
 public:
@@ -44,10 +38,11 @@ public:
     // What the user should know of how it was read, a line each; mostly nothing.
     std::vector<std::string> notes() const;
     // Throws CommandError (bad usage) for an output file that cannot hold this motion.
-    void require_can_write(const OutPlace& out) const;
+    void require_can_write(const std::filesystem::path& out) const;
     // Throws InputError for a joint whose rotation that cannot hold.
     void require_can_key(int joint) const;
-    void write(const OutPlace& out, std::span<const formats::RotationOverride> overrides) const;
+    // In the format that the suffix of `out` says.
+    void write(const std::filesystem::path& out, std::span<const formats::RotationOverride> overrides) const;
 
 private:
     std::variant<formats::BvhFile, formats::GltfFile> file_;

@@ -32,6 +32,9 @@ void MotionKeys::require_can_write(const MotionFile& file) const
     for (const formats::RotationOverride& each : overrides(file.clip())) file.require_can_key(each.joint);
 }
 
-void MotionKeys::write(const OutPlace& out, const MotionFile& file) const { file.write(out, overrides(file.clip())); }
+void MotionKeys::write(const std::filesystem::path& out, const MotionFile& file) const
+{
+    file.write(out, overrides(file.clip()));
+}
 
 }  // namespace swivel::tools

@@ -27,7 +27,7 @@ public:
     void require_can_write(const MotionFile& file) const;
 
     // Writes the clip's file with them; throws as MotionFile::write() does.
-    void write(const OutPlace& out, const MotionFile& file) const;
+    void write(const std::filesystem::path& out, const MotionFile& file) const;
 
 private:
     std::vector<formats::RotationOverride> overrides(const formats::Clip& clip) const;

@@ -12,7 +12,6 @@
 #include "tools/cli/command_error.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/progress.h"
-#include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/error.h"
@@ -237,7 +236,6 @@ void run_replay(const ReplayOptions& options)
     require_memory(cache.folder(), bytes, memory, options.out.empty() ? "a chunk" : "a chunk with the table's rows",
                    "give more by --memory, or ask for fewer characters");
     const ThreadLimit limit(options.threads);
-    const StopSignals signals;
     std::optional<TableWriter> table;
     if (!options.out.empty()) table.emplace(options.out, crowd, held_frames, characters);
     const Range times{frames.begin / chunk.frames, (frames.end - 1) / chunk.frames + 1};
@@ -247,7 +245,6 @@ void run_replay(const ReplayOptions& options)
         Progress progress("chunks", order.size(), options.quiet);
         std::optional<ColumnReplay> column;
         for (std::size_t n = 0; n < order.size(); ++n) {
-            signals.check();
             progress.show(n);
             const ChunkAt at = order[n];
             if (!column || column->index() != at.column) column.emplace(cache, at.column);
@@ -260,7 +257,6 @@ void run_replay(const ReplayOptions& options)
             if (at.column + 1 == columns.end) table->write({first + when.begin, first + when.end});
         }
     }
-    signals.check();
     if (table) table->commit();
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
     if (options.json)

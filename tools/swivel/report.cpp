@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -20,32 +20,18 @@ namespace {
 
 using formats::LimbKind;
 
-constexpr std::pair<swivel_flag, const char*> kFlagNames[] = {
-    {SWIVEL_REACHED, "reached"},
-    {SWIVEL_SOFTENED, "softened"},
-    {SWIVEL_STRETCHED, "stretched"},
-    {SWIVEL_CLAMPED_FAR, "clamped far"},
-    {SWIVEL_CLAMPED_NEAR, "clamped near"},
-    {SWIVEL_SWIVEL_UNDEFINED, "swivel undefined"},
-    {SWIVEL_LIMITED_FLEXION, "limited by flexion"},
-    {SWIVEL_LIMITED_SHOULDER_CONE, "limited by shoulder cone"},
-    {SWIVEL_LIMITED_HUMERAL_TWIST, "limited by humeral twist"},
-    {SWIVEL_LIMITED_SHOULDER_BOX, "limited by shoulder box"},
-    {SWIVEL_LIMITED_HAND_CONE, "limited by hand cone"},
-    {SWIVEL_LIMITED_FOREARM_TWIST, "limited by forearm twist"},
-    {SWIVEL_LIMITED_HAND_TWIST, "limited by hand twist"},
-    {SWIVEL_LIMITED_WRIST_BOX, "limited by wrist box"},
-    {SWIVEL_LIMITED_STEP, "limited by most swivel"},
-    {SWIVEL_INFEASIBLE, "infeasible"},
-    {SWIVEL_JUMPED, "jumped"},
-    {SWIVEL_BAD_INPUT, "bad input"}};
-
-FlagStat flag_of(const Statistics& statistics, swivel_flag flag)
+// All flags, each with its name in words, "clamped far".
+std::vector<std::pair<std::string, FlagStat>> flags_of(const Statistics& statistics)
 {
-    const auto bit = static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(flag)));
-    FlagStat of_all = statistics.arms.flags[bit];
-    of_all.add(statistics.legs.flags[bit]);
-    return of_all;
+    std::vector<std::pair<std::string, FlagStat>> flags;
+    for (std::size_t bit = 0; bit < statistics.arms.flags.size(); ++bit) {
+        const char* const name = swivel_flag_name(1u << bit);
+        if (!name) continue;
+        auto& [words, of_all] = flags.emplace_back(name, statistics.arms.flags[bit]);
+        for (char& c : words) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        of_all.add(statistics.legs.flags[bit]);
+    }
+    return flags;
 }
 
 std::string text_of(const PoseName& pose)
@@ -111,8 +97,7 @@ std::vector<Distance> distances_of(const Statistics& statistics)
     return distances;
 }
 
-}  // namespace
-
+// What is wrong with the limbs of a run that went_wrong(), and what to look at.
 std::string what_went_wrong(const Statistics& statistics)
 {
     std::string text = fmt::format("of {} {}", statistics.limb_count(), limbs_solved(statistics));
@@ -125,13 +110,7 @@ std::string what_went_wrong(const Statistics& statistics)
     return text;
 }
 
-std::string flag_names(std::uint32_t word)
-{
-    std::string names;
-    for (const auto& [flag, name] : kFlagNames)
-        if ((word & static_cast<std::uint32_t>(flag)) != 0) names += (names.empty() ? "" : ", ") + std::string(name);
-    return names;
-}
+}  // namespace
 
 void print_statistics(std::FILE* to, const Statistics& statistics)
 {
@@ -141,9 +120,8 @@ void print_statistics(std::FILE* to, const Statistics& statistics)
     for (const Distance& d : distances_of(statistics))
         say(to, "{:<8} {:<32} worst {:.2e}  rms {:.2e}  {}; worst in {}\n", d.meaning.line, d.text, d.stat.max,
             d.stat.rms(), d.unit, text_of(d.stat.worst_pose));
-    for (const auto& [flag, name] : kFlagNames)
-        if (const FlagStat stat = flag_of(statistics, flag); stat.count > 0)
-            say(to, "flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
+    for (const auto& [name, stat] : flags_of(statistics))
+        if (stat.count > 0) say(to, "flag     {} {}, first in {}\n", name, stat.count, text_of(stat.first_pose));
     if (went_wrong(statistics))
         say(to, "note     most {} are not where they should be: {}\n", limbs, what_went_wrong(statistics));
 }
@@ -160,8 +138,7 @@ nlohmann::ordered_json json_of(const Statistics& statistics)
         out[d.meaning.key][d.key] = {
             {"what", d.text},      {"worst", d.stat.max},   {"worst_pose", json_of(d.stat.worst_pose)},
             {"rms", d.stat.rms()}, {"count", d.stat.count}, {"unit", d.unit}};
-    for (const auto& [flag, name] : kFlagNames) {
-        const FlagStat stat = flag_of(statistics, flag);
+    for (const auto& [name, stat] : flags_of(statistics)) {
         out["flags"][name] = stat.count;
         if (stat.count > 0) out["first_flagged"][name] = json_of(stat.first_pose);
     }

@@ -5,18 +5,11 @@
 
 #include <cstdio>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
 #include "tools/crowd/statistics.h"
 #include "tools/formats/clip.h"
 
 namespace swivel::tools {
-
-// What is wrong with the limbs of a run that went_wrong(), and what to look at: one line for people, without its end.
-std::string what_went_wrong(const Statistics& statistics);
-
-// The names of a word's flags, with commas between.
-std::string flag_names(std::uint32_t word);
 
 // Throughput, instruction set, threads, errors, differences from the clip, flags, and a note where went_wrong(), on
 // stdout or stderr.

@@ -11,6 +11,7 @@
 #include "tools/cli/command_error.h"
 #include "tools/rig/limbs.h"
 #include "tools/swivel/commands.h"
+#include "tools/swivel/crowd_job.h"
 #include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
 #include "tools/swivel/rig_report.h"
@@ -22,25 +23,23 @@ void run_rig(const RigOptions& options)
     if (options.toml && (options.json || options.joints))
         throw CommandError(2, "--toml prints a crowd file and nothing else; leave out --json and --joints");
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
-    MotionFile motion(options.file, options.motion);
-    LimbChoice choice;
-    choice.kinds = options.kinds;
-    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
-    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
-    const FigureJoints joints = choose_joints(motion.clip(), options.file, choice);
+    const std::string& file = options.clip.file;
+    const LimbChoice choice = choice_of(options.clip);
+    MotionFile motion(file, options.clip.motion);
+    const FigureJoints joints = choose_joints(motion.clip(), file, choice);
     motion.sample(joints_of(joints));
     const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
-        print_json(json_of(motion, options.file, search, options.joints));
+        print_json(json_of(motion, file, search, options.joints));
     else if (options.toml)
-        print_crowd_file(motion, options.file, search);
+        print_crowd_file(motion, file, search);
     else
-        print_rig(motion, options.file, search, options.joints);
+        print_rig(motion, file, search, options.joints);
     if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))
         return;
     throw CommandError(
-        1, fmt::format("{}: nothing binds: {}{}", options.file, problem_text(findings[0]),
+        1, fmt::format("{}: nothing binds: {}{}", file, problem_text(findings[0]),
                        findings[0].advice.empty() ? "; name joints with --arm and --leg, --joints lists them" : ""));
 }
 

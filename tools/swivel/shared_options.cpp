@@ -66,11 +66,6 @@ void add_view(CLI::App& command, std::string& view)
           file_name());
 }
 
-void add_report(CLI::App& command, std::string& report, const std::string& what)
-{
-    takes(command.add_option("--report", report, "Also write a report as one HTML file: " + what), file_name());
-}
-
 void add_crowd_of_clip(CLI::App& command, SolveOptions& options)
 {
     add_file(command, options.file, "Motion file");

@@ -48,24 +48,16 @@ bool is_read(const std::string& file, const std::string& name)
 
 }  // namespace
 
-OutPlace out_place(const SolveOptions& options)
+OutKind out_kind(const std::string& out, std::uint32_t characters)
 {
-    if (!options.format.empty()) return {options.out, "." + options.format};
-    return {options.out, is_standard_stream(options.out) ? ".csv" : formats::lower_suffix(options.out)};
-}
-
-OutKind out_kind(const SolveOptions& options, std::uint32_t characters)
-{
-    if (options.out.empty()) return OutKind::none;
-    const std::string suffix = out_place(options).suffix;
+    if (out.empty()) return OutKind::none;
+    const std::string suffix = is_standard_stream(out) ? ".csv" : formats::lower_suffix(out);
     if (suffix == ".csv") return OutKind::csv;
     if (!is_bvh(suffix) && !is_gltf(suffix))
-        throw CommandError(2,
-                           fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf, .vrm or .csv, or "
-                                       "--format",
-                                       options.out));
+        throw CommandError(
+            2, fmt::format("--out {}: no writer for this suffix; use .bvh, .glb, .gltf, .vrm or .csv", out));
     if (characters > 1)
-        throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", options.out,
+        throw CommandError(2, fmt::format("--out {}: a {} file holds one character, not {}; write a .csv", out,
                                           is_bvh(suffix) ? "BVH" : "glTF", characters));
     return OutKind::motion;
 }
@@ -78,34 +70,27 @@ void require_one_reader(const SolveOptions& options, const std::string& targets)
 
 void require_own_files(const SolveOptions& options, const MotionFile& clip, const std::string& targets)
 {
-    const auto refuse_if = [](bool is_lost, const char* option, const std::string& file, const char* what) {
-        if (is_lost) throw CommandError(2, fmt::format("{} {}: is {} itself; name another file", option, file, what));
-    };
-    const auto require_not_read = [&](const char* option, const std::string& file) {
-        if (file.empty() || is_standard_stream(file)) return;  // reading from - is something else
-        refuse_if(is_read(file, options.file), option, file, "the clip");
+    const std::string outputs[] = {options.out, options.export_targets, options.view};
+    for (std::size_t n = 0; n < std::size(outputs); ++n) {
+        const std::string& file = outputs[n];
+        if (file.empty()) continue;
+        const auto refuse_if = [&](bool is_lost, const char* what) {
+            if (is_lost) throw CommandError(2, fmt::format("{}: is {}, too; name another file to write", file, what));
+        };
+        for (std::size_t other = 0; other < n; ++other)
+            refuse_if(!outputs[other].empty() && is_same_file(file, outputs[other]), "another output");
+        if (is_standard_stream(file)) continue;  // reading from - is something else
+        refuse_if(is_read(file, options.file), "the clip");
         for (const std::filesystem::path& beside : clip.files_beside())
-            refuse_if(is_same_file(file, beside), option, file, "a buffer or image of the clip");
-        refuse_if(targets != "clip" && is_read(file, targets), option, file, "the table of targets");
-        refuse_if(!options.crowd.empty() && is_read(file, options.crowd), option, file, "the crowd file");
-    };
-    const std::pair<const char*, const std::string&> outputs[] = {{"--out", options.out},
-                                                                  {"--export-targets", options.export_targets},
-                                                                  {options.view_option, options.view},
-                                                                  {"--report", options.report}};
-    for (const auto& [option, file] : outputs) {
-        require_not_read(option, file);
-        for (const auto& [other, other_file] : outputs) {
-            if (&file == &other_file) break;
-            if (!file.empty() && !other_file.empty())
-                refuse_if(is_same_file(file, other_file), option, file, fmt::format("the file of {}", other).c_str());
-        }
+            refuse_if(is_same_file(file, beside), "a buffer or image of the clip");
+        refuse_if(targets != "clip" && is_read(file, targets), "the table of targets");
+        refuse_if(!options.crowd.empty() && is_read(file, options.crowd), "the crowd file");
     }
 }
 
 std::FILE* report_stream(const SolveOptions& options)
 {
-    const auto outputs = {options.out, options.export_targets, options.view, options.report};
+    const auto outputs = {options.out, options.export_targets, options.view};
     return std::ranges::any_of(outputs, is_standard_stream) ? stderr : stdout;
 }
 

@@ -15,10 +15,9 @@ namespace swivel::tools {
 
 enum class OutKind { none, motion, csv };
 
-OutPlace out_place(const SolveOptions& options);
-
-// Throws CommandError (bad usage) for a format that is not written, and for one that does not hold so many characters.
-OutKind out_kind(const SolveOptions& options, std::uint32_t characters);
+// What the suffix says; standard output is CSV. Throws CommandError (bad usage) for a format that is not written, and
+// for one that does not hold so many characters.
+OutKind out_kind(const std::string& out, std::uint32_t characters);
 
 // Standard input can be read once. targets: "clip" or a file; throws CommandError.
 void require_one_reader(const SolveOptions& options, const std::string& targets);

@@ -16,12 +16,15 @@ namespace swivel::tools {
 
 std::string shown_file(const std::string& name) { return formats::printable(name, std::string::npos); }
 
-void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
+void print_clip(std::FILE* to, const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
 {
-    say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(facts.clip), facts.motion, clip.joints.size(),
-        clip.frame_count, clip.frame_count == 1 ? "" : "s",
+    const formats::Clip& clip = file.clip();
+    const std::vector<Limb>& limbs = job.limbs;
+    const std::uint32_t characters = job.plan.characters;
+    say(to, "clip     {}: {}, {} joints, {} frame{}, {}\n", shown_file(options.file), file.describe(),
+        clip.joints.size(), clip.frame_count, clip.frame_count == 1 ? "" : "s",
         clip.frame_time > 0 ? fmt::format("{:.1f} frames/s", 1 / clip.frame_time) : "at the times of its keys");
-    for (const std::string& note : facts.notes) say(to, "note     {}\n", note);
+    for (const std::string& note : file.notes()) say(to, "note     {}\n", note);
     const auto shown = [&](int joint) { return printable_name(joint_at(clip, joint)); };
     for (const Limb& limb : limbs)
         say(to, "{:<8} {:<5} {} > {} > {}, {:.4g} + {:.4g} long, limb.{}.bend = {}: {}\n", kind_name(limb.name.kind),
@@ -29,7 +32,7 @@ void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& cli
             limb.bound.lengths[0], limb.bound.lengths[1], limb_word(limb.name), toml_row(limb.bend), limb.bend_source);
     for (const Limb& limb : limbs)
         for (const std::string& note : limb.notes) say(to, "note     {}: {}\n", plain_name(limb.name), note);
-    for (const LimbFinding& finding : facts.missing)
+    for (const LimbFinding& finding : job.missing)
         say(to, "{:<8} {:<5} {}: {}\n", kind_name(finding.name.kind), side_name(finding.name.side),
             finding.has_joints ? "refused" : "missing", problem_text(finding));
     std::string counts;
@@ -37,27 +40,27 @@ void print_clip(std::FILE* to, const SolveFacts& facts, const formats::Clip& cli
         const auto of_kind = [&](const Limb& limb) { return limb.name.kind == kind; };
         const auto count = static_cast<std::size_t>(std::count_if(limbs.begin(), limbs.end(), of_kind));
         if (count > 0)
-            counts += fmt::format(", {} {}{}", count * facts.characters, kind_name(kind),
-                                  count * facts.characters == 1 ? "" : "s");
+            counts += fmt::format(", {} {}{}", count * characters, kind_name(kind), count * characters == 1 ? "" : "s");
     }
-    say(to, "crowd    {} character{}{}, targets from {}{}\n", facts.characters, facts.characters == 1 ? "" : "s",
-        counts, facts.targets == "clip" ? "the clip" : shown_file(facts.targets),
-        facts.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(facts.crowd)));
+    say(to, "crowd    {} character{}{}, targets from {}{}\n", characters, characters == 1 ? "" : "s", counts,
+        job.targets == "clip" ? "the clip" : shown_file(job.targets),
+        options.crowd.empty() ? "" : fmt::format(", all else from {}", shown_file(options.crowd)));
 }
 
-nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& clip, std::span<const Limb> limbs)
+nlohmann::ordered_json json_of_clip(const SolveOptions& options, const MotionFile& file, const CrowdJob& job)
 {
-    nlohmann::ordered_json out{{"clip", facts.clip},
-                               {"motion", facts.motion},
+    const formats::Clip& clip = file.clip();
+    nlohmann::ordered_json out{{"clip", options.file},
+                               {"motion", file.describe()},
                                {"joints", clip.joints.size()},
                                {"frames", clip.frame_count},
                                {"frame_time", frame_time_of(clip)},
-                               {"characters", facts.characters},
-                               {"seed", facts.seed},
-                               {"targets", facts.targets}};
-    if (!facts.crowd.empty()) out["crowd"] = facts.crowd;
-    if (!facts.notes.empty()) out["notes"] = facts.notes;
-    for (const Limb& limb : limbs) {
+                               {"characters", job.plan.characters},
+                               {"seed", job.plan.seed},
+                               {"targets", job.targets}};
+    if (!options.crowd.empty()) out["crowd"] = options.crowd;
+    if (const auto notes = file.notes(); !notes.empty()) out["notes"] = notes;
+    for (const Limb& limb : job.limbs) {
         const LimbWords& words = words_of(limb.name.kind);
         out[fmt::format("{}_bound", words.limbs)].push_back(
             {{"side", side_name(limb.name.side)},
@@ -70,16 +73,8 @@ nlohmann::ordered_json json_of(const SolveFacts& facts, const formats::Clip& cli
              {"unevenness", limb.unevenness},
              {"notes", limb.notes}});
     }
-    for (const LimbFinding& finding : facts.missing)
+    for (const LimbFinding& finding : job.missing)
         out["missing"].push_back({{"limb", limb_word(finding.name)}, {"problem", problem_text(finding)}});
-    return out;
-}
-
-nlohmann::ordered_json json_of(std::span<const goal_character> characters)
-{
-    nlohmann::ordered_json out = nlohmann::ordered_json::array();
-    for (const goal_character& c : characters)
-        out.push_back({{"place", c.place}, {"size", c.size}, {"start", c.start}});
     return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// `swivel steps`: the lecture's five steps for one arm, given by its numbers or taken from a clip, as multivectors.
+// `swivel steps`: the lecture's five steps for one arm, as multivectors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,19 +14,13 @@
 #include "tools/cli/command_error.h"
 #include "tools/cli/option_checks.h"
 #include "tools/cli/streams.h"
-#include "tools/crowd/clip_motion.h"
-#include "tools/formats/error.h"
-#include "tools/rig/limb_words.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/motion_file.h"
 #include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
 namespace {
 
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kTitles[] = {"the elbow point", "the elbow quaternion", "the middle line", "rotate to the elbow",
@@ -52,8 +46,6 @@ struct Steps {
     double closing_error;
 };
 
-std::array<double, 3> array3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 // Throws CommandError for a value that swivel_steps() does not take, and names its option.
 StepsArm given_arm(const StepsOptions& options)
 {
@@ -73,41 +65,6 @@ StepsArm given_arm(const StepsOptions& options)
     };
     const std::vector<double> lengths = numbers_of(options.lengths);
     return {vector(options.target), vector(options.pole), lengths[0], lengths[1]};
-}
-
-// Joints of the other kind of limb would change nothing.
-void require_joints_of(const StepsOptions& options, formats::LimbKind kind)
-{
-    const bool is_arm = kind == formats::LimbKind::arm;
-    if ((is_arm ? options.legs : options.arms).empty()) return;
-    throw CommandError(
-        2, fmt::format("{} names {}, but --limb {} is {}; choose another --limb", is_arm ? "--leg" : "--arm",
-                       is_arm ? "a leg" : "an arm", options.limb, is_arm ? "an arm" : "a leg"));
-}
-
-// Where the clip has the limb in that frame; its pole is the clip's own elbow.
-StepsArm arm_of_clip(const StepsOptions& options)
-{
-    const formats::LimbName name = *formats::limb_of_word(options.limb);
-    require_joints_of(options, name.kind);
-    MotionFile motion(options.file, options.motion);
-    LimbChoice choice;
-    choice.kinds = name.kind == formats::LimbKind::arm ? "arms" : "legs";
-    for (const std::string& arm : options.arms) choice.arms.push_back(limb_of_option(arm, "--arm"));
-    for (const std::string& leg : options.legs) choice.legs.push_back(limb_of_option(leg, "--leg"));
-    const FigureJoints joints = choose_joints(motion.clip(), options.file, choice);
-    motion.sample(joints_of(joints));
-    const LimbSearch search = bind_limbs(motion.clip(), joints, choice);
-    const auto finding = std::ranges::find(search.findings, name, &LimbFinding::name);
-    if (finding == search.findings.end() || !finding->limb)
-        throw formats::InputError(options.file, fmt::format("the {} does not bind; see swivel rig", plain_name(name)));
-    if (options.frame >= motion.clip().frame_count)
-        throw formats::InputError(options.file, fmt::format("frame {} does not exist; the clip has frames 0 to {}",
-                                                            options.frame, motion.clip().frame_count - 1));
-    const Limb& limb = *finding->limb;
-    const LimbInClip in = ClipMotion(motion.clip(), {&limb, 1}).at(options.frame, 0);
-    const Quaterniond from_world = (in.parent * quaternion(limb.bound.parent_from_arm)).conjugate();
-    return {array3(from_world * in.wrist), array3(from_world * in.elbow), in.upper_length(), in.fore_length()};
 }
 
 // Coefficients that are rounding beside the largest are left out. 1e-14 of it is 45 roundings of a double, more than
@@ -161,25 +118,22 @@ void print_steps(const StepsArm& arm, const Steps& made)
     say(stdout, "\nclosing  q_s and q_e put the wrist {:.1e} arm lengths from the target\n", made.closing_error);
 }
 
-// The library says what is undefined; this says of which arm, and what to do.
-Steps steps_of(const StepsArm& arm, const StepsOptions& options)
+// The library says what is undefined; this says what to do.
+Steps steps_of(const StepsArm& arm)
 {
     Steps steps;
     const char* const why = swivel_steps(arm.target.data(), arm.pole.data(), arm.upper, arm.fore, steps.entities.data(),
                                          &steps.closing_error);
-    if (!why) return steps;
-    if (!options.file.empty())
-        throw formats::InputError(options.file, fmt::format("frame {}, {}: {}; take another --frame or --limb",
-                                                            options.frame, options.limb, why));
-    throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
+    if (why) throw CommandError(1, fmt::format("steps: {}; change --target, --pole or --lengths", why));
+    return steps;
 }
 
 }  // namespace
 
 void run_steps(const StepsOptions& options)
 {
-    const StepsArm arm = options.file.empty() ? given_arm(options) : arm_of_clip(options);
-    const Steps made = steps_of(arm, options);
+    const StepsArm arm = given_arm(options);
+    const Steps made = steps_of(arm);
     options.json ? print_json(json_of(arm, made)) : print_steps(arm, made);
 }
 

@@ -11,7 +11,6 @@
 #include "tools/cache/cache_maker.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
-#include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/clip_crowd.h"
 #include "tools/crowd/limb_setups.h"
@@ -119,13 +118,12 @@ private:
     std::map<std::uint32_t, ChunkGoals> columns_;
 };
 
-void write_characters(CacheMaker& maker, const CrowdJob& job, const StopSignals& signals, bool quiet)
+void write_characters(CacheMaker& maker, const CrowdJob& job, bool quiet)
 {
     const CachedCrowd& crowd = maker.crowd();
     CharacterStream stream(job.plan, job.limbs, crowd.clip_frames);
     Progress progress("characters", crowd.character_count, quiet);
     for (std::uint32_t column = 0; column < crowd.column_count(); ++column) {
-        signals.check();
         progress.show(std::uint64_t{column} * crowd.chunk.characters);
         std::vector<goal_character> characters(crowd.characters_in(column));
         for (goal_character& character : characters) character = stream.next();
@@ -134,8 +132,7 @@ void write_characters(CacheMaker& maker, const CrowdJob& job, const StopSignals&
 }
 
 // What the formula of goals does not give.
-void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFile& file, CrowdJob& job,
-                 const StopSignals& signals)
+void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFile& file, CrowdJob& job)
 {
     const CachedCrowd& crowd = maker.crowd();
     if (!crowd.has_given && crowd.budget_blocks == 0) return;
@@ -147,7 +144,6 @@ void write_goals(CacheMaker& maker, const StoreOptions& options, const MotionFil
     for (std::uint32_t time = 0; time < crowd.time_count(); ++time) {
         GoalChunks chunks(crowd, time);
         for (std::uint32_t n = 0; n < crowd.frames_in(time); ++n) {
-            signals.check();
             const std::uint32_t frame = time * crowd.chunk.frames + n;
             progress.show(frame);
             if (given) {
@@ -213,16 +209,12 @@ void run_store(const StoreOptions& options)
     const LimbChoice choice = choice_of(options.crowd);
     MotionFile file(options.crowd.file, options.crowd.motion);
     CrowdJob job = make_job(options.crowd, choice, file);
-    const SolveFacts facts{options.crowd.file,  options.crowd.crowd, file.describe(), job.targets,
-                           job.plan.characters, job.plan.seed,       job.missing,     file.notes()};
-    if (!options.crowd.json && !options.crowd.quiet) print_clip(stdout, facts, file.clip(), job.limbs);
+    if (!options.crowd.json && !options.crowd.quiet) print_clip(stdout, options.crowd, file, job);
     CachedCrowd to_store = crowd_to_store(options, file, job);
-    const StopSignals signals;
     CacheMaker maker(options.folder, std::move(to_store));
     const CachedCrowd& crowd = maker.crowd();
-    write_characters(maker, job, signals, options.crowd.quiet);
-    write_goals(maker, options, file, job, signals);
-    signals.check();
+    write_characters(maker, job, options.crowd.quiet);
+    write_goals(maker, options, file, job);
     const double goals = static_cast<double>(maker.commit()) / 1e6;
     const CacheArrays arrays(crowd);
     const double poses = megabytes_of(arrays.results), state = megabytes_of(arrays.state);

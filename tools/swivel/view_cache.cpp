@@ -8,7 +8,6 @@
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
-#include "tools/cli/signals.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
 #include "tools/formats/text.h"
@@ -91,11 +90,9 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     const ThreadLimit limit(options.threads);
     GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), crowd.budget_blocks, cache.folder());
     GivenGoals goals(cache);
-    const StopSignals signals;
     const std::uint32_t frames = crowd.clip_frames;  // the page plays the clip round and round
     Progress progress("frames", frames, options.quiet);
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
-        signals.check();
         progress.show(frame);
         solved.set_frame(frame);
         const std::vector<GivenPlace> given = goals.put(frame, solved);
@@ -103,7 +100,6 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
         solved.crowds().solve();
         page.add_frame(solved, given);
     }
-    signals.check();
     page.commit(crowd, solved);
     if (!options.quiet && !formats::is_standard_stream(options.view)) say(stdout, "written  {}\n", options.view);
 }

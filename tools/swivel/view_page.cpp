@@ -84,11 +84,22 @@ void append_script_text(std::string& text, const Json& json)
         c == '<' ? text += "\\u003c" : text += c;
 }
 
+// A page would replace a clip, a table or a crowd file of that name.
+const fs::path& page_name(const fs::path& path)
+{
+    constexpr std::string_view kOthers[] = {".csv", ".bvh", ".glb", ".gltf", ".vrm", ".toml"};
+    const std::string suffix = formats::lower_suffix(path);
+    if (std::ranges::find(kOthers, suffix) != std::end(kOthers))
+        throw CommandError(
+            2, fmt::format("{}: a page is HTML, and {} is for other files; name a .html", path.string(), suffix));
+    return path;
+}
+
 }  // namespace
 
-ViewPage::ViewPage(const fs::path& path) : before_(page_program()), out_(path)
+ViewPage::ViewPage(const fs::path& path) : out_(page_name(path))
 {
-    const std::string text = std::move(before_);
+    const std::string text = page_program();
     const std::size_t script = text.find(kDigestPlace) + kDigestPlace.size(), place = text.find(kPlace, script),
                       after_place = place + kPlace.size(), end = text.find(kScriptEnd, after_place);
     before_ = text.substr(0, script - std::string_view("\">").size());

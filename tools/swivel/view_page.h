@@ -18,8 +18,8 @@ namespace swivel::tools {
 
 class ViewPage {
 public:
-    // Opens the page to write. Throws CommandError where the page's program is missing, and InputError as OutputFile
-    // does.
+    // Opens the page to write. Throws CommandError where the page's program is missing or the name is another
+    // file's, and InputError as OutputFile does.
     explicit ViewPage(const std::filesystem::path& path);
 
     // Takes a frame just solved: its digests, and the goals that were given. Frames in order, from the first.
@@ -42,8 +42,5 @@ private:
     std::vector<std::vector<std::uint64_t>> digests_;  // [frame][crowd]
     std::vector<Given> given_;
 };
-
-// The bytes that goals of one's own take in a page, for each row of them.
-constexpr double kPageBytesPerGoal = 56 * 4 / 3.0;
 
 }  // namespace swivel::tools
