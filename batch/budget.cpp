@@ -52,12 +52,12 @@ std::uint32_t add_urgency(float* urgency, const Group& group, const swivel_in& p
 std::uint32_t key_of(float urgency) { return urgency > 0 ? bit_cast<std::uint32_t>(urgency) : 0; }
 
 // Blocks of a larger key are picked, and equal_count blocks of just this key, in the crowd's order.
-struct Limit {
+struct Threshold {
     std::uint32_t key, equal_count;
 };
 
 // Finds the most_blocks largest keys, digit by digit, the leading one first. More keys than that are above 0.
-Limit find_limit(const float* urgency, std::uint32_t block_count, std::uint32_t most_blocks)
+Threshold find_threshold(const float* urgency, std::uint32_t block_count, std::uint32_t most_blocks)
 {
     constexpr std::uint32_t kMostBits = 11;  // 2,048 counts: exponent and three bits tell most blocks apart
     std::uint32_t prefix = 0, left = most_blocks, known = 31;  // bits not yet known; floats above 0 have no sign
@@ -86,14 +86,14 @@ std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, flo
         wanted += add_urgency(urgency + crowd.groups[g].first_block, crowd.groups[g], priorities[g]);
     std::fill_n(words, mask_word_count(crowd.block_count), 0u);
     if (most_blocks == 0) return 0;
-    Limit limit = wanted > most_blocks ? find_limit(urgency, crowd.block_count, most_blocks) : Limit{0, 0};
+    Threshold least = wanted > most_blocks ? find_threshold(urgency, crowd.block_count, most_blocks) : Threshold{0, 0};
     for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
         const Group& group = crowd.groups[g];
         for (std::uint32_t n = 0, block = group.first_block; n < group.block_count; ++n, ++block) {
             const std::uint32_t key = key_of(urgency[block]);
-            const bool equal = key == limit.key && limit.equal_count > 0;
-            if (key <= limit.key && !equal) continue;
-            limit.equal_count -= equal;
+            const bool equal = key == least.key && least.equal_count > 0;
+            if (key <= least.key && !equal) continue;
+            least.equal_count -= equal;
             add_lanes(words, block, lanes_of_limbs(group, n));
             limb_count += limb_count_of(group, n);
             urgency[block] = 0;

@@ -22,11 +22,11 @@ constexpr std::size_t kAlignment = 64;
 
 constexpr std::uint64_t aligned(std::uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
-std::uint32_t blocks_of(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
+std::uint32_t blocks_in(const swivel_group_def& group) { return (group.limb_count - 1) / SWIVEL_LANES + 1; }
 
 std::uint64_t row_bytes(const swivel_group_def& group)
 {
-    return aligned(std::uint64_t{blocks_of(group)} * block_bytes(group.features));
+    return aligned(std::uint64_t{blocks_in(group)} * block_bytes(group.features));
 }
 
 struct Layout {
@@ -38,7 +38,7 @@ struct Layout {
         std::uint64_t bytes = 0;
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
             const swivel_group_def group = group_at(def, g);
-            block_count += blocks_of(group);
+            block_count += blocks_in(group);
             bytes += row_bytes(group);
         }
         groups = aligned(sizeof(swivel_crowd));
@@ -99,7 +99,7 @@ void rest(Group& group)
 void place_group(const swivel_group_def& def, std::uint32_t first_block, char* rows, Group& group)
 {
     group.first_block = first_block;
-    group.block_count = blocks_of(def);
+    group.block_count = blocks_in(def);
     group.limb_count = def.limb_count;
     group.features = def.features;
     group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
@@ -147,7 +147,7 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
         place_group(of, first_block, rows, *new (crowd->groups + g) Group{});
-        first_block += blocks_of(of);
+        first_block += blocks_in(of);
         rows += row_bytes(of);
     }
     return crowd;

@@ -168,18 +168,19 @@ void explain_bad_input(Probe& probe, bool keeps, Text& text)
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
         text.add("%s%s (", is_found ? "; " : "", row.name);
-        bool is_number = true;
+        bool is_number = true, is_given = false;
         for (std::uint32_t c = 0; c < probe.component_count(field); ++c) {
             const double x = double{probe.value(field, c)};
             text.add("%s%g", c == 0 ? "" : ", ", x);
             is_number = is_number && !std::isnan(x);
+            is_given = is_given || !std::isnan(x);
         }
         is_found = true;
         if (is_number) {
             text.add(") is out of its range, %s", row.range);
             explain_lengths(probe, field, text);
         } else {
-            text.add(") is not a number: it may never have been written");
+            text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
         }
     }
     if (!is_found) text.add("each input is in its range, but not as the parent's rotation and scale have it");
@@ -242,23 +243,21 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         if (solved.is(field, {0, 0, 0, 1})) text.add(" Its %s is the identity, as limbs start.", name_of(field));
 }
 
-struct Limit {
-    std::uint32_t flag;
-    swivel_field field;
-};
-constexpr Limit kLimits[] = {
-    {SWIVEL_LIMITED_SHOULDER_CONE, SWIVEL_SHOULDER_CONE}, {SWIVEL_LIMITED_HUMERAL_TWIST, SWIVEL_HUMERAL_TWIST},
-    {SWIVEL_LIMITED_SHOULDER_BOX, SWIVEL_SHOULDER_BOX},   {SWIVEL_LIMITED_HAND_CONE, SWIVEL_HAND_CONE},
-    {SWIVEL_LIMITED_FOREARM_TWIST, SWIVEL_FOREARM_TWIST}, {SWIVEL_LIMITED_HAND_TWIST, SWIVEL_HAND_TWIST},
-    {SWIVEL_LIMITED_WRIST_BOX, SWIVEL_WRIST_BOX},
-};
+// Calls act(row) for each limit of the swivel.
+template <class Act>
+void for_each_limit(const Act& act)
+{
+    for (const FlagRow& row : kFlags)
+        if (row.limit != SWIVEL_INPUT_END) act(row);
+}
 
 // Whether this limit alone leaves the elbow no place.
 bool forbids_all(Probe& probe, swivel_field limit)
 {
     probe.take();
-    for (const Limit& other : kLimits)
-        if (other.field != limit) probe.give_up(other.field);
+    for_each_limit([&](const FlagRow& other) {
+        if (other.limit != limit) probe.give_up(other.limit);
+    });
     return probe.solve() & SWIVEL_INFEASIBLE;
 }
 
@@ -276,12 +275,12 @@ void explain_violations(Probe& probe, Text& text)
     probe.take();
     probe.solve();
     bool is_first = true;
-    for (const Limit& limit : kLimits) {
-        const double degrees = probe.violation(limit.field);
-        if (degrees < 0.005) continue;  // it would read 0.00
-        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", name_of(limit.field), degrees);
+    for_each_limit([&](const FlagRow& row) {
+        const double degrees = probe.violation(row.limit);
+        if (degrees < 0.005) return;  // it would read 0.00
+        text.add(" %s %s by %.2f degrees", is_first ? "Its pose violates" : "and", name_of(row.limit), degrees);
         is_first = false;
-    }
+    });
     text.add("%s.", is_first ? " Its pose violates none of them by 0.01 degrees" : "");
 }
 
@@ -290,12 +289,12 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
 {
     char room[2][200];
     Text broken(room[0]), alone(room[1]);
-    for (const Limit& limit : kLimits) {
-        if (!(flags & limit.flag)) continue;
-        broken.add("%s%s", broken.is_empty() ? "" : " and ", name_of(limit.field));
-        if (flags & SWIVEL_INFEASIBLE && forbids_all(probe, limit.field))
-            alone.add("%s%s", alone.is_empty() ? "" : " and ", name_of(limit.field));
-    }
+    for_each_limit([&](const FlagRow& row) {
+        if (!(flags & row.flag)) return;
+        broken.add("%s%s", broken.is_empty() ? "" : " and ", name_of(row.limit));
+        if (flags & SWIVEL_INFEASIBLE && forbids_all(probe, row.limit))
+            alone.add("%s%s", alone.is_empty() ? "" : " and ", name_of(row.limit));
+    });
     if (broken.is_empty()) return;
     const bool is_step = flags & SWIVEL_LIMITED_STEP;  // limits then forbid the place where the step ends
     if (flags & SWIVEL_INFEASIBLE) {
@@ -308,7 +307,7 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
         return;
     }
     probe.take();
-    for (const Limit& limit : kLimits) probe.give_up(limit.field);
+    for_each_limit([&](const FlagRow& row) { probe.give_up(row.limit); });
     probe.solve();
     text.add(" Where %s it breaks %s: the nearest place that keeps all limits is %.1f degrees away.",
              is_step ? "the step takes the elbow," : "the elbow was wished", room[0],

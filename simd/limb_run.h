@@ -25,7 +25,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& ru
     bool is_enough = false;
     for (; limb < run.limb_count && !is_enough; limb += lane_count<T>)
         if (const std::uint32_t chosen = chosen_lanes(run, limb, lane_count<T>))
-            is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, rows_of<T, Features>(run, limb, chosen)));
+            is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, step_rows<T, Features>(run, limb, chosen)));
     return limb;
 }
 template <class T, swivel_features Features, bool Aims, class Policy = SearchNow>
@@ -133,7 +133,7 @@ inline AllowedArcs<float> allowed_arcs_of(const SolveRun& run, std::size_t limb)
     const LimbUse use = limb_use<kToldFeatures>(run);
     LimbGoal<float> goal;
     const LimbEntry<float> entry =
-        load_limb(use, binding_of<kToldFeatures>(run), rows_of<float, kToldFeatures>(run, limb, kEveryLane), goal);
+        load_limb(use, binding_of<kToldFeatures>(run), step_rows<float, kToldFeatures>(run, limb, kEveryLane), goal);
     if (!entry.valid || !is_valid(use, goal)) return {};
     if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
     return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);

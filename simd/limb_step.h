@@ -212,7 +212,7 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding& bind, const Row
 
 // The rows of the step that starts with a limb of a run.
 template <class T, swivel_features Features>
-SWIVEL_INLINE Rows<T, Features> rows_of(const SolveRun& run, std::size_t limb, std::uint32_t chosen)
+SWIVEL_INLINE Rows<T, Features> step_rows(const SolveRun& run, std::size_t limb, std::uint32_t chosen)
 {
     const bool told = Features & kTold;
     const std::uint32_t inputs = told ? run.input_row_count : kPlan<Features>.input_count;
