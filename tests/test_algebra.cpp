@@ -133,28 +133,18 @@ static_assert(dot(e0, einf).c[0] == -1 && dot(einf, e0).c[0] == -1);
 
 // ---- beside products
 
-TEST_CASE("(3.21) Q o ~Q is Eigen's rotation, a*b applies b first")
+TEST_CASE("a rotor has Eigen's x, y, z, w, and turns as Eigen's does; one of another length lengthens, too")
 {
     Random random{4};
     for (int n = 0; n < kRounds; ++n) {
-        const Quaterniond a = random.rotation(), b = random.rotation();
+        const Quaterniond a = random.rotation();
         const Vector3d v = any_vector(random);
         const Rotor<double> q = mv(a);
         CHECK(distance(sandwich(q, mv(v)), mv(Vector3d(a * v))) < kTolerance);
-        CHECK(distance(dense_of(q * point(mv(v)) * ~q), dense_of(point(mv(Vector3d(a * v))))) < 1e-11);
-        CHECK(distance(dense_of(q * (mv(v) + 2.0 * einf) * ~q), dense_of(mv(Vector3d(a * v)) + 2.0 * einf)) < 1e-11);
-        CHECK(distance(sandwich(mv(a) * mv(b), mv(v)), mv(Vector3d(a * (b * v)))) < kTolerance);
-        CHECK(distance(mv(a) * mv(b), mv(a * b)) < kTolerance);
-        CHECK(distance(~q, mv(a.conjugate())) == 0);
-        // A rotor of another length makes the vector |Q|^2 times as long.
         CHECK(distance(sandwich(3.0 * q, mv(v)), 9.0 * mv(Vector3d(a * v))) < 1e-11);
         CHECK(distance(normalise(3.0 * q), q) < kTolerance);
+        CHECK((q.at<kI>() == a.x() && q.at<kJ>() == a.y() && q.at<kK>() == a.z() && q.at<kScalar>() == a.w()));
     }
-    const Rotor<double> q = rotor(1.0, 2.0, 3.0, 4.0);
-    CHECK(q.at<kI>() == 1);
-    CHECK(q.at<kJ>() == 2);
-    CHECK(q.at<kK>() == 3);
-    CHECK(q.at<kScalar>() == 4);
 }
 
 TEST_CASE("points, spheres and lines are the dense algebra's; cross, dot, len2 and normalise are Eigen's")
@@ -165,7 +155,8 @@ TEST_CASE("points, spheres and lines are the dense algebra's; cross, dot, len2 a
         const Dense p = swivel::dense::point(dense_of(mv(a)));
         CHECK(distance(dense_of(point(mv(a))), p) < kTolerance);
         CHECK(distance(dense_of(sphere(point(mv(a)), b.norm())), swivel::dense::sphere(p, b.norm())) < 1e-11);
-        CHECK(distance(dense_of(central_line(mv(a))), swivel::dense::dual(dense_of(e0) ^ p ^ dense_of(einf))) < kTolerance);
+        CHECK(distance(dense_of(central_line(mv(a))), swivel::dense::dual(dense_of(e0) ^ p ^ dense_of(einf))) <
+              kTolerance);
         CHECK(distance(cross(mv(a), mv(b)), mv(Vector3d(a.cross(b)))) < 1e-11);
         CHECK(std::fabs(scalar_product(mv(a), mv(b)) - a.dot(b)) < 1e-11);
         CHECK(std::fabs(len2(mv(a)) - a.squaredNorm()) < 1e-11);

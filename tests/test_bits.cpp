@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: equal inputs give equal bits. It holds for every instruction set, thread count and number of limbs, and in
-// any floating-point environment of threads. This checks the instruction set in use; CTest's label `isa` runs it once for
-// each. Block ranges, masks, lists and frames are the test `interface`'s, the caller's environment is
+// The promise: equal inputs give equal bits. It holds for every instruction set, thread count and number of limbs, and
+// in any floating-point environment of threads. This checks the instruction set in use; CTest's label `isa` runs it
+// once for each. Block ranges, masks, lists and frames are the test `interface`'s, the caller's environment is
 // test_float_environment.cpp's.
 #include <sys/mman.h>
 

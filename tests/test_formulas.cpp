@@ -164,15 +164,6 @@ TEST_CASE("the production formula puts the wrist on its target")
             RC_ASSERT((wrist_place(solve<float>(arm), arm) - reachable).norm() < 1e-6 * arm.length());
         });
     });
-    rc::prop("rotors are of unit length, halves are not negative", [](std::uint64_t seed) {
-        for_arms(seed, any_arm, [](const Arm& arm) {
-            const ArmPose<float> pose = solve<float>(arm);
-            RC_ASSERT(std::fabs(eigen(pose.shoulder).norm() - 1) < 1e-6);
-            RC_ASSERT(std::fabs(elbow_rotation(pose).norm() - 1) < 1e-6);
-            RC_ASSERT(pose.cos_half >= 0);
-            RC_ASSERT(pose.sin_half >= 0);
-        });
-    });
 }
 
 TEST_CASE("q_s carries e3 to the upper arm and e1 to the swivel plane's normal")
@@ -198,18 +189,6 @@ TEST_CASE("q_s carries e3 to the upper arm and e1 to the swivel plane's normal")
                      RC_ASSERT(elbow.dot(arm.normal().cross(arm.wrist.normalized())) > -1e-6 * arm.length());
                  });
              });
-}
-
-TEST_CASE("core's own forward kinematics is Eigen's")
-{
-    rc::prop("elbow and wrist", [](std::uint64_t seed) {
-        for_arms(seed, any_arm, [](const Arm& arm) {
-            const ArmPose<double> pose = solve<double>(arm);
-            RC_ASSERT((eigen(elbow_of(pose, arm.upper)) - elbow_place(pose, arm)).norm() < 1e-13 * arm.length());
-            RC_ASSERT((eigen(wrist_of(pose, arm.upper, arm.fore)) - wrist_place(pose, arm)).norm() <
-                      1e-13 * arm.length());
-        });
-    });
 }
 
 // ---- equivariance
