@@ -101,7 +101,7 @@ TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, 
                 p.crowd.solve();
                 const auto flags = read<std::uint32_t>(p.crowd, SWIVEL_FLAGS);
                 std::vector<Places> places;
-                Quaterniond first;  // the elbow's, as the upper arm has it
+                Quaterniond first = Quaterniond::Identity();  // the elbow's, as the upper arm has it
                 for (std::uint32_t n = 0; n < 21; ++n) {
                     INFO("features " << features << ", between " << shape.upper << " and " << shape.fore << ", seed "
                                      << seed << ", limb " << n);

@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<swivel_group_def> groups = groups_of(bytes, kMostLimbs);
     def.groups = groups.data();
     def.group_count = static_cast<std::uint32_t>(groups.size());
-    bytes.take<std::uint8_t>();  // the seeds are from a time when this meant something
+    bytes.take<std::uint8_t>();  // the seeds are from a time when this byte spoilt the def
 
     const std::size_t needed = swivel_crowd_bytes(&def);
     SWIVEL_REQUIRE(needed > 0);
