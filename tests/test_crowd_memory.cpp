@@ -103,9 +103,10 @@ TEST_CASE("nothing allocates after creation")
         static std::vector<std::array<double, 3>> wrists(5000);
         static std::vector<double> residuals(5000);
         static const std::vector<std::uint32_t> mask(157, 0x80018001u);
-        Frame own;
-        own.in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]});
-        const swivel_frame frame = own.out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
+        static const Frame own = Frame()
+                                     .in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]})
+                                     .out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
+        static const swivel_frame frame = own;
         const std::span frames(&frame, 1);
         crowd.write(SWIVEL_TARGET, 0, targets);
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});

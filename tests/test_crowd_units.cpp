@@ -174,7 +174,7 @@ TEST_CASE("explain says how long each axis and pair is that is not of unit lengt
         CHECK(text.find("its axis ", at + 1) == std::string::npos);
         if (part.size == 2)
             CHECK(std::stod(text.substr(at + 9)) == Approx(double{value[part.first]}).epsilon(1e-5).margin(1e-12));
-        CHECK(std::stod(text.substr(text.find("is ", at) + 3)) == Approx(std::sqrt(length2)).epsilon(1e-7));
+        CHECK(std::stod(text.substr(text.find(" is ", at) + 4)) == Approx(std::sqrt(length2)).epsilon(1e-7));
     }
 }
 

@@ -236,9 +236,14 @@ bool is_feature_set(swivel_features features)
 std::vector<std::vector<std::uint32_t>> all_results(const Crowd& crowd)
 {
     std::vector<std::vector<std::uint32_t>> words;
-    for (std::uint32_t group = 0; group < 2; ++group)
-        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
-            words.push_back(result_words(crowd, swivel_group_first_limb(crowd.get(), group) + n));
+    for (std::uint32_t group = 0; group < 2; ++group) {
+        const swivel_rows rows = swivel_result_rows(crowd.get(), group);
+        for (std::size_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n) {
+            std::vector<std::uint32_t>& limb = words.emplace_back(rows.row_count);
+            for (std::size_t row = 0; row < rows.row_count; ++row)
+                std::memcpy(&limb[row], rows.base + (n / 16 * rows.row_count + row) * 16 + n % 16, sizeof(float));
+        }
+    }
     return words;
 }
 
