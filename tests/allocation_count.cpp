@@ -54,6 +54,15 @@ extern "C" void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcep
 
 namespace swivel::test {
 std::size_t allocation_count() { return allocations; }
+bool (*allocation_fails)() = nullptr;
+
+namespace {
+bool is_given()
+{
+    ++allocations;
+    return !allocation_fails || !allocation_fails();
+}
+}  // namespace
 }  // namespace swivel::test
 
 // glibc's own, under the names it keeps for those who replace malloc. Visible, so that libraries take these, too.
@@ -64,34 +73,26 @@ void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 
-void* malloc(std::size_t bytes) noexcept
-{
-    ++swivel::test::allocations;
-    return __libc_malloc(bytes);
-}
+void* malloc(std::size_t bytes) noexcept { return swivel::test::is_given() ? __libc_malloc(bytes) : nullptr; }
 void* calloc(std::size_t count, std::size_t bytes) noexcept
 {
-    ++swivel::test::allocations;
-    return __libc_calloc(count, bytes);
+    return swivel::test::is_given() ? __libc_calloc(count, bytes) : nullptr;
 }
 void* realloc(void* memory, std::size_t bytes) noexcept
 {
-    ++swivel::test::allocations;
-    return __libc_realloc(memory, bytes);
+    return swivel::test::is_given() ? __libc_realloc(memory, bytes) : nullptr;
 }
 void* memalign(std::size_t alignment, std::size_t bytes) noexcept
 {
-    ++swivel::test::allocations;
-    return __libc_memalign(alignment, bytes);
+    return swivel::test::is_given() ? __libc_memalign(alignment, bytes) : nullptr;
 }
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept
 {
-    ++swivel::test::allocations;
-    return __libc_memalign(alignment, bytes);
+    return swivel::test::is_given() ? __libc_memalign(alignment, bytes) : nullptr;
 }
 int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept
 {
-    ++swivel::test::allocations;
+    if (!swivel::test::is_given()) return ENOMEM;
     *memory = __libc_memalign(alignment, bytes);
     return *memory ? 0 : ENOMEM;
 }

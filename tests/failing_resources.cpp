@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Replaces malloc and its relatives, mmap, pthread_create and dlopen in the program it is linked into.
+// Replaces mmap, pthread_create and dlopen in the program it is linked into, and lets allocations fail
+// (allocation_count.h).
 #include "tests/failing_resources.h"
 
 #include <dlfcn.h>
@@ -13,13 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 
-extern "C" {
-// glibc's own, under the names it keeps for those who replace malloc.
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-}
+#include "tests/allocation_count.h"
 
 namespace {
 
@@ -88,6 +83,7 @@ void let_fail(Resource resource, std::uint32_t nth, bool later_too)
     first = nth;
     is_lasting = later_too;
     request_count = 0;
+    allocation_fails = [] { return fails(Resource::allocation); };
     thread_count = failure_count = 0;
     is_limited = resource == Resource::thread;
     is_armed = resource != Resource::thread;
@@ -96,6 +92,7 @@ void hide_own_memory() { is_hidden = true; }
 void let_fail_elsewhere(const volatile float* word)
 {
     failure_count = 0;
+    allocation_fails = [] { return fails(Resource::allocation); };
     is_watcher = true;
     watched_before = *word;
     watched = word;
@@ -112,29 +109,6 @@ std::uint32_t stop_failing()
 // Visible, so that libraries take these, too.
 #pragma GCC visibility push(default)
 extern "C" {
-void* malloc(std::size_t bytes) noexcept { return fails(Resource::allocation) ? nullptr : __libc_malloc(bytes); }
-void* calloc(std::size_t count, std::size_t bytes) noexcept
-{
-    return fails(Resource::allocation) ? nullptr : __libc_calloc(count, bytes);
-}
-void* realloc(void* memory, std::size_t bytes) noexcept
-{
-    return fails(Resource::allocation) ? nullptr : __libc_realloc(memory, bytes);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept
-{
-    return fails(Resource::allocation) ? nullptr : __libc_memalign(alignment, bytes);
-}
-void* memalign(std::size_t alignment, std::size_t bytes) noexcept
-{
-    return fails(Resource::allocation) ? nullptr : __libc_memalign(alignment, bytes);
-}
-int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept
-{
-    if (fails(Resource::allocation)) return ENOMEM;
-    *memory = __libc_memalign(alignment, bytes);
-    return *memory ? 0 : ENOMEM;
-}
 void* mmap(void* address, std::size_t bytes, int protection, int flags, int file, off_t offset) noexcept
 {
     static auto* const real = next<decltype(mmap)>("mmap");
@@ -149,7 +123,7 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
         ++failure_count;
         return EAGAIN;
     }
-    void* const data = __libc_malloc(sizeof(Counted));
+    void* const data = std::malloc(sizeof(Counted));
     std::memcpy(data, &static_cast<const Counted&>(Counted{run, argument}), sizeof(Counted));
     return real(thread, attributes, run_counted, data);
 }

@@ -27,6 +27,17 @@ void shuffle(Random& random, RestSkeleton& skeleton)
     skeleton = moved;
 }
 
+// Lays the forearm along the upper arm.
+void straighten(Random& random, RestSkeleton& skeleton)
+{
+    const Locals locals = rest_locals(skeleton);
+    const Parent world{Vector3d::Zero(), Quaterniond::Identity(), 1};
+    const JointPlace elbow = place_of(skeleton, locals, world, skeleton.elbow);
+    const Vector3d upper = elbow.position - place_of(skeleton, locals, world, skeleton.shoulder).position;
+    skeleton.translations[skeleton.wrist] =
+        floats(Vector3d(elbow.rotation.conjugate() * (random.between(0.2, 1) * upper.normalized())));
+}
+
 }  // namespace
 
 RestSkeleton random_skeleton(Random& random, const Between& between, std::uint32_t twist_bone_count)
@@ -45,6 +56,7 @@ RestSkeleton random_skeleton(Random& random, const Between& between, std::uint32
     add_between(between.fore);
     carriers.insert(carriers.end(), s.between.end() - between.fore, s.between.end());
     s.wrist = add();
+    if (between.fore == 0 && random.below(3) == 0) straighten(random, s);
 
     // Twist bones below any of the forearm's joints, on a line beside the bone; some below a joint of their own.
     const Locals locals = rest_locals(s);

@@ -29,31 +29,6 @@ inline swivel_status solve_frame(swivel_crowd* crowd, const swivel_frame* frames
     job.frames = frames;
     return swivel_solve(crowd, &job);
 }
-inline swivel_status solve_active(swivel_crowd* crowd, const std::uint32_t* mask, std::uint32_t word_count)
-{
-    swivel_job job = swivel_default_job();
-    job.mask = mask;
-    job.mask_word_count = word_count;
-    return swivel_solve(crowd, &job);
-}
-inline swivel_status solve_active_blocks(swivel_crowd* crowd, const std::uint32_t* mask, std::uint32_t word_count,
-                                         std::uint32_t first, std::uint32_t count)
-{
-    const swivel_blocks blocks{first, count};
-    swivel_job job = swivel_default_job();
-    job.blocks = &blocks;
-    job.mask = mask;
-    job.mask_word_count = word_count;
-    job.on_this_thread = 1;
-    return swivel_solve(crowd, &job);
-}
-inline swivel_status solve_list(swivel_crowd* crowd, const std::uint32_t* limbs, std::uint32_t limb_count)
-{
-    const swivel_limbs list{limbs, limb_count};
-    swivel_job job = swivel_default_job();
-    job.limbs = &list;
-    return swivel_solve(crowd, &job);
-}
 inline swivel_status solve_budget(swivel_crowd* crowd, const swivel_in* priorities, std::uint32_t most_blocks,
                                   std::uint32_t* solved_count)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of chosen limbs share: crowds of ordinary, hard and bad arms, their results limb by limb whatever the
-// rows hold, and masks.
+// Crowds of ordinary, hard and bad arms, their results limb by limb whatever the rows hold, and masks.
 #pragma once
 
 #include "tests/test_arm.h"
@@ -81,21 +80,6 @@ inline std::vector<std::uint32_t> all_limbs(const Crowd& crowd, std::uint32_t gr
         for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
             limbs.push_back(swivel_group_first_limb(crowd.get(), group) + n);
     return limbs;
-}
-
-// Whole blocks, none, a few limbs or many of them, in turns; bits of padding lanes, too.
-inline std::vector<std::uint32_t> random_mask(const Crowd& crowd, Random& random)
-{
-    std::vector<std::uint32_t> words(mask_words(crowd));
-    double share = 0;
-    for (std::uint32_t limb = 0; limb < words.size() * 32; ++limb) {
-        if (limb % 16 == 0 && random.below(3) == 0) {
-            const double shares[] = {0, 0, 1, 1, 0.05, 0.15, 0.5, 0.95};
-            share = shares[random.below(8)];
-        }
-        if (random.unit() < share) set(words, limb);
-    }
-    return words;
 }
 
 }  // namespace swivel::test

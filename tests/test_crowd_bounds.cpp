@@ -291,28 +291,6 @@ TEST_CASE("crowd bounds: what does not go together is refused")
     CHECK_THAT(two.err, Catch::Matchers::Contains("one character, not 2"));
 }
 
-TEST_CASE("crowd bounds: limbs of different kinds of poles, hands and boxes are solved side by side")
-{
-    const CrowdStage stage;
-    const std::string left = "[limb.left_arm.pole]\nkind = \"normal\"\nfixed = [0, -1, 0.3]\n",
-                      right =
-                          "[limb.right_arm]\nhand = false\n[limb.right_arm.limits.shoulder_box]\norder = "
-                          "\"ZYX\"\nx_deg = [-60, 60]\n",
-                      legs = "[limb.legs.limits.shoulder_box]\nx_deg = [-30, 90]\n", all = "[crowd]\nlimbs = \"all\"\n";
-    const std::string both = stage.output(all + left + right + legs, "both.csv");
-    for (const auto& [limb, toml] :
-         {std::pair{std::string("left_arm"), all + left}, {"right_arm", all + right}, {"left_leg", all + legs}}) {
-        const auto alone = stage.rows(toml, limb);
-        std::size_t n = 0;
-        for (const PoseLine& row : pose_lines(both)) {
-            if (row.limb != limb) continue;
-            for (std::size_t j = 0; j < 3; ++j) CHECK(row.joint[j].angularDistance(alone[n].joint[j]) < 1e-5);
-            ++n;
-        }
-        CHECK(n == alone.size());
-    }
-}
-
 TEST_CASE("crowd bounds: the examples run")
 {
     const CrowdStage stage;

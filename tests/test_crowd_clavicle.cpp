@@ -109,10 +109,10 @@ TEST_CASE("no share turns nothing; nor does a position weight of 0")
     for (std::uint32_t n = 0; n < count; ++n) CHECK(distance(quat(got[n]), quat(want[n])) <= 4e-6);
 }
 
-TEST_CASE("the turn is continuous all around, and fades behind")
+TEST_CASE("the turn is the curve's all around, whatever the share, up to nearly behind")
 {
     constexpr std::uint32_t count = 720;
-    for (const float share : {0.1f, 0.5f, 0.9f}) {
+    for (const float share : {0.1f, 0.5f, 0.9f, 1.0f}) {
         Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, count);
         std::vector<Float3> targets;
         for (std::uint32_t n = 0; n < count; ++n) {  // about the clavicle's joint, which is at the origin
@@ -125,13 +125,15 @@ TEST_CASE("the turn is continuous all around, and fades behind")
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -5, 0});
         crowd.solve();
         const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
-        double most = 0;
         for (std::uint32_t n = 0; n < count; ++n) {
-            CHECK(distance(quat(turns[n]), quat(turns[(n + 1) % count])) <= 0.2);
-            most = std::max(most, distance(quat(turns[n]), Quaterniond::Identity()));
+            INFO("share " << share << ", target " << n);
+            // Half a degree from behind the turn's axis is known to 1e-5.
+            const bool is_on_line = n == 0 || n == count / 2;
+            if (!is_on_line)
+                CHECK(distance(quat(turns[n]), turn_of(Vector3d::UnitX(), vec(targets[n]), double{share})) <= 1.5e-5);
+            else if (n == 0 || share < 1)
+                CHECK(distance(quat(turns[n]), Quaterniond::Identity()) <= 1e-5);
         }
-        CHECK(distance(quat(turns[count / 2]), Quaterniond::Identity()) <= 1e-5);
-        CHECK(most > 0.5 * share);
     }
 }
 
@@ -162,26 +164,7 @@ TEST_CASE("a bone under 1e-15 has no direction; shares just under 1 turn smoothl
     for (std::uint32_t n = 1; n < count; ++n) CHECK(distance(quat(turns[n - 1]), quat(turns[n])) <= 0.1);
 }
 
-TEST_CASE("a whole share is the whole turn, up to nearly behind")
-{
-    constexpr std::uint32_t count = 360;
-    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, count);
-    std::vector<Float3> targets;
-    for (std::uint32_t n = 0; n < count; ++n) {  // to half a degree from behind
-        const double angle = kPi * n / count;
-        targets.push_back(floats(Vector3d(std::cos(angle), std::sin(angle), 0.0)));
-    }
-    crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0.25f, 0, 0});
-    crowd.write_all(SWIVEL_CLAVICLE, 0, Float4{0.25f, 0, 0, 1});
-    crowd.solve();
-    const auto turns = read<Float4>(crowd, SWIVEL_CLAVICLE_TURN);
-    // Half a degree from behind the turn's axis is known to 1e-5.
-    for (std::uint32_t n = 0; n < count; ++n)
-        CHECK((quat(turns[n]) * Vector3d::UnitX() - vec(targets[n])).norm() <= 3e-5);
-}
-
-TEST_CASE("bones and shares out of range are bad input; without a world there is no clavicle")
+TEST_CASE("bones and shares out of range are bad input")
 {
     Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 5);
     const Float4 values[] = {
@@ -197,9 +180,4 @@ TEST_CASE("bones and shares out of range are bad input; without a world there is
         CHECK(flags[n] == SWIVEL_BAD_INPUT);
         CHECK(turns[n] == Float4{0, 0, 0, 1});
     }
-    swivel_group_def group = group_of(1);
-    const swivel_crowd_def def = def_of(group);
-    group.features = SWIVEL_WITH_CLAVICLE;
-    swivel_crowd* none = nullptr;
-    CHECK_REFUSED(swivel_crowd_create(&def, &none), SWIVEL_INVALID_ARGUMENT);
 }

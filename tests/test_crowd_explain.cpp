@@ -28,25 +28,6 @@ double number_after(const std::string& text, const std::string& words)
     return std::stod(text.substr(at + words.size()));
 }
 
-// What a limb's joints add to rest, in the arm frame, from the places that swivel_forward() gives.
-struct Added {
-    Quaterniond shoulder, wrist;
-};
-Added added(const Limb& limb, const swivel_binding& bound, const Vector3d& elbow, const Vector3d& wrist,
-            const Quaterniond& hand)
-{
-    const Vector3d upper = (elbow - vec(limb.position)).normalized(), fore = (wrist - elbow).normalized();
-    const Vector3d hinge = fore.cross(upper).normalized();
-    const auto frame = [&](const Vector3d& bone) {
-        Eigen::Matrix3d axes;
-        axes << hinge, bone.cross(hinge), bone;
-        return Quaterniond(axes);
-    };
-    const Quaterniond arm_w = limb.parent().rotation * quat(bound.parent_from_arm);
-    const Quaterniond hand_from_arm = quat(bound.fore_from_arm).conjugate() * quat(bound.wrist_rest);
-    return {arm_w.conjugate() * frame(upper), frame(fore).conjugate() * hand * hand_from_arm.conjugate()};
-}
-
 double off_cone(const Vector3d& a, const Vector3d& b, double most) { return std::acos(a.dot(b)) - most; }
 double off_twist(const Quaterniond& q, const Vector3d& axis, const AngleRange& range)
 {
@@ -67,36 +48,34 @@ TEST_CASE("explain names inputs that were never written, or are out of range, an
 {
     constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_WITH_SHOULDER_CONE;
     const swivel_group_def group = swivel_default_group_def(20);
-    {
-        Crowd crowd = crowd_with(features, {&group, 1});
-        CHECK(says(crowd, 3, "it never was"));
-        crowd.solve();
-        const std::string none = crowd.explain(0, 19);
-        for (const char* field : {"target", "lengths", "shoulder_position"})
-            CHECK(none.find(std::string(field) + " (nan") != std::string::npos);
-        for (const char* field : {"pole", "hand", "parent", "cone"}) CHECK(none.find(field) == std::string::npos);
-        crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
-        crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
-        crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-        crowd.write(SWIVEL_POLE, 0, std::vector<Float3>{{kInf, 0, 0}}, 7);
-        crowd.write(SWIVEL_HAND, 0, std::vector<Float4>{{0, 0, 0, 0}}, 8);
-        CHECK(says(crowd, 1, "Its inputs changed since it was solved"));
-        crowd.solve();
-        CHECK(crowd.explain(0, 7) ==
-              "Bad input: pole (inf, 0, 0) is out of its range, no further than 1e15. The limb has its rest pose.");
-        CHECK(says(crowd, 8, "hand (0, 0, 0, 0) is out of its range, a quaternion of length 1e-9 to 1e9"));
-        CHECK(crowd.explain(0, 1).starts_with("The target is reached, to within "));
-        crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{1e14f, 0, 0}}, 9);
-        crowd.write(SWIVEL_PARENT_SCALE, 0, std::vector<Float1>{{1e-3f}}, 9);
-        crowd.solve();
-        CHECK(says(crowd, 9, "each input is in its range, but not as the parent's"));
-    }
+    Crowd crowd = crowd_with(features, {&group, 1});
+    CHECK(says(crowd, 3, "it never was"));
+    crowd.solve();
+    const std::string none = crowd.explain(0, 19);
+    for (const char* field : {"target", "lengths", "shoulder_position"})
+        CHECK(none.find(std::string(field) + " (nan") != std::string::npos);
+    for (const char* field : {"pole", "hand", "parent", "cone"}) CHECK(none.find(field) == std::string::npos);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 1, 1});
+    crowd.write_all(SWIVEL_SHOULDER_POSITION, 0, Float3{0, 0, 0});
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    crowd.write(SWIVEL_POLE, 0, std::vector<Float3>{{kInf, 0, 0}}, 7);
+    crowd.write(SWIVEL_HAND, 0, std::vector<Float4>{{0, 0, 0, 0}}, 8);
+    CHECK(says(crowd, 1, "Its inputs changed since it was solved"));
+    crowd.solve();
+    CHECK(crowd.explain(0, 7) ==
+          "Bad input: pole (inf, 0, 0) is out of its range, no further than 1e15. The limb has its rest pose.");
+    CHECK(says(crowd, 8, "hand (0, 0, 0, 0) is out of its range, a quaternion of length 1e-9 to 1e9"));
+    CHECK(crowd.explain(0, 1).starts_with("The target is reached, to within "));
+    crowd.write(SWIVEL_TARGET, 0, std::vector<Float3>{{1e14f, 0, 0}}, 9);
+    crowd.write(SWIVEL_PARENT_SCALE, 0, std::vector<Float1>{{1e-3f}}, 9);
+    crowd.solve();
+    CHECK(says(crowd, 9, "each input is in its range, but not as the parent's"));
 }
 
-TEST_CASE("explain measures how far a target is out of reach")
+TEST_CASE("explain measures how far a target is out of reach, from the shoulder as the clavicle has turned it")
 {
     Random random{4};
-    Crowd crowd = crowd_of(SWIVEL_WORLD, 40);
+    Crowd crowd = crowd_of(SWIVEL_WORLD, 40), turned = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 40);
     std::vector<Float3> targets(40), shoulders(40);
     std::vector<Float2> lengths(40);
     std::vector<Float1> scales(40);
@@ -109,11 +88,14 @@ TEST_CASE("explain measures how far a target is out of reach")
         lengths[n] = {static_cast<float>(upper), static_cast<float>(fore)};
         scales[n] = {static_cast<float>(scale)};
     }
-    crowd.write(SWIVEL_TARGET, 0, targets);
-    crowd.write(SWIVEL_SHOULDER_POSITION, 0, shoulders);
-    crowd.write(SWIVEL_LENGTHS, 0, lengths);
-    crowd.write(SWIVEL_PARENT_SCALE, 0, scales);
-    crowd.solve();
+    turned.write_all(SWIVEL_CLAVICLE, 0, Float4{0.1f, 0.2f, -0.1f, 0.5f});
+    for (Crowd* const each : {&crowd, &turned}) {
+        each->write(SWIVEL_TARGET, 0, targets);
+        each->write(SWIVEL_SHOULDER_POSITION, 0, shoulders);
+        each->write(SWIVEL_LENGTHS, 0, lengths);
+        each->write(SWIVEL_PARENT_SCALE, 0, scales);
+        each->solve();
+    }
     for (std::uint32_t n = 0; n < 40; ++n) {
         const std::string text = crowd.explain(0, n);
         const double scale = double{scales[n][0]}, upper = double{lengths[n][0]}, fore = double{lengths[n][1]};
@@ -122,6 +104,7 @@ TEST_CASE("explain measures how far a target is out of reach")
         CHECK(text.find(n % 2 == 0 ? "out of reach" : "too near") != std::string::npos);
         CHECK(number_after(text, "The target is ") == Approx(missed).epsilon(1e-3));
         CHECK(number_after(text, "the wrist is ") == Approx(end).epsilon(1e-3));
+        if (n % 2 == 0) CHECK(number_after(turned.explain(0, n), "the wrist is ") == Approx(end).epsilon(1e-3));
     }
 }
 
@@ -155,23 +138,6 @@ TEST_CASE("explain says how exactly a target is reached in lengths of the limb, 
         }
         CHECK(reached > 10);
     }
-}
-
-TEST_CASE("explain measures from the shoulder as the clavicle has turned it")
-{
-    Random random{5};
-    Crowd crowd = crowd_of(SWIVEL_WORLD | SWIVEL_WITH_CLAVICLE, 40);
-    for (std::uint32_t n = 0; n < 40; ++n) {
-        const Vector3d shoulder = 3 * random.direction(), bone = 0.3 * random.direction();
-        crowd.write(SWIVEL_SHOULDER_POSITION, 0, std::vector{floats(shoulder)}, n);
-        crowd.write(SWIVEL_TARGET, 0, std::vector{floats(Vector3d(shoulder + 4 * random.direction()))}, n);
-        crowd.write(SWIVEL_LENGTHS, 0, std::vector<Float2>{{0.5f, 0.4f}}, n);
-        const Float3 clavicle = floats(bone);
-        crowd.write(SWIVEL_CLAVICLE, 0, std::vector<Float4>{{clavicle[0], clavicle[1], clavicle[2], 0.5f}}, n);
-    }
-    crowd.solve();
-    for (std::uint32_t n = 0; n < 40; ++n)  // straight arms
-        CHECK(number_after(crowd.explain(0, n), "the wrist is ") == Approx(0.9).epsilon(1e-3));
 }
 
 TEST_CASE("explain of bones without a length, of aims, and of inputs left as they start")
@@ -258,11 +224,6 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
     Random random{8};
     constexpr std::uint32_t count = 150;
     const auto narrow = [&] { return AngleRange{random.between(-3, 3), random.between(0.05, 0.6)}; };
-    const auto value_of = [](const AngleBox& box) {
-        Float12 value;
-        for (std::size_t n = 0; n < 3; ++n) std::ranges::copy(range_of(box.range[n]), value.begin() + 4 * n);
-        return value;
-    };
     int named = 0;
     for (const swivel_features limits :
          {SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST | SWIVEL_WITH_HAND_CONE,
@@ -272,66 +233,44 @@ TEST_CASE("explain says by how many degrees the pose that violates limits least 
         swivel_group_def group = swivel::group(count, limb.bound, kWorldJointsHand | limits);
         group.shoulder_order = SWIVEL_ZXY;
         group.wrist_order = SWIVEL_YXZ;
-        Crowd crowd({group});
-        const Vector3d shoulder_axis = random.direction(), hand_axis = random.direction(),
-                       twist_axis = random.direction();
-        const AngleRange humeral = narrow(), forearm = narrow(), hand = narrow();
-        const AngleBox shoulder_box{{2, 0, 1}, {narrow(), narrow(), narrow()}},
-            wrist_box{{1, 0, 2}, {narrow(), narrow(), narrow()}};
+        Crowd crowd(group);
+        LimbLimits l(random);
+        l.shoulder = 0.5, l.hand = 0.3;
+        l.humeral = narrow(), l.forearm = narrow(), l.twist = narrow();
+        l.shoulder_box = {{2, 0, 1}, {narrow(), narrow(), narrow()}};
+        l.wrist_box = {{1, 0, 2}, {narrow(), narrow(), narrow()}};
         std::vector<Limb> limbs;
-        for (Crowd* const each : {&crowd}) {
-            const auto put_all = [&](swivel_field field, const auto& value) {
-                if (swivel_field_row_count(each->get(), 0, field)) each->write_all(field, 0, value);
-            };
-            put_all(SWIVEL_SHOULDER_CONE, cone({shoulder_axis.x(), shoulder_axis.y(), shoulder_axis.z()}, 0.5));
-            put_all(SWIVEL_HAND_CONE, cone({hand_axis.x(), hand_axis.y(), hand_axis.z()}, 0.3));
-            put_all(SWIVEL_HUMERAL_TWIST, range_of(humeral));
-            put_all(SWIVEL_FOREARM_TWIST, range_of(forearm));
-            Float7 twist;
-            std::ranges::copy(floats(twist_axis), twist.begin());
-            std::ranges::copy(range_of(hand), twist.begin() + 3);
-            put_all(SWIVEL_HAND_TWIST, twist);
-            put_all(SWIVEL_SHOULDER_BOX, value_of(shoulder_box));
-            put_all(SWIVEL_WRIST_BOX, value_of(wrist_box));
-            for (std::uint32_t n = 0; n < count; ++n) {
-                if (each == &crowd)
-                    limbs.push_back(
-                        random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
-                write_limb(*each, 0, n, limbs[n]);
-            }
-            each->solve();
-        }
+        for (std::uint32_t n = 0; n < count; ++n)
+            limbs.push_back(random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
+        each_limit(l, [&](swivel_field field, const auto& value) {
+            if (swivel_field_row_count(crowd.get(), 0, field)) crowd.write_all(field, 0, value);
+        });
+        for (std::uint32_t n = 0; n < count; ++n) write_limb(crowd, 0, n, limbs[n]);
+        crowd.solve();
         const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-        std::vector<std::array<double, 3>> elbows(count), wrists(count);
-        std::vector<std::array<double, 4>> hands(count);
-        crowd.elbows(0, elbows);
-        crowd.wrists(0, wrists);
-        crowd.hands(0, hands);
         for (std::uint32_t n = 0; n < count; ++n) {
             if (!(flags[n] & SWIVEL_INFEASIBLE)) continue;
             const std::string text = crowd.explain(0, n);
             INFO(text);
-            const Added q = added(limbs[n], limb.bound, Vector3d(elbows[n].data()), Vector3d(wrists[n].data()),
-                                  Quaterniond(hands[n].data()));
+            const LocalPose q = added_to_rest(local_pose(crowd, n), limb.bound);
             const Vector3d bone = Vector3d::UnitZ();
-            const std::pair<std::uint32_t, std::pair<const char*, double>> off[] = {
-                {SWIVEL_WITH_SHOULDER_CONE, {"shoulder_cone", off_cone(shoulder_axis, q.shoulder * bone, 0.5)}},
-                {SWIVEL_WITH_HUMERAL_TWIST, {"humeral_twist", off_twist(q.shoulder, bone, humeral)}},
-                {SWIVEL_WITH_SHOULDER_BOX, {"shoulder_box", off_box(q.shoulder, shoulder_box)}},
-                {SWIVEL_WITH_HAND_CONE, {"hand_cone", off_cone(bone, q.wrist * hand_axis, 0.3)}},
-                {SWIVEL_WITH_FOREARM_TWIST, {"forearm_twist", off_twist(q.wrist, bone, forearm)}},
-                {SWIVEL_WITH_HAND_TWIST, {"hand_twist", off_twist(q.wrist, twist_axis, hand)}},
-                {SWIVEL_WITH_WRIST_BOX, {"wrist_box", off_box(q.wrist, wrist_box)}},
+            const std::tuple<std::uint32_t, std::string, double> off[] = {
+                {SWIVEL_WITH_SHOULDER_CONE, "shoulder_cone", off_cone(l.shoulder_axis, q.shoulder * bone, 0.5)},
+                {SWIVEL_WITH_HUMERAL_TWIST, "humeral_twist", off_twist(q.shoulder, bone, l.humeral)},
+                {SWIVEL_WITH_SHOULDER_BOX, "shoulder_box", off_box(q.shoulder, l.shoulder_box)},
+                {SWIVEL_WITH_HAND_CONE, "hand_cone", off_cone(bone, q.wrist * l.hand_axis, 0.3)},
+                {SWIVEL_WITH_FOREARM_TWIST, "forearm_twist", off_twist(q.wrist, bone, l.forearm)},
+                {SWIVEL_WITH_HAND_TWIST, "hand_twist", off_twist(q.wrist, l.twist_axis, l.twist)},
+                {SWIVEL_WITH_WRIST_BOX, "wrist_box", off_box(q.wrist, l.wrist_box)},
             };
             const std::string pose = text.substr(text.find("Its pose violates"));
-            for (const auto& [limit, named_off] : off) {
-                const auto& [name, angle] = named_off;
+            for (const auto& [limit, name, angle] : off) {
                 const double degrees_off = angle / degrees(1);
-                const bool is_named = pose.find(std::string(name) + " by") != std::string::npos;
+                const bool is_named = pose.find(name + " by") != std::string::npos;
                 if (!(limits & limit) || degrees_off < -0.03) CHECK_FALSE(is_named);
                 if ((limits & limit) && degrees_off > 0.03) {
                     REQUIRE(is_named);
-                    CHECK(number_after(pose, std::string(name) + " by") == Approx(degrees_off).margin(0.03));
+                    CHECK(number_after(pose, name + " by") == Approx(degrees_off).margin(0.03));
                     ++named;
                 }
             }
@@ -363,24 +302,6 @@ TEST_CASE("with a step limit, explain measures the nearest place from where the 
     const double made = std::acos(before.dot(vec(read<Float3>(crowd, SWIVEL_NORMAL)[0])));
     CHECK(made > 0.05);
     CHECK(number_after(text, "keeps all limits is ") == Approx((0.3 - made) * 180 / kPi).margin(0.06));
-}
-
-TEST_CASE("explain says which point a soft zone keeps from the target, and how far")
-{
-    Crowd crowd = crowd_of(SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR | SWIVEL_WITH_REACH, 2);
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
-    crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.1f, 1.9f});
-    crowd.write_all(SWIVEL_POLE, 0, Float3{0, 5, 1});
-    crowd.write_all(SWIVEL_REACH, 0, Float4{0.3f, 0, 1, 0});
-    crowd.write(SWIVEL_EFFECTOR, 0, std::vector<Float3>{{0, 0, 0}, {0, 0.05f, 0}});
-    crowd.solve();
-    std::array<double, 2> missed;  // in arm lengths
-    crowd.residuals(0, missed);
-    for (const auto& [limb, point] : {std::pair(0u, "wrist"), std::pair(1u, "effector")}) {
-        const std::string words = std::string("A soft zone of reach keeps the ") + point + " ";
-        CHECK(missed[limb] > 1e-3);
-        CHECK(number_after(crowd.explain(0, limb), words) == Approx(2 * missed[limb]).epsilon(1e-3));
-    }
 }
 
 TEST_CASE("explain writes no further than it may, changes nothing and refuses what is not there")
@@ -480,6 +401,11 @@ TEST_CASE("with weights, explain speaks of the blended target, and of how far th
         if (weights[n][0] == 1) {
             CHECK(text.find("blended") == std::string::npos);
             if (flags[n] & SWIVEL_REACHED) CHECK(number_after(text, "reached, to within ") < 3e-6);
+            if (!(flags[n] & (SWIVEL_REACHED | SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR))) {
+                const std::string words = "A soft zone of reach keeps the ";
+                const std::string point = vec(effectors[n]).norm() == 0 ? "wrist " : "effector ";
+                CHECK(number_after(text, words + point) == Approx(missed).epsilon(1e-3));
+            }
             continue;
         }
         CHECK(text.find("to within") == std::string::npos);

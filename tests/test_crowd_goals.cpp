@@ -29,38 +29,6 @@ std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
 
 }  // namespace
 
-TEST_CASE("crowd file: an incoming pole keeps the twist where a limb bends the other way")
-{
-    const TempFolder folder;
-    std::string frames;
-    for (int n = 0; n < 10; ++n)  // the left elbow bends by 30 degrees, in one frame by 1 the other way
-        frames += std::string("1 2 3 0 10 0 0 20 0 0 ") + (n == 5 ? "1" : "-30") + " 0 5 0 0 0 20 0 0 30 0 5 0 0\n";
-    const std::string head = kTwoArms.substr(0, kTwoArms.find("Frames: 2"));
-    spill(folder / "clip.bvh", head + "Frames: 10\nFrame Time: .01\n" + frames);
-    spill(folder / "c.toml", "[limb.arms.pole]\nkind = \"incoming\"\n");
-    const auto solve = [&](const Words& more) {
-        Words arguments = {"solve", "clip.bvh", "--json"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return nlohmann::json::parse(run_command(folder.path, arguments).out);
-    };
-    const auto most_turn = [&](const Words& more) {
-        Words arguments = {"--out", "out.bvh"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        solve(arguments);
-        const PlainMotion motion = plain_motion_of(folder / "out.bvh");
-        const int arm = joint_named(motion, "LeftArm");
-        double most = 0;
-        for (std::size_t frame = 1; frame < 10; ++frame) {
-            const Eigen::Matrix3d a = pose_of(motion, frame - 1)[static_cast<std::size_t>(arm)].rotation;
-            const Eigen::Matrix3d b = pose_of(motion, frame)[static_cast<std::size_t>(arm)].rotation;
-            most = std::max(most, Eigen::Quaterniond(a).angularDistance(Eigen::Quaterniond(b)));
-        }
-        return most;
-    };
-    CHECK(most_turn({}) > 2);
-    CHECK(most_turn({"--crowd", "c.toml"}) < 0.5);  // twice a straight elbow's share of the bend
-}
-
 TEST_CASE("crowd file: without a key all is as without a file; options go before it")
 {
     const CrowdStage stage;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: groups with features of their own have, in one crowd and one job, the bits that each has in a crowd of
-// its own. A job solves the groups that it names and touches no other. With SWIVEL_KEEP_POSE a limb with bad input
-// keeps its results, its values in frames and what it carries.
+// The promise: crowds of several kinds of limbs are solved by jobs of any kind, on any threads, with the same bits. A
+// wrong job is refused with one line and changes nothing. The library describes its own fields, features and flags.
+// That each limb of a job has the bits that it has alone, and that no other limb changes, is the test `interface`'s.
 #include "tests/test_crowd.h"
-#include "tests/test_isa_scope.h"
 #include "tests/test_limb.h"
 
-#include <rapidcheck/catch.h>
-#include <cmath>
 #include <fstream>
 #include <regex>
+#include <thread>
 
 using namespace swivel;
 using namespace swivel::test;
@@ -62,78 +60,9 @@ void write_random_limb(Crowd& crowd, std::uint32_t group, std::uint32_t n, Rando
                      static_cast<float>(clavicle.z()), 0.5f});
 }
 
-std::vector<swivel_group_def> random_groups(Random& random)
-{
-    std::vector<swivel_group_def> groups;
-    for (std::uint32_t n = 1 + random.below(5); n > 0; --n) {
-        swivel_group_def def = group_of(1 + random.below(70));
-        def.features = kKinds[random.below(std::size(kKinds))];
-        groups.push_back(def);
-    }
-    return groups;
-}
-
-// All words of a group's rows, of limbs alone.
-std::vector<std::uint32_t> group_words(const Crowd& crowd, std::uint32_t group)
-{
-    std::vector<std::uint32_t> words;
-    const auto take = [&](const auto& rows) {
-        for (std::size_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
-            for (std::size_t row = 0; row < rows.row_count; ++row) {
-                const auto number =
-                    rows.base[(n / SWIVEL_LANES * rows.row_count + row) * SWIVEL_LANES + n % SWIVEL_LANES];
-                std::uint32_t word = 0;
-                std::memcpy(&word, &number, sizeof number);
-                words.push_back(word);
-            }
-    };
-    take(swivel_input_rows(crowd.get(), group));
-    take(swivel_result_rows(crowd.get(), group));
-    return words;
-}
-
 }  // namespace
 
-TEST_CASE("groups of any features have the bits of crowds of their own")
-{
-    rc::prop("random groups, masks and named groups, twice", [](std::uint64_t seed) {
-        Random random{seed};
-        const std::vector<swivel_group_def> groups = random_groups(random);
-        const auto count = static_cast<std::uint32_t>(groups.size());
-        Crowd together(groups);
-        std::vector<Crowd> alone;
-        for (std::uint32_t g = 0; g < count; ++g) {
-            alone.emplace_back(std::span(&groups[g], 1));
-            const std::uint64_t goals = random.word();
-            for (std::uint32_t n = 0; n < groups[g].limb_count; ++n) {
-                Random of_limb{goals + n}, again = of_limb;
-                write_random_limb(together, g, n, of_limb);
-                write_random_limb(alone[g], 0, n, again);
-            }
-        }
-        for (int solve = 0; solve < 2; ++solve) {  // the second from what the first carries
-            std::vector<std::uint32_t> named, mask((swivel_block_count(together.get()) + 1) / 2);
-            for (std::uint32_t& word : mask) word = random.word() | random.word();
-            for (std::uint32_t g = 0; g < count; ++g) {
-                if (random.below(4) == 0) continue;
-                named.push_back(g);
-                std::vector<std::uint32_t> own((swivel_block_count(alone[g].get()) + 1) / 2);
-                for (std::uint32_t n = 0; n < groups[g].limb_count; ++n) {
-                    const std::uint32_t limb = swivel_group_first_limb(together.get(), g) + n;
-                    own[n / 32] |= (mask[limb / 32] >> limb % 32 & 1) << n % 32;
-                }
-                alone[g].solve({.mask = own});
-            }
-            together.solve({.groups = named, .mask = mask, .on_this_thread = random.below(2) == 0});
-            for (std::uint32_t g = 0; g < count; ++g) {
-                const bool same = group_words(together, g) == group_words(alone[g], 0);
-                RC_ASSERT(same);
-            }
-        }
-    });
-}
-
-TEST_CASE("a large crowd of several kinds has the same bits on threads")
+TEST_CASE("a large crowd of several kinds has the same bits on threads, ours and the caller's")
 {
     constexpr std::uint32_t kLimbs = 3000 * std::size(kKinds);
     std::vector<swivel_group_def> groups;
@@ -141,15 +70,34 @@ TEST_CASE("a large crowd of several kinds has the same bits on threads")
         groups.push_back(group_of(3000));
         groups.back().features = features;
     }
-    Crowd one(groups), several(groups);
-    for (Crowd* crowd : {&one, &several})
+    Crowd one(groups), several(groups), shared(groups);
+    for (Crowd* crowd : {&one, &several, &shared})
         for (std::uint32_t g = 0; g < groups.size(); ++g) {
             Random random{g};
             for (std::uint32_t n = 0; n < 3000; ++n) write_random_limb(*crowd, g, n, random);
         }
-    CHECK(one.solve({.blocks = swivel_blocks{0, swivel_block_count(one.get())}, .on_this_thread = true}) == kLimbs);
-    CHECK(several.solve() == kLimbs);
-    CHECK(one.digest() == several.digest());
+    const std::uint32_t blocks = swivel_block_count(one.get());
+    const auto compare = [&](const Given<std::uint32_t>& mask) {
+        const std::uint32_t count = one.solve({.mask = mask, .on_this_thread = true});
+        CHECK(several.solve({.mask = mask}) == count);
+        std::vector<std::thread> threads;  // of the caller; ranges end between a mask's words
+        for (std::uint32_t t = 0; t < 3; ++t)
+            threads.emplace_back([&, t] {
+                for (std::uint32_t first = 7 * t; first < blocks; first += 3 * 7)
+                    shared.solve({.blocks = swivel_blocks{first, std::min(7u, blocks - first)},
+                                  .mask = mask,
+                                  .on_this_thread = true});
+            });
+        for (std::thread& thread : threads) thread.join();
+        CHECK(several.digest() == one.digest());
+        CHECK(shared.digest() == one.digest());
+        return count;
+    };
+    std::vector<std::uint32_t> mask((blocks + 1) / 2);
+    Random random{5};
+    for (std::uint32_t& word : mask) word = random.below(3) == 0 ? 0 : random.word() & random.word();
+    compare(mask);
+    CHECK(compare({}) == kLimbs);
     CHECK(several.solve({.groups = {2u, 5u}}) == 6000);
 }
 
@@ -169,116 +117,6 @@ TEST_CASE("jobs name groups; frames are given for those alone")
     CHECK_THROWS_WITH(crowd.solve({.groups = {1u}, .frames = {frame, frame}}),
                       "2 frames for 1 groups; give one for each");
     CHECK_THROWS_WITH(crowd.solve({.groups = {3u}}), "group 3 does not exist; this crowd has 3");
-
-    const std::uint32_t bits[2] = {5, 0};
-    swivel_job job = swivel_default_job();
-    job.groups = bits;
-    for (const std::uint32_t wrong : {0u, 2u}) {
-        job.group_word_count = wrong;
-        CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
-    }
-    job.groups = nullptr;
-    job.group_word_count = 1;
-    CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
-}
-
-TEST_CASE("bad input keeps the pose where the group says so")
-{
-    const IsaScope scope;
-    for (const std::string& isa : runnable_isas()) {
-        REQUIRE(swivel_use_isa(isa.c_str()) == SWIVEL_OK);
-        for (const swivel_features features : kKinds) {
-            for (const bool masked : {false, true}) {
-                INFO(isa << ", features " << features << (masked ? ", masked" : ""));
-                const std::uint32_t count = 200;
-                swivel_group_def def = group_of(count);
-                def.features = features;
-                Crowd rests({def});
-                def.on_bad_input = SWIVEL_KEEP_POSE;
-                Crowd keeps({def});
-                std::vector<std::uint32_t> mask((swivel_block_count(keeps.get()) + 1) / 2, masked ? 0xfbfdeff7u : ~0u);
-                const auto chosen = [&](std::uint32_t n) { return (mask[n / 32] >> n % 32 & 1) != 0; };
-                const auto solve = [&] {
-                    const Job job = masked ? Job{.mask = mask} : Job{};
-                    rests.solve(job);
-                    keeps.solve(job);
-                };
-                for (std::uint32_t n = 0; n < count; ++n)
-                    for (Crowd* crowd : {&rests, &keeps}) {
-                        Random random{1000 + n};
-                        write_random_limb(*crowd, 0, n, random);
-                        put_value(*crowd, SWIVEL_POLE, 0, n, Float3{0.3f, -0.8f, 0.1f});  // all good
-                    }
-                solve();
-                std::vector<std::vector<std::uint32_t>> before;
-                for (std::uint32_t n = 0; n < count; ++n) before.push_back(result_words(keeps, n));
-                Random random{7};
-                std::vector<bool> bad(count);
-                for (std::uint32_t n = 0; n < count; ++n) {
-                    bad[n] = random.below(3) == 0 || (n >= 64 && n < 96);  // whole blocks, too
-                    if (!bad[n]) continue;
-                    for (Crowd* crowd : {&rests, &keeps}) put_value(*crowd, SWIVEL_TARGET, 0, n, Float3{kNan, 0, 0});
-                }
-                solve();
-                const std::size_t flags = swivel_field_first_row(keeps.get(), 0, SWIVEL_FLAGS);
-                for (std::uint32_t n = 0; n < count; ++n) {
-                    std::vector<std::uint32_t> expected = before[n];
-                    if (bad[n] && chosen(n)) expected[flags] = SWIVEL_BAD_INPUT;
-                    if (!bad[n]) expected = result_words(rests, n);
-                    REQUIRE(result_words(keeps, n) == expected);
-                }
-            }
-        }
-    }
-}
-
-TEST_CASE("bad input keeps the pose in a frame that is read and written in place")
-{
-    struct Pose {
-        Float4 shoulder, elbow;
-        Float3 target;
-        std::uint32_t flags;
-    };
-    for (const bool on_this_thread : {false, true})
-        for (const bool masked : {false, true}) {
-            const std::uint32_t count = 100;
-            swivel_group_def def = group_of(count);
-            def.features = SWIVEL_JOINTS | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS;
-            def.on_bad_input = SWIVEL_KEEP_POSE;
-            Crowd crowd({def});
-            crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.5f, 1, 1});
-            Random random{3};
-            std::vector<Pose> poses(count);
-            for (Pose& pose : poses) {
-                pose = {floats(random.rotation()), floats(random.rotation()), floats(random.direction()), 7};
-                if (random.below(2)) pose.target[1] = kNan;
-            }
-            const std::vector<Pose> before = poses;
-            Frame frame;
-            frame.in(SWIVEL_TARGET, {&poses[0].target, sizeof(Pose)});
-            frame.in(SWIVEL_INCOMING_SHOULDER, {&poses[0].shoulder, sizeof(Pose)});
-            frame.in(SWIVEL_INCOMING_ELBOW, {&poses[0].elbow, sizeof(Pose)});
-            frame.out(SWIVEL_SHOULDER, {&poses[0].shoulder, sizeof(Pose)});
-            frame.out(SWIVEL_FLAGS, {&poses[0].flags, sizeof(Pose)});
-            frame.out(SWIVEL_ELBOW, {&poses[0].elbow, sizeof(Pose)});
-            const std::vector<std::uint32_t> mask(4, 0xffffbfffu);
-            const swivel_blocks all{0, swivel_block_count(crowd.get())};
-            crowd.solve({.blocks = on_this_thread ? std::optional(all) : std::nullopt,
-                         .mask = masked ? Given<std::uint32_t>(mask) : Given<std::uint32_t>(everything),
-                         .frames = {frame},
-                         .on_this_thread = on_this_thread});
-            for (std::uint32_t n = 0; n < count; ++n) {
-                const bool is_bad = std::isnan(before[n].target[1]), is_chosen = !masked || n % 32 != 14;
-                INFO("limb " << n);
-                CHECK((poses[n].flags == SWIVEL_BAD_INPUT) == (is_bad && is_chosen));
-                CHECK((poses[n].flags == 7) == !is_chosen);
-                CHECK((poses[n].shoulder == before[n].shoulder) == (is_bad || !is_chosen));
-                CHECK((poses[n].elbow == before[n].elbow) == (is_bad || !is_chosen));
-            }
-            const std::string says = crowd.explain(0, 0);
-            CHECK(says.find(std::isnan(before[0].target[1]) ? "keeps the pose it had" : "reached") !=
-                  std::string::npos);
-        }
 }
 
 TEST_CASE("the library describes the fields, features and flags that the header has")
@@ -345,4 +183,72 @@ TEST_CASE("a job whose groups lie outside its blocks solves nothing, on threads,
     CHECK(crowd.solve({.groups = {1u}, .frames = {frame}}) == 16);
     CHECK(crowd.solve({.groups = {0u}, .frames = {frame}}) == 32000);
     CHECK_THROWS_WITH(Frame().in(SWIVEL_FLAGS, {&target, 4}), "a frame takes in no result; give it by out()");
+}
+
+TEST_CASE("a job chooses in one way, and lists and priorities are for the whole crowd")
+{
+    const swivel_group_def group = group_of(40);
+    Crowd crowd = crowd_with(0, {&group, 1});
+    const std::uint32_t mask[] = {~0u, ~0u}, limb = 3;
+    const swivel_limbs list{&limb, 1};
+    const float priority = 1;
+    const swivel_in priorities{&priority, 0};
+    const swivel_blocks all{0, 3};
+    const auto before = all_words(crowd);
+    const auto refuse = [&](const auto& edit, const std::string& line) {
+        swivel_job job = swivel_default_job();
+        edit(job);
+        CHECK_REFUSED(swivel_solve(crowd.get(), &job), SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::string(swivel_last_error()).find(line) != std::string::npos);
+        CHECK((all_words(crowd) == before));
+    };
+    const auto give_mask = [&](swivel_job& job) { job.mask = mask, job.mask_word_count = 2; };
+    const auto give_list = [&](swivel_job& job) { job.limbs = &list; };
+    const auto give_priorities = [&](swivel_job& job) { job.priorities = &priorities, job.most_blocks = 1; };
+    refuse([&](swivel_job& job) { give_mask(job), give_list(job); }, "give one of them");
+    refuse([&](swivel_job& job) { give_list(job), give_priorities(job); }, "give one of them");
+    refuse([&](swivel_job& job) { give_mask(job), give_priorities(job); }, "give one of them");
+    refuse([&](swivel_job& job) { give_list(job), job.blocks = &all; },
+           "a job with a list of limbs is for the whole crowd");
+    refuse([&](swivel_job& job) { give_list(job), job.on_this_thread = 1; }, "leave on_this_thread out");
+    refuse([&](swivel_job& job) { give_priorities(job), job.blocks = &all; }, "leave blocks out");
+    refuse([&](swivel_job& job) { give_priorities(job), job.on_this_thread = 1; },
+           "a job with priorities is for the whole");
+    refuse([&](swivel_job& job) { job.mask_word_count = 2; }, "the mask is null");
+    refuse([&](swivel_job& job) { job.most_blocks = 2; }, "most_blocks goes with priorities");
+    refuse([&](swivel_job& job) { give_mask(job), job.most_blocks = 2; }, "most_blocks goes with priorities");
+    refuse([](swivel_job& job) { job.size = 0; }, "job has size 0");
+    refuse([](swivel_job& job) { job.size += 8; }, "build with the header");
+    refuse([](swivel_job& job) { job.size -= 4; }, "start from its default");  // half a member
+
+    // One of an older header is read as far as it goes: there, to the blocks alone.
+    swivel_job job = swivel_default_job();
+    const swivel_blocks none{3, 0};
+    job.blocks = &none;
+    job.size = offsetof(swivel_job, mask);
+    give_list(job);
+    CHECK(swivel_solve(crowd.get(), &job) == SWIVEL_OK);
+    CHECK((all_words(crowd) == before));
+}
+
+TEST_CASE("wrong choices are refused with one line and change nothing")
+{
+    Crowd crowd({group(20), group(5), group(40)});
+    const auto before = all_words(crowd);
+    const auto refuse = [&](const Job& job, const std::string& line) {
+        CHECK_THROWS_WITH(crowd.solve(job), Catch::Contains(line));
+        CHECK((all_words(crowd) == before));
+    };
+    refuse({.mask = std::vector<std::uint32_t>(2)},
+           "a mask of 2 words; this crowd of 6 blocks has 3, a bit for each lane");
+    // Padding lies at 20 to 31, 37 to 47 and 88 to 95; the crowd ends at 96.
+    for (const std::uint32_t wrong : {20u, 31u, 37u, 47u, 88u, 95u})
+        refuse({.limbs = std::vector<std::uint32_t>{3, 48, 87, wrong}},
+               "entry 3 of the list: " + std::to_string(wrong) + " is no limb of this crowd, but padding");
+    for (const std::uint32_t wrong : {96u, 1u << 31, ~0u})
+        refuse({.limbs = std::vector<std::uint32_t>{wrong}}, " is no limb of this crowd, but past its end");
+    refuse({.blocks = swivel_blocks{6, 1}}, "");
+    refuse({.blocks = swivel_blocks{1, ~0u}}, "");
+    CHECK(crowd.solve({.limbs = std::vector<std::uint32_t>{19, 36, 87, 19}}) ==
+          3);  // nothing is left of the lists refused
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: what swivel.h says of the whole limb holds in crowds, through skeletons and worlds. Inputs with neutral
-// values change nothing. Incoming poses and effectors are the skeleton's own. Stretch, twist bones, the carried swivel
-// and joint angles mean what swivel.h says.
+// values change nothing. Weights, stretch, the carried swivel and joint angles mean what swivel.h says.
 #include "tests/test_whole_limb.h"
 
 using namespace swivel;
@@ -44,41 +43,6 @@ TEST_CASE("whole limbs at rest are the plain arms")
         }
 }
 
-TEST_CASE("an incoming pose of the skeleton's own rotations, kept by weights of 0")
-{
-    constexpr std::uint32_t count = 100;
-    Random random{2};
-    const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_INCOMING | SWIVEL_WITH_WEIGHTS, count, limb.bound);
-    Crowd first = crowd_of(kWorldJointsHand, count, limb.bound);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Float2 lengths = {limb.bound.lengths[0], limb.bound.lengths[1]};
-        write_limb(first, 0, n, random_limb(random, kWorldJointsHand, lengths));
-        write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, lengths));
-    }
-    first.solve();
-    // Any of the two quaternions of each rotation may come in; the same comes out.
-    for (const auto& [from, to] :
-         {std::pair{SWIVEL_SHOULDER, SWIVEL_INCOMING_SHOULDER}, std::pair{SWIVEL_ELBOW, SWIVEL_INCOMING_ELBOW},
-          std::pair{SWIVEL_WRIST, SWIVEL_INCOMING_WRIST}}) {
-        auto values = read<Float4>(first, from);
-        for (std::size_t n = 0; n < values.size(); n += 2)
-            for (float& x : values[n]) x = -x;
-        crowd.write(to, 0, values);
-    }
-    crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0, 0, 0});
-    crowd.solve();
-    for (const auto& [out, in] :
-         {std::pair{SWIVEL_SHOULDER, SWIVEL_INCOMING_SHOULDER}, std::pair{SWIVEL_ELBOW, SWIVEL_INCOMING_ELBOW},
-          std::pair{SWIVEL_WRIST, SWIVEL_INCOMING_WRIST}}) {
-        const auto got = read<Float4>(crowd, out), want = read<Float4>(crowd, in);
-        for (std::uint32_t n = 0; n < count; ++n) {
-            INFO("limb " << n << ", field " << out);
-            CHECK((quat(got[n]).coeffs() - quat(want[n]).coeffs()).norm() <= 2e-5);
-        }
-    }
-}
-
 TEST_CASE("each weight blends its own part with the incoming pose")
 {
     constexpr std::uint32_t count = 100;
@@ -118,36 +82,6 @@ TEST_CASE("each weight blends its own part with the incoming pose")
     }
 }
 
-TEST_CASE("an effector in the hand joint's own frame is at the target")
-{
-    constexpr std::uint32_t count = 100;
-    Random random{3};
-    const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | SWIVEL_WITH_EFFECTOR, count, limb.bound);
-    std::vector<Limb> limbs;
-    std::vector<Vector3d> effectors;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        Limb each = random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]});
-        effectors.push_back(vec(floats(Vector3d(random.between(0, 0.3) * random.direction()))));
-        const Parent parent = each.parent();
-        each.target = floats(Vector3d(vec(each.target) + parent.scale * (quat(each.hand).normalized() * effectors[n])));
-        write_limb(crowd, 0, n, each);
-        put(crowd, SWIVEL_EFFECTOR, n, floats(effectors[n]));
-        limbs.push_back(each);
-    }
-    crowd.solve();
-    std::vector<double> residuals(count);
-    crowd.residuals(0, residuals);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Parent parent = limbs[n].parent();
-        const LocalPose pose = local_pose(crowd, n);
-        const Vector3d at = pose.wrist_place(limb.chain, parent) + parent.scale * (pose.hand(parent) * effectors[n]);
-        const double length = parent.scale * (limb.bound.lengths[0] + limb.bound.lengths[1]);
-        CHECK((at - vec(limbs[n].target)).norm() <= 3e-6 * length);
-        CHECK(residuals[n] <= 3e-6);
-    }
-}
-
 TEST_CASE("stretched bones reach and give their stretch back; no wrist is nearer than the least distance")
 {
     Crowd crowd = crowd_of(SWIVEL_WITH_REACH, 3);
@@ -175,28 +109,6 @@ TEST_CASE("stretched bones reach and give their stretch back; no wrist is nearer
     crowd.residuals(0, residuals);
     CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS)[0] == SWIVEL_CLAMPED_NEAR);
     CHECK(residuals[0] == Approx(0.375));
-}
-
-TEST_CASE("a soft zone is at most half of the range of reach")
-{
-    Crowd crowd = crowd_of(SWIVEL_WITH_REACH, 2);
-    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 0.6f});
-    // Zones as wide as the arm. The bones reach from 0.4 to 1.6, and the second limb's least distance is 1.
-    const Float4 zones[] = {{1, 1, 1, 0}, {1, 1, 1, 0.625f}};
-    crowd.write(SWIVEL_REACH, 0, zones);
-    for (double d = 0.05; d < 2.4; d += 0.05) {
-        crowd.write_all(SWIVEL_TARGET, 0, floats(Vector3d(0, 0, d)));
-        crowd.solve();
-        std::vector<std::array<double, 3>> wrists(2);
-        crowd.wrists(0, wrists);
-        for (const std::uint32_t n : {0u, 1u}) {
-            const double near = n == 0 ? 0.4 : 1, far = 1.6, zone = (far - near) / 2, middle = (far + near) / 2;
-            const double past = std::clamp(std::fabs(d - middle), 0.0, 2 * zone);  // both zones start in the middle
-            const double eased = std::copysign(past - past * past / (4 * zone), d - middle);
-            INFO("limb " << n << ", target at " << d);
-            CHECK(Vector3d(wrists[n].data()).norm() == Approx(middle + eased).margin(2e-6));
-        }
-    }
 }
 
 TEST_CASE("the elbow bends within its range, and says where that keeps the wrist from its target")
@@ -233,36 +145,6 @@ TEST_CASE("the elbow bends within its range, and says where that keeps the wrist
     }
     CHECK(straight > 30);
     CHECK(bent > 30);
-}
-
-TEST_CASE("twist bones share the hand's twist about the forearm")
-{
-    constexpr std::uint32_t count = 100, bones = 3;
-    Random random{6};
-    const Chained limb = chained(random);
-    Crowd crowd = crowd_of(kWorldJointsHand | bones * SWIVEL_WITH_TWIST_BONES, count, limb.bound);
-    for (std::uint32_t n = 0; n < count; ++n)
-        write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
-    crowd.solve();
-    const auto twists = read<Float12>(crowd, SWIVEL_TWIST_BONES);
-    const swivel_binding& b = limb.bound;
-    const Quaterniond fore = quat(b.fore_from_arm), hand_rest = fore.conjugate() * quat(b.wrist_rest);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Quaterniond wrist = fore.conjugate() * local_pose(crowd, n).wrist * hand_rest.conjugate();
-        // The rotation's matrix, its swing from e3 taken out: what is left turns e1 about e3.
-        const Vector3d to = wrist * Vector3d::UnitZ(), across = Vector3d::UnitZ().cross(to);
-        const Quaterniond swing = Quaterniond(1 + to.z(), across.x(), across.y(), across.z()).normalized();
-        const Vector3d turned = (swing.conjugate() * wrist) * Vector3d::UnitX();
-        const double twist = std::atan2(turned.y(), turned.x());
-        for (std::size_t bone = 0; bone < bones; ++bone) {
-            const Float4 q = {twists[n][4 * bone], twists[n][4 * bone + 1], twists[n][4 * bone + 2],
-                              twists[n][4 * bone + 3]};
-            const Vector3d axis = fore * Vector3d::UnitZ();
-            const Quaterniond want(Eigen::AngleAxisd(twist * double(bone + 1) / (bones + 1), axis));
-            INFO("limb " << n << ", bone " << bone << ", twist " << twist);
-            CHECK(quat(q).angularDistance(want) <= (std::fabs(twist) > 3.1 ? 7 : 2e-3));
-        }
-    }
 }
 
 TEST_CASE("the swivel carried from solve to solve is forgotten on reset")
@@ -327,9 +209,6 @@ TEST_CASE("joint angles turn back into the rotations they are of, in every order
     for (std::uint32_t n = 0; n < count; ++n)
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
     crowd.solve();
-    const swivel_binding& b = limb.bound;
-    const Quaterniond parent = quat(b.parent_from_arm), upper = quat(b.upper_from_arm), fore = quat(b.fore_from_arm);
-    const Quaterniond hand_rest = fore.conjugate() * quat(b.wrist_rest);
     const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
     for (int order = 0; order < 6; ++order)
         for (const int family : {0, 1}) {
@@ -345,12 +224,12 @@ TEST_CASE("joint angles turn back into the rotations they are of, in every order
                                                               Vector3d::Unit(axes[o][k])));
                     return q;
                 };
-                const LocalPose pose = local_pose(crowd, n);
+                const LocalPose turns = added_to_rest(local_pose(crowd, n), limb.bound);
                 INFO("limb " << n << ", order " << order << ", family " << family);
-                CHECK(distance(rotation(order, 0), parent.conjugate() * pose.shoulder * upper) <= 1e-6);
-                CHECK(distance(rotation(5 - order, 4), fore.conjugate() * pose.wrist * hand_rest.conjugate()) <= 1e-6);
+                CHECK(distance(rotation(order, 0), turns.shoulder) <= 1e-6);
+                CHECK(distance(rotation(5 - order, 4), turns.wrist) <= 1e-6);
                 const Quaterniond elbow(Eigen::AngleAxisd(-angles[n][3], Vector3d::UnitX()));
-                CHECK(distance(elbow, upper.conjugate() * pose.elbow * fore) <= 1e-6);
+                CHECK(distance(elbow, turns.elbow) <= 1e-6);
                 CHECK((std::fabs(angles[n][1]) <= kPi / 2) == (family == 0));
             }
         }

@@ -26,55 +26,28 @@ TEST_CASE("limits made of angles are kept through a skeleton")
     group.shoulder_order = SWIVEL_YZX;
     group.wrist_order = SWIVEL_ZYX;
     Crowd crowd({group});
-    struct Limited {
-        Vector3d shoulder_axis, hand_axis, twist_axis;
-        double shoulder, hand;
-        AngleRange humeral, forearm, twist;
-        AngleBox shoulder_box{{1, 2, 0}, {}}, wrist_box{{2, 1, 0}, {}};
-    };
-    std::vector<Limited> limits(count);
+    std::vector<LimbLimits> limits;
     for (std::uint32_t n = 0; n < count; ++n) {
         write_limb(crowd, 0, n, random_limb(random, kWorldJointsHand, {limb.bound.lengths[0], limb.bound.lengths[1]}));
-        Limited& l = limits[n];
+        LimbLimits& l = limits.emplace_back(random);
         // Each limb has one kind of limit that is narrow; the others are wide open.
         const std::uint32_t kind = n % 7;
         const auto range = [&](std::uint32_t mine) {
             return kind == mine ? AngleRange{random.between(-kPi, kPi), random.between(0.5, 2.5)} : AngleRange{};
         };
-        l.shoulder_axis = random.direction(), l.hand_axis = random.direction(), l.twist_axis = random.direction();
-        l.shoulder = kind == 0 ? random.between(0.3, 2) : kPi, l.hand = kind == 1 ? random.between(0.3, 2) : kPi;
+        if (kind == 0) l.shoulder = random.between(0.3, 2);
+        if (kind == 1) l.hand = random.between(0.3, 2);
         l.humeral = range(2), l.forearm = range(3), l.twist = range(4);
-        for (int a = 0; a < 3; ++a) l.shoulder_box.range[a] = range(5), l.wrist_box.range[a] = range(6);
-        Float4 cone;
-        CHECK(swivel_cone(l.shoulder_axis.data(), l.shoulder, cone.data()) == SWIVEL_OK);
-        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
-        CHECK(swivel_cone(l.hand_axis.data(), l.hand, cone.data()) == SWIVEL_OK);
-        put(crowd, SWIVEL_HAND_CONE, n, cone);
-        put(crowd, SWIVEL_HUMERAL_TWIST, n, range_of(l.humeral));
-        put(crowd, SWIVEL_FOREARM_TWIST, n, range_of(l.forearm));
-        const Float3 axis = floats(l.twist_axis);
-        const Float4 twist = range_of(l.twist);
-        put(crowd, SWIVEL_HAND_TWIST, n, Float7{axis[0], axis[1], axis[2], twist[0], twist[1], twist[2], twist[3]});
-        Float12 shoulder, wrist;
-        for (std::size_t a = 0; a < 3; ++a) {
-            std::ranges::copy(range_of(l.shoulder_box.range[a]), shoulder.begin() + 4 * a);
-            std::ranges::copy(range_of(l.wrist_box.range[a]), wrist.begin() + 4 * a);
-        }
-        put(crowd, SWIVEL_SHOULDER_BOX, n, shoulder);
-        put(crowd, SWIVEL_WRIST_BOX, n, wrist);
+        l.shoulder_box = {{1, 2, 0}, {range(5), range(5), range(5)}};
+        l.wrist_box = {{2, 1, 0}, {range(6), range(6), range(6)}};
+        each_limit(l, [&](swivel_field field, const auto& value) { put(crowd, field, n, value); });
     }
     crowd.solve();
     const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    const swivel_binding& b = limb.bound;
-    const Quaterniond parent = quat(b.parent_from_arm), upper = quat(b.upper_from_arm), fore = quat(b.fore_from_arm);
-    const Quaterniond hand_rest = fore.conjugate() * quat(b.wrist_rest);
     std::map<std::uint32_t, int> seen;
     for (std::uint32_t n = 0; n < count; ++n) {
-        const LocalPose pose = local_pose(crowd, n);
-        // What the joints add to rest, in the arm frame.
-        const Quaterniond shoulder = (parent.conjugate() * pose.shoulder * upper).normalized();
-        const Quaterniond wrist = (fore.conjugate() * pose.wrist * hand_rest.conjugate()).normalized();
-        const Limited& l = limits[n];
+        const auto [shoulder, elbow, wrist] = added_to_rest(local_pose(crowd, n), limb.bound);
+        const LimbLimits& l = limits[n];
         const Vector3d e3 = Vector3d::UnitZ();
         const double by = std::max({cone_violation(l.shoulder_axis, std::cos(l.shoulder), shoulder * e3),
                                     cone_violation(e3, std::cos(l.hand), wrist * l.hand_axis),
@@ -89,109 +62,6 @@ TEST_CASE("limits made of angles are kept through a skeleton")
             if (flags[n] >> bit & 1) ++seen[bit];
     }
     for (std::uint32_t bit = 7; bit < 14; ++bit) CHECK(seen[bit] > 20);
-}
-
-TEST_CASE("a wish that breaks a limit by more than rounding leaves is not granted")
-{
-    constexpr std::uint32_t count = 300;
-    Random random{9};
-    Crowd free = crowd_of(0, count), crowd = crowd_of(SWIVEL_WITH_SHOULDER_CONE, count);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Limb limb = random_limb(random, 0, {1, 1.2f});
-        write_limb(free, 0, n, limb);
-        write_limb(crowd, 0, n, limb);
-    }
-    free.solve();
-    std::vector<Vector3d> axes;
-    std::vector<double> openings;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        // Outside by 20 times what is tolerated.
-        const Vector3d upper = quat(read<Float4>(free, SWIVEL_SHOULDER)[n]).normalized() * Vector3d::UnitZ();
-        axes.push_back(vec(floats(random.direction())).normalized());
-        openings.push_back(std::min(axes[n].dot(upper) + 1e-5, 1.0));
-        Float4 cone;
-        CHECK(swivel_cone(axes[n].data(), std::acos(openings[n]), cone.data()) == SWIVEL_OK);
-        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
-    }
-    crowd.solve();
-    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    const auto shoulders = read<Float4>(crowd, SWIVEL_SHOULDER);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        INFO("limb " << n);
-        CHECK((flags[n] & SWIVEL_LIMITED_SHOULDER_CONE) != 0);
-        if (flags[n] & SWIVEL_INFEASIBLE) continue;
-        const Vector3d upper = quat(shoulders[n]).normalized() * Vector3d::UnitZ();
-        CHECK(cone_violation(axes[n], openings[n], upper) <= 1e-6);
-    }
-}
-
-TEST_CASE("a scan of the circle finds no nearer allowed swivel, and none better where none is allowed")
-{
-    constexpr std::uint32_t count = 600;
-    constexpr swivel_features limits = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST;
-    Random random{10};
-    Crowd wished = crowd_of(0, count), crowd = crowd_of(limits | SWIVEL_WITH_SHOULDER_BOX, count);
-    struct Limited {
-        Vector3d line, axis;
-        double opening = kPi;
-        AngleRange twist;
-        AngleBox box;
-        bool has_box;
-    };
-    std::vector<Limited> limited;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Limb limb = random_limb(random, 0, {1, 1.2f});
-        write_limb(wished, 0, n, limb);
-        write_limb(crowd, 0, n, limb);
-        Limited l{vec(limb.target).normalized(), vec(floats(random.direction())).normalized(), kPi, {}, {}, n % 2 == 0};
-        if (l.has_box) {
-            for (AngleRange& range : l.box.range) range = {random.between(-kPi, kPi), random.between(0.5, 2.5)};
-        } else {
-            l.opening = random.between(0.2, 2.5);
-            l.twist = {random.between(-kPi, kPi), random.between(0.2, 2.5)};
-        }
-        Float4 cone;
-        CHECK(swivel_cone(l.axis.data(), l.opening, cone.data()) == SWIVEL_OK);
-        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
-        put(crowd, SWIVEL_HUMERAL_TWIST, n, range_of(l.twist));
-        Float12 box;
-        for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(range_of(l.box.range[k]), box.begin() + 4 * k);
-        put(crowd, SWIVEL_SHOULDER_BOX, n, box);
-        limited.push_back(l);
-    }
-    wished.solve();
-    crowd.solve();
-    const auto wishes = read<Float4>(wished, SWIVEL_SHOULDER), got = read<Float4>(crowd, SWIVEL_SHOULDER);
-    const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS);
-    int moved = 0, none = 0;
-    for (std::uint32_t n = 0; n < count; ++n) {
-        const Limited& l = limited[n];
-        const Quaterniond wish = quat(wishes[n]).normalized(), pose = quat(got[n]).normalized();
-        const auto violation = [&](const Quaterniond& q) {
-            if (l.has_box) return box_violation(l.box, q.toRotationMatrix());
-            return std::max(cone_violation(l.axis, std::cos(l.opening), q * Vector3d::UnitZ()),
-                            twist_violation(Vector3d::UnitZ(), l.twist, q));
-        };
-        const double swivel = wish.angularDistance(pose), by = violation(pose);
-        double nearest = 2 * kPi, least = 2;
-        for (int step = -1800; step <= 1800; ++step) {
-            const double angle = kPi * step / 1800, there = violation(Eigen::AngleAxisd(angle, l.line) * wish);
-            if (there <= -1e-6) nearest = std::min(nearest, std::fabs(angle));
-            least = std::min(least, there);
-        }
-        INFO("limb " << n << ", flags " << flags[n] << ", swivel " << swivel << ", broken by " << by);
-        if (flags[n] & SWIVEL_INFEASIBLE) {
-            ++none;
-            CHECK(least > -1e-6);
-            if (!l.has_box) CHECK(by <= least + 2e-6);  // outside of a box there is no one way to measure how far
-        } else {
-            moved += swivel > 0.01;
-            CHECK(by <= 2e-6);
-            CHECK(swivel <= nearest + 1e-3);  // an arc's end may be flat
-        }
-    }
-    CHECK(moved > 100);
-    CHECK(none > 100);
 }
 
 TEST_CASE("the body's other side is the mirror image")
@@ -235,23 +105,13 @@ TEST_CASE("the body's other side is the mirror image")
         Float2 turn;
         swivel_turn(random.between(-2, 2), turn.data());
         both(SWIVEL_ANGLE, n, turn);
-        const auto range = [&] { return range_of({random.between(-1, 1), random.between(1, 3)}); };
-        Float4 cone;
-        const Vector3d axis = random.direction(), hand_axis = random.direction(), twist_axis = random.direction();
-        CHECK(swivel_cone(axis.data(), random.between(1, 2.5), cone.data()) == SWIVEL_OK);
-        both(SWIVEL_SHOULDER_CONE, n, cone);
-        CHECK(swivel_cone(hand_axis.data(), random.between(1.5, 3), cone.data()) == SWIVEL_OK);
-        both(SWIVEL_HAND_CONE, n, cone);
-        both(SWIVEL_HUMERAL_TWIST, n, range());
-        both(SWIVEL_FOREARM_TWIST, n, range());
-        const Float4 twist = range();
-        const Float3 a = floats(twist_axis);
-        both(SWIVEL_HAND_TWIST, n, Float7{a[0], a[1], a[2], twist[0], twist[1], twist[2], twist[3]});
-        for (const swivel_field box : {SWIVEL_SHOULDER_BOX, SWIVEL_WRIST_BOX}) {
-            Float12 value;
-            for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(range(), value.begin() + 4 * k);
-            both(box, n, value);
-        }
+        LimbLimits limits(random);
+        const auto range = [&] { return AngleRange{random.between(-1, 1), random.between(1, 3)}; };
+        limits.shoulder = random.between(1, 2.5), limits.hand = random.between(1.5, 3);
+        limits.humeral = range(), limits.forearm = range(), limits.twist = range();
+        for (AngleBox* const box : {&limits.shoulder_box, &limits.wrist_box})
+            for (AngleRange& each : box->range) each = range();
+        each_limit(limits, [&](swivel_field field, const auto& value) { both(field, n, value); });
     }
     r.solve();
     l.solve();
@@ -280,17 +140,15 @@ TEST_CASE("allowed arcs are where the limits are kept, and the solver's choice i
     int some = 0, none = 0;
     for (std::uint32_t n = 0; n < count; ++n) {
         write_limb(crowd, 0, n, random_limb(random, 0, {1, 1.2f}));
-        const Vector3d axis = random.direction();
-        Float4 cone;
-        CHECK(swivel_cone(axis.data(), random.between(0.5, 3), cone.data()) == SWIVEL_OK);
-        put(crowd, SWIVEL_SHOULDER_CONE, n, cone);
-        put(crowd, SWIVEL_HUMERAL_TWIST, n, range_of({random.between(-kPi, kPi), random.between(1, 3.14)}));
-        if (n % 2) {
-            Float12 box;
-            for (std::size_t k = 0; k < 3; ++k)
-                std::ranges::copy(range_of({random.between(-kPi, kPi), random.between(1.5, 3.1)}), box.begin() + 4 * k);
-            put(crowd, SWIVEL_SHOULDER_BOX, n, box);
-        }
+        LimbLimits limits(random);
+        limits.shoulder = random.between(0.5, 3);
+        limits.humeral = {random.between(-kPi, kPi), random.between(1, 3.14)};
+        if (n % 2)
+            for (AngleRange& range : limits.shoulder_box.range)
+                range = {random.between(-kPi, kPi), random.between(1.5, 3.1)};
+        each_limit(limits, [&](swivel_field field, const auto& value) {
+            if (swivel_field_row_count(crowd.get(), 0, field)) put(crowd, field, n, value);
+        });
     }
     std::vector<std::vector<swivel_arc>> arcs(count);
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -421,9 +279,7 @@ TEST_CASE("swivel_arm_axis refuses what has no direction, and takes its own outp
     double axis[3] = {7, 7, 7};
     const auto wrong = SWIVEL_INVALID_ARGUMENT;
     CHECK_REFUSED(swivel_arm_axis(nullptr, turned.data(), up, axis), wrong);
-    CHECK_REFUSED(swivel_arm_axis(&binding, nullptr, up, axis), wrong);
     CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), nullptr, axis), wrong);
-    CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), up, nullptr), wrong);
     CHECK_REFUSED(swivel_arm_axis(&binding, none.data(), up, axis), wrong);
     for (const double* direction : {nothing, bad})
         CHECK_REFUSED(swivel_arm_axis(&binding, turned.data(), direction, axis), wrong);

@@ -102,9 +102,16 @@ TEST_CASE("nothing allocates after creation")
         static std::vector<Float4> shoulders(5000);
         static std::vector<std::array<double, 3>> wrists(5000);
         static std::vector<double> residuals(5000);
+        static const std::vector<std::uint32_t> mask(157, 0x80018001u);
+        static const Frame own = Frame()
+                                     .in(SWIVEL_TARGET, {targets.data(), sizeof targets[0]})
+                                     .out(SWIVEL_SHOULDER, {shoulders.data(), sizeof shoulders[0]});
+        static const swivel_frame frame = own;
+        const std::span frames(&frame, 1);
         crowd.write(SWIVEL_TARGET, 0, targets);
         crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
         crowd.solve({.blocks = swivel_blocks{0, 200}, .on_this_thread = true});
+        crowd.solve({.blocks = swivel_blocks{3, 200}, .mask = mask, .frames = frames, .on_this_thread = true});
         crowd.read(SWIVEL_SHOULDER, 0, shoulders);
         crowd.wrists(0, wrists);
         crowd.residuals(0, residuals);
@@ -118,12 +125,18 @@ TEST_CASE("nothing allocates after creation")
         for (int n = 0; n < 20; ++n) use(crowd);
         CHECK(allocation_count() == before);
 
+        const std::vector<std::uint32_t> mask(157, 0x80018001u), list{3, 4999, 17, 16, 800};
+        const auto solve_in_every_way = [&] {
+            crowd.solve();
+            crowd.solve({.mask = mask});
+            crowd.solve({.limbs = list});
+        };
         const auto solve_alone = [&] {
 #ifdef SWIVEL_WITH_TBB
             static oneapi::tbb::task_arena arena(1);
-            arena.execute([&] { crowd.solve(); });
+            arena.execute(solve_in_every_way);
 #else
-            crowd.solve();
+            solve_in_every_way();
 #endif
         };
         for (int n = 0; n < 5; ++n) solve_alone();

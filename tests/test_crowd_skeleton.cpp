@@ -101,6 +101,7 @@ TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, 
                 p.crowd.solve();
                 const auto flags = read<std::uint32_t>(p.crowd, SWIVEL_FLAGS);
                 std::vector<Places> places;
+                Quaterniond first = Quaterniond::Identity();  // the elbow's, as the upper arm has it
                 for (std::uint32_t n = 0; n < 21; ++n) {
                     INFO("features " << features << ", between " << shape.upper << " and " << shape.fore << ", seed "
                                      << seed << ", limb " << n);
@@ -113,6 +114,12 @@ TEST_CASE("skeletons by joints: the wrist is on its target, the hand as wanted, 
                                    fore = places[n].wrist - places[n].elbow,
                                    bend = shoulder.rotation * vec(p.skeleton.bend);
                     CHECK(upper.cross(fore).normalized().dot(upper.cross(bend).normalized()) == Approx(1).margin(1e-6));
+                    // The elbow turns about one axis of the upper arm.
+                    const Quaterniond elbow =
+                        shoulder.rotation.conjugate() * p.place(locals, n, p.skeleton.elbow).rotation;
+                    if (n == 0) first = elbow;
+                    const Vector3d hinge = shoulder.rotation.conjugate() * upper.cross(bend).normalized();
+                    CHECK((elbow * first.conjugate()).vec().cross(hinge).norm() <= 3e-6);
                 }
                 check_forward(p.crowd, 0, p.limbs, places, 1e-6);
             }
@@ -138,49 +145,63 @@ TEST_CASE("skeletons by joints: where nothing is in between, the binding is the 
     }
 }
 
-TEST_CASE("skeletons by joints: the order of joints and how they lie in memory change no bit")
+TEST_CASE("skeletons by joints: the rest pose's own wrist and elbow give back the rest rotations")
+{
+    for (const Between& shape : kShapes)
+        for (std::uint64_t seed = 0; seed < 12; ++seed) {
+            Random random{seed};
+            RestSkeleton s = random_skeleton(random, shape, 0);
+            s.bend = {0, 0, 0};  // the rest pose shows it
+            swivel_binding bound = swivel_default_binding();
+            const swivel_skeleton view = s.view();
+            const swivel_limb_joints joints = s.joints();
+            if (swivel_bind_joints(&view, &joints, &bound) != SWIVEL_OK) continue;  // straight
+            INFO("between " << shape.upper << " and " << shape.fore << ", seed " << seed);
+            Crowd crowd = crowd_of(kWorldJointsHand, 1, bound);
+            Limb limb = random_limb(random, kWorldJointsHand, {bound.lengths[0], bound.lengths[1]});
+            const Parent root = root_of(s, bound, limb, kWorldJointsHand);
+            const Locals rest = rest_locals(s);
+            limb.target = floats(place_of(s, rest, root, s.wrist).position);
+            limb.pole = floats(place_of(s, rest, root, s.elbow).position);
+            limb.hand = floats(place_of(s, rest, root, s.wrist).rotation);
+            write_limb(crowd, 0, 0, limb);
+            crowd.solve();
+            // The target's rounding, seen from a parent 5 units away, through a bend of down to 0.1.
+            const Locals got = posed(s, crowd, 0);
+            for (const std::uint32_t joint : {s.shoulder, s.elbow, s.wrist})
+                CHECK(distance(got[joint], rest[joint]) <= 1e-4);
+        }
+}
+
+TEST_CASE("skeletons by joints: how they lie in memory changes no bit, and null rotations are joints not turned")
 {
     Random random{3};
-    const RestSkeleton s = random_skeleton(random, {2, 1, 2}, 3);
-    const swivel_binding whole = s.bound();
+    RestSkeleton s = random_skeleton(random, {2, 1, 2}, 3);
     struct Joint {
         float place[3];
         std::int32_t parent;
         float rotation[4], more;
     };
-    // The other way round, in structures.
-    const std::uint32_t last = s.size() - 1;
     std::vector<Joint> joints(s.size());
-    for (std::uint32_t n = 0; n <= last; ++n) {
-        Joint& to = joints[last - n];
-        to.parent = s.parents[n] < 0 ? -1 : static_cast<std::int32_t>(last) - s.parents[n];
-        std::ranges::copy(s.translations[n], to.place);
-        std::ranges::copy(s.rotations[n], to.rotation);
+    for (std::uint32_t n = 0; n < s.size(); ++n) {
+        joints[n].parent = s.parents[n];
+        std::ranges::copy(s.translations[n], joints[n].place);
+        std::ranges::copy(s.rotations[n], joints[n].rotation);
     }
     swivel_skeleton skeleton = swivel_default_skeleton();
     skeleton.joint_count = s.size();
     skeleton.parents = swivel::stream(joints, &Joint::parent);
     skeleton.translations = swivel::stream(joints, &Joint::place);
     skeleton.rotations = swivel::stream(joints, &Joint::rotation);
-    swivel_limb_joints limb = s.joints();
-    for (std::uint32_t* const joint : {&limb.shoulder, &limb.elbow, &limb.wrist}) *joint = last - *joint;
-    std::vector<std::uint32_t> bones;
-    for (const std::uint32_t bone : s.twist_bones) bones.push_back(last - bone);
-    limb.twist_bones = bones.data();
-    const swivel_binding bound = bind(skeleton, limb);
-    CHECK(std::memcmp(&bound, &whole, sizeof whole) == 0);
-}
-
-TEST_CASE("skeletons by joints: null rotations are joints that are not turned")
-{
-    Random random{5};
-    RestSkeleton s = random_skeleton(random, {1, 1, 1}, 2);
+    const auto same = [](const swivel_binding& a, const swivel_binding& b) {
+        return std::memcmp(&a, &b, sizeof a) == 0;
+    };
+    CHECK(same(bind(skeleton, s.joints()), s.bound()));
+    s = random_skeleton(random, {1, 1, 1}, 0);
     std::ranges::fill(s.rotations, Float4{0, 0, 0, 1});
-    const swivel_binding given = s.bound();
-    swivel_skeleton skeleton = s.view();
+    skeleton = s.view();
     skeleton.rotations = {};
-    const swivel_binding none = bind(skeleton, s.joints());
-    CHECK(std::memcmp(&given, &none, sizeof none) == 0);
+    CHECK(same(bind(skeleton, s.joints()), s.bound()));
 }
 
 TEST_CASE("skeletons by joints: twist bones, wherever they hang, share the hand's twist about the forearm")
@@ -220,6 +241,9 @@ TEST_CASE("skeletons by joints: twist bones, wherever they hang, share the hand'
 TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
 {
     constexpr std::uint32_t count = 20;
+    constexpr std::pair<swivel_field, swivel_field> kIncoming[] = {{SWIVEL_SHOULDER, SWIVEL_INCOMING_SHOULDER},
+                                                                   {SWIVEL_ELBOW, SWIVEL_INCOMING_ELBOW},
+                                                                   {SWIVEL_WRIST, SWIVEL_INCOMING_WRIST}};
     for (const Between& shape : kShapes) {
         Random random{shape.above + 20};
         Posed p(random, shape, kWorldJointsHand, count);
@@ -230,9 +254,12 @@ TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
                               count, p.bound);
         for (Crowd* const crowd : {&follow, &keep}) {
             for (std::uint32_t n = 0; n < count; ++n) write_limb(*crowd, 0, n, p.limbs[n]);
-            crowd->write(SWIVEL_INCOMING_SHOULDER, 0, read<Float4>(p.crowd, SWIVEL_SHOULDER));
-            crowd->write(SWIVEL_INCOMING_ELBOW, 0, read<Float4>(p.crowd, SWIVEL_ELBOW));
-            crowd->write(SWIVEL_INCOMING_WRIST, 0, read<Float4>(p.crowd, SWIVEL_WRIST));
+            for (const auto& [from, to] : kIncoming) {  // any of the two quaternions of each rotation
+                std::vector<Float4> values = read<Float4>(p.crowd, from);
+                for (std::size_t n = 0; n < count; n += 2)
+                    for (float& x : values[n]) x = -x;
+                crowd->write(to, 0, values);
+            }
         }
         keep.write_all(SWIVEL_WEIGHTS, 0, Float3{0, 0, 0});
         for (std::uint32_t n = 0; n < count; ++n) {
@@ -249,6 +276,11 @@ TEST_CASE("skeletons by joints: an incoming pose is read as it was written")
                 for (const std::uint32_t joint : {p.skeleton.shoulder, p.skeleton.elbow, p.skeleton.wrist})
                     CHECK(distance(was[joint], now[joint]) <= 2e-4);
             }
+        }
+        for (const auto& [out, in] : kIncoming) {  // and the same comes out
+            const auto got = read<Float4>(keep, out), want = read<Float4>(keep, in);
+            for (std::uint32_t n = 0; n < count; ++n)
+                CHECK((quat(got[n]).coeffs() - quat(want[n]).coeffs()).norm() <= 2e-5);
         }
     }
 }
@@ -409,4 +441,64 @@ TEST_CASE("a crowd has as many twist bones as its bindings, or bindings that do 
     const swivel_group_def chain = group_of(1);
     for (std::uint32_t bones = 0; bones <= 7; ++bones)
         CHECK_NOTHROW(crowd_with(SWIVEL_JOINTS | SWIVEL_WITH_HAND | bones * SWIVEL_WITH_TWIST_BONES, {&chain, 1}));
+}
+
+// ---- bindings of three joints
+
+TEST_CASE("a rest pose bent by more than 10 degrees shows where the limb bends to, one bent by less must be told")
+{
+    Random random{12};
+    for (const double bent : {10.01, 45.0, 170.0, 9.99, 0.5, 0.0, 180.0}) {
+        INFO(bent << " degrees");
+        swivel_chain chain = skewed_chain(random);
+        const Vector3d upper = vec(chain.elbow_offset), hinge = vec(chain.bend).cross(upper).normalized();
+        const Vector3d fore = quat(chain.elbow_rotation).normalized().conjugate() *
+                              (Eigen::AngleAxisd(-bent * degrees(1), hinge) * upper);
+        std::ranges::copy(floats(fore), chain.wrist_offset);
+        const swivel_binding given = bind(chain);
+        std::ranges::fill(chain.bend, 0.0f);
+        if (bent < 10 || bent == 180) {
+            CHECK_THROWS_AS(bind(chain), Error);
+            continue;
+        }
+        const swivel_binding shown = bind(chain);
+        CHECK(distance(quat(given.parent_from_arm), quat(shown.parent_from_arm)) <= 2e-6);
+        CHECK(distance(quat(given.fore_from_arm), quat(shown.fore_from_arm)) <= 2e-6);
+        chain.size = offsetof(swivel_chain, bend);  // of an older header
+        std::ranges::fill(chain.bend, kNan);
+        const swivel_binding shorter = bind(chain);
+        CHECK(std::memcmp(&shown, &shorter, sizeof shown) == 0);
+    }
+}
+
+TEST_CASE("swivel_bind refuses what is not a limb, and changes nothing")
+{
+    Random random{9};
+    const auto refuse = [&](const char* what, auto spoil) {
+        INFO(what);
+        swivel_chain chain = skewed_chain(random);
+        swivel_binding binding = swivel_default_binding();
+        REQUIRE(swivel_bind(&chain, &binding) == SWIVEL_OK);
+        const swivel_binding before = binding;
+        spoil(chain);
+        CHECK_REFUSED(swivel_bind(&chain, &binding), SWIVEL_INVALID_ARGUMENT);
+        CHECK(std::memcmp(&binding, &before, sizeof binding) == 0);
+    };
+    for (const float bad : {0.0f, kNan, kInf, 1e-20f, 3e38f}) {
+        refuse("a rotation", [&](swivel_chain& c) { std::ranges::fill(c.elbow_rotation, bad); });
+        refuse("an offset", [&](swivel_chain& c) { std::ranges::fill(c.wrist_offset, bad); });
+    }
+    refuse("bend", [](swivel_chain& c) { c.bend[1] = kInf; });
+    refuse("one number of a rotation", [](swivel_chain& c) { c.wrist_rotation[1] = kNan; });
+    refuse("bend along the upper arm", [](swivel_chain& c) { std::ranges::copy(c.elbow_offset, c.bend); });
+    refuse("forearm along the axis that it turns about", [](swivel_chain& c) {
+        const Vector3d hinge = vec(c.bend).cross(vec(c.elbow_offset));
+        std::ranges::copy(floats(Vector3d(quat(c.elbow_rotation).normalized().conjugate() * hinge)), c.wrist_offset);
+    });
+    refuse("of no size", [](swivel_chain& c) { c.size = 0; });
+    refuse("of a later header", [](swivel_chain& c) { c.size += 8; });
+    swivel_chain chain = skewed_chain(random);
+    swivel_binding binding = swivel_default_binding();
+    CHECK_REFUSED(swivel_bind(nullptr, &binding), SWIVEL_INVALID_ARGUMENT);
+    CHECK_REFUSED(swivel_bind(&chain, nullptr), SWIVEL_INVALID_ARGUMENT);
 }

@@ -42,41 +42,6 @@ TEST_CASE("arms in the arm frame and in the world: wrist on the target, elbow on
     }
 }
 
-TEST_CASE("a world frame of identity gives the arm frame's bits")
-{
-    constexpr std::uint32_t count = 100;
-    for (const swivel_features features : {swivel_features{0}, SWIVEL_WITH_HAND}) {
-        Crowd arm = crowd_of(features, count), world = crowd_of(features | SWIVEL_WORLD, count);
-        Random random{5};
-        for (std::uint32_t n = 0; n < count; ++n) {
-            const Limb limb = random_limb(random, features, {1, 1.25f});
-            write_limb(arm, 0, n, limb);
-            write_limb(world, 0, n, limb);
-        }
-        arm.solve();
-        world.solve();
-        for (std::uint32_t n = 0; n < count; ++n) CHECK(result_words(arm, n) == result_words(world, n));
-    }
-}
-
-TEST_CASE("a frame's power-of-two scale changes no bit")
-{
-    constexpr std::uint32_t count = 100;
-    Crowd one = crowd_of(SWIVEL_WORLD, count), scaled = crowd_of(SWIVEL_WORLD, count);
-    Random random{6};
-    for (std::uint32_t n = 0; n < count; ++n) {
-        Limb limb = random_limb(random, SWIVEL_WORLD, {1, 1.25f});
-        write_limb(one, 0, n, limb);
-        for (Float3* v : {&limb.target, &limb.pole, &limb.position})
-            for (float& x : *v) x *= 4;
-        limb.scale[0] *= 4;
-        write_limb(scaled, 0, n, limb);
-    }
-    one.solve();
-    scaled.solve();
-    for (std::uint32_t n = 0; n < count; ++n) CHECK(result_words(one, n) == result_words(scaled, n));
-}
-
 TEST_CASE("residuals of what cannot be reached, of no arm and of bad input")
 {
     Crowd crowd = crowd_of(0, 4);

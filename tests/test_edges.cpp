@@ -4,20 +4,16 @@
 // Bad input gets the rest pose and a flag, and no other limb changes by a bit.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "tests/test_arm.h"
-#include "tests/test_random.h"
+#include "tests/test_whole_limb.h"
 
 namespace {
 
 using namespace swivel;
 using namespace swivel::test;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kReached = SWIVEL_REACHED, kFar = SWIVEL_CLAMPED_FAR, kNear = SWIVEL_CLAMPED_NEAR,
                         kUndefined = SWIVEL_SWIVEL_UNDEFINED, kBad = SWIVEL_BAD_INPUT;
 
@@ -210,79 +206,24 @@ TEST_CASE("poses that are known")
     }
 }
 
-TEST_CASE("a half turn's quaternion has its first component positive")
-{
-    // Straight arms along -e3 with every hinge: w = 0, the rotation axis runs round the circle of e1 and e2.
-    for (int step = 0; step < 64; ++step) {
-        const double angle = step * 0.0981747704246810387;  // pi / 32
-        const Arm arm{{0, 0, -2}, floats(Vector3d(std::cos(angle), std::sin(angle), 0)), {1, 1}};
-        const Pose pose = solve({arm})[0];
-        INFO(step);
-        CHECK(std::fabs(pose.shoulder[3]) <= 1e-7);
-        check_pose(arm, pose, pose.flags);
-    }
-}
-
 // ---- bad input
 
 namespace {
 
-struct Field {
-    swivel_field field;
-    const char* name;
-    bool squared_from_zero;  // a quaternion or scale: zero is bad too
-};
-const Field kInputs[] = {{SWIVEL_TARGET, "target", false},
-                         {SWIVEL_POLE, "pole", false},
-                         {SWIVEL_LENGTHS, "lengths", false},
-                         {SWIVEL_SHOULDER_POSITION, "shoulder position", false},
-                         {SWIVEL_PARENT_ROTATION, "parent rotation", true},
-                         {SWIVEL_PARENT_SCALE, "parent scale", true},
-                         {SWIVEL_HAND, "hand", true}};
-
 constexpr std::uint32_t kCount = 37, kSecond = 6;  // limbs of the two groups: a part of a block at the end of each
-
-swivel_binding some_binding(float side)
-{
-    swivel_chain chain = swivel_default_chain();
-    chain.shoulder_rotation[1] = 0.6f;
-    chain.shoulder_rotation[3] = side * 0.8f;
-    chain.elbow_rotation[0] = 0.28f;
-    chain.elbow_rotation[3] = 0.96f;
-    chain.wrist_rotation[2] = side * 0.8f;
-    chain.wrist_rotation[3] = 0.6f;
-    chain.elbow_offset[0] = side * 3;
-    chain.elbow_offset[1] = 1;
-    chain.wrist_offset[0] = side * 2;
-    chain.bend[0] = side;
-    chain.bend[1] = -3;
-    return bind(chain);
-}
 
 Crowd good_crowd(swivel_features features)
 {
-    const swivel_group_def groups[] = {swivel::group(kCount, some_binding(1), features),
-                                       swivel::group(kSecond, some_binding(-1), features)};
-    Crowd crowd(groups);
     Random random{features + 1};
-    for (std::uint32_t group = 0; group < 2; ++group) {
-        const std::uint32_t count = swivel_group_limb_count(crowd.get(), group);
-        for (std::uint32_t n = 0; n < count; ++n) {
-            const auto put = [&](swivel_field field, const auto& value) {
-                crowd.write(field, group, std::span(&value, 1), n);
-            };
-            put(SWIVEL_TARGET, floats(random.between(0.2, 3) * random.direction()));
-            put(SWIVEL_POLE, floats(random.direction()));
-            put(SWIVEL_LENGTHS,
-                Float2{static_cast<float>(random.between(0.5, 1.5)), static_cast<float>(random.between(0.5, 1.5))});
-            if (features & SWIVEL_WORLD) {
-                put(SWIVEL_SHOULDER_POSITION, floats(random.direction()));
-                put(SWIVEL_PARENT_ROTATION, floats(random.rotation()));
-                put(SWIVEL_PARENT_SCALE, Float1{static_cast<float>(random.between(0.5, 2))});
-            }
-            if (features & SWIVEL_WITH_HAND) put(SWIVEL_HAND, floats(random.rotation()));
+    std::vector<swivel_group_def> groups;
+    for (const std::uint32_t count : {kCount, kSecond})
+        groups.push_back(swivel::group(count, chained(random).bound, features));
+    Crowd crowd(groups);
+    for (std::uint32_t group = 0; group < 2; ++group)
+        for (std::uint32_t n = 0; n < groups[group].limb_count; ++n) {
+            const float(&bones)[2] = groups[group].binding.lengths;
+            write_limb(crowd, group, n, random_limb(random, features, {bones[0], bones[1]}));
         }
-    }
     return crowd;
 }
 
@@ -295,120 +236,76 @@ bool is_feature_set(swivel_features features)
 std::vector<std::vector<std::uint32_t>> all_results(const Crowd& crowd)
 {
     std::vector<std::vector<std::uint32_t>> words;
-    for (std::uint32_t group = 0; group < 2; ++group)
-        for (std::uint32_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n)
-            words.push_back(result_words(crowd, swivel_group_first_limb(crowd.get(), group) + n));
+    for (std::uint32_t group = 0; group < 2; ++group) {
+        const swivel_rows rows = swivel_result_rows(crowd.get(), group);
+        for (std::size_t n = 0; n < swivel_group_limb_count(crowd.get(), group); ++n) {
+            std::vector<std::uint32_t>& limb = words.emplace_back(rows.row_count);
+            for (std::size_t row = 0; row < rows.row_count; ++row)
+                std::memcpy(&limb[row], rows.base + (n / 16 * rows.row_count + row) * 16 + n % 16, sizeof(float));
+        }
+    }
     return words;
 }
 
-template <std::size_t N>
-void check_result(const Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t limb,
-                  const float (&expected)[N])
+// A limb's input, as it must not be.
+struct Spoilt {
+    swivel_field field;
+    std::uint32_t first, count;  // the numbers that are changed
+    float bad;
+};
+// Every way to spoil a limb: not a number, or out of the range that swivel.h gives.
+std::vector<Spoilt> every_spoilt(const Crowd& crowd)
 {
-    std::array<float, N> value;
-    crowd.read(field, group, std::span(&value, 1), limb);
-    for (std::size_t c = 0; c < N; ++c) CHECK(value[c] == expected[c]);
-}
-
-void check_rest(const Crowd& crowd, swivel_features features, std::uint32_t group, std::uint32_t limb)
-{
-    const swivel_binding rest = some_binding(group == 0 ? 1.0f : -1.0f);
-    const float one[4] = {0, 0, 0, 1}, straight[2] = {1, 0};
-    const bool joints = features & SWIVEL_JOINTS;
-    check_result(crowd, SWIVEL_SHOULDER, group, limb, joints ? rest.shoulder_rest : one);
-    if (joints)
-        check_result(crowd, SWIVEL_ELBOW, group, limb, rest.elbow_rest);
-    else
-        check_result(crowd, SWIVEL_ELBOW, group, limb, straight);
-    if (features & SWIVEL_WITH_HAND) check_result(crowd, SWIVEL_WRIST, group, limb, joints ? rest.wrist_rest : one);
-    std::uint32_t flags;
-    crowd.read(SWIVEL_FLAGS, group, std::span(&flags, 1), limb);
-    CHECK(flags == kBad);
-}
-
-// Solves the good crowd with one limb changed by spoil(value of the field), and checks that limb and all the others.
-void check_spoilt(swivel_features features, const Field& input, std::uint32_t group, std::uint32_t limb,
-                  const std::function<void(float*)>& spoil)
-{
-    Crowd crowd = good_crowd(features);
-    crowd.solve();
-    const auto good = all_results(crowd);
-    std::array<float, 4> value{};
-    const std::uint32_t floats_of_field = swivel_field_row_count(crowd.get(), 0, input.field);
-    check(swivel_read(crowd.get(), input.field, group, limb, 1, {value.data(), sizeof(float) * floats_of_field}));
-    spoil(value.data());
-    check(swivel_write(crowd.get(), input.field, group, limb, 1, {value.data(), sizeof(float) * floats_of_field}));
-    crowd.solve();
-    const auto results = all_results(crowd);
-    check_rest(crowd, features, group, limb);
-    const std::size_t spoilt = (group == 0 ? 0 : kCount) + limb;
-    std::size_t disturbed = 0;
-    for (std::size_t n = 0; n < results.size(); ++n) disturbed += n != spoilt && results[n] != good[n];
-    CHECK(disturbed == 0);
+    std::vector<Spoilt> ways;
+    const auto add = [&](swivel_field field, std::uint32_t first, std::uint32_t count,
+                         std::initializer_list<float> all) {
+        for (const float bad : all)
+            if (swivel_field_row_count(crowd.get(), 0, field)) ways.push_back({field, first, count, bad});
+    };
+    for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_LENGTHS, SWIVEL_SHOULDER_POSITION,
+                                     SWIVEL_PARENT_ROTATION, SWIVEL_PARENT_SCALE, SWIVEL_HAND}) {
+        const std::uint32_t count = swivel_field_row_count(crowd.get(), 0, field);
+        for (std::uint32_t c = 0; c < count; ++c) add(field, c, 1, {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f});
+    }
+    for (const std::uint32_t c : {0u, 1u}) add(SWIVEL_LENGTHS, c, 1, {-1, 0.9e-15f, -1e-15f, 1e-40f, 1.001e15f});
+    for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION})
+        add(field, 0, 3, {0.6e15f});  // no component is too long, the vector is
+    add(SWIVEL_PARENT_SCALE, 0, 1, {0.0f, -0.0f, -1, 0.9e-15f, 1.001e15f});
+    for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND})
+        add(field, 0, 4, {0.0f, 0.45e-9f, 1e-30f, 0.55e9f});  // half of its length
+    return ways;
 }
 
 }  // namespace
 
-TEST_CASE("the good crowd is good")
+TEST_CASE("a bad number spoils its limb and no other")
 {
     for (swivel_features features = 0; features < 16; ++features) {
         if (!is_feature_set(features)) continue;
-        Crowd crowd = good_crowd(features);
-        crowd.solve();
-        for (std::uint32_t group = 0; group < 2; ++group)
-            for (const std::uint32_t flags : read<std::uint32_t>(crowd, SWIVEL_FLAGS, group))
-                CHECK((flags & kBad) == 0);
-    }
-}
-
-TEST_CASE("one bad number spoils its limb and no other")
-{
-    std::uint32_t turn = 0;
-    for (swivel_features features = 0; features < 16; ++features) {
-        if (!is_feature_set(features)) continue;
-        const Crowd shape = good_crowd(features);
-        for (const Field& input : kInputs)
-            for (std::uint32_t c = 0; c < swivel_field_row_count(shape.get(), 0, input.field); ++c)
-                for (const float bad : {kNan, -kNan, kInf, -kInf, 2e15f, -2e15f, 3e38f}) {
-                    const std::uint32_t group = turn % 5 == 0, limb = (turn * 7) % (group ? kSecond : kCount);
-                    ++turn;
-                    INFO("features " << features << ", " << input.name << "[" << c << "] = " << bad << ", group "
-                                     << group << ", limb " << limb);
-                    check_spoilt(features, input, group, limb, [&](float* value) { value[c] = bad; });
+        const std::vector<Spoilt> ways = every_spoilt(good_crowd(features));
+        for (std::size_t next = 0; next < ways.size();) {
+            Crowd crowd = good_crowd(features);
+            auto expected = all_results(crowd);  // of limbs that were never solved: the rest pose
+            crowd.solve();
+            const auto good = all_results(crowd);
+            for (std::size_t at = 0; at < good.size(); ++at) {
+                CHECK((good[at].back() & kBad) == 0);
+                if (at % 3 == 1 || next == ways.size()) {
+                    expected[at] = good[at];
+                    continue;
                 }
-    }
-}
-
-TEST_CASE("numbers out of their range are bad")
-{
-    for (swivel_features features = 0; features < 16; ++features) {
-        if (!is_feature_set(features)) continue;
-        for (const float bad : {-1.0f, 0.9e-15f, -1e-15f, 1e-40f, 1.001e15f})
-            for (const std::size_t c : {0u, 1u}) {
-                INFO("features " << features << ", length " << bad);
-                check_spoilt(features, kInputs[2], 0, 11, [&](float* value) { value[c] = bad; });
+                const Spoilt& way = ways[next++];
+                const std::uint32_t group = at >= kCount, limb = static_cast<std::uint32_t>(at - (group ? kCount : 0));
+                std::array<float, 4> value{};
+                check(swivel_read(crowd.get(), way.field, group, limb, 1, {value.data(), sizeof value}));
+                for (std::uint32_t c = way.first; c < way.first + way.count; ++c) value[c] = way.bad;
+                check(swivel_write(crowd.get(), way.field, group, limb, 1, {value.data(), sizeof value}));
+                expected[at].back() = kBad;
             }
-        for (const std::size_t vector : {0u, 1u}) {  // no component is too long, the vector is
-            INFO("features " << features << ", " << kInputs[vector].name);
-            check_spoilt(features, kInputs[vector], 0, 12,
-                         [](float* value) { value[0] = value[1] = value[2] = 0.6e15f; });
+            crowd.solve();
+            INFO("features " << features << ", ways to " << next);
+            CHECK((all_results(crowd) == expected));
         }
-        if (features & SWIVEL_WORLD) {
-            for (const float bad : {0.0f, -0.0f, -1.0f, 0.9e-15f, 1.001e15f}) {
-                INFO("features " << features << ", scale " << bad);
-                check_spoilt(features, kInputs[5], 0, 13, [&](float* value) { value[0] = bad; });
-            }
-            check_spoilt(features, kInputs[3], 0, 14, [](float* value) { value[0] = value[1] = value[2] = 0.6e15f; });
-        }
-        for (const Field& input : {kInputs[4], kInputs[6]})
-            if (features & (input.field == SWIVEL_HAND ? SWIVEL_WITH_HAND : SWIVEL_WORLD))
-                for (const float bad : {0.0f, 0.9e-9f, 1e-30f, 1.1e9f}) {
-                    INFO("features " << features << ", " << input.name << " of length " << bad);
-                    check_spoilt(features, input, 1, 3, [&](float* value) {
-                        value[0] = value[1] = value[2] = 0;
-                        value[3] = bad;
-                    });
-                }
     }
 }
 
@@ -462,44 +359,26 @@ TEST_CASE("a bad parent is bad, though its arm is ordinary in the arm frame")
 TEST_CASE("quaternions of any allowed length mean the same rotation")
 {
     constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_WITH_HAND;
-    for (const float scale : {1e-15f, 1.0f, 1e14f})  // lengths go with the scale so that the arm frame stays the same
-        for (const double length : {1.001e-9, 1e-5, 0.5, 2.0, 1e5, 0.999e9}) {
-            Crowd crowd = good_crowd(features), same = good_crowd(features);
-            for (std::uint32_t n = 0; n < kCount; ++n)
-                for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND}) {
-                    Float4 q;
-                    crowd.read(field, 0, std::span(&q, 1), n);
-                    const Float4 longer = floats(Quaterniond(length * quat(q).normalized().coeffs()));
-                    crowd.write(field, 0, std::span(&longer, 1), n);
-                }
-            for (std::uint32_t n = 0; n < kCount; ++n)
-                for (const swivel_field field : {SWIVEL_TARGET, SWIVEL_POLE, SWIVEL_SHOULDER_POSITION}) {
-                    Float3 v;
-                    crowd.read(field, 0, std::span(&v, 1), n);
-                    const Float3 scaled = floats(Vector3d(scale * vec(v)));
-                    crowd.write(field, 0, std::span(&scaled, 1), n);
-                }
-            std::vector<Float1> scales = read<Float1>(crowd, SWIVEL_PARENT_SCALE);
-            for (Float1& s : scales) s[0] = std::max(s[0], 1.0f) * scale;
-            crowd.write(SWIVEL_PARENT_SCALE, 0, scales);
-            for (Float1& s : scales) s[0] /= scale;
-            same.write(SWIVEL_PARENT_SCALE, 0, scales);
-            crowd.solve();
-            same.solve();
-            INFO("quaternions of length " << length << ", everything times " << scale);
-            const auto expected = read<Float4>(same, SWIVEL_SHOULDER), got = read<Float4>(crowd, SWIVEL_SHOULDER);
-            const auto expected_wrist = read<Float4>(same, SWIVEL_WRIST), wrist = read<Float4>(crowd, SWIVEL_WRIST);
-            const auto flags = read<std::uint32_t>(crowd, SWIVEL_FLAGS),
-                       expected_flags = read<std::uint32_t>(same, SWIVEL_FLAGS);
+    for (const double length : {1.001e-9, 1e-5, 0.5, 2.0, 1e5, 0.999e9}) {
+        INFO("quaternions of length " << length);
+        Crowd crowd = good_crowd(features), same = good_crowd(features);
+        for (const swivel_field field : {SWIVEL_PARENT_ROTATION, SWIVEL_HAND}) {
+            std::vector<Float4> values = read<Float4>(crowd, field);
+            for (Float4& q : values) q = floats(Quaterniond(length * quat(q).normalized().coeffs()));
+            crowd.write(field, 0, values);
+        }
+        crowd.solve();
+        same.solve();
+        CHECK(read<std::uint32_t>(crowd, SWIVEL_FLAGS) == read<std::uint32_t>(same, SWIVEL_FLAGS));
+        for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_WRIST}) {
+            const auto got = read<Float4>(crowd, field), expected = read<Float4>(same, field);
             for (std::uint32_t n = 0; n < kCount; ++n) {
-                INFO("limb " << n);
-                CHECK(flags[n] == expected_flags[n]);
-                CHECK(is_unit(wrist[n]));
-                CHECK(distance(quat(got[n]), quat(expected[n])) <=
-                      1e-4);  // near poses, not near bits: poles may be close
-                CHECK(distance(quat(wrist[n]), quat(expected_wrist[n])) <= 1e-4);
+                CHECK(is_unit(got[n]));
+                // Near poses, not near bits: poles may be close.
+                CHECK(distance(quat(got[n]), quat(expected[n])) <= 1e-4);
             }
         }
+    }
 }
 
 TEST_CASE("every combination of awkward numbers gives a unit pose and no NaN")

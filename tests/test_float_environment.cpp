@@ -2,8 +2,7 @@
 //
 // The promise: the caller's floating-point environment changes no bit of what any function of swivel.h computes, says
 // or refuses. No call raises the caller's traps, and each puts the environment back, sticky flags included. Every
-// function of the header is in one of two lists here. One is of those that compute or judge floats, one of the others.
-// test_bits.cpp has more of swivel_solve(), on rows of all kinds of crowds.
+// function of the header is called here, or is in the list of those that neither compute nor judge floats.
 #include "swivel/lecture.h"
 #include "tests/test_arm.h"
 #include "tests/test_crowd.h"
@@ -11,9 +10,7 @@
 
 #include <cfenv>
 #include <fstream>
-#include <functional>
 #include <iterator>
-#include <map>
 #include <regex>
 #include <set>
 
@@ -101,297 +98,141 @@ Crowd random_crowd(Random& random)
     return crowd;
 }
 
-swivel_chain random_chain(Random& random)
-{
+// What calls take, made before in the usual environment.
+struct CallInputs {
+    std::array<double, 12> numbers;
+    std::array<double, 3> far;
+    double most;
+    std::array<float, 60> values;
+    std::array<float, kLimbs> priorities;
+    std::array<std::uint16_t, 3> words;
     swivel_chain chain = swivel_default_chain();
-    fill(chain.shoulder_rotation, random);
-    fill(chain.elbow_rotation, random);
-    fill(chain.wrist_rotation, random);
-    fill(chain.elbow_offset, random);
-    fill(chain.wrist_offset, random);
-    fill(chain.bend, random);
-    return chain;
-}
+    swivel_group_def group = group_of(3);
+    Crowd crowd;
 
-// A call with inputs of its own. It is made later, in some environment, and writes what it gave.
-using Call = std::function<void(Record&)>;
-using Make = Call (*)(Random&);
+    explicit CallInputs(Random& random) : crowd(random_crowd(random))
+    {
+        for (double& number_in : numbers) number_in = number(random);
+        far = {1e7 * numbers[0], numbers[1], numbers[2]};
+        most = numbers[4] + 1;
+        for (float& value : values) value = number_as_float(random);
+        for (float& priority : priorities) priority = any_float(random);
+        for (std::uint16_t& word : words) word = static_cast<std::uint16_t>(random.word());
+        for (auto* q : {&chain.shoulder_rotation, &chain.elbow_rotation, &chain.wrist_rotation}) fill(*q, random);
+        for (auto* v : {&chain.elbow_offset, &chain.wrist_offset, &chain.bend}) fill(*v, random);
+        group.features = SWIVEL_JOINTS;
+        if (random.below(4) == 0) group.binding.lengths[0] = number_as_float(random);
+        // On the edge of unit length: 1e-5 is allowed.
+        group.binding.parent_from_arm[3] = static_cast<float>(1 + random.between(4.9e-6, 5.1e-6));
+        if (random.below(4) == 0) group.binding.fore_from_arm[random.below(4)] = any_float(random);
+    }
+};
 
-// Values of one limb in each call: kept where the call can read them later.
-template <class Value>
-std::shared_ptr<Value> keep(Value value)
+void make_values(const CallInputs& in, Record& to)
 {
-    return std::make_shared<Value>(std::move(value));
-}
-template <class Values>
-Record& add_all(Record& to, const Values& values)
-{
-    for (const auto& value : values) to.add(value);
-    return to;
+    const double *axis = in.numbers.data(), least = in.numbers[3], most = in.most;
+    float values[12] = {};
+    to.add(swivel_range(least, most, values)), to.add(values);
+    to.add(swivel_cone(axis, most, values)), to.add(values);
+    to.add(swivel_flexion(least, most, values)), to.add(values);
+    to.add(swivel_aim(axis, most, values)), to.add(values);
+    swivel_turn(least, values), to.add(values);
+    for (const swivel_field field : every_field())
+        to.add(swivel_mirror(field, SWIVEL_YXZ, in.values.data(), values)), to.add(values);
+    swivel_unpack_rotation(in.words.data(), 1, values), to.add(values);
+    to.add(swivel_unpack_half(in.words[0]));
+
+    swivel_entity entities[SWIVEL_ENTITY_COUNT] = {};
+    double error = 0;
+    to.add(!swivel_steps(axis, axis + 3, std::fabs(in.numbers[6]), std::fabs(in.numbers[7]), entities, &error));
+    for (const swivel_entity& entity : entities) to.add(entity.coefficients);
+    to.add(error);
 }
 
-const std::map<std::string, Make> kComputing = {
-    {"swivel_bind",
-     [](Random& random) -> Call {
-         return [chain = random_chain(random)](Record& to) {
-             swivel_binding binding = swivel_default_binding();
-             to.add(swivel_bind(&chain, &binding));
-             to.add(binding);
-         };
-     }},
-    {"swivel_bind_joints",
-     [](Random& random) -> Call {
-         std::array<std::array<float, 4>, 5> rotations;
-         std::array<std::array<float, 3>, 5> places;
-         for (auto& q : rotations)
-             for (float& c : q) c = number_as_float(random);
-         for (auto& v : places)
-             for (float& c : v) c = number_as_float(random);
-         return [rotations, places](Record& to) {
-             const std::int32_t parents[] = {-1, 0, 1, 2, 3};
-             swivel_skeleton skeleton = swivel_default_skeleton();
-             skeleton.parents = {parents, sizeof parents[0]};
-             skeleton.rotations = {rotations.data(), sizeof rotations[0]};
-             skeleton.translations = {places.data(), sizeof places[0]};
-             skeleton.joint_count = 5;
-             const swivel_limb_joints joints = swivel_default_limb_joints(1, 3, 4);
-             swivel_binding binding = swivel_default_binding();
-             to.add(swivel_bind_joints(&skeleton, &joints, &binding));
-             to.add(binding);
-         };
-     }},
-    {"swivel_arm_axis",
-     [](Random& random) -> Call {
-         swivel_chain chain = random_chain(random);
-         swivel_binding binding = group_of(1).binding;
-         (void)swivel_bind(&chain, &binding);
-         float parent[4];
-         fill(parent, random);
-         const std::array<double, 3> direction{number(random), number(random), number(random)};
-         return [binding, q = std::to_array(parent), direction](Record& to) {
-             double axis[3] = {};
-             to.add(swivel_arm_axis(&binding, q.data(), direction.data(), axis));
-             to.add(axis);
-         };
-     }},
-    {"swivel_crowd_bytes",
-     [](Random& random) -> Call {
-         swivel_group_def group = group_of(3);
-         group.binding.lengths[0] = number_as_float(random);
-         // On the edge of unit length: 1e-5 is allowed.
-         group.binding.parent_from_arm[3] = static_cast<float>(1 + random.between(4.9e-6, 5.1e-6));
-         if (random.below(4) == 0) group.binding.fore_from_arm[random.below(4)] = any_float(random);
-         group.features = SWIVEL_JOINTS;
-         return [group](Record& to) {
-             const swivel_crowd_def def = def_of(group);
-             to.add(swivel_crowd_bytes(&def));
-         };
-     }},
-    {"swivel_crowd_create",
-     [](Random& random) -> Call {
-         swivel_group_def group = group_of(3);
-         group.binding.parent_from_arm[3] = static_cast<float>(1 + random.between(4.9e-6, 5.1e-6));
-         group.binding.shoulder_rest[1] = random.below(4) ? 1e-4f : any_float(random);
-         group.features = SWIVEL_JOINTS;
-         return [group](Record& to) {
-             const swivel_crowd_def def = def_of(group);
-             swivel_crowd* crowd = nullptr;
-             to.add(swivel_crowd_create(&def, &crowd));
-             to.add(swivel_digest(crowd));
-             swivel_crowd_destroy(crowd);
-         };
-     }},
-    {"swivel_unpack_rotation",
-     [](Random& random) -> Call {
-         const std::array<std::uint16_t, 3> words{static_cast<std::uint16_t>(random.word()),
-                                                  static_cast<std::uint16_t>(random.word()),
-                                                  static_cast<std::uint16_t>(random.word())};
-         return [words](Record& to) {
-             float xyzw[4];
-             swivel_unpack_rotation(words.data(), 1, xyzw);
-             to.add(xyzw);
-         };
-     }},
-    {"swivel_unpack_half",
-     [](Random& random) -> Call {
-         return [word = static_cast<std::uint16_t>(random.word())](Record& to) { to.add(swivel_unpack_half(word)); };
-     }},
-    {"swivel_write_doubles",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         const std::array<double, 3> place{1e7 * number(random), number(random), number(random)};
-         return [crowd, place](Record& to) {
-             to.add(swivel_write_doubles(crowd->get(), SWIVEL_TARGET, 0, 0, kLimbs, {&place, 0}, {}));
-             add_all(to, all_words(*crowd));
-         };
-     }},
-    {"swivel_pack",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             const std::uint32_t rows = swivel_packed_row(kFeatures, SWIVEL_RESULT_END);
-             std::vector<std::uint16_t> words(std::size_t{(kLimbs + 15) / 16} * rows * SWIVEL_LANES);
-             to.add(swivel_pack(crowd->get(), 0, {0, (kLimbs + 15) / 16}, words.data()));
-             for (const std::uint16_t word : words) to.add(word);
-         };
-     }},
-    {"swivel_solve",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             to.add(swivel_reset(crowd->get(), 0, 0, kLimbs));
-             to.add(swivel_solve(crowd->get(), nullptr));
-             to.add(swivel_digest(crowd->get()));
-         };
-     }},
-    {"swivel_choose",
-     [](Random& random) -> Call {
-         std::array<float, kLimbs> priorities;
-         for (float& priority : priorities) priority = any_float(random);
-         return [priorities](Record& to) {
-             Crowd crowd = crowd_of(0, kLimbs);
-             float urgency[(kLimbs + 15) / 16] = {};
-             const swivel_in each{priorities.data(), sizeof(float)};
-             std::uint32_t mask[2] = {};
-             for (int n = 0; n < 4; ++n) {
-                 to.add(swivel_choose(crowd.get(), &each, urgency, 1, mask, 2, nullptr));
-                 to.add(mask);
-             }
-             to.add(urgency);
-         };
-     }},
-    {"swivel_explain",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             for (std::uint32_t limb = 0; limb < kLimbs; ++limb) {
-                 char text[1024] = {};
-                 to.add(swivel_explain(crowd->get(), 0, limb, text, sizeof text));
-                 to.add(text);
-             }
-         };
-     }},
-    {"swivel_allowed_arcs",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             for (std::uint32_t limb = 0; limb < kLimbs; ++limb) {
-                 swivel_arc arcs[8] = {};
-                 std::uint32_t count = 0;
-                 to.add(swivel_allowed_arcs(crowd->get(), 0, limb, arcs, 8, &count));
-                 to.add(arcs);
-             }
-         };
-     }},
-    {"swivel_joint_angles",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             double angles[kLimbs][7] = {};
-             to.add(swivel_joint_angles(crowd->get(), 0, 0, kLimbs, SWIVEL_XYZ, SWIVEL_ZYX, 0,
-                                        {angles, sizeof angles[0]}));
-             to.add(angles);
-         };
-     }},
-    {"swivel_forward",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             double elbows[kLimbs][3] = {}, wrists[kLimbs][3] = {}, hands[kLimbs][4] = {};
-             to.add(swivel_forward(crowd->get(), 0, 0, kLimbs, {elbows, sizeof elbows[0]}, {wrists, sizeof wrists[0]},
-                                   {hands, sizeof hands[0]}));
-             to.add(elbows);
-             to.add(wrists);
-             to.add(hands);
-         };
-     }},
-    {"swivel_residuals",
-     [](Random& random) -> Call {
-         const auto crowd = keep(random_crowd(random));
-         return [crowd](Record& to) {
-             double distances[kLimbs] = {};
-             to.add(swivel_residuals(crowd->get(), 0, 0, kLimbs, {distances, sizeof distances[0]}));
-             to.add(distances);
-         };
-     }},
-    {"swivel_range",
-     [](Random& random) -> Call {
-         return [least = number(random), most = number(random) + 1](Record& to) {
-             float values[4] = {};
-             to.add(swivel_range(least, most, values));
-             to.add(values);
-         };
-     }},
-    {"swivel_cone",
-     [](Random& random) -> Call {
-         const std::array<double, 3> axis{number(random), number(random), number(random)};
-         return [axis, most = number(random) + 1](Record& to) {
-             float values[4] = {};
-             to.add(swivel_cone(axis.data(), most, values));
-             to.add(values);
-         };
-     }},
-    {"swivel_flexion",
-     [](Random& random) -> Call {
-         return [least = number(random), most = number(random) + 1](Record& to) {
-             float values[2] = {};
-             to.add(swivel_flexion(least, most, values));
-             to.add(values);
-         };
-     }},
-    {"swivel_aim",
-     [](Random& random) -> Call {
-         const std::array<double, 3> axis{number(random), number(random), number(random)};
-         return [axis, flexion = number(random) + 1](Record& to) {
-             float values[5] = {};
-             to.add(swivel_aim(axis.data(), flexion, values));
-             to.add(values);
-         };
-     }},
-    {"swivel_turn",
-     [](Random& random) -> Call {
-         return [angle = number(random)](Record& to) {
-             float values[2] = {};
-             swivel_turn(angle, values);
-             to.add(values);
-         };
-     }},
-    {"swivel_mirror",
-     [](Random& random) -> Call {
-         float from[12];
-         for (float& value : from) value = any_float(random);
-         return [values = std::to_array(from)](Record& to) {
-             for (const swivel_field field : every_field()) {
-                 float mirrored[12] = {};
-                 to.add(swivel_mirror(field, SWIVEL_YXZ, values.data(), mirrored));
-                 to.add(mirrored);
-             }
-         };
-     }},
-    {"swivel_steps",
-     [](Random& random) -> Call {
-         std::array<double, 8> in;
-         for (double& value : in) value = number(random);
-         in[6] = std::abs(in[6]);
-         in[7] = std::abs(in[7]);
-         return [in](Record& to) {
-             swivel_entity entities[SWIVEL_ENTITY_COUNT] = {};
-             double error = 0;
-             to.add(!swivel_steps(in.data(), in.data() + 3, in[6], in[7], entities, &error));
-             for (const swivel_entity& entity : entities) to.add(entity.coefficients);
-             to.add(error);
-         };
-     }},
-    {"swivel_verify",
-     [](Random& random) -> Call {
-         return [seed = random.bits()](Record& to) {
-             const auto write = [](const swivel_check* check, void* user) {
-                 static_cast<Record*>(user)->add(check->max);
-                 static_cast<Record*>(user)->add(check->rms);
-             };
-             to.add(swivel_verify(1, seed, write, &to));
-         };
-     }},
+void bind_limbs(const CallInputs& in, Record& to)
+{
+    swivel_binding binding = group_of(1).binding;
+    double axis[3] = {};
+    to.add(swivel_bind(&in.chain, &binding)), to.add(binding);
+    to.add(swivel_arm_axis(&binding, in.values.data(), in.numbers.data(), axis)), to.add(axis);
+    const std::int32_t parents[] = {-1, 0, 1, 2, 3};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = {parents, sizeof parents[0]};
+    skeleton.rotations = {in.values.data(), 4 * sizeof(float)};
+    skeleton.translations = {in.values.data() + 20, 3 * sizeof(float)};
+    skeleton.joint_count = 5;
+    const swivel_limb_joints joints = swivel_default_limb_joints(1, 3, 4);
+    to.add(swivel_bind_joints(&skeleton, &joints, &binding)), to.add(binding);
+
+    const swivel_crowd_def def = def_of(in.group);
+    to.add(swivel_crowd_bytes(&def));
+    swivel_crowd* crowd = nullptr;
+    to.add(swivel_crowd_create(&def, &crowd)), to.add(swivel_digest(crowd));
+    swivel_crowd_destroy(crowd);
+}
+
+void use_crowd(const CallInputs& in, Record& to)
+{
+    swivel_crowd* const crowd = in.crowd.get();
+    to.add(swivel_reset(crowd, 0, 0, kLimbs));
+    to.add(swivel_solve(crowd, nullptr)), to.add(swivel_digest(crowd));
+    constexpr std::uint32_t blocks = (kLimbs + 15) / 16;
+    std::vector<std::uint16_t> words(std::size_t{blocks} * swivel_packed_row(kFeatures, SWIVEL_RESULT_END) *
+                                     SWIVEL_LANES);
+    to.add(swivel_pack(crowd, 0, {0, blocks}, words.data()));
+    for (const std::uint16_t word : words) to.add(word);
+    std::array<Float4, kLimbs> turns{};
+    to.add(swivel_read(crowd, SWIVEL_SHOULDER, 0, 0, kLimbs, {turns.data(), sizeof turns[0]})), to.add(turns);
+    double elbows[kLimbs][3] = {}, wrists[kLimbs][3] = {}, hands[kLimbs][4] = {}, angles[kLimbs][7] = {},
+           off[kLimbs] = {};
+    to.add(swivel_forward(crowd, 0, 0, kLimbs, {elbows, sizeof elbows[0]}, {wrists, sizeof wrists[0]},
+                          {hands, sizeof hands[0]}));
+    to.add(elbows), to.add(wrists), to.add(hands);
+    to.add(swivel_joint_angles(crowd, 0, 0, kLimbs, SWIVEL_XYZ, SWIVEL_ZYX, 0, {angles, sizeof angles[0]}));
+    to.add(angles);
+    to.add(swivel_residuals(crowd, 0, 0, kLimbs, {off, sizeof off[0]})), to.add(off);
+    for (std::uint32_t limb = 0; limb < kLimbs; ++limb) {
+        char text[1024] = {};
+        to.add(swivel_explain(crowd, 0, limb, text, sizeof text)), to.add(text);
+        swivel_arc arcs[8] = {};
+        std::uint32_t count = 0;
+        to.add(swivel_allowed_arcs(crowd, 0, limb, arcs, 8, &count)), to.add(arcs);
+    }
+    float urgency[(kLimbs + 15) / 16] = {};
+    const swivel_in each{in.priorities.data(), sizeof(float)};
+    std::uint32_t mask[2] = {};
+    for (int n = 0; n < 4; ++n) to.add(swivel_choose(crowd, &each, urgency, 1, mask, 2, nullptr)), to.add(mask);
+    to.add(urgency);
+}
+
+void write_far(const CallInputs& in, Record& to)
+{
+    Crowd crowd = crowd_of(0, kLimbs);
+    to.add(swivel_write_doubles(crowd.get(), SWIVEL_TARGET, 0, 0, kLimbs, {in.far.data(), 0}, {}));
+    for (const std::uint32_t word : all_words(crowd)) to.add(word);
+}
+
+void verify(const CallInputs&, Record& to)
+{
+    const auto write = [](const swivel_check* check, void* user) {
+        static_cast<Record*>(user)->add(check->max);
+        static_cast<Record*>(user)->add(check->rms);
+    };
+    to.add(swivel_verify(1, 7, write, &to));
+}
+
+// Calls, and how many sets of inputs they get. swivel_verify() always checks some 300,000 hard poses.
+struct Calls {
+    const char* name;
+    int repeats;
+    void (*make)(const CallInputs&, Record&);
+};
+constexpr Calls kCalls[] = {
+    {"values from angles", 200, make_values},
+    {"bindings and defs", 200, bind_limbs},
+    {"a crowd", 30, use_crowd},
+    {"doubles", 200, write_far},
+    {"swivel_verify", 1, verify},
 };
 
 // These copy, count, or answer from integers.
@@ -407,7 +248,7 @@ const std::set<std::string> kWithoutFloats = {"swivel_version",
                                               "swivel_field_row_count",
                                               "swivel_input_rows",
                                               "swivel_result_rows",
-                                              "swivel_read",
+                                              "swivel_packed_row",
                                               "swivel_write",
                                               "swivel_reset",
                                               "swivel_find",
@@ -416,15 +257,11 @@ const std::set<std::string> kWithoutFloats = {"swivel_version",
                                               "swivel_isa_at",
                                               "swivel_isa_runs",
                                               "swivel_group_count",
-                                              "swivel_packed_row",
                                               "swivel_group_features",
                                               "swivel_component_count",
                                               "swivel_describe_field",
                                               "swivel_describe_feature",
                                               "swivel_flag_name"};
-
-// How many sets of inputs a function gets. swivel_verify() always checks some 300,000 hard poses.
-int repeats_of(const std::string& name) { return name == "swivel_verify" ? 1 : name == "swivel_explain" ? 20 : 200; }
 
 #ifdef __x86_64__
 // The control words and sticky flags of both units.
@@ -443,17 +280,22 @@ Control control()
 
 }  // namespace
 
-TEST_CASE("the lists name every function of swivel.h once")
+TEST_CASE("every function of swivel.h is called here, or computes nothing")
 {
-    std::ifstream file(SWIVEL_SOURCE_DIR "/include/swivel/swivel.h");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto text_of = [](const char* name) {
+        std::ifstream file(std::string(SWIVEL_SOURCE_DIR "/") + name);
+        return std::string{std::istreambuf_iterator<char>(file), {}};
+    };
+    const std::string header = text_of("include/swivel/swivel.h"), here = text_of("tests/test_float_environment.cpp");
     const std::regex declaration(R"(\nSWIVEL_API [^(;]*?\b(swivel_\w+)\()");
-    std::set<std::string> declared = {"swivel_steps", "swivel_verify"}, listed = kWithoutFloats;  // of lecture.h
-    for (std::sregex_iterator it(text.begin(), text.end(), declaration), end; it != end; ++it)
-        declared.insert((*it)[1]);
-    for (const auto& [name, make] : kComputing) CHECK(listed.insert(name).second);
-    REQUIRE(declared.size() > 40);
-    CHECK(listed == declared);
+    int declared = 0;
+    for (std::sregex_iterator it(header.begin(), header.end(), declaration), end; it != end; ++it, ++declared) {
+        const std::string name = (*it)[1];
+        INFO(name);
+        CHECK((kWithoutFloats.contains(name) || here.find(" " + name + "(") != std::string::npos ||
+               here.find("(" + name + "(") != std::string::npos));
+    }
+    CHECK(declared > 40);
 }
 
 #ifdef __x86_64__
@@ -474,13 +316,13 @@ TEST_CASE("no environment of the caller changes a bit, and each is put back")
         {"flush denormals", FE_TONEAREST, ftz | daz | one_sticky, false},
         {"traps", FE_TONEAREST, 0, true},
     };
-    for (const auto& [name, make] : kComputing) {
+    for (const Calls& calls : kCalls) {
         Random random{7};
         bool holds = true;
-        for (int n = 0; n < repeats_of(name) && holds; ++n) {
-            const Call call = make(random);
+        for (int n = 0; n < calls.repeats && holds; ++n) {
+            const CallInputs inputs(random);
             Record expected;
-            call(expected);
+            calls.make(inputs, expected);
             for (const Environment& in : environments) {
                 Record got;
                 got.bytes.reserve(2 * expected.bytes.size());
@@ -491,10 +333,10 @@ TEST_CASE("no environment of the caller changes a bit, and each is put back")
                 _mm_setcsr(_mm_getcsr() | in.csr);
                 if (in.traps) ::feenableexcept(FE_ALL_EXCEPT);
                 const Control wanted = control();
-                call(got);
+                calls.make(inputs, got);
                 const Control found = control();
                 std::fesetenv(&before);
-                INFO(name << ", " << in.name << ", inputs " << n);
+                INFO(calls.name << ", " << in.name << ", inputs " << n);
                 CHECK(found == wanted);
                 CHECK((got.bytes == expected.bytes));
                 holds = holds && found == wanted && got.bytes == expected.bytes;

@@ -3,7 +3,6 @@
 // The promise: the instruction set is chosen by name or by the CPU, never silently by anything else.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -35,16 +34,6 @@ TEST_CASE("the list has the best first, scalar last, nothing twice")
     CHECK(swivel_isa_at(static_cast<std::uint32_t>(isas.size())) == nullptr);
     CHECK(swivel_isa_at(~0u) == nullptr);
     CHECK(swivel_isa_runs("scalar") == 1);
-}
-
-TEST_CASE("the one in use is the one forced, else the first that runs")
-{
-    const char* forced = std::getenv("SWIVEL_FORCE_ISA");
-    REQUIRE(swivel_isa_name() != nullptr);
-    if (forced && *forced)
-        CHECK(std::string(swivel_isa_name()) == forced);
-    else
-        CHECK(swivel_isa_name() == runnable_isas().front());
 }
 
 TEST_CASE("names that are not there are refused and change nothing")

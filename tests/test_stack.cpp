@@ -23,7 +23,6 @@ using corpus::Recipe;
 namespace {
 
 constexpr std::size_t kPromised = 32 * 1024;
-constexpr std::size_t kStack = 192 * 1024;
 constexpr unsigned char kPaint = 0xa5;
 
 struct Painted {
@@ -44,15 +43,15 @@ struct Painted {
     painted.used = static_cast<std::size_t>(frame - deepest);
 }
 
-// Bytes of stack that a call takes.
-std::size_t stack_of(const std::function<void()>& call)
+// Runs a call on a thread with that much stack, and returns how many bytes of it were used.
+std::size_t stack_of(const std::function<void()>& call, std::size_t size = 192 * 1024)
 {
-    void* const memory = mmap(nullptr, kStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
     REQUIRE(memory != MAP_FAILED);
     Painted painted{call, static_cast<unsigned char*>(memory)};
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
-    pthread_attr_setstack(&attributes, memory, kStack);
+    pthread_attr_setstack(&attributes, memory, size);
     pthread_t thread;
     const auto start = [](void* given) -> void* {
         measure(*static_cast<Painted*>(given));
@@ -61,7 +60,7 @@ std::size_t stack_of(const std::function<void()>& call)
     REQUIRE(pthread_create(&thread, &attributes, start, &painted) == 0);
     pthread_join(thread, nullptr);
     pthread_attr_destroy(&attributes);
-    munmap(memory, kStack);
+    munmap(memory, size);
     return painted.used;
 }
 
@@ -98,35 +97,30 @@ struct Frames {
     }
 };
 
-// Every kind of job over a crowd.
+// Every kind of job over a crowd, on rows and on frames.
 void run_jobs(Crowd& crowd, const std::string& name, Most& most)
 {
-    const auto run = [&](const char* kind, swivel_job job) {
-        most.take(name + ", " + kind, [&] { swivel_solve(crowd.get(), &job); });
-    };
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     const std::vector<std::uint32_t> few((blocks + 1) / 2, 0x00018001u), many((blocks + 1) / 2, 0xfff70ff7u);
     const std::uint32_t indices[] = {0, 3, 4, 17, 18, 19};
     const swivel_limbs list{indices, std::size(indices)};
-    swivel_job job = swivel_default_job();
-    const auto on_rows_and_frames = [&](const char* on_rows, const char* on_frames) {
-        run(on_rows, job);
-        Frames frames(crowd);
-        job.frames = frames.frames.data();
-        run(on_frames, job);
-        job.frames = nullptr;
+    std::vector<std::pair<const char*, swivel_job>> jobs;
+    const auto add = [&](const char* kind) -> swivel_job& {
+        return jobs.emplace_back(kind, swivel_default_job()).second;
     };
-    on_rows_and_frames("whole", "whole with frames");
-    job.limbs = &list;
-    on_rows_and_frames("list", "list with frames");
-    job.limbs = nullptr;
-    job.on_this_thread = 1;
-    on_rows_and_frames("on this thread", "on this thread with frames");
-    job.mask_word_count = (blocks + 1) / 2;
-    job.mask = few.data();
-    on_rows_and_frames("few limbs of a mask", "few limbs of a mask with frames");
-    job.mask = many.data();
-    on_rows_and_frames("many limbs of a mask", "many limbs of a mask with frames");
+    add("whole");
+    add("list").limbs = &list;
+    add("on this thread").on_this_thread = 1;
+    add("few limbs of a mask").mask = few.data();
+    add("many limbs of a mask").mask = many.data();
+    Frames frames(crowd);
+    for (auto& [kind, job] : jobs) {
+        if (job.mask) job.mask_word_count = (blocks + 1) / 2, job.on_this_thread = 1;
+        const auto solve = [&, &each = job] { swivel_solve(crowd.get(), &each); };
+        most.take(name + ", " + kind, solve);
+        job.frames = frames.frames.data();
+        most.take(name + ", " + kind + ", with frames", solve);
+    }
 }
 
 // Calls that judge a crowd's results.
@@ -175,29 +169,17 @@ TEST_CASE("jobs run on threads of 64 KiB, also on oneTBB's own")
     const IsaScope scope;
     std::uint64_t alone = 0, together = 0;
     Crowd crowd = corpus::make_crowd(corpus::recipe_of(Part::limbs, "set-both-boxes"), 3000);
-    const auto on_small_stack = [&](const std::function<void()>& call) {
-        pthread_attr_t attributes;
-        pthread_attr_init(&attributes);
-        REQUIRE(pthread_attr_setstacksize(&attributes, 64 * 1024) == 0);
-        pthread_t thread;
-        const auto start = [](void* given) -> void* {
-            (*static_cast<const std::function<void()>*>(given))();
-            return nullptr;
-        };
-        REQUIRE(pthread_create(&thread, &attributes, start, const_cast<std::function<void()>*>(&call)) == 0);
-        pthread_join(thread, nullptr);
-        pthread_attr_destroy(&attributes);
-    };
     for (const std::string& isa : runnable_isas()) {
         swivel_use_isa(isa.c_str());
-        on_small_stack([&] {
+        const auto solve_twice = [&] {
             swivel_solve(crowd.get(), nullptr);
             together = crowd.digest();
             swivel_job job = swivel_default_job();
             job.on_this_thread = 1;
             swivel_solve(crowd.get(), &job);
             alone = crowd.digest();
-        });
+        };
+        stack_of(solve_twice, 64 * 1024);
         CHECK(alone == together);
     }
 }

@@ -63,6 +63,16 @@ inline LocalPose local_pose(const Crowd& crowd, std::uint32_t n)
     return {quat(q[0]).normalized(), quat(q[1]).normalized(), quat(q[2]).normalized()};
 }
 
+// What the joints add to rest, in the arm frame.
+inline LocalPose added_to_rest(const LocalPose& pose, const swivel_binding& b)
+{
+    const Quaterniond parent = quat(b.parent_from_arm), upper = quat(b.upper_from_arm), fore = quat(b.fore_from_arm),
+                      hand_rest = fore.conjugate() * quat(b.wrist_rest);
+    return {(parent.conjugate() * pose.shoulder * upper).normalized(),
+            (upper.conjugate() * pose.elbow * fore).normalized(),
+            (fore.conjugate() * pose.wrist * hand_rest.conjugate()).normalized()};
+}
+
 template <class Value>
 void put(Crowd& crowd, swivel_field field, std::uint32_t n, const Value& value)
 {
@@ -77,6 +87,40 @@ inline Float4 range_of(const AngleRange& range)
     Float4 value;
     CHECK(swivel_range(range.middle - range.half, range.middle + range.half, value.data()) == SWIVEL_OK);
     return value;
+}
+
+// A limb's limits in angles; at first they are wide open.
+struct LimbLimits {
+    Vector3d shoulder_axis, hand_axis, twist_axis;
+    double shoulder = kPi, hand = kPi;  // openings of the cones
+    AngleRange humeral, forearm, twist;
+    AngleBox shoulder_box, wrist_box;
+
+    explicit LimbLimits(Random& random)
+        : shoulder_axis(random.direction()), hand_axis(random.direction()), twist_axis(random.direction())
+    {
+    }
+};
+// Calls put(field, value) for each limit.
+template <class Put>
+void each_limit(const LimbLimits& limits, const Put& put)
+{
+    const auto array_of = [](const Vector3d& v) { return std::array{v.x(), v.y(), v.z()}; };
+    put(SWIVEL_SHOULDER_CONE, cone(array_of(limits.shoulder_axis), limits.shoulder));
+    put(SWIVEL_HAND_CONE, cone(array_of(limits.hand_axis), limits.hand));
+    put(SWIVEL_HUMERAL_TWIST, range_of(limits.humeral));
+    put(SWIVEL_FOREARM_TWIST, range_of(limits.forearm));
+    Float7 twist;
+    std::ranges::copy(floats(limits.twist_axis), twist.begin());
+    std::ranges::copy(range_of(limits.twist), twist.begin() + 3);
+    put(SWIVEL_HAND_TWIST, twist);
+    for (const bool of_wrist : {false, true}) {
+        Float12 box;
+        for (std::size_t n = 0; n < 3; ++n)
+            std::ranges::copy(range_of((of_wrist ? limits.wrist_box : limits.shoulder_box).range[n]),
+                              box.begin() + 4 * n);
+        put(of_wrist ? SWIVEL_WRIST_BOX : SWIVEL_SHOULDER_BOX, box);
+    }
 }
 
 }  // namespace swivel::test

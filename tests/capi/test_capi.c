@@ -3,7 +3,6 @@
  * The promise: swivel.h is C11, and a C program can make a crowd, solve an arm and find its wrist on the target. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "swivel/lecture.h"
 #include "swivel/swivel.h"
@@ -43,96 +42,6 @@ static int head_of_header(void)
     return !(shoulder[0][3] >= 0 && shoulder[1][0] < 0 && shoulder[0][0] != shoulder[1][0]);
 }
 
-/* Plain arms and arms that ask for more, in one crowd: each group has rows of its own features alone, and keeps or
- * drops a pose as it says. */
-static void two_kinds(void)
-{
-    const float nan_first[2][3] = {{NAN, 0, 0}, {0.2f, 0.3f, 0.2f}}, hand[4] = {0, 0.6f, 0, 0.8f};
-    float targets[2][3] = {{0.3f, 0.1f, 0.3f}, {0.2f, 0.2f, 0.3f}}, lengths[2] = {0.30f, 0.26f};
-    float plain[2][4], rich[2][4], before[4];
-    uint32_t flags[2] = {0, 0}, solved = 0, group = 0, limb = 0;
-    const uint32_t first_alone = 1u << 0, second_alone = 1u << 1;
-    const swivel_frame_field plain_fields[] = {{SWIVEL_TARGET, targets, sizeof targets[0]},
-                                               {SWIVEL_LENGTHS, lengths, 0},
-                                               {SWIVEL_SHOULDER, plain, sizeof plain[0]}};
-    swivel_frame_field rich_fields[] = {{SWIVEL_TARGET, targets, sizeof targets[0]},
-                                        {SWIVEL_LENGTHS, lengths, 0},
-                                        {SWIVEL_HAND, (void*)hand, 0},
-                                        {SWIVEL_SHOULDER, rich, sizeof rich[0]},
-                                        {SWIVEL_FLAGS, flags, sizeof flags[0]}};
-    swivel_frame frames[2];
-    swivel_group_def groups[2];
-    swivel_crowd_def def = swivel_default_crowd_def();
-    swivel_job job = swivel_default_job();
-    swivel_crowd* crowd = NULL;
-    int c;
-
-    groups[0] = swivel_default_group_def(2);
-    groups[1] = swivel_default_group_def(2);
-    groups[1].features = SWIVEL_WITH_HAND | SWIVEL_WITH_HUMERAL_TWIST;
-    groups[1].on_bad_input = SWIVEL_KEEP_POSE;
-    def.groups = groups, def.group_count = 2;
-    check(swivel_crowd_create(&def, &crowd) == SWIVEL_OK, "a crowd of two kinds");
-    if (crowd == NULL) return;
-    check(swivel_group_count(crowd) == 2 && swivel_group_features(crowd, 1) == groups[1].features, "its groups");
-    check(swivel_input_rows(crowd, 0).row_count == 3 + 3 + 2, "rows of a plain arm");
-    check(swivel_input_rows(crowd, 1).row_count == 3 + 3 + 2 + 4 + 4, "rows with a hand and a twist");
-    check(swivel_field_row_count(crowd, 0, SWIVEL_WRIST) == 0 && swivel_field_row_count(crowd, 1, SWIVEL_WRIST) == 4,
-          "rows of a result");
-
-    frames[0] = swivel_default_frame();
-    frames[0].fields = plain_fields, frames[0].field_count = 3;
-    frames[1] = swivel_default_frame();
-    frames[1].fields = rich_fields, frames[1].field_count = 5;
-    job.frames = frames;
-    job.solved_count = &solved;
-    check(swivel_solve(crowd, &job) == SWIVEL_OK && solved == 4, "both groups in one job");
-    check(flags[0] == SWIVEL_REACHED && flags[1] == SWIVEL_REACHED, "both arms of one group");
-    for (c = 0; c < 4; ++c) check(fabsf(plain[0][c] - rich[0][c]) < 1e-6f, "an open limit changes nothing");
-
-    /* The second group alone, with a target that is lost: flags alone are written. */
-    memcpy(before, rich[0], sizeof before);
-    rich_fields[0].data = (void*)nan_first;
-    job.frames = &frames[1];
-    job.groups = &second_alone;
-    job.group_word_count = 1;
-    check(swivel_solve(crowd, &job) == SWIVEL_OK && solved == 2, "one group of two");
-    check(flags[0] == SWIVEL_BAD_INPUT && memcmp(before, rich[0], sizeof before) == 0, "it keeps its pose");
-    check(flags[1] == SWIVEL_REACHED, "its neighbour is solved");
-    check(swivel_find(crowd, SWIVEL_BAD_INPUT, &group, &limb) == 1 && group == 1 && limb == 0, "and is found");
-
-    job.groups = &first_alone;
-    check(swivel_solve(crowd, &job) == SWIVEL_INVALID_ARGUMENT, "a hand for plain arms");
-    swivel_crowd_destroy(crowd);
-
-    groups[1].features = SWIVEL_WITH_EFFECTOR;
-    check(swivel_crowd_create(&def, &crowd) == SWIVEL_INVALID_ARGUMENT && crowd == NULL, "an effector without a hand");
-    check(strcmp(swivel_last_error(), "group 1: SWIVEL_WITH_EFFECTOR needs SWIVEL_WITH_HAND; add it") == 0, "its text");
-}
-
-/* What the library says of itself: each field and each feature once, with a name. */
-static void descriptions(void)
-{
-    swivel_field_info field;
-    swivel_feature_info feature;
-    swivel_features features = 0;
-    uint32_t n, inputs = 0, results = 0;
-    for (n = 0; swivel_describe_field(n, &field); ++n) {
-        check(field.name[0] != 0, "a field has a name");
-        if (field.kind == SWIVEL_FIELD_INPUT) ++inputs;
-        if (field.kind != SWIVEL_FIELD_INPUT) ++results;
-    }
-    check(inputs == SWIVEL_INPUT_END && results == SWIVEL_RESULT_END - SWIVEL_SHOULDER, "every field is described");
-    for (n = 0; swivel_describe_feature(n, &feature); ++n) {
-        check(feature.name[0] != 0 && (features & feature.feature) == 0, "a feature has a name and bits of its own");
-        features |= feature.feature;
-    }
-    check(features & SWIVEL_WORLD && features & SWIVEL_WITH_TWIST_BONES, "features are described");
-    check(swivel_component_count(SWIVEL_ELBOW, 0) == 2 && swivel_component_count(SWIVEL_ELBOW, SWIVEL_JOINTS) == 4,
-          "numbers of an elbow");
-    check(strcmp(swivel_flag_name(SWIVEL_REACHED), "REACHED") == 0 && swivel_flag_name(0) == NULL, "names of flags");
-}
-
 int main(void)
 {
     const float target[3] = {0.5f, -0.75f, 1.0f}, pole[3] = {0.0f, -1.0f, -1.0f}, lengths[2] = {0.75f, 1.0f};
@@ -153,8 +62,6 @@ int main(void)
     int lines = 0, c;
 
     check(head_of_header() == 0, "the head of swivel.h is a program");
-    two_kinds();
-    descriptions();
 
     def.group_count = 1;
     def.groups = &group;

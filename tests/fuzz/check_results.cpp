@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/check_results.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -28,6 +29,32 @@ bool is_on_its_side(const float* q)
     for (int n = 0; n < 3; ++n)
         if (q[n] != 0) return q[n] > 0;
     return false;
+}
+
+// A group's rows, of floats or of words.
+struct Rows {
+    char* base;
+    std::size_t row_count, number_bytes;
+
+    char* at(std::size_t lane, std::size_t row) const
+    {
+        return base + ((lane / SWIVEL_LANES * row_count + row) * SWIVEL_LANES + lane % SWIVEL_LANES) * number_bytes;
+    }
+};
+Rows inputs_of(swivel_crowd* crowd, std::uint32_t group)
+{
+    const swivel_rows rows = swivel_input_rows(crowd, group);
+    return {reinterpret_cast<char*>(rows.base), rows.row_count, sizeof(float)};
+}
+Rows results_of(swivel_crowd* crowd, std::uint32_t group)
+{
+    const swivel_rows rows = swivel_result_rows(crowd, group);
+    return {reinterpret_cast<char*>(rows.base), rows.row_count, sizeof(float)};
+}
+// What was there before the call at hand.
+const char* before(const Session& session, const char* now)
+{
+    return session.arena_before.data() + (now - session.arena.data());
 }
 
 struct Reader {
@@ -80,13 +107,6 @@ void check_places(const Session& session, std::uint32_t group, std::uint32_t lim
 
 }  // namespace
 
-std::vector<char> result_bytes(swivel_crowd& crowd, std::uint32_t group)
-{
-    const swivel_rows rows = swivel_result_rows(&crowd, group);
-    const char* const base = reinterpret_cast<const char*>(rows.base);
-    return {base, base + std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES * sizeof(float)};
-}
-
 void check_results(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
     Reader reader{session, group, limb};
@@ -105,21 +125,47 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
     if (flags != SWIVEL_BAD_INPUT) check_places(session, group, limb);
 }
 
-void check_others(Session& session, const std::vector<bool>& chosen)
+void check_alone(Session& session, std::uint32_t group, std::uint32_t limb)
+{
+    swivel_crowd*& alone = session.alone[group];
+    if (!alone) {
+        swivel_group_def def = session.groups[group];
+        def.limb_count = 1;
+        swivel_crowd_def of_one = swivel_default_crowd_def();
+        of_one.groups = &def;
+        of_one.group_count = 1;
+        SWIVEL_REQUIRE(swivel_crowd_create(&of_one, &alone) == SWIVEL_OK);
+    }
+    const Rows inputs = inputs_of(session.crowd, group), results = results_of(session.crowd, group),
+               to = inputs_of(alone, 0), got = results_of(alone, 0);
+    for (std::size_t row = 0; row < to.row_count; ++row)
+        std::memcpy(to.at(0, row), inputs.at(limb, row), to.number_bytes);
+    for (std::size_t row = 0; row < got.row_count; ++row)
+        std::memcpy(got.at(0, row), before(session, results.at(limb, row)), got.number_bytes);
+    const char* const isa = swivel_isa_name();
+    SWIVEL_REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
+    SWIVEL_REQUIRE(swivel_solve(alone, nullptr) == SWIVEL_OK);
+    SWIVEL_REQUIRE(swivel_use_isa(isa) == SWIVEL_OK);
+    for (std::size_t row = 0; row < got.row_count; ++row)
+        SWIVEL_REQUIRE(std::memcmp(got.at(0, row), results.at(limb, row), got.number_bytes) == 0);
+}
+
+void check_others(const Session& session, const std::vector<bool>& chosen)
 {
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
-        const std::vector<char> now = result_bytes(*session.crowd, group), &before = session.results_before[group];
-        const std::size_t first = swivel_group_first_limb(session.crowd, group),
-                          limb_count = swivel_group_limb_count(session.crowd, group),
-                          lanes = (limb_count + SWIVEL_LANES - 1) / SWIVEL_LANES * SWIVEL_LANES, bytes = sizeof(float),
-                          row_count = now.size() / bytes / lanes;
-        SWIVEL_REQUIRE(now.size() == before.size());
-        for (std::size_t limb = 0; limb < limb_count; ++limb)
-            for (std::size_t row = 0; row < row_count && !chosen[first + limb]; ++row) {
-                const std::size_t at =
-                    bytes * (((limb / SWIVEL_LANES) * row_count + row) * SWIVEL_LANES + limb % SWIVEL_LANES);
-                SWIVEL_REQUIRE(std::memcmp(now.data() + at, before.data() + at, bytes) == 0);
+        const std::size_t limb_count = swivel_group_limb_count(session.crowd, group);
+        const auto is_chosen = chosen.begin() + swivel_group_first_limb(session.crowd, group);
+        for (std::size_t first = 0; first < limb_count; first += SWIVEL_LANES) {
+            const std::size_t end = std::min(first + SWIVEL_LANES, limb_count);
+            const bool is_untouched = std::find(is_chosen + first, is_chosen + end, true) == is_chosen + end;
+            for (std::size_t lane = first; lane < first + SWIVEL_LANES; ++lane) {
+                if (!is_untouched && (lane >= end || is_chosen[lane])) continue;
+                for (const Rows& rows : {inputs_of(session.crowd, group), results_of(session.crowd, group)})
+                    for (std::size_t row = 0; row < rows.row_count; ++row)
+                        SWIVEL_REQUIRE(std::memcmp(rows.at(lane, row), before(session, rows.at(lane, row)),
+                                                   rows.number_bytes) == 0);
             }
+        }
     }
 }
 

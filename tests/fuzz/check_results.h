@@ -6,13 +6,14 @@
 
 namespace swivel::fuzz {
 
-// A copy of a group's result rows, of floats or words.
-std::vector<char> result_bytes(swivel_crowd& crowd, std::uint32_t group);
-
 // Of a solved limb: unit quaternions on their side, known flags, finite places.
 void check_results(const Session& session, std::uint32_t group, std::uint32_t limb);
 
-// Limbs whose lanes are not chosen have the bits of session.results_before.
-void check_others(Session& session, const std::vector<bool>& chosen);
+// A solved limb has the bits of the same limb alone in a crowd, without a job, on the scalar build.
+void check_alone(Session& session, std::uint32_t group, std::uint32_t limb);
+
+// Inputs and results of limbs whose lanes are not chosen, and whole blocks without such a limb, have the bits that they
+// had before the call.
+void check_others(const Session& session, const std::vector<bool>& chosen);
 
 }  // namespace swivel::fuzz

@@ -31,14 +31,17 @@ bool is_position(swivel_field field)
     return field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
 }
 
+// The values lie where the header's layout has them.
 void require_equal_rows(const Session& session, swivel_field field, const Limbs& limbs, const Strided& values)
 {
-    const std::size_t size = values.value_bytes();
-    std::vector<char> read(size * limbs.count + 1);  // so that none is not null
-    SWIVEL_REQUIRE(swivel_read(session.crowd, field, limbs.group, limbs.first, limbs.count, {read.data(), size}) ==
-                   SWIVEL_OK);
+    const swivel_rows rows = swivel_input_rows(session.crowd, limbs.group);
+    const std::size_t first_row = swivel_field_first_row(session.crowd, limbs.group, field);
     for (std::size_t n = 0; n < limbs.count; ++n)
-        SWIVEL_REQUIRE(std::memcmp(read.data() + n * size, values.at(n), size) == 0);
+        for (std::size_t c = 0; c < values.value_bytes() / sizeof(float); ++c) {
+            const std::size_t limb = limbs.first + n, row = limb / SWIVEL_LANES * rows.row_count + first_row + c;
+            const float* const at = rows.base + row * SWIVEL_LANES + limb % SWIVEL_LANES;
+            SWIVEL_REQUIRE(std::memcmp(at, values.at(n) + c * sizeof(float), sizeof(float)) == 0);
+        }
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ void Frame::take_input(Session& session, std::uint32_t group, swivel_field field
     Random random{session.bytes.take<std::uint16_t>()};
     Strided& values =
         inputs.emplace_back(session.bytes, swivel_group_limb_count(session.crowd, group), components * each, true);
+    input_fields.push_back(field);
     values.fill([&](std::size_t, char* at) {
         std::array<float, 12> value{};
         make_value(random, field, kind, std::span(value).first(components));
@@ -77,6 +78,7 @@ void Frame::take_input(Session& session, std::uint32_t group, swivel_field field
 void Frame::take_origin(Session& session, std::uint32_t limb_count)
 {
     Strided& values = inputs.emplace_back(session.bytes, limb_count, 3 * sizeof(double), true);
+    input_fields.push_back(SWIVEL_INPUT_END);  // none
     values.fill([&](std::size_t, char* at) { std::memset(at, 0, 3 * sizeof(double)); });
     origin = values.in();
     if (!values.is_null() && !values.is_valid()) is_valid = false;
@@ -91,12 +93,36 @@ void Frame::take_output(Session& session, std::uint32_t group, swivel_field fiel
     add(session, group, field, values);
 }
 
+void Frame::check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb) const
+{
+    const swivel_rows rows = swivel_input_rows(session.crowd, group);
+    for (std::size_t n = 0; n < inputs.size(); ++n) {
+        if (input_fields[n] == SWIVEL_INPUT_END || inputs[n].is_null()) continue;
+        const std::uint32_t components = component_count(session, group, input_fields[n]),
+                            first_row = swivel_field_first_row(session.crowd, group, input_fields[n]);
+        const bool is_wide = inputs[n].value_bytes() == components * sizeof(double);
+        for (std::uint32_t c = 0; c < components; ++c) {
+            float wanted;
+            double wide;
+            if (is_wide) std::memcpy(&wide, inputs[n].at(limb) + c * sizeof wide, sizeof wide);
+            std::memcpy(&wanted, inputs[n].at(limb) + c * sizeof wanted, sizeof wanted);
+            if (is_wide) wanted = static_cast<float>(wide);  // from an origin of zeros
+            const float& got =
+                rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + first_row + c) * SWIVEL_LANES +
+                          limb % SWIVEL_LANES];
+            SWIVEL_REQUIRE(std::memcmp(&got, &wanted, sizeof got) == 0 || (is_wide && wide != wide && got != got));
+        }
+    }
+}
+
 void Frame::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const
 {
     const std::uint32_t limb_count = swivel_group_limb_count(session.crowd, group),
                         first = swivel_group_first_limb(session.crowd, group);
     const auto lane = chosen.begin() + first;
     const bool is_untouched = std::find(lane, lane + limb_count, true) == lane + limb_count;
+    for (std::uint32_t limb = 0; limb < limb_count; ++limb)
+        if (lane[limb]) check_inputs(session, group, limb);
     for (std::size_t n = 0; n < outputs.size(); ++n) {
         outputs[n].check_gaps(is_untouched);
         if (is_untouched || outputs[n].is_null()) continue;

@@ -16,17 +16,18 @@ struct Frame {
     swivel_in origin = {};
     std::vector<swivel_frame_field> fields = {};
     std::vector<Strided> inputs = {}, outputs = {};
-    std::vector<swivel_field> output_fields = {};
+    std::vector<swivel_field> input_fields = {}, output_fields = {};
     bool is_valid = true;
 
     Frame(Session& session, std::uint32_t group);
     swivel_frame view() const;  // of this, which must outlive it
 
-    // Results of chosen limbs are the crowd's; values of others, and all of them if nothing is chosen, are as they
-    // were.
+    // Inputs of chosen limbs are in the crowd's rows, and results are the crowd's. Values of others, and all of them if
+    // nothing is chosen, are as they were.
     void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const;
 
 private:
+    void check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb) const;
     void take_origin(Session& session, std::uint32_t limb_count);
     void take_input(Session& session, std::uint32_t group, swivel_field field);
     void take_output(Session& session, std::uint32_t group, swivel_field field);

@@ -48,7 +48,7 @@ bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
     std::uint32_t flags = 0;
     swivel_read(session.crowd, SWIVEL_FLAGS, group, limb, 1, {&flags, sizeof flags});
-    return session.keeps[group] && flags == SWIVEL_BAD_INPUT;
+    return session.groups[group].on_bad_input == SWIVEL_KEEP_POSE && flags == SWIVEL_BAD_INPUT;
 }
 
 void check_status(const Session& session, swivel_status status, bool expected)
@@ -70,6 +70,7 @@ void check_solved(Session& session, const std::vector<bool>& chosen)
             if (!chosen[first + limb]) continue;
             session.is_solved[first + limb] = true;
             check_results(session, group, limb);
+            check_alone(session, group, limb);
         }
     }
     check_others(session, chosen);

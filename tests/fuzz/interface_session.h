@@ -16,11 +16,11 @@ struct Session {
     Bytes& bytes;
     swivel_crowd* crowd = nullptr;
     std::uint32_t group_count = 0;
-    std::span<const char> arena = {};                    // all of the crowd's memory, where it is ours
-    std::vector<char> arena_before = {};                 // as it was before the call at hand
-    std::vector<std::vector<char>> results_before = {};  // of each group
-    std::vector<bool> is_solved = {};                    // each lane
-    std::vector<bool> keeps = {};                        // each group: SWIVEL_KEEP_POSE
+    std::span<const char> arena = {};     // all of the crowd's memory
+    std::vector<char> arena_before = {};  // as it was before the call at hand
+    std::vector<bool> is_solved = {};     // each lane
+    std::span<const swivel_group_def> groups = {};
+    std::vector<swivel_crowd*> alone = {};  // for one limb of each group
 
     std::uint32_t lane_count() const { return swivel_block_count(crowd) * SWIVEL_LANES; }
 };

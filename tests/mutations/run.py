@@ -165,12 +165,7 @@ def run_all(mutations, work):
             yield mutation, verdict, seconds
 
 
-def table(results, markdown):
-    if markdown:
-        print("\n| mutation | file | verdict | seconds |\n|---|---|---|---|")
-        for mutation, verdict, seconds in results:
-            print(f"| {mutation['name']} | {mutation['file']} | {verdict} | {seconds:.0f} |")
-        return
+def table(results):
     width = max(len(mutation["name"]) for mutation, _, _ in results)
     print()
     for mutation, verdict, _ in results:
@@ -181,7 +176,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", metavar="PATTERN", action="append", default=[], help="those with this in their name; may be repeated")
     parser.add_argument("--list", action="store_true", help="name the mutations, and their tests, and do nothing")
-    parser.add_argument("--markdown", action="store_true", help="end with a table in Markdown")
     parser.add_argument("--work", type=Path, default=SOURCE / "build" / "mutations", help="the folder to work in (%(default)s)")
     arguments = parser.parse_args()
     begin = time.monotonic()
@@ -195,7 +189,7 @@ def main():
     except Failure as failure:
         print(f"run.py: {failure}", file=sys.stderr)
         return 1
-    table(results, arguments.markdown)
+    table(results)
     killed = sum(verdict.startswith("killed") for _, verdict, _ in results)
     print(f"\n{killed} of {len(results)} mutations killed, {time.monotonic() - begin:.0f} s")
     return killed != len(results)
