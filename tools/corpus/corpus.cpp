@@ -72,14 +72,6 @@ std::uint64_t add_bytes(std::uint64_t hash, std::uint64_t number, int count)
     return hash;
 }
 
-// Calls act(field) for each field of a list.
-template <class Act>
-void for_each_field(const FieldList& list, Act act)
-{
-    for (const Field field : list)
-        if (field != Field::none) act(field);
-}
-
 // Writes the inputs that are wanted, of all groups.
 template <class IsWanted>
 void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, std::uint32_t frame, IsWanted is_wanted)
@@ -89,22 +81,22 @@ void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, 
         std::vector<Arm> arms = ordinary;
         put_hard_cases(recipe, group, frame, arms);
         spoil_arms(recipe, group, frame, arms);
-        for_each_field(recipe.inputs, [&](Field field) {
-            if (!is_wanted(field)) return;
+        for (const Field field : inputs_of(recipe)) {
+            if (!is_wanted(field)) continue;
             if (is_of_arms(field))
                 write_arms(crowd, field, group, arms);
             else
                 write_field(crowd, field, group, limb_values(recipe, field, group, ordinary));
-        });
+        }
     }
 }
 
-// What the lists name must be all that the crowd has.
+// What the features bring must be all that the crowd has.
 void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
     std::uint32_t inputs = 0, results = 0;
-    for_each_field(recipe.inputs, [&](Field field) { inputs += component_count(recipe, field); });
-    for_each_field(recipe.results, [&](Field field) { results += result_row_count(recipe, field); });
+    for (const Field field : inputs_of(recipe)) inputs += component_count(recipe, field);
+    for (const Field field : results_of(recipe)) results += result_row_count(recipe, field);
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
         if (listed != has)
             throw std::logic_error("corpus: crowd " + full_name(recipe) + " lists " + std::to_string(listed) +
@@ -154,13 +146,12 @@ std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint
 {
     const LimbCounts counts = limb_counts(crowd);
     std::vector<std::uint32_t> words;
-    for_each_field(recipe.results, [&](Field field) {
+    for (const Field field : results_of(recipe))
         for (std::uint32_t group = 0; group < counts.size(); ++group) {
             words.resize(std::size_t{counts[group]} * component_count(recipe, field));
             read_field(crowd, field, group, words);
             for (const std::uint32_t word : words) hash = add_bytes(hash, word, 4);
         }
-    });
     return hash;
 }
 

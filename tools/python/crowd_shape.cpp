@@ -35,18 +35,6 @@ py::array all_rows(const py::object& self, Rows rows, bool writeable)
     return view(self, type, rows.base, rows.block_count, rows.row_count, rows.row_count, writeable);
 }
 
-py::array input_rows(const py::object& self, std::int64_t number)
-{
-    const HeldCrowd& held = self.cast<const HeldCrowd&>();
-    return all_rows(self, swivel_input_rows(held.crowd.get(), limbs_of(held, number, 0, {}).group), true);
-}
-
-py::array result_rows(const py::object& self, std::int64_t number)
-{
-    const HeldCrowd& held = self.cast<const HeldCrowd&>();
-    return all_rows(self, swivel_result_rows(held.crowd.get(), limbs_of(held, number, 0, {}).group), false);
-}
-
 py::array compact_rows(const py::object& self, std::int64_t number)
 {
     const HeldCrowd& held = self.cast<const HeldCrowd&>();
@@ -124,11 +112,6 @@ void add_shape(CrowdClass& crowd)
               "the group is [i // LANES, :, i % LANES]. float32; uint32 for Field.FLAGS; uint16 words for results\n"
               "with Feature.COMPACT. Inputs may be written to, the fast way in; results are for reading. The array\n"
               "keeps the crowd alive. ValueError if the group does not have the field.");
-    crowd.def("input_rows", &input_rows, py::arg("group") = 0,
-              "All input rows of a group, shape (blocks, rows, LANES) float32, sharing the crowd's memory.");
-    crowd.def("result_rows", &result_rows, py::arg("group") = 0,
-              "All result rows of a group, shape (blocks, rows, LANES) float32, to read. ValueError with\n"
-              "Feature.COMPACT.");
     crowd.def("compact_rows", &compact_rows, py::arg("group") = 0,
               "All result rows of a group with Feature.COMPACT, shape (blocks, rows, LANES) uint16, to read; else\n"
               "ValueError.");
