@@ -73,27 +73,27 @@ void add_answers(CrowdClass& crowd)
     };
     add(
         "elbows", 3,
-        [](swivel_crowd* crowd, const Limbs& limbs, swivel_out to) {
-            return swivel_forward(crowd, limbs.group, limbs.first, limbs.count, to, {}, {});
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_forward(held, limbs.group, limbs.first, limbs.count, to, {}, {});
         },
         "Where the results put the elbows: (count, 3) float64, in the space of the targets and your unit of length.");
     add(
         "wrists", 3,
-        [](swivel_crowd* crowd, const Limbs& limbs, swivel_out to) {
-            return swivel_forward(crowd, limbs.group, limbs.first, limbs.count, {}, to, {});
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_forward(held, limbs.group, limbs.first, limbs.count, {}, to, {});
         },
         "Where the results put the wrists: (count, 3) float64, in the space of the targets and your unit of length.");
     add(
         "hands", 4,
-        [](swivel_crowd* crowd, const Limbs& limbs, swivel_out to) {
-            return swivel_forward(crowd, limbs.group, limbs.first, limbs.count, {}, {}, to);
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_forward(held, limbs.group, limbs.first, limbs.count, {}, {}, to);
         },
         "How the results turn the hands: (count, 4) float64, quaternions x, y, z, w in the space of the\n"
         "targets; without Feature.WITH_HAND those of the forearms.");
     add(
         "residuals", 1,
-        [](swivel_crowd* crowd, const Limbs& limbs, swivel_out to) {
-            return swivel_residuals(crowd, limbs.group, limbs.first, limbs.count, to);
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_residuals(held, limbs.group, limbs.first, limbs.count, to);
         },
         "How far each wrist, or effector, is from its target: (count,) float64, in arm lengths (upper arm and\n"
         "forearm, scaled and stretched). 0 for limbs of no length, NaN for those with Flag.BAD_INPUT.");

@@ -137,8 +137,10 @@ void add_arms(py::module_& module)
         py::module_::import("collections")
             .attr("namedtuple")("Arms", names + more, py::arg("defaults") = nones, py::arg("module") = "swivel");
     made.attr("__doc__") =
-        "What solve() gives for n arms: the results of docs/python.md, with their shapes; None: the arms were not asked\n"
-        "for it. elbow_position and wrist_position are (n, 3) float64, in the space and unit of the targets. residual is\n"
+        "What solve() gives for n arms: the results of docs/python.md, with their shapes; None: the arms were not "
+        "asked\n"
+        "for it. elbow_position and wrist_position are (n, 3) float64, in the space and unit of the targets. residual "
+        "is\n"
         "(n,) float64, from target to wrist, or effector, in arm lengths.";
     module.attr("Arms") = made;
 }
