@@ -86,7 +86,7 @@ class Engines(Stage):
         self.path = f"{os.path.dirname(SWIVEL)}:{os.environ['PATH']}"
 
     def example(self, *command, **more):
-        done = subprocess.run(command, cwd=self.folder, env=environment(PATH=self.path, **more), capture_output=True, text=True)
+        done = subprocess.run(command, cwd=self.folder, env=os.environ | {"PATH": self.path, **more}, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
 
