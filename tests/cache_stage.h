@@ -22,7 +22,7 @@ inline void require_done(const Outcome& outcome)
 }
 
 inline const std::string kLimited =
-    "[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 3\n";
+    "[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 0.01\n";
 
 // A crowd of 40 characters with limits and step limits, in a cache.
 struct CacheStage {
