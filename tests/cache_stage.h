@@ -22,7 +22,7 @@ inline void require_done(const Outcome& outcome)
 }
 
 inline const std::string kLimited =
-    "[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 0.01\n";
+    "[limb.arms.limits]\nflexion_deg = [0, 90]\n[limb.arms.swivel]\nmost_deg_per_frame = 3\n";
 
 // A crowd of 40 characters with limits and step limits, in a cache.
 struct CacheStage {
@@ -31,7 +31,9 @@ struct CacheStage {
 
     explicit CacheStage(const std::string& toml = kLimited)
     {
-        spill(folder / "clip.bvh", kTwoArms);
+        std::string clip = kTwoArms;
+        clip.replace(clip.rfind(" 0 21 0 "), 8, " 0 21 40 ");  // turns an elbow by more than its step limit
+        spill(folder / "clip.bvh", clip);
         spill(folder / "crowd.toml", toml);
         require_done(run(with_crowd({"store", "clip.bvh", "cache", "--chunk", "1,16"})));
     }
