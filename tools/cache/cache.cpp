@@ -190,8 +190,8 @@ void Cache::remove_unfinished() const
 void require_memory(const fs::path& folder, const CachedCrowd& crowd, const CacheArrays& arrays,
                     std::uint32_t characters, const char* advice)
 {
-    constexpr double kMost = 1024, kMebibyte = 1048576;  // MiB
-    constexpr double kSolverBytes = 1024;                // of a limb with its inputs, at most
+    constexpr double kMostMemory = 1024, kMebibyte = 1048576;  // MiB
+    constexpr double kSolverBytes = 1024;                      // of a limb with its inputs, at most
     const auto chunks_of = [](const ZarrArray& array) {
         double count = 1;
         for (const std::uint64_t along : array.chunk_counts()) count *= static_cast<double>(along);
@@ -207,9 +207,9 @@ void require_memory(const fs::path& folder, const CachedCrowd& crowd, const Cach
     bytes += 2 * bytes_of(arrays.clip) + 2 * bytes_of(arrays.given);              // as files, and as numbers
     bytes += 3 * (bytes_of(arrays.results) + bytes_of(arrays.state));             // and as they are solved again
     bytes += kSolverBytes * characters * static_cast<double>(crowd.limbs.size());
-    if (bytes > kMost * kMebibyte)
+    if (bytes > kMostMemory * kMebibyte)
         throw InputError(folder, fmt::format("takes {:.0f} MiB of memory at once, more than {:.0f}; {}",
-                                             bytes / kMebibyte, kMost, advice));
+                                             bytes / kMebibyte, kMostMemory, advice));
 }
 
 fs::path folder_name(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
