@@ -13,7 +13,7 @@ import * as zarr from 'zarrita';
 
 const { SWIVEL, CLIP, PACKAGE, MODULE } = process.env;
 const { instantiate } = await import(`${PACKAGE}/instantiate.js`);
-const { carried, Feature, Field, LANES } = await import(`${PACKAGE}/layout.js`);
+const { carried, Feature, Field } = await import(`${PACKAGE}/layout.js`);
 const { Swivel } = await import(`${PACKAGE}/swivel.js`);
 const { Binding } = await import(`${PACKAGE}/binding.js`);
 
@@ -60,7 +60,7 @@ const hasher = await createXXHash3();
 
 /** XXH3 of bytes, as hash-wasm computes it; never 0. */
 const digestOf = (bytes) => BigInt(`0x${hasher.init().update(bytes).digest()}`) || 1n;
-/** Of a typed array, such as a chunk of goals as it is before it is packed, as little-endian numbers. */
+/** Of a typed array, such as a chunk of goals, as little-endian numbers. */
 const digestOfNumbers = (data) => digestOf(new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
 /** Of the attributes: their text without the blanks between its words, and without the digest itself, which comes last. */
 function proveAttributes(text) {
@@ -76,7 +76,6 @@ async function proveGoals({ root, attrs }) {
   const names = ['elbow', 'wrist', 'hand', 'lengths', 'origin', 'parent', 'shoulder', 'elbow_local', 'wrist_local', 'position'].map((name) => `clip/${name}`);
   names.push('character/size', 'character/place', 'character/start');
   if (attrs.has_given) names.push('given/target', 'given/pole', 'given/hand');
-  if (attrs.budget_blocks > 0) names.push('chosen');
   let count = 0;
   const all = [];
   for (const name of names.sort()) {
@@ -161,7 +160,7 @@ class Column {
     }
     return { crowd, group, plan: this.keep(planBytes(limb.goals)), sources: this.keep(sources), inputs: this.memory.allocate(124 * this.count) };
   }
-  solve(frame, given, chosen) {
+  solve(frame, given) {
     const { memory, cache: { attrs, start } } = this, { calls } = memory;
     this.limbs.forEach(({ crowd, group, plan, sources, inputs }, limb) => {
       calls.swivel_goals(plan, sources, attrs.clip_frames, frame, this.characters, this.count, inputs);
@@ -178,17 +177,7 @@ class Column {
         for (let n = 0; n < this.count; ++n)
           if ((frame + start[this.first + n]) % attrs.clip_frames === 0) crowd.reset({ group, first: n, count: 1 });
     });
-    for (const crowd of this.crowds) crowd.solve(chosen ? { mask: this.maskOf(frame, crowd, chosen) } : {});
-  }
-  maskOf(frame, crowd, { data, shape }) {
-    const blocks = Math.ceil(this.count / LANES), mask = new Uint32Array(Math.ceil(blocks * crowd.groupCount / 2));
-    this.limbs.forEach(({ group }, limb) => {
-      for (let block = 0; block < blocks; ++block) {
-        const at = crowd.firstLimb(group) / LANES + block;
-        if (data[(frame * shape[1] + limb) * shape[2] + this.first / LANES + block]) mask[at >> 1] |= 0xffff << (16 * (at & 1));
-      }
-    });
-    return mask;
+    for (const crowd of this.crowds) crowd.solve();
   }
   dispose() { this.crowds.forEach((crowd) => crowd.dispose()); }
 }
@@ -212,16 +201,14 @@ x_deg = [-80, 80]
 order = "XYZ"
 x_deg = [-80, 80]
 `;
-const BUDGET = `${LIMITED}
+const STATE = `${LIMITED}
 [limb.all.swivel]
 most_deg_per_second = 900
-[budget]
-blocks = 3
 `;
 
 for (const [name, toml, options, crowdCount = 1] of [
-  ['a plain crowd', '', []], ['limits, clavicles, twist bones', LIMITED, []], ['limbs of three crowds', BOXES, [], 3], ['state and a budget', BUDGET, []],
-  ['packed chunks', LIMITED, ['--compress']], ['targets of one\'s own', LIMITED, ['targets']],
+  ['a plain crowd', '', []], ['limits, clavicles, twist bones', LIMITED, []], ['limbs of three crowds', BOXES, [], 3], ['state', STATE, []],
+  ['targets of one\'s own', LIMITED, ['targets']],
 ])
   test(`wasm replays ${name}`, async () => {
     const run = (...list) => execFileSync(SWIVEL, list, { cwd: folder, stdio: 'pipe' });
@@ -236,12 +223,11 @@ for (const [name, toml, options, crowdCount = 1] of [
     run('store', CLIP, 'cache', '--frames', '23', '--characters', '75', '--chunk', '8,32', '--quiet', ...(toml ? ['--crowd', 'crowd.toml'] : []), ...options);
     run('fill', 'cache', '--quiet');
     const cache = await open(join(folder, 'cache')), { attrs } = cache;
-    const chosen = attrs.budget_blocks > 0 ? await cache.read('chosen') : undefined;
     const given = attrs.has_given ? await Promise.all(['target', 'pole', 'hand'].map((each) => cache.read(`given/${each}`))) : undefined;
     const names = COMPARED.filter((name) => existsSync(join(folder, 'cache', name.toLowerCase(), '.zarray')));
     const stored = Object.fromEntries(await Promise.all(names.map(async (name) => [name, await cache.read(name.toLowerCase())])));
     assert.ok(await proveGoals(cache) > 18);
-    assert.equal(await proveState(cache), attrs.budget_blocks > 0 ? 9 : 0);
+    assert.equal(await proveState(cache), name === 'state' ? 9 : 0);
     proveAttributes(readFileSync(join(folder, 'cache/.zattrs'), 'utf8'));
     const digests = await cache.read('digest');
     let compared = 0, solvedLimbs = 0;
@@ -250,7 +236,7 @@ for (const [name, toml, options, crowdCount = 1] of [
       assert.equal(column.crowds.length, crowdCount);
       let words = [];
       for (let frame = 0; frame < attrs.frames; ++frame) {
-        column.solve(frame, given, chosen);
+        column.solve(frame, given);
         if (frame % attrs.chunk_frames === 0) words = [];
         for (const crowd of column.crowds) words.push(crowd.digest());
         const time = Math.floor(frame / attrs.chunk_frames), [, columnCount] = digests.shape;

@@ -16,15 +16,9 @@ PLACES = (Path("/usr/share/assimp/models/BVH/01_01.bvh"), Path(os.environ.get("S
 CLIP = next(str(place) for place in PLACES if place.is_file())
 
 LIMITED = (ROOT / "tests/cache/limited.toml").read_text()
-BUDGET = LIMITED + """
+STATE = LIMITED + """
 [limb.all.swivel]
 most_deg_per_second = 900
-[budget]
-blocks = 3
-"""
-STEPS = """
-[limb.left_arm.swivel]
-most_deg_per_frame = 4
 """
 
 
@@ -35,12 +29,6 @@ def run(*words, **options):
 def files_of(cache):
     """Every file of a cache by its name within it, with its bytes."""
     return {str(path.relative_to(cache)): path.read_bytes() for path in sorted(Path(cache).rglob("*")) if path.is_file()}
-
-
-def array_of(cache, name, time, column, shape, kind="<f4"):
-    """One chunk of an array that is not packed, by its file alone."""
-    place = f"{time}.0.{column}" + ".0" * (len(shape) - 3)
-    return np.frombuffer((Path(cache) / name / place).read_bytes(), kind).reshape(shape)
 
 
 class Stage(unittest.TestCase):

@@ -2,10 +2,8 @@
 """Small inputs for every subcommand, and runs of the command while it lacks memory.
 
 SWIVEL names the command, NO_MEMORY the library of no_memory.c, WORK a folder for a copy of the command."""
-import json
 import os
 import shutil
-import struct
 import subprocess
 import tempfile
 from pathlib import Path
@@ -33,28 +31,9 @@ def bvh():
             + limb("Left", "") + limb("Right", "-") + "}\nMOTION\nFrames: 2\nFrame Time: .01\n" + "\n".join(FRAMES) + "\n")
 
 
-def gltf():
-    """The same figure with one animated joint."""
-    nodes, bytes_ = [{"name": "Hips", "children": [1, 4]}], struct.pack("<2f", 0, 0.5) + struct.pack("<8f", 0, 0, 0, 1, 0, 0, 0.6, 0.8)
-    for side, sign in (("Left", 1), ("Right", -1)):
-        for name, at in zip(NAMES, ([2, 5, 0], [5, 1, 0], [3, 0, 0])):
-            nodes.append({"name": side + name, "translation": [sign * at[0], *at[1:]]} | ({"children": [len(nodes) + 1]} if name != "Hand" else {}))
-    document = {
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": nodes, "buffers": [{"byteLength": len(bytes_)}],
-        "bufferViews": [{"buffer": 0, "byteLength": 8}, {"buffer": 0, "byteOffset": 8, "byteLength": 32}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [0.5]},
-                      {"bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC4"}],
-        "animations": [{"samplers": [{"input": 0, "output": 1}], "channels": [{"sampler": 0, "target": {"node": 2, "path": "rotation"}}]}]}
-    text = json.dumps(document).encode()
-    chunk = lambda kind, content, pad: struct.pack("<2I", (len(content) + 3) // 4 * 4, kind) + content + pad * (-len(content) % 4)
-    chunks = chunk(0x4E4F534A, text, b" ") + chunk(0x004E4942, bytes_, b"\0")
-    return struct.pack("<4s2I", b"glTF", 2, 12 + len(chunks)) + chunks
-
-
 def make_inputs(folder, command):
     folder.mkdir()
     (folder / "clip.bvh").write_text(bvh())
-    (folder / "figure.glb").write_bytes(gltf())
     (folder / "table.csv").write_text("frame,character,limb,x,y,z\n0,0,left_arm,6,8,3\n1,0,right_arm,-6,8,3\n")
     (folder / "crowd.toml").write_text("[limb.arms]\nlimits.flexion_deg = [5, 150]\nswivel.most_deg_per_frame = 4\n")
     for words in (("store", "clip.bvh", "empty"), ("store", "clip.bvh", "full"), ("fill", "full")):

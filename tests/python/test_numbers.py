@@ -68,47 +68,15 @@ class Poses(unittest.TestCase):
             np.testing.assert_allclose(wrists[reached], sample.targets[reached], atol=1e-6)
 
     def test_joints_of_a_skeleton(self):
-        """Forward kinematics over the whole skeleton: a joint between the limb's, twist bones, children before parents."""
         random = np.random.default_rng(5)
         # wrist, twist, twist, roll of the forearm, elbow, roll of the upper arm, shoulder, chest, root
         parents = np.array([3, 3, 4, 4, 5, 6, 7, 8, -1])
         places = random.normal(scale=0.3, size=(9, 3))
-        places[1] = 0.6 * places[0]
-        places[2] = 0.1 * places[3]
-        rest = quaternions(random, 9).astype(np.float64)
-
-        def pose(local):
-            turned, at = [None] * 9, [None] * 9
-            for joint in range(8, -1, -1):
-                above = parents[joint]
-                turned[joint] = local[joint] if above < 0 else times(turned[above], local[joint])
-                at[joint] = np.broadcast_to(places[joint], (N, 3)) if above < 0 else at[above] + rotate(turned[above], places[joint])
-            return turned, at
-
-        still = [np.broadcast_to(each, (N, 4)) for each in rest]
-        turned, at = pose(still)
+        rest = quaternions(random, 9)
         limb = swivel.bind_joints(parents, places, 6, 4, 0, rotations=rest, twist_bones=[2, 1], bend=random.normal(size=3))
         kept = swivel.Binding(**{name: getattr(limb, name) for name in dir(swivel.Binding) if name[0] != "_"})
         self.assertEqual(repr(kept), repr(limb))
         self.assertEqual(limb.twist_from_arm.shape, (2, 4))
-        crowd = swivel.Crowd([(N, kept)], Feature.JOINTS | Feature.WORLD | Feature.WITH_HAND | 2 * Feature.WITH_TWIST_BONES)
-        reach = limb.lengths.sum()
-        line = random.normal(size=(N, 3))
-        line *= random.uniform(0.7, 0.9, (N, 1)) * reach / np.linalg.norm(line, axis=1)[:, None]
-        targets, hands = at[6] + line, quaternions(random, N)
-        for field, values in ((Field.TARGET, targets), (Field.POLE, at[6] + random.normal(size=(N, 3))), (Field.HAND, hands),
-                              (Field.SHOULDER_POSITION, at[6]), (Field.PARENT_ROTATION, turned[7])):
-            crowd.write(field, values)
-        crowd.solve()
-        local = list(still)
-        local[6], local[4], local[0] = crowd.read(Field.SHOULDER), crowd.read(Field.ELBOW), crowd.read(Field.WRIST)
-        twist = crowd.read(Field.TWIST_BONES)
-        local[2], local[1] = twist[:, :4], twist[:, 4:]
-        turned, at = pose(local)
-        reached = (crowd.read(Field.FLAGS) & Flag.REACHED) != 0
-        self.assertGreater(reached.sum(), N / 2)
-        np.testing.assert_allclose(at[0][reached], targets[reached], atol=2e-6)
-        np.testing.assert_allclose(abs(np.sum(turned[0] * hands, axis=1)), 1, atol=2e-6)
         with self.assertRaisesRegex(ValueError, "bind_joints: the elbow, joint 6, is not below the shoulder, joint 4"):
             swivel.bind_joints(parents, places, 4, 6, 0, rotations=rest)
         turned_none = swivel.bind_joints(parents, places, 6, 4, 0, twist_bones=[2, 1], bend=(1, 0, 0))
@@ -116,26 +84,6 @@ class Poses(unittest.TestCase):
         self.assertEqual(repr(turned_none), repr(given))
         with self.assertRaisesRegex(ValueError, r"translations: expected shape \(9, 3\)"):
             swivel.bind_joints(parents, places[1:], 6, 4, 0)
-
-    def test_limits_hold_and_arcs_tell_which_swivels_they_leave(self):
-        sample = Sample(N)
-        arms = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_cone=swivel.cone((0, 0, 1), 1.2),
-                            flexion_limit=swivel.flexion(0.3, 2.0))
-        flexion = 2 * np.arctan2(arms.elbow[:, 1], arms.elbow[:, 0])
-        self.assertTrue(np.all((flexion > 0.3 - 1e-5) & (flexion < 2.0 + 1e-5)))
-        cosine = rotate(arms.shoulder, np.array([0.0, 0.0, 1.0]))[:, 2]
-        feasible = (arms.flags & Flag.INFEASIBLE) == 0
-        self.assertTrue(np.any(feasible) and np.any(~feasible))
-        self.assertTrue(np.all(cosine[feasible] > np.cos(1.2) - 1e-6))
-        crowd = crowd_of(sample, Feature.WITH_SHOULDER_CONE)
-        crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 0, 1), 1.2))
-        arcs = [crowd.allowed_arcs(limb) for limb in range(N)]
-        crowd.solve()
-        infeasible = (crowd.read(Field.FLAGS) & Flag.INFEASIBLE) != 0
-        np.testing.assert_array_equal([len(each) == 0 for each in arcs], infeasible)
-        ends = np.concatenate(arcs)
-        self.assertEqual(ends.shape[1:], (2, 2))
-        np.testing.assert_allclose(np.linalg.norm(ends, axis=2), 1, atol=1e-5)
 
     def test_no_arms_give_no_arms(self):
         none = swivel.solve(np.empty((0, 3)), None, (0.3, 0.26), hand=np.empty((0, 4)))
@@ -151,94 +99,22 @@ class Poses(unittest.TestCase):
         self.assertIn("WORLD", repr(swivel.Crowd([5, 40], Feature.WORLD)))
         self.assertIn("<Check production<float>, wrist to target, ", "".join(map(repr, swivel.verify(50)[1])))
 
-    def test_find_goes_from_flag_to_flag(self):
-        crowd = swivel.Crowd([5, 40])
-        for group in (0, 1):
-            crowd.write(Field.TARGET, (0.3, 0.2, 0.4), group)
-            crowd.write(Field.LENGTHS, (1, 1), group)
-        crowd.write(Field.TARGET, (0, 0, 9), 1, first=33, count=1)
-        crowd.write(Field.POLE, (np.nan, 0, 0), 0, first=4, count=1)
-        self.assertIsNone(crowd.find(~0 & 0xffffffff))
-        self.assertIn("target (nan, nan, nan) is not a number", swivel.Crowd([2, 3]).explain(limb=1, group=1))
-        crowd.solve()
-        self.assertEqual(crowd.find(Flag.CLAMPED_FAR | Flag.BAD_INPUT), (0, 4))
-        self.assertEqual(crowd.find(Flag.CLAMPED_FAR | Flag.BAD_INPUT, 0, 5), (1, 33))
-        self.assertIsNone(crowd.find(Flag.CLAMPED_FAR, 1, 34))
-        self.assertIsNone(crowd.find(Flag.REACHED, 2))
-
-    def test_explanations_of_many_bad_inputs_are_whole(self):
-        crowd = swivel.Crowd([1], Feature.WORLD | Feature.WITH_HAND | Feature.WITH_INCOMING | Feature.WITH_SHOULDER_BOX |
-                             Feature.WITH_WRIST_BOX | Feature.WITH_HAND_TWIST | Feature.WITH_REACH)
-        for field in (Field.TARGET, Field.POLE, Field.HAND, Field.INCOMING_SHOULDER, Field.INCOMING_ELBOW,
-                      Field.INCOMING_WRIST, Field.REACH, Field.HAND_TWIST, Field.SHOULDER_BOX, Field.WRIST_BOX):
-            crowd.write(field, np.full_like(crowd.read(field)[0], -1.2345678e+20))
-        crowd.solve()
-        text = crowd.explain(limb=0)
-        self.assertGreater(len(text), 1024)
-        self.assertTrue(text.endswith(" The limb has its rest pose."), text[-100:])
-
-    def test_the_digest_is_that_of_the_results(self):
-        first, second = swivel.Crowd([5, 40]), swivel.Crowd([5, 40])
-        for crowd in (first, second):
-            for group in (0, 1):
-                crowd.write(Field.TARGET, (0.3, 0.2, 0.4), group)
-                crowd.write(Field.LENGTHS, (1, 1), group)
-        self.assertEqual(first.digest(), second.digest())
-        first.solve()
-        self.assertNotEqual(first.digest(), second.digest())
-        second.solve()
-        self.assertEqual(first.digest(), second.digest())
-
-    def test_joint_angles_rebuild_the_shoulder(self):
-        sample = Sample(N)
-        crowd = crowd_of(sample)
-        crowd.solve()
-        half = 0.5 * crowd.joint_angles(swivel.EulerOrder.XYZ)
-        self.assertEqual(half.shape, (N, 7))
-        turns = [np.insert(np.zeros((N, 3)), 3, np.cos(half[:, axis]), axis=1) for axis in range(3)]
-        for axis in range(3):
-            turns[axis][:, axis] = np.sin(half[:, axis])
-        rebuilt = times(turns[0], times(turns[1], turns[2]))
-        np.testing.assert_allclose(abs(np.sum(rebuilt * crowd.read(Field.SHOULDER), axis=1)), 1, atol=1e-6)
-        np.testing.assert_allclose(2 * half[:, 3], 2 * np.arctan2(*crowd.read(Field.ELBOW).astype(float).T[::-1]), atol=1e-6)
-
-    def test_far_from_the_origin(self):
-        sample, home = Sample(N), np.array([4e6, -3e6, 5e6])
-        far = lambda v: home + v.astype(float)
-        keywords = dict(shoulder_position=home, origin=home)
-        arms = swivel.solve(far(sample.targets), far(sample.poles), sample.lengths, **keywords)
-        near = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_position=(0, 0, 0))
-        np.testing.assert_allclose(arms.wrist_position, near.wrist_position, atol=1e-6)
-
-    def test_hands_that_aim(self):
-        sample, forward = Sample(N), np.array([0.0, 0.0, 1.0])
-        arms = swivel.solve(sample.targets * 3, sample.poles, sample.lengths, aim=swivel.aim(forward, 0.5))
-        np.testing.assert_allclose(2 * np.arctan2(arms.elbow[:, 1], arms.elbow[:, 0]), 0.5, atol=1e-6)
-        ray = rotate(times(arms.shoulder, flexed(arms.elbow)), forward)  # the hand is at rest, along the forearm
-        _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
-        beside = np.linalg.norm(np.cross(sample.targets * 3 - wrists, ray), axis=1)
-        reached = (arms.flags & Flag.REACHED) != 0
-        self.assertGreater(reached.sum(), N / 2)
-        self.assertLess(beside[reached].max(), 2e-6)
-
-    def test_clavicles_take_their_share(self):
-        sample, bone = Sample(N), np.array([0.15, 0.05, 0.0])
-        arms = swivel.solve(sample.targets, sample.poles, sample.lengths, shoulder_position=(0, 0, 0), clavicle=(*bone, 0.3))
-        turn = arms.clavicle_turn
-        _, wrists = joints_at(arms.shoulder, arms.elbow, sample.lengths)
-        wrists = rotate(turn, bone + wrists) - bone
-        reached = (arms.flags & Flag.REACHED) != 0
-        self.assertGreater(reached.sum(), N / 2)
-        np.testing.assert_allclose(wrists[reached], sample.targets[reached], atol=1e-6)
-        self.assertGreater(np.linalg.norm(turn[:, :3], axis=1).max(), 0.05)
-
-    def test_mirrored_limits(self):
-        axes = [(1, 2, 3), (-1, 0.5, 2)]
-        cones = np.stack([swivel.cone(axis, 1.0) for axis in axes])
-        mirrored = np.stack([swivel.cone((-x, y, z), 1.0) for x, y, z in axes])
-        np.testing.assert_array_equal(swivel.mirror(Field.SHOULDER_CONE, cones), mirrored)
-        np.testing.assert_array_equal(swivel.mirror(Field.SHOULDER_CONE, cones[0]), mirrored[0])
-        np.testing.assert_allclose(swivel.mirror(Field.HUMERAL_TWIST, swivel.range(-0.2, 1.0)), swivel.range(-1.0, 0.2), atol=1e-7)
+    def test_helpers_make_what_fields_take(self):
+        for field, value in ((Field.SHOULDER_CONE, swivel.cone((0, 0, 1), 1.2)), (Field.FLEXION_LIMIT, swivel.flexion(0.3, 2.0)),
+                             (Field.HUMERAL_TWIST, swivel.range(-0.2, 1.0)), (Field.ANGLE, swivel.turn(0.2)), (Field.AIM, swivel.aim((0, 0, 1), 0.5))):
+            crowd = crowd_of(Sample(N), swivel.needed_features(field))
+            crowd.write(field, value)
+            crowd.solve()
+            self.assertIsNone(crowd.find(Flag.BAD_INPUT), field)
+            flexion = crowd.joint_angles(swivel.EulerOrder.XYZ)[:, 3]
+            np.testing.assert_allclose(flexion, 2 * np.arctan2(*crowd.read(Field.ELBOW).astype(float).T[::-1]), atol=1e-6)
+            if field == Field.SHOULDER_CONE:
+                infeasible = (crowd.read(Field.FLAGS) & Flag.INFEASIBLE) != 0
+                self.assertTrue(np.any(infeasible))
+                for limb in range(100):
+                    arcs = crowd.allowed_arcs(limb)
+                    self.assertEqual((arcs.shape[1:], len(arcs) == 0), ((2, 2), infeasible[limb]))
+        np.testing.assert_array_equal(swivel.mirror(Field.SHOULDER_CONE, [swivel.cone((1, 2, 3), 1.0)]), [swivel.cone((-1, 2, 3), 1.0)])
 
 
 class Groups(unittest.TestCase):
@@ -292,8 +168,7 @@ class Groups(unittest.TestCase):
         for group, count in ((0, 40), (1, 20)):  # rows are a group's own, and start at its first limb
             limbs = np.arange(count)
             np.testing.assert_array_equal(crowd.rows(Field.ELBOW, group)[limbs // 16, :, limbs % 16], crowd.read(Field.ELBOW, group))
-            self.assertEqual(crowd.result_rows(group).shape[0], -(-count // 16))
-        self.assertFalse(np.shares_memory(crowd.input_rows(0), crowd.input_rows(1)))
+            self.assertEqual(crowd.rows(Field.ELBOW, group).shape[0], -(-count // 16))
         with self.assertRaisesRegex(ValueError, "group 0, hand: not part of this group; create it with Feature.WITH_HAND"):
             crowd.rows(Field.HAND, 0)
         with self.assertRaisesRegex(ValueError, "group 1: Feature.WITH_AIM excludes Feature.WITH_REACH"):
@@ -302,8 +177,7 @@ class Groups(unittest.TestCase):
     def test_what_a_group_does_not_say_is_the_crowds(self):
         crowd = swivel.Crowd([3, swivel.Group(4), swivel.Group(5, features=0), (6, self.limb)], Feature.WITH_REACH)
         self.assertEqual([crowd.features(group) for group in range(4)], [Feature.WITH_REACH] * 2 + [0, Feature.WITH_REACH])
-        angles = np.radians((70, 20, 50))
-        boxes = np.concatenate([swivel.range(angle - 0.05, angle + 0.05) for angle in angles])
+        boxes = np.concatenate([swivel.range(*np.radians((angle - 3, angle + 3))) for angle in (70, 20, 50)])
 
         def shoulders(crowd, group):
             for field, values in ((Field.TARGET, self.sample.targets), (Field.LENGTHS, self.sample.lengths), (Field.SHOULDER_BOX, boxes)):
@@ -311,30 +185,11 @@ class Groups(unittest.TestCase):
             crowd.solve()
             return crowd.read(Field.SHOULDER, group)
 
-        def of_order(order):
-            return shoulders(swivel.Crowd(40, Feature.WITH_SHOULDER_BOX, order), 0)
-
-        self.assertTrue(np.any(of_order(swivel.EulerOrder.XYZ) != of_order(swivel.EulerOrder.ZXY)))
         own = swivel.Group(40, shoulder_order=swivel.EulerOrder.ZXY)
         crowd = swivel.Crowd([40, own], Feature.WITH_SHOULDER_BOX, swivel.EulerOrder.XYZ)
-        np.testing.assert_array_equal(shoulders(crowd, 0), of_order(swivel.EulerOrder.XYZ))
-        np.testing.assert_array_equal(shoulders(crowd, 1), of_order(swivel.EulerOrder.ZXY))
-
-    def test_some_groups(self):
-        wanted_plain, wanted_bound = self.alone()
-        crowd = swivel.Crowd([self.plain, self.bound, self.plain])
-        self.fill(crowd, plain=0, bound=1)
-        self.fill(crowd, plain=2)
-        before = self.results(crowd, 1)
-        self.assertEqual(crowd.solve(groups=[0, 2]), 80)
-        self.check_same(self.results(crowd, 0), wanted_plain)
-        self.check_same(self.results(crowd, 1), before)
-        self.check_same(self.results(crowd, 2), wanted_plain)
-        self.assertEqual(crowd.solve(groups=np.array([1]), mask=np.ones(crowd.lane_count, bool)), 20)
-        self.check_same(self.results(crowd, 1), wanted_bound)
-        self.assertEqual(crowd.solve(groups=[]), 0)
-        with self.assertRaisesRegex(ValueError, "riorities"):
-            crowd.solve(groups=[0], priorities=[1, 1, 1], most_blocks=1)
+        self.assertTrue(np.any(shoulders(crowd, 0) != shoulders(crowd, 1)))
+        alone = swivel.Crowd(40, Feature.WITH_SHOULDER_BOX, swivel.EulerOrder.ZXY)
+        np.testing.assert_array_equal(shoulders(crowd, 1), shoulders(alone, 0))
 
     def test_frames_are_those_of_the_groups_as_named(self):
         wanted_plain, wanted_bound = self.alone()
@@ -373,14 +228,6 @@ class Groups(unittest.TestCase):
             self.assertTrue(np.any(outs[0][~bad] != good[~bad]))
             for group in (0, 1):
                 np.testing.assert_array_equal(crowd.read(Field.SHOULDER, group), outs[group])
-        rests = swivel.Crowd(40, on_bad_input=swivel.OnBadInput.KEEP_POSE)  # for all groups
-        rests.write(Field.LENGTHS, (1, 1))
-        rests.write(Field.TARGET, (0, 1, 1))
-        rests.solve()
-        before = rests.read(Field.SHOULDER)
-        rests.write(Field.TARGET, (np.nan, 0, 0))
-        rests.solve()
-        np.testing.assert_array_equal(rests.read(Field.SHOULDER), before)
 
     def test_urgency_is_the_callers(self):
         crowd = swivel.Crowd([16, 16, 16])
@@ -412,7 +259,7 @@ class Bits(unittest.TestCase):
                 crowd = crowd_of(Sample(N), Feature.WITH_SHOULDER_CONE)
                 crowd.write(Field.SHOULDER_CONE, swivel.cone((0, 1, 1), 1.0))
                 crowd.solve()
-                found.add(self.results(crowd))
+                found.add((crowd.digest(), self.results(crowd)))
         self.assertEqual(len(found), 1)
 
     def test_every_way_to_solve_gives_the_same(self):

@@ -48,37 +48,24 @@ std::uint64_t state_digest(const Results& results)
     std::vector<std::uint64_t> of_fields;
     for (const std::vector<std::uint32_t>& numbers : results)
         of_fields.push_back(digest_of(std::as_bytes(std::span(numbers))));
-    return digest_of(std::as_bytes(std::span(of_fields)));
+    return digest_of(of_fields);
 }
 
 }  // namespace
 
-Cache::Cache(const fs::path& folder, std::uint64_t memory) : Cache(PlainFolder(folder_name(folder), kNoCache), memory)
-{
-}
+Cache::Cache(const fs::path& folder) : Cache(PlainFolder(folder_name(folder), kNoCache)) {}
 
-Cache::Cache(PlainFolder files, std::uint64_t memory)
-    : crowd_(read_crowd(files)), arrays_(crowd_), store_(std::move(files), crowd_.is_compressed)
+Cache::Cache(PlainFolder files) : crowd_(read_crowd(files)), arrays_(crowd_), store_(std::move(files))
 {
-    const std::vector<ZarrArray> made = arrays_.made(crowd_);
+    const std::vector<ZarrArray> made = arrays_.made();
     for (const auto& arrays : {arrays_.filled(crowd_), made})
         for (const ZarrArray& array : arrays) store_.require(array);
-    // With less memory than the program's own, filling says how much a chunk takes, which tells more.
-    const auto most = std::max(memory, static_cast<std::uint64_t>(kProgramBytes));
-    require_memory(folder(), bytes_all_along(crowd_, arrays_), most, "the clip with the lists of chunks",
-                   "give more, or store the crowd in larger chunks");
+    require_memory(folder(), crowd_, arrays_, crowd_.chunk.characters, "store the crowd in smaller chunks, or fewer");
     made_ = read_digests(store_, made);
     if (digest_of(made_) != crowd_.goals_digest)
         throw InputError(folder() / "goal_digest",
                          "was changed: its digest is another; take it from a copy, or make the cache anew");
-    if (crowd_.has_goals()) read_clip();
-}
-
-void Cache::require_goals() const
-{
-    if (!crowd_.has_goals())
-        throw InputError(folder(),
-                         "keeps poses and no goals, so nothing can be solved again; docs/cache.md says how to read it");
+    read_clip();
 }
 
 void Cache::read_clip()
@@ -143,27 +130,12 @@ ChunkGoals Cache::goals(ChunkAt at) const
         numbers.resize(arrays_.given[n].chunk_bytes() / sizeof(float));
         if (!read_made(arrays_.given[n], place, std::as_writable_bytes(std::span(numbers)))) numbers.clear();
     }
-    if (arrays_.chosen) {
-        goals.chosen.resize(arrays_.chosen->chunk_bytes());
-        require_made(*arrays_.chosen, place, std::as_writable_bytes(std::span(goals.chosen)));
-    }
     return goals;
 }
 
 std::uint64_t Cache::digest(ChunkAt at) const
 {
     return store_.read_number(arrays_.digest, {at.time, at.column}).value_or(0);
-}
-
-std::vector<ChunkAt> Cache::done() const
-{
-    std::vector<ChunkAt> done;
-    store_.for_chunks(arrays_.digest, [&](const ChunkPlace& place) {
-        const ChunkAt at{static_cast<std::uint32_t>(place[0]), static_cast<std::uint32_t>(place[1])};
-        if (digest(at) != 0) done.push_back(at);
-    });
-    std::ranges::sort(done, {}, [](ChunkAt at) { return std::pair(at.column, at.time); });
-    return done;
 }
 
 std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const ChunkPlace& place) const
@@ -179,17 +151,6 @@ std::optional<Results> Cache::read(const std::vector<ZarrArray>& arrays, const C
 
 std::optional<Results> Cache::results(ChunkAt at) const { return read(arrays_.results, {at.time, 0, at.column}); }
 
-std::vector<std::string> Cache::pose_files(ChunkAt at) const
-{
-    std::vector<std::string> files;
-    const auto add = [&](const ZarrArray& array, const ChunkPlace& place) {
-        files.push_back(store_.chunk_path(array, place).lexically_relative(folder()).string());
-    };
-    for (const ZarrArray& array : arrays_.results) add(array, {at.time, 0, at.column});
-    add(arrays_.digest, {at.time, at.column});
-    return files;
-}
-
 std::optional<Results> Cache::state(ChunkAt at) const
 {
     std::optional<Results> state = read(arrays_.state, {at.time, 0, at.column});
@@ -201,46 +162,54 @@ Results Cache::require_state(ChunkAt at) const
 {
     std::optional<Results> found = state(at);
     if (!found)
-        throw InputError(folder(), fmt::format("the state after chunk {}.{} is missing or damaged; run swivel fill "
-                                               "--verify",
+        throw InputError(folder(), fmt::format("the state after chunk {}.{} is missing or damaged; run swivel check",
                                                at.time, at.column));
     return std::move(*found);
 }
 
-std::size_t Cache::write(ChunkAt at, const Results& results, std::uint64_t digest) const
+void Cache::write(ChunkAt at, const Results& results, std::uint64_t digest) const
 {
-    const ChunkPlace place{at.time, 0, at.column};
-    std::size_t bytes = 0;
-    if (crowd_.has_poses())
-        for (std::size_t n = 0; n < results.size(); ++n)
-            bytes += store_.write_chunk(arrays_.results[n], place, bytes_in(results[n]));
+    const ChunkPlace place{at.time, 0, at.column}, number{at.time, at.column};
+    const auto write_all = [&](const std::vector<ZarrArray>& arrays, const Results& numbers) {
+        for (std::size_t n = 0; n < numbers.size(); ++n) store_.write_chunk(arrays[n], place, bytes_in(numbers[n]));
+    };
+    if (crowd_.has_poses) write_all(arrays_.results, results);
     if (crowd_.carries_state()) {
         const Results last = last_frame(results, crowd_, at.time);
-        for (std::size_t n = 0; n < last.size(); ++n)
-            bytes += store_.write_chunk(arrays_.state[n], place, bytes_in(last[n]));
-        bytes += store_.write_number(arrays_.state_digest, {at.time, at.column}, state_digest(last));
+        write_all(arrays_.state, last);
+        store_.write_number(arrays_.state_digest, number, state_digest(last));
     }
-    return bytes + store_.write_number(arrays_.digest, {at.time, at.column}, digest);
+    store_.write_number(arrays_.digest, number, digest);
 }
 
-void Cache::close()
+void Cache::remove_unfinished() const
 {
-    if (!crowd_.is_closed) {
-        crowd_.is_closed = true;
-        GoalDigests kept;
-        for (const ZarrArray& array : arrays_.made(crowd_)) kept[array.name] = made_.at(array.name);
-        made_ = std::move(kept);
-        crowd_.goals_digest = digest_of(made_);
-        store_.write_attributes(attributes_of(crowd_));
-    }
-    store_.remove_unfinished_attributes();
-    for (const auto& arrays : {arrays_.filled(crowd_), arrays_.made(crowd_)})
-        for (const ZarrArray& array : arrays) store_.remove_unfinished(array);
-    if (crowd_.has_goals()) return;
-    for (const ZarrArray& array : arrays_.left_out()) {
-        store_.remove(array);
-        store_.remove(digest_array(array));
-    }
+    for (const ZarrArray& array : arrays_.filled(crowd_)) store_.remove_unfinished(array);
+}
+
+void require_memory(const fs::path& folder, const CachedCrowd& crowd, const CacheArrays& arrays,
+                    std::uint32_t characters, const char* advice)
+{
+    constexpr double kMostMemory = 1024, kMebibyte = 1048576;  // MiB
+    constexpr double kSolverBytes = 1024;                      // of a limb with its inputs, at most
+    const auto chunks_of = [](const ZarrArray& array) {
+        double count = 1;
+        for (const std::uint64_t along : array.chunk_counts()) count *= static_cast<double>(along);
+        return count;
+    };
+    const auto bytes_of = [](const std::vector<ZarrArray>& of) {
+        double bytes = 0;
+        for (const ZarrArray& array : of) bytes += static_cast<double>(array.chunk_bytes());
+        return bytes;
+    };
+    double bytes = 32 * chunks_of(arrays.digest);                                 // lists of work
+    for (const ZarrArray& array : arrays.made()) bytes += 16 * chunks_of(array);  // digests: each, and all in one list
+    bytes += 2 * bytes_of(arrays.clip) + 2 * bytes_of(arrays.given);              // as files, and as numbers
+    bytes += 3 * (bytes_of(arrays.results) + bytes_of(arrays.state));             // and as they are solved again
+    bytes += kSolverBytes * characters * static_cast<double>(crowd.limbs.size());
+    if (bytes > kMostMemory * kMebibyte)
+        throw InputError(folder, fmt::format("takes {:.0f} MiB of memory at once, more than {:.0f}; {}",
+                                             bytes / kMebibyte, kMostMemory, advice));
 }
 
 fs::path folder_name(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }

@@ -72,15 +72,6 @@ ZarrArray state_array(const CachedCrowd& crowd, ZarrArray results)
     return results;
 }
 
-ZarrArray chosen_array(const CachedCrowd& crowd)
-{
-    ZarrArray array = by_character(crowd, "chosen", "|u1", "1: the frame solves this block of 16 characters", {}, {});
-    array.dimensions[2] = "block";
-    array.shape[2] = (crowd.character_count + SWIVEL_LANES - 1) / SWIVEL_LANES;
-    array.chunks[2] = crowd.chunk.characters / SWIVEL_LANES;
-    return array;
-}
-
 }  // namespace
 
 CacheArrays::CacheArrays(const CachedCrowd& crowd)
@@ -103,32 +94,20 @@ CacheArrays::CacheArrays(const CachedCrowd& crowd)
     if (crowd.has_given)
         for (const auto& [name, count, meaning] : kGiven)
             given.push_back(by_character(crowd, fmt::format("given/{}", name), "<f4", meaning, {count}, {"part"}));
-    if (crowd.budget_blocks > 0) chosen = chosen_array(crowd);
 }
 
-std::vector<ZarrArray> CacheArrays::made(const CachedCrowd& crowd) const
+std::vector<ZarrArray> CacheArrays::made() const
 {
     std::vector<ZarrArray> arrays = characters;
-    if (!crowd.has_goals()) return arrays;
     for (const auto& more : {clip, given}) arrays.insert(arrays.end(), more.begin(), more.end());
-    if (chosen) arrays.push_back(*chosen);
-    return arrays;
-}
-
-std::vector<ZarrArray> CacheArrays::left_out() const
-{
-    std::vector<ZarrArray> arrays = clip;
-    for (const auto& more : {given, state}) arrays.insert(arrays.end(), more.begin(), more.end());
-    if (chosen) arrays.push_back(*chosen);
-    if (!state.empty()) arrays.push_back(state_digest);
     return arrays;
 }
 
 std::vector<ZarrArray> CacheArrays::filled(const CachedCrowd& crowd) const
 {
     std::vector<ZarrArray> arrays{digest};
-    if (crowd.has_poses()) arrays.insert(arrays.end(), results.begin(), results.end());
-    if (!crowd.carries_state() || !crowd.has_goals()) return arrays;
+    if (crowd.has_poses) arrays.insert(arrays.end(), results.begin(), results.end());
+    if (!crowd.carries_state()) return arrays;
     arrays.insert(arrays.end(), state.begin(), state.end());
     arrays.push_back(state_digest);
     return arrays;
@@ -146,7 +125,7 @@ std::uint64_t digest_of(const GoalDigests& digests)
 {
     std::vector<std::uint64_t> all;
     for (const auto& [name, of_array] : digests) all.insert(all.end(), of_array.begin(), of_array.end());
-    return digest_of(std::as_bytes(std::span(all)));
+    return digest_of(all);
 }
 
 }  // namespace swivel::tools

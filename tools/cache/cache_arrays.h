@@ -4,7 +4,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +22,9 @@ struct CacheArrays {
     std::vector<ZarrArray> clip;        // sources, one array for each member of goal_source; then positions of joints
     std::vector<ZarrArray> characters;  // size, place, start
     std::vector<ZarrArray> given;       // target, pole, hand; none without goals of one's own
-    std::optional<ZarrArray> chosen;    // with a budget
 
-    // Those that are written once, when a cache is made, as far as this crowd still has them.
-    std::vector<ZarrArray> made(const CachedCrowd& crowd) const;
-    // Those that a cache of poses alone is without, once it is closed.
-    std::vector<ZarrArray> left_out() const;
+    // Those that are written once, when a cache is made.
+    std::vector<ZarrArray> made() const;
     // All others: results if they are kept, state, digests.
     std::vector<ZarrArray> filled(const CachedCrowd& crowd) const;
 };

@@ -18,6 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 using formats::InputError;
 
+// Made beside the target.
+PlainFolder partial_folder(const fs::path& target, formats::Partial& partial)
+{
+    require_new(target);
+    if (partial.make(target.parent_path(), [](const char* name) { return ::mkdir(name, 0777); }) == 0)
+        return PlainFolder(partial.name(), "is gone; store the crowd again");
+    const std::error_code reason(errno, std::generic_category());
+    throw InputError(target,
+                     fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
+}
+
 }  // namespace
 
 void require_new(const fs::path& folder)
@@ -34,40 +45,20 @@ void require_new(const fs::path& folder)
     if (!fs::is_directory(there)) throw InputError(parent, "is no folder; make it first");
 }
 
-PartialFolder::PartialFolder(const fs::path& target) : target_(target)
-{
-    require_new(target_);
-    if (partial_.make(target_.parent_path(), [](const char* name) { return ::mkdir(name, 0777); }) == 0) return;
-    const std::error_code reason(errno, std::generic_category());
-    throw InputError(target_,
-                     fmt::format("cannot be created: {}; check the folder and its permissions", reason.message()));
-}
-
-void PartialFolder::commit()
-{
-    require_new(target_);
-    if (!partial_.rename(target_)) {
-        const std::error_code reason(errno, std::generic_category());
-        throw InputError(target_, fmt::format("cannot be made: {}; name another folder", reason.message()));
-    }
-    formats::sync_folder(target_.parent_path());
-}
-
 CacheMaker::CacheMaker(const fs::path& folder, CachedCrowd crowd)
-    : partial_(folder_name(folder)),
-      crowd_(std::move(crowd)),
-      arrays_(crowd_),
-      store_(PlainFolder(partial_.path(), "is gone; store the crowd again"), crowd_.is_compressed)
+    : target_(folder_name(folder)), crowd_(std::move(crowd)), arrays_(crowd_), store_(partial_folder(target_, partial_))
 {
+    require_memory(target_, crowd_, arrays_, crowd_.chunk.characters, "write smaller chunks by --chunk");
     store_.write_attributes(attributes_of(crowd_));  // throws if they are too long; commit() writes them again
-    for (const auto& arrays : {arrays_.filled(crowd_), arrays_.made(crowd_)})
+    for (const auto& arrays : {arrays_.filled(crowd_), arrays_.made()})
         for (const ZarrArray& array : arrays) store_.write_array(array);
-    for (const ZarrArray& array : arrays_.made(crowd_)) digests_[array.name].resize(array.chunk_count());
+    for (const ZarrArray& array : arrays_.made()) digests_[array.name].resize(array.chunk_count());
 }
 
 void CacheMaker::write(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes)
 {
-    bytes_ += store_.write_chunk(array, place, bytes);
+    store_.write_chunk(array, place, bytes);
+    bytes_ += bytes.size();
     digests_[array.name][array.chunk_index(place)] = digest_of(bytes);
 }
 
@@ -94,24 +85,26 @@ void CacheMaker::write_characters(std::uint32_t column, std::span<const goal_cha
 void CacheMaker::write_goals(ChunkAt at, const ChunkGoals& goals)
 {
     const ChunkPlace place{at.time, 0, at.column};
-    if (!goals.target.empty()) {
-        write(arrays_.given[0], place, bytes_in(goals.target));
-        write(arrays_.given[1], place, bytes_in(goals.pole));
-        write(arrays_.given[2], place, bytes_in(goals.hand));
-    }
-    if (!goals.chosen.empty()) write(*arrays_.chosen, place, bytes_in(goals.chosen));
+    write(arrays_.given[0], place, bytes_in(goals.target));
+    write(arrays_.given[1], place, bytes_in(goals.pole));
+    write(arrays_.given[2], place, bytes_in(goals.hand));
 }
 
 std::size_t CacheMaker::commit()
 {
     write_clip();
-    for (const ZarrArray& array : arrays_.made(crowd_)) {
+    for (const ZarrArray& array : arrays_.made()) {
         store_.write_array(digest_array(array));
         store_.write_chunk(digest_array(array), {}, bytes_in(digests_[array.name]));
     }
     crowd_.goals_digest = digest_of(digests_);
     store_.write_attributes(attributes_of(crowd_));
-    partial_.commit();
+    require_new(target_);
+    if (!partial_.rename(target_)) {
+        const std::error_code reason(errno, std::generic_category());
+        throw InputError(target_, fmt::format("cannot be made: {}; name another folder", reason.message()));
+    }
+    formats::sync_folder(target_.parent_path());
     return bytes_;
 }
 

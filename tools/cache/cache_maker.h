@@ -14,39 +14,27 @@ namespace swivel::tools {
 // Throws InputError if there is something of that name, or no folder for it to be in.
 void require_new(const std::filesystem::path& folder);
 
-// A new folder beside the target, .swivel-PID-N, which is gone with the object unless it got the target's name.
-class PartialFolder {
-public:
-    // Throws InputError as require_new() does, and if the folder cannot be made.
-    explicit PartialFolder(const std::filesystem::path& target);
-
-    std::filesystem::path path() const { return partial_.name(); }
-    // Throws InputError if something has got the target's name meanwhile, or it cannot be renamed.
-    void commit();
-
-private:
-    std::filesystem::path target_;
-    formats::Partial partial_;
-};
-
 // All calls throw InputError where a file cannot be written. One object belongs to one thread.
 class CacheMaker {
 public:
-    // Throws InputError as PartialFolder does, and for chunks too large to be packed.
+    // Makes a new folder beside the target, .swivel-PID-N, which is gone with the object unless it got the target's
+    // name. Throws InputError as require_new() and require_memory() do, and if the folder cannot be made.
     CacheMaker(const std::filesystem::path& folder, CachedCrowd crowd);
 
     const CachedCrowd& crowd() const { return crowd_; }
     // Columns, and chunks of goals, each once, in any order. Goals that are empty are left out.
     void write_characters(std::uint32_t column, std::span<const goal_character> characters);
     void write_goals(ChunkAt at, const ChunkGoals& goals);
-    // Writes all else and makes the cache appear; to be called once, last. Returns the bytes of what it has.
+    // Writes all else and makes the cache appear; to be called once, last. Throws InputError if something has got the
+    // target's name meanwhile, or it cannot be renamed. Returns the bytes of the goals.
     std::size_t commit();
 
 private:
     void write(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes);
     void write_clip();
 
-    PartialFolder partial_;
+    std::filesystem::path target_;
+    formats::Partial partial_;
     CachedCrowd crowd_;
     CacheArrays arrays_;
     ZarrStore store_;

@@ -20,9 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;  // 1 had digests that missed pairs of flipped bits
-constexpr std::pair<Keep, const char*> kKeeps[] = {
-    {Keep::goals, "goals"}, {Keep::poses, "poses"}, {Keep::both, "both"}};
+constexpr int kFormat = 3;
 constexpr std::uint32_t kLimbsInChunk = 65'536;
 constexpr std::uint32_t kMost = 0x7fffffff;      // frames, characters
 constexpr std::size_t kMostLimbs = 4;            // of a character: formats::LimbName has no more
@@ -172,13 +170,6 @@ CachedLimb limb_of(const Json& json)
     return limb;
 }
 
-Keep keep_of(const Json& json)
-{
-    for (const auto& [keep, word] : kKeeps)
-        if (json == word) return keep;
-    throw std::invalid_argument("keep is none of goals, poses and both");
-}
-
 // What the rest of the program relies on, beside the ranges of numbers.
 void require_sane(const CachedCrowd& crowd)
 {
@@ -199,7 +190,7 @@ void require_solvable(const CachedCrowd& crowd, const std::filesystem::path& pat
 {
     std::vector<LimbSetup> setups;
     for (const CachedLimb& limb : crowd.limbs) setups.push_back(limb.setup);
-    LimbCrowds(setups, 1, crowd.budget_blocks, path);
+    LimbCrowds(setups, 1, 0, path);
 }
 
 std::string digest_text(const Json& attributes)
@@ -212,8 +203,7 @@ std::string digest_text(const Json& attributes)
 
 bool CachedCrowd::carries_state() const
 {
-    return budget_blocks > 0 ||
-           std::ranges::any_of(limbs, [](const CachedLimb& limb) { return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL); });
+    return std::ranges::any_of(limbs, [](const CachedLimb& limb) { return limb.setup.has(SWIVEL_WITH_MOST_SWIVEL); });
 }
 
 ChunkShape chunk_shape(std::uint32_t frames, std::uint32_t characters, std::size_t limb_count)
@@ -267,16 +257,12 @@ Json attributes_of(const CachedCrowd& crowd)
     Json joints = Json::array(), limbs = Json::array();
     for (const CachedJoint& joint : crowd.joints) joints.push_back({{"name", joint.name}, {"parent", joint.parent}});
     for (const CachedLimb& limb : crowd.limbs) limbs.push_back(json_of(limb));
-    const auto keep = std::ranges::find(kKeeps, crowd.keep, &std::pair<Keep, const char*>::first);
     Json out{{"swivel_cache", kFormat},
-             {"keep", keep->second},
-             {"closed", crowd.is_closed},
-             {"compressed", crowd.is_compressed},
+             {"has_poses", crowd.has_poses},
              {"frames", crowd.frame_count},
              {"characters", crowd.character_count},
              {"chunk_frames", crowd.chunk.frames},
              {"chunk_characters", crowd.chunk.characters},
-             {"budget_blocks", crowd.budget_blocks},
              {"has_given", crowd.has_given},
              {"title", crowd.title},
              {"clip", crowd.clip},
@@ -304,16 +290,13 @@ CachedCrowd crowd_of_attributes(const Json& attributes, const std::filesystem::p
         refuse("was changed: its digest is another; take it from a copy, or make the cache anew");
     CachedCrowd crowd;
     try {
-        crowd.keep = keep_of(attributes.at("keep"));
-        attributes.at("closed").get_to(crowd.is_closed);
-        attributes.at("compressed").get_to(crowd.is_compressed);
+        attributes.at("has_poses").get_to(crowd.has_poses);
         crowd.frame_count = whole(attributes, "frames", 1, kMost);
         crowd.character_count = whole(attributes, "characters", 1, kMost);
         crowd.chunk.frames = whole(attributes, "chunk_frames", 1, kMostFramesInChunk);
         crowd.chunk.characters = whole(attributes, "chunk_characters", SWIVEL_LANES, kMostCharactersInChunk);
         if (crowd.chunk.characters % SWIVEL_LANES != 0)
             throw std::invalid_argument("chunk_characters is no multiple of 16");
-        crowd.budget_blocks = whole(attributes, "budget_blocks", 0, kMost);
         attributes.at("has_given").get_to(crowd.has_given);
         attributes.at("title").get_to(crowd.title);
         attributes.at("clip").get_to(crowd.clip);

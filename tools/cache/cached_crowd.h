@@ -15,10 +15,6 @@
 
 namespace swivel::tools {
 
-// What a finished cache keeps. Either is enough to have the other's use: poses are there to be read, goals give the
-// same poses again on any machine.
-enum class Keep { goals, poses, both };
-
 // A joint that a picture of the character shows.
 struct CachedJoint {
     std::string name;
@@ -29,7 +25,7 @@ struct CachedLimb {
     formats::LimbName name;
     std::vector<int> joints;  // among the cached ones: shoulder, elbow, wrist
     LimbSetup setup;
-    std::vector<goal_source> sources;  // one for each frame of the clip; none where there are no goals
+    std::vector<goal_source> sources;  // one for each frame of the clip
 };
 
 constexpr std::uint32_t kMostFramesInChunk = 65'536, kMostCharactersInChunk = 1'048'576;
@@ -43,13 +39,12 @@ struct CachedCrowd {
     double frame_seconds = 0;  // from frame to frame
     std::uint32_t frame_count = 0, character_count = 0;
     std::uint32_t clip_frames = 0;    // of the clip, which a longer crowd plays again and again
-    std::uint32_t budget_blocks = 0;  // 0: no budget
+    std::uint32_t budget_blocks = 0;  // of a page; a cache solves all
     std::vector<CachedJoint> joints;
     std::vector<float> positions;  // [frame of the clip][joint][3], in the world
     std::vector<CachedLimb> limbs;
     bool has_given = false;  // goals of one's own
-    Keep keep = Keep::both;
-    bool is_closed = false, is_compressed = false;
+    bool has_poses = true;   // it keeps them; goals give the same poses again on any machine
     ChunkShape chunk{1, 16};
     std::uint64_t goals_digest = 0;  // of all arrays that are written once
 
@@ -71,8 +66,6 @@ struct CachedCrowd {
     }
     // Whether a frame's results depend on the frame before.
     bool carries_state() const;
-    bool has_goals() const { return keep != Keep::poses || !is_closed; }
-    bool has_poses() const { return keep != Keep::goals; }
 };
 
 // A chunk of about 64,000 limbs, whatever the memory and the number of machines: characters first, then frames.

@@ -14,7 +14,6 @@ constexpr std::uint32_t kNoNumber = 0x7fc00000;  // a float that is NaN
 
 }  // namespace
 
-// Blocks are chosen when the cache is made, so the crowd itself has no budget.
 Column::Column(const CachedCrowd& crowd, std::uint32_t index, std::vector<goal_character> characters,
                const std::filesystem::path& folder)
     : cached_(crowd),
@@ -29,13 +28,7 @@ void Column::solve_frame(const ChunkGoals& goals, std::uint32_t frame)
 {
     put_given(cached_, goals, frame, 0, crowd_);
     crowd_.write_inputs();
-    if (goals.chosen.empty()) return crowd_.crowds().solve();
-    const std::size_t blocks = cached_.chunk.characters / SWIVEL_LANES;
-    const std::size_t here = (crowd_.character_count() + SWIVEL_LANES - 1) / SWIVEL_LANES;
-    std::vector<std::span<const std::uint8_t>> chosen;
-    for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb)
-        chosen.push_back(std::span(goals.chosen).subspan((frame * cached_.limbs.size() + limb) * blocks, here));
-    crowd_.crowds().solve_blocks(chosen);
+    crowd_.crowds().solve();
 }
 
 void Column::read_frame(std::uint32_t frame, Results& results) const
@@ -50,40 +43,29 @@ void Column::read_frame(std::uint32_t frame, Results& results) const
         }
 }
 
-void Column::restore_frame(std::uint32_t frame, const Results& results)
+void Column::restore(const Results& state)
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
             if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
             const std::size_t count = fields_[n].count();
-            const std::size_t at = cached_.place(frame, limb, 0) * count;
+            const std::size_t at = cached_.place(0, limb, 0) * count;
             crowd_.crowds().restore(limb, fields_[n].field,
-                                    std::span(results[n]).subspan(at, crowd_.character_count() * count), count);
+                                    std::span(state[n]).subspan(at, crowd_.character_count() * count), count);
         }
 }
 
-void Column::restore(const Results& state) { restore_frame(0, state); }
-
 std::uint64_t Column::solve(std::uint32_t time, const ChunkGoals& goals, Results& results)
 {
-    ChunkDigest digest;
+    std::vector<std::uint64_t> words;
     for (std::uint32_t frame = 0; frame < cached_.frames_in(time); ++frame) {
         crowd_.set_frame(time * cached_.chunk.frames + frame);
         solve_frame(goals, frame);
         read_frame(frame, results);
-        digest.add(crowd_.crowds().digests());
+        const std::vector<std::uint64_t> of_frame = crowd_.crowds().digests();
+        words.insert(words.end(), of_frame.begin(), of_frame.end());
     }
-    return digest.value();
-}
-
-std::uint64_t Column::digest(std::uint32_t time, const Results& results)
-{
-    ChunkDigest digest;
-    for (std::uint32_t frame = 0; frame < cached_.frames_in(time); ++frame) {
-        restore_frame(frame, results);
-        digest.add(crowd_.crowds().digests());
-    }
-    return digest.value();
+    return digest_of(words);
 }
 
 void put_given(const CachedCrowd& cached, const ChunkGoals& goals, std::uint32_t frame, std::uint32_t first,

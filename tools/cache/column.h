@@ -23,13 +23,10 @@ public:
     // Solves the frames of a chunk and fills results; returns their digest. Where state is carried, chunks in order, or
     // restore() first.
     std::uint64_t solve(std::uint32_t time, const ChunkGoals& goals, Results& results);
-    // The digest that a chunk with these results has.
-    std::uint64_t digest(std::uint32_t time, const Results& results);
 
 private:
     void solve_frame(const ChunkGoals& goals, std::uint32_t frame);
     void read_frame(std::uint32_t frame, Results& results) const;
-    void restore_frame(std::uint32_t frame, const Results& results);
 
     const CachedCrowd& cached_;
     std::uint32_t index_;

@@ -15,9 +15,4 @@ std::uint64_t digest_of(std::span<const std::byte> bytes)
     return digest == 0 ? 1 : digest;
 }
 
-void ChunkDigest::add(const std::vector<std::uint64_t>& of_frame)
-{
-    words_.insert(words_.end(), of_frame.begin(), of_frame.end());
-}
-
 }  // namespace swivel::tools

@@ -9,9 +9,7 @@
 #include <mutex>
 #include <semaphore>
 
-#include "tools/cache/busy_clock.h"
 #include "tools/cache/column.h"
-#include "tools/cache/fill_memory.h"
 #include "tools/crowd/parallel.h"
 
 #ifdef SWIVEL_WITH_TBB
@@ -60,14 +58,11 @@ struct Work {
 
 class Filling {
 public:
-    // compares: chunks that are done are solved, too. writes: all that were not right are written.
-    Filling(const Cache& cache, const FillOptions& options, std::vector<ChunkAt> chunks, bool compares, bool writes)
+    Filling(const Cache& cache, const FillOptions& options)
         : cache_(cache),
           options_(options),
-          compares_(compares),
-          writes_(writes),
           threads_(solver_count(options)),
-          chunks_(std::move(chunks))
+          chunks_(chunks_of(cache.crowd(), options.shard))
     {
     }
 
@@ -78,20 +73,19 @@ private:
     std::unique_ptr<Column> take_column(const Work& work);
     void solve(Work& work);
     void write(Work& work);
-    std::string difference(const Work& work) const;
+    std::optional<Difference> difference(const Work& work) const;
+    void note_through();
     void run_in_turn();
-    void run_at_once(std::size_t most);
+    void run_at_once();
 
     const Cache& cache_;
     const FillOptions& options_;
-    bool compares_, writes_;
     unsigned threads_;  // that solve
     std::vector<ChunkAt> chunks_;
     std::size_t next_ = 0;
     std::optional<ChunkAt> read_last_;  // by read_next(), and so the last that was solved before the next
     Characters characters_;             // of that chunk's column
-    BusyClock solving_, disk_;
-    std::mutex mutex_;  // of all below
+    std::mutex mutex_;                  // of all below
     // Chunks that were read and not yet written. They are not the pipeline's, which loses what it holds if a stage
     // throws.
     std::vector<std::unique_ptr<Work>> under_way_;
@@ -103,15 +97,13 @@ private:
 // Null: there is no more. The chunk lives until write() has stored it.
 Work* Filling::read_next()
 {
-    const BusyClock::Turn turn(disk_);
     for (; next_ < chunks_.size(); ++next_) {
         const ChunkAt at = chunks_[next_];
         const std::uint64_t stored = cache_.digest(at);
-        if (stored != 0 && !compares_) {
+        if (stored != 0 && !options_.proves) {
             const std::lock_guard lock(mutex_);
-            ++report_.skipped;
-            ++through_;
-            if (options_.progress) options_.progress(through_);
+            ++report_.left;
+            note_through();
             continue;
         }
         auto work =
@@ -150,7 +142,6 @@ std::unique_ptr<Column> Filling::take_column(const Work& work)
 
 void Filling::solve(Work& work)
 {
-    const BusyClock::Turn turn(solving_);
     std::unique_ptr<Column> column = take_column(work);
     if (work.state) column->restore(*work.state);
     work.digest = column->solve(work.at.time, work.goals, work.results);
@@ -158,8 +149,8 @@ void Filling::solve(Work& work)
     columns_.push_back(std::move(column));
 }
 
-// What the files of a chunk that is done have otherwise; empty: nothing.
-std::string Filling::difference(const Work& work) const
+// Between what a chunk has and what its goals give.
+std::optional<Difference> Filling::difference(const Work& work) const
 {
     const CachedCrowd& crowd = cache_.crowd();
     const auto compare = [](const std::optional<Results>& stored, const Results& wanted,
@@ -169,35 +160,44 @@ std::string Filling::difference(const Work& work) const
             if ((*stored)[n] != wanted[n]) return fmt::format("{} differs", arrays[n].name);
         return "";
     };
-    std::string what;
-    if (work.stored != work.digest) what = "digest differs";
-    if (what.empty() && crowd.has_poses())
-        what = compare(cache_.results(work.at), work.results, cache_.arrays().results, "poses");
+    if (work.stored == 0) return Difference{work.at, "is not done", true};
+    std::string what =
+        crowd.has_poses ? compare(cache_.results(work.at), work.results, cache_.arrays().results, "poses") : "";
+    if (work.stored != work.digest) {
+        const bool is_mended = crowd.has_poses && what.empty();
+        return Difference{work.at, is_mended || what.empty() ? "digest differs" : "digest differs, and " + what,
+                          is_mended};
+    }
     if (what.empty() && crowd.carries_state())
         what = compare(cache_.state(work.at), last_frame(work.results, crowd, work.at.time), cache_.arrays().state,
                        "state");
-    return what;
+    if (what.empty()) return std::nullopt;
+    return Difference{work.at, what, true};
+}
+
+// With the lock.
+void Filling::note_through()
+{
+    ++through_;
+    if (options_.progress) options_.progress(through_);
 }
 
 void Filling::write(Work& work)
 {
-    const BusyClock::Turn turn(disk_);
-    const std::string what = work.stored != 0 ? difference(work) : writes_ ? "" : "is not done";
-    const bool is_written = writes_ && (work.stored == 0 || !what.empty());
-    const std::size_t bytes = is_written ? cache_.write(work.at, work.results, work.digest) : 0;
+    const std::optional<Difference> found = difference(work);
+    const bool is_written = found && found->is_mended;
+    if (is_written) cache_.write(work.at, work.results, work.digest);
     const CachedCrowd& crowd = cache_.crowd();
     std::unique_ptr<Work> done;  // is freed after the lock
     const std::lock_guard lock(mutex_);
     const auto at = std::ranges::find(under_way_, &work, [](const auto& each) { return each.get(); });
     done = std::move(*at);
     under_way_.erase(at);
-    if (!what.empty()) report_.differences.push_back({work.at, what});
-    ++(work.stored == 0 && writes_ ? report_.written : report_.compared);
-    report_.bytes += bytes;
+    if (found && options_.proves) report_.differences.push_back(*found);
+    ++(is_written ? report_.written : report_.left);
     report_.limbs +=
         std::uint64_t{crowd.frames_in(work.at.time)} * crowd.characters_in(work.at.column) * crowd.limbs.size();
-    ++through_;
-    if (options_.progress) options_.progress(through_);
+    note_through();
 }
 
 // Reads, solves and writes one chunk after the other, all on this thread.
@@ -212,8 +212,8 @@ void Filling::run_in_turn()
 
 #ifdef SWIVEL_WITH_TBB
 
-// Reads, solves and writes chunks at once, at most so many of them.
-void Filling::run_at_once(std::size_t most)
+// Reads, solves and writes chunks at once: one for each thread.
+void Filling::run_at_once()
 {
     using namespace oneapi::tbb;
     const int threads = static_cast<int>(threads_);
@@ -236,24 +236,21 @@ void Filling::run_at_once(std::size_t most)
             return work;
         });
         const auto written = make_filter<Work*, void>(filter_mode::parallel, [&](Work* work) { write(*work); });
-        parallel_pipeline(most, read & solved & written);
+        parallel_pipeline(threads_ + kWaiting, read & solved & written);
     });
 }
 
 #else
 
-void Filling::run_at_once(std::size_t) { run_in_turn(); }
+void Filling::run_at_once() { run_in_turn(); }
 
 #endif
 
 FillReport Filling::run()
 {
     const auto begin = std::chrono::steady_clock::now();
-    const std::size_t most = chunks_in_flight(cache_, options_.memory, compares_, threads_);
-    threads_ == 1 ? run_in_turn() : run_at_once(most);
+    threads_ == 1 ? run_in_turn() : run_at_once();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    report_.solve_seconds = solving_.seconds();
-    report_.disk_seconds = disk_.seconds();
     std::ranges::sort(report_.differences, {}, [](const Difference& d) { return std::pair(d.at.column, d.at.time); });
     return std::move(report_);
 }
@@ -272,24 +269,6 @@ std::vector<ChunkAt> chunks_of(const CachedCrowd& crowd, const Shard& shard)
     return chunks;
 }
 
-FillReport fill(const Cache& cache, const FillOptions& options)
-{
-    cache.require_goals();
-    return Filling(cache, options, chunks_of(cache.crowd(), options.shard), options.verifies, true).run();
-}
-
-FillReport compare(const Cache& cache, const FillOptions& options)
-{
-    cache.require_goals();
-    return Filling(cache, options, chunks_of(cache.crowd(), options.shard), true, false).run();
-}
-
-FillReport mend(const Cache& cache, const FillOptions& options, const std::vector<Difference>& differences)
-{
-    cache.require_goals();
-    std::vector<ChunkAt> chunks;
-    for (const Difference& each : differences) chunks.push_back(each.at);
-    return Filling(cache, options, std::move(chunks), true, true).run();
-}
+FillReport fill(const Cache& cache, const FillOptions& options) { return Filling(cache, options).run(); }
 
 }  // namespace swivel::tools

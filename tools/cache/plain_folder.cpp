@@ -165,13 +165,6 @@ void PlainFolder::remove_file(const std::string& name) const
         refuse(name, "cannot be removed", errno);
 }
 
-void PlainFolder::remove_if_empty(const std::string& name) const
-{
-    const Descriptor folder = folder_of(name);
-    if (!folder.is_open() || ::unlinkat(folder.get(), last_of(name).c_str(), AT_REMOVEDIR) == 0) return;
-    if (errno != ENOENT && errno != ENOTEMPTY && errno != EEXIST) refuse(name, "cannot be removed", errno);
-}
-
 bool is_unfinished(std::string_view name)
 {
     constexpr std::string_view kBefore = ".swivel-";

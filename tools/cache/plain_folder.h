@@ -55,8 +55,6 @@ public:
     void for_names(const std::string& folder, const std::function<void(const std::string&)>& each) const;
     // Removes a file; of a link, the link itself. What is gone already is no error.
     void remove_file(const std::string& name) const;
-    // Removes a folder if it is empty.
-    void remove_if_empty(const std::string& name) const;
 
 private:
     Descriptor open_folder(const std::string& name) const;

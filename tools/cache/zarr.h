@@ -40,19 +40,16 @@ struct ZarrArray {
     std::size_t chunk_index(const ChunkPlace& place) const;
 };
 
-// What became of a reading. damaged: the file has another size, or cannot be unpacked.
+// What became of a reading. damaged: the file has another size.
 enum class ChunkRead { missing, damaged, whole };
 
 class ZarrStore {
 public:
-    // is_compressed: chunks are packed by Blosc (LZ4, level 5, bytes shuffled). Throws InputError if this build has no
-    // Blosc.
-    ZarrStore(PlainFolder folder, bool is_compressed);
+    explicit ZarrStore(PlainFolder folder) : folder_(std::move(folder)) {}
 
     const std::filesystem::path& folder() const { return folder_.path(); }
 
-    // Describes an array and the groups that it is in. Throws InputError if that cannot be written, and if its chunks
-    // are more than Blosc can pack.
+    // Describes an array and the groups that it is in. Throws InputError if that cannot be written.
     void write_array(const ZarrArray& array) const;
     // The attributes of the whole store. Throws InputError if they cannot be written, or take more than
     // kMostAttributes.
@@ -62,31 +59,19 @@ public:
 
     // The file of a chunk.
     std::filesystem::path chunk_path(const ZarrArray& array, const ChunkPlace& place) const;
-    // Calls `each` with the chunks that have a file, in any order.
-    void for_chunks(const ZarrArray& array, const std::function<void(const ChunkPlace&)>& each) const;
-    // Writes a whole chunk: under a name of its own, synced, renamed. Returns the bytes of the file. Throws InputError
-    // as OutputFile does.
-    std::size_t write_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes) const;
+    // Writes a whole chunk: under a name of its own, synced, renamed. Throws InputError as OutputFile does.
+    void write_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<const std::byte> bytes) const;
     // Reads a whole chunk. Throws InputError for a file that may not be read.
     ChunkRead read_chunk(const ZarrArray& array, const ChunkPlace& place, std::span<std::byte> bytes) const;
     // The same of an array whose chunks are one number of type <u8. Nothing: there is no such file, or it is damaged.
-    std::size_t write_number(const ZarrArray& array, const ChunkPlace& place, std::uint64_t number) const;
+    void write_number(const ZarrArray& array, const ChunkPlace& place, std::uint64_t number) const;
     std::optional<std::uint64_t> read_number(const ZarrArray& array, const ChunkPlace& place) const;
 
-    // Removes the files that writers of the array, or of the attributes, left when they were killed.
+    // Removes the files that writers of the array left when they were killed.
     void remove_unfinished(const ZarrArray& array) const;
-    void remove_unfinished_attributes() const;
-    // Removes an array's chunks and description, and the groups that it is in if nothing else is in them. Files of
-    // other names stay, and so do their folders.
-    void remove(const ZarrArray& array) const;
 
 private:
-    nlohmann::ordered_json description(const ZarrArray& array) const;
-    std::vector<std::pair<std::string, nlohmann::ordered_json>> metadata(const ZarrArray& array) const;
-    void remove_in(const std::string& folder, const std::function<bool(const std::string&)>& is_own) const;
-
     PlainFolder folder_;
-    bool is_compressed_;
 };
 
 constexpr std::size_t kMostAttributes = std::size_t{4} << 20;  // bytes: 50,000 joints; as JSON they take 100 MiB

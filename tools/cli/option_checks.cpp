@@ -70,25 +70,6 @@ OptionValue numbers(std::size_t count, double least)
     return {"NUMBERS", check};
 }
 
-std::uint64_t bytes_of(const std::string& text)
-{
-    constexpr std::string_view kUnits = "KMGT";
-    const std::size_t unit = text.empty() ? kUnits.npos : kUnits.find(text.back());
-    const auto number = formats::parse_integer(text.substr(0, text.size() - (unit != kUnits.npos)));
-    const std::size_t shift = unit == kUnits.npos ? 0 : 10 * (unit + 1);
-    if (!number || *number < 0 || *number > std::int64_t{1} << (62 - shift)) return 0;
-    return static_cast<std::uint64_t>(*number) << shift;
-}
-
-OptionValue bytes()
-{
-    const auto check = [](const std::string& text) -> std::string {
-        if (bytes_of(text) >= std::uint64_t{1} << 20) return {};
-        return fmt::format("'{}' is not an amount of memory from 1M on, such as 512M or 4G", formats::printable(text));
-    };
-    return {"BYTES", check};
-}
-
 OptionValue file_name()
 {
     const auto check = [](const std::string& text) -> std::string {

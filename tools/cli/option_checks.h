@@ -29,9 +29,6 @@ OptionValue number(double least, double most);
 OptionValue numbers(std::size_t count, double least);
 // Numbers with commas between; empty if any of them is none.
 std::vector<double> numbers_of(const std::string& text);
-// Bytes, at least a MiB: a whole number with K, M, G or T for powers of 1024; bytes_of() gives them.
-OptionValue bytes();
-std::uint64_t bytes_of(const std::string& text);
 // Anything but nothing.
 OptionValue file_name();
 // The same. advice: what to do instead of giving nothing.

@@ -72,14 +72,6 @@ std::uint64_t add_bytes(std::uint64_t hash, std::uint64_t number, int count)
     return hash;
 }
 
-// Calls act(field) for each field of a list.
-template <class Act>
-void for_each_field(const FieldList& list, Act act)
-{
-    for (const Field field : list)
-        if (field != Field::none) act(field);
-}
-
 // Writes the inputs that are wanted, of all groups.
 template <class IsWanted>
 void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, std::uint32_t frame, IsWanted is_wanted)
@@ -89,22 +81,22 @@ void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, 
         std::vector<Arm> arms = ordinary;
         put_hard_cases(recipe, group, frame, arms);
         spoil_arms(recipe, group, frame, arms);
-        for_each_field(recipe.inputs, [&](Field field) {
-            if (!is_wanted(field)) return;
+        for (const Field field : inputs_of(recipe)) {
+            if (!is_wanted(field)) continue;
             if (is_of_arms(field))
                 write_arms(crowd, field, group, arms);
             else
                 write_field(crowd, field, group, limb_values(recipe, field, group, ordinary));
-        });
+        }
     }
 }
 
-// What the lists name must be all that the crowd has.
+// What the features bring must be all that the crowd has.
 void check_rows(const Recipe& recipe, const Crowd& crowd)
 {
     std::uint32_t inputs = 0, results = 0;
-    for_each_field(recipe.inputs, [&](Field field) { inputs += component_count(recipe, field); });
-    for_each_field(recipe.results, [&](Field field) { results += component_count(recipe, field); });
+    for (const Field field : inputs_of(recipe)) inputs += component_count(recipe, field);
+    for (const Field field : results_of(recipe)) results += component_count(recipe, field);
     const auto require = [&](std::uint32_t listed, std::uint32_t has, const char* what) {
         if (listed != has)
             throw std::logic_error("corpus: crowd " + full_name(recipe) + " lists " + std::to_string(listed) +
@@ -152,10 +144,9 @@ void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
 
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash)
 {
-    for_each_field(recipe.results, [&](Field field) {
+    for (const Field field : results_of(recipe))
         for (std::uint32_t group = 0; group < kGroupCount; ++group)
             for (const std::uint32_t word : read_field(crowd, recipe, field, group)) hash = add_bytes(hash, word, 4);
-    });
     return hash;
 }
 
@@ -181,6 +172,12 @@ std::vector<std::string> wrong_crowds(Part part, const std::vector<std::uint64_t
     for (std::size_t n = 0; n < recipes.size(); ++n)
         if (digests.at(n) != golden_of(recipes[n])) names.push_back(full_name(recipes[n]));
     return names;
+}
+std::string shortened(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (std::size_t n = 0; n < names.size() && n < 3; ++n) text += (n == 0 ? "" : ", ") + names[n];
+    return names.size() <= 3 ? text : text + " and " + std::to_string(names.size() - 3) + " more";
 }
 
 }  // namespace swivel::corpus

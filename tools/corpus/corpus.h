@@ -24,8 +24,8 @@ std::string full_name(const Recipe& recipe);
 // Limbs in the first group of a crowd at its own size, which golden.h is about.
 std::uint32_t own_limb_count(Part part);
 // The crowd with every input written: limb_count limbs in the first group, half as many and one in the second, seven
-// in the third. A limb's numbers do not depend on how many there are. Throws std::logic_error where the recipe's lists
-// do not name every input and every result.
+// in the third. A limb's numbers do not depend on how many there are. Throws std::logic_error where the library has
+// other inputs or results than the recipe's features bring here.
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
 
 // How many times a crowd is solved, with other goals each time. Crowds of whole limbs carry things on.

@@ -44,41 +44,43 @@ struct FieldName {
     Field field;
     swivel_field library;
     std::uint32_t components;
+    std::uint32_t needs = 0;  // the features that bring it
 };
+// In the order of enum Field.
 constexpr FieldName kFields[] = {
     {Field::target, SWIVEL_TARGET, 3},
     {Field::pole, SWIVEL_POLE, 3},
     {Field::lengths, SWIVEL_LENGTHS, 2},
-    {Field::parent_position, SWIVEL_SHOULDER_POSITION, 3},
-    {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4},
-    {Field::parent_scale, SWIVEL_PARENT_SCALE, 1},
-    {Field::hand, SWIVEL_HAND, 4},
-    {Field::effector, SWIVEL_EFFECTOR, 3},
-    {Field::angle, SWIVEL_ANGLE, 2},
-    {Field::incoming_shoulder, SWIVEL_INCOMING_SHOULDER, 4},
-    {Field::incoming_elbow, SWIVEL_INCOMING_ELBOW, 4},
-    {Field::incoming_wrist, SWIVEL_INCOMING_WRIST, 4},
-    {Field::weights, SWIVEL_WEIGHTS, 3},
-    {Field::reach, SWIVEL_REACH, 4},
-    {Field::most_swivel, SWIVEL_MOST_SWIVEL, 2},
-    {Field::flexion_limit, SWIVEL_FLEXION_LIMIT, 2},
-    {Field::shoulder_cone, SWIVEL_SHOULDER_CONE, 4},
-    {Field::humeral_twist, SWIVEL_HUMERAL_TWIST, 4},
-    {Field::shoulder_box, SWIVEL_SHOULDER_BOX, 12},
-    {Field::hand_cone, SWIVEL_HAND_CONE, 4},
-    {Field::forearm_twist, SWIVEL_FOREARM_TWIST, 4},
-    {Field::hand_twist, SWIVEL_HAND_TWIST, 7},
-    {Field::wrist_box, SWIVEL_WRIST_BOX, 12},
-    {Field::aim, SWIVEL_AIM, 5},
-    {Field::clavicle, SWIVEL_CLAVICLE, 4},
+    {Field::parent_position, SWIVEL_SHOULDER_POSITION, 3, kWorld},
+    {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4, kWorld},
+    {Field::parent_scale, SWIVEL_PARENT_SCALE, 1, kWorld},
+    {Field::hand, SWIVEL_HAND, 4, kHand},
+    {Field::effector, SWIVEL_EFFECTOR, 3, kEffector},
+    {Field::angle, SWIVEL_ANGLE, 2, kAngle},
+    {Field::incoming_shoulder, SWIVEL_INCOMING_SHOULDER, 4, kIncoming},
+    {Field::incoming_elbow, SWIVEL_INCOMING_ELBOW, 4, kIncoming},
+    {Field::incoming_wrist, SWIVEL_INCOMING_WRIST, 4, kIncoming | kHand},
+    {Field::weights, SWIVEL_WEIGHTS, 3, kWeights},
+    {Field::reach, SWIVEL_REACH, 4, kReach},
+    {Field::most_swivel, SWIVEL_MOST_SWIVEL, 2, kStep},
+    {Field::flexion_limit, SWIVEL_FLEXION_LIMIT, 2, kFlexion},
+    {Field::shoulder_cone, SWIVEL_SHOULDER_CONE, 4, kShoulderCone},
+    {Field::humeral_twist, SWIVEL_HUMERAL_TWIST, 4, kHumeralTwist},
+    {Field::shoulder_box, SWIVEL_SHOULDER_BOX, 12, kShoulderBox},
+    {Field::hand_cone, SWIVEL_HAND_CONE, 4, kHandCone},
+    {Field::forearm_twist, SWIVEL_FOREARM_TWIST, 4, kForearmTwist},
+    {Field::hand_twist, SWIVEL_HAND_TWIST, 7, kHandTwist},
+    {Field::wrist_box, SWIVEL_WRIST_BOX, 12, kWristBox},
+    {Field::aim, SWIVEL_AIM, 5, kAim},
+    {Field::clavicle, SWIVEL_CLAVICLE, 4, kClavicle},
     {Field::shoulder, SWIVEL_SHOULDER, 4},
     {Field::elbow, SWIVEL_ELBOW, 2},  // 4 with joints
-    {Field::wrist, SWIVEL_WRIST, 4},
+    {Field::wrist, SWIVEL_WRIST, 4, kHand},
     {Field::flags, SWIVEL_FLAGS, 1},
-    {Field::stretch, SWIVEL_STRETCH, 1},
-    {Field::normal, SWIVEL_NORMAL, 3},
+    {Field::stretch, SWIVEL_STRETCH, 1, kReach},
+    {Field::normal, SWIVEL_NORMAL, 3, kStep},
     {Field::twist, SWIVEL_TWIST_BONES, 4},  // for each bone
-    {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4},
+    {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4, kClavicle},
 };
 
 struct FlagName {
@@ -114,6 +116,18 @@ const FieldName& name_of(Field field)
     for (const FieldName& name : kFields)
         if (name.field == field) return name;
     throw std::logic_error("corpus: interface.cpp has no row for field " + std::to_string(static_cast<int>(field)));
+}
+
+std::vector<Field> fields_of(const Recipe& recipe, bool are_results)
+{
+    std::vector<Field> fields;
+    for (const FieldName& name : kFields) {
+        if ((name.field >= Field::shoulder) != are_results || (recipe.features & name.needs) != name.needs) continue;
+        if (name.field == Field::pole && (recipe.features & kPoleIncoming)) continue;
+        if (name.field == Field::twist && recipe.twist_bones == 0) continue;
+        fields.push_back(name.field);
+    }
+    return fields;
 }
 
 // The 16-bit words of a field, limb by limb.
@@ -183,6 +197,9 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
     return Crowd(groups);
 }
 
+std::vector<Field> inputs_of(const Recipe& recipe) { return fields_of(recipe, false); }
+std::vector<Field> results_of(const Recipe& recipe) { return fields_of(recipe, true); }
+
 LimbCounts limb_counts(const Crowd& crowd)
 {
     LimbCounts counts;
@@ -210,9 +227,9 @@ void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const
 
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group)
 {
-    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group);
     if ((recipe.features & kCompact) && field >= Field::shoulder && field != Field::flags)
         return packed_field(crowd, field, group);
+    const std::uint32_t limbs = swivel_group_limb_count(crowd.get(), group);
     std::vector<std::uint32_t> words(std::size_t{limbs} * component_count(recipe, field));
     const swivel_out out{words.data(), words.size() / limbs * sizeof(std::uint32_t)};
     check(swivel_read(crowd.get(), name_of(field).library, group, 0, limbs, out));

@@ -4,6 +4,7 @@
 // flags. When the library renames or reorders any of its own, interface.cpp follows and nothing else does.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,10 +23,15 @@ std::uint64_t library_features(const Recipe& recipe);
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 LimbCounts limb_counts(const Crowd& crowd);
 
+// The fields that the recipe's features bring, in the order of enum Field: inputs, which are written, and results,
+// which are digested in this order.
+std::vector<Field> inputs_of(const Recipe& recipe);
+std::vector<Field> results_of(const Recipe& recipe);
+
 // Floats of a field's value, or the one word of flags.
 std::uint32_t component_count(const Recipe& recipe, Field field);
 
-// The crowd's own numbers of rows: what the lists of a recipe must add up to.
+// The crowd's own numbers of rows: what the fields of a recipe must add up to.
 std::uint32_t input_row_count(const Crowd& crowd);
 std::uint32_t result_row_count(const Crowd& crowd);
 

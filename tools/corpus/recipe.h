@@ -4,7 +4,6 @@
 // here. These never change, whatever the library calls them. interface.cpp knows the library's.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 namespace swivel::corpus {
@@ -107,16 +106,11 @@ inline constexpr std::uint32_t kEveryFlag = (1u << 18) - 1;
 
 enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 
-// Lists of fields end with the first Field::none.
-using FieldList = std::array<Field, 28>;
-
 struct Recipe {
     Part part;
     const char* name;
     std::uint64_t seed;
     std::uint32_t features;  // of enum Feature
-    FieldList inputs;        // what is written: all that the features bring
-    FieldList results;       // what is digested, in this order: all that the features bring
     std::uint32_t twist_bones = 0;
     Order shoulder_order = Order::xyz, wrist_order = Order::xyz;
 };

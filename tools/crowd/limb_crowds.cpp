@@ -145,18 +145,6 @@ void LimbCrowds::solve()
     crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
 }
 
-void LimbCrowds::solve_blocks(std::span<const std::span<const std::uint8_t>> chosen)
-{
-    Crowd& crowd = crowds_[0];
-    active_.assign((std::size_t{swivel_block_count(crowd.get())} + 1) / 2, 0);
-    for (std::size_t limb = 0; limb < chosen.size(); ++limb) {
-        const std::uint32_t first = swivel_group_first_limb(crowd.get(), places_[limb].group) / SWIVEL_LANES;
-        for (std::uint32_t block = 0; block < chosen[limb].size(); ++block)
-            if (chosen[limb][block]) active_[(first + block) / 2] |= 0xffffu << (first + block) % 2 * SWIVEL_LANES;
-    }
-    crowd.solve({.mask = active_, .on_this_thread = is_one_thread()});
-}
-
 std::vector<std::uint64_t> LimbCrowds::digests() const
 {
     std::vector<std::uint64_t> digests;

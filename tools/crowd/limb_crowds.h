@@ -38,9 +38,6 @@ public:
 
     // Solves all limbs; with a budget all in the first call, the most urgent blocks of 16 in each after that.
     void solve();
-    // Solves the blocks of 16 limbs that were chosen elsewhere: of each limb, 1 for each of its blocks, else 0. For
-    // limbs that share a crowd.
-    void solve_blocks(std::span<const std::span<const std::uint8_t>> chosen);
     // Whether the last solve() solved it.
     bool solved(std::size_t limb, std::uint32_t character) const;
 

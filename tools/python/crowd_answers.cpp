@@ -18,52 +18,23 @@ namespace {
 
 using Count = std::optional<std::int64_t>;
 
-// An array of doubles for some limbs, filled by call(limbs, values).
+// An array of doubles for some limbs, filled by call(crowd, limbs, values).
 template <class Call>
-py::array doubles(HeldCrowd& held, const char* name, std::size_t component_count, std::int64_t group,
-                  std::int64_t first, Count count, const py::object& out, Call call)
+py::array doubles(HeldCrowd& held, std::size_t component_count, std::int64_t group, std::int64_t first, Count count,
+                  const py::object& out, Call call)
 {
     const Limbs limbs = limbs_of(held, group, first, count);
-    const Output to = output({name, limbs.count, component_count}, out, py::dtype::of<double>(), held.rows);
-    run(held, Way::kReading, [&] { check(call(limbs, to.values)); });
+    const Output to = output({"out", limbs.count, component_count}, out, py::dtype::of<double>(), held.rows);
+    run(held, Way::kReading, [&] { check(call(held.crowd.get(), limbs, to.values)); });
     return to.finish();
-}
-
-py::array elbows(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
-{
-    return doubles(held, "out", 3, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
-        return swivel_forward(held.crowd.get(), limbs.group, limbs.first, limbs.count, values, {}, {});
-    });
-}
-
-py::array wrists(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
-{
-    return doubles(held, "out", 3, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
-        return swivel_forward(held.crowd.get(), limbs.group, limbs.first, limbs.count, {}, values, {});
-    });
-}
-
-py::array hands(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
-{
-    return doubles(held, "out", 4, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
-        return swivel_forward(held.crowd.get(), limbs.group, limbs.first, limbs.count, {}, {}, values);
-    });
-}
-
-py::array residuals(HeldCrowd& held, std::int64_t group, std::int64_t first, Count count, const py::object& out)
-{
-    return doubles(held, "out", 1, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
-        return swivel_residuals(held.crowd.get(), limbs.group, limbs.first, limbs.count, values);
-    });
 }
 
 py::array joint_angles(HeldCrowd& held, std::int64_t shoulder_order, std::int64_t wrist_order, int family,
                        std::int64_t group, std::int64_t first, Count count, const py::object& out)
 {
     const swivel_euler_order shoulder = order_of(shoulder_order), wrist = order_of(wrist_order);
-    return doubles(held, "out", 7, group, first, count, out, [&](const Limbs& limbs, swivel_out values) {
-        return swivel_joint_angles(held.crowd.get(), limbs.group, limbs.first, limbs.count, shoulder, wrist, family,
-                                   values);
+    return doubles(held, 7, group, first, count, out, [&](swivel_crowd* crowd, const Limbs& limbs, swivel_out values) {
+        return swivel_joint_angles(crowd, limbs.group, limbs.first, limbs.count, shoulder, wrist, family, values);
     });
 }
 
@@ -89,18 +60,41 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> find(HeldCrowd& held, std
 
 void add_answers(CrowdClass& crowd)
 {
-    const auto add = [&](const char* name, auto method, const char* text) {
-        crowd.def(name, method, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-                  py::arg("out") = py::none(), text);
+    using Call = swivel_status (*)(swivel_crowd*, const Limbs&, swivel_out);
+    const auto add = [&](const char* name, std::size_t component_count, Call call, const char* text) {
+        crowd.def(
+            name,
+            [component_count, call](HeldCrowd& held, std::int64_t group, std::int64_t first, Count count,
+                                    const py::object& out) {
+                return doubles(held, component_count, group, first, count, out, call);
+            },
+            py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(), py::arg("out") = py::none(),
+            text);
     };
-    add("elbows", &elbows,
+    add(
+        "elbows", 3,
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_forward(held, limbs.group, limbs.first, limbs.count, to, {}, {});
+        },
         "Where the results put the elbows: (count, 3) float64, in the space of the targets and your unit of length.");
-    add("wrists", &wrists,
+    add(
+        "wrists", 3,
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_forward(held, limbs.group, limbs.first, limbs.count, {}, to, {});
+        },
         "Where the results put the wrists: (count, 3) float64, in the space of the targets and your unit of length.");
-    add("hands", &hands,
+    add(
+        "hands", 4,
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_forward(held, limbs.group, limbs.first, limbs.count, {}, {}, to);
+        },
         "How the results turn the hands: (count, 4) float64, quaternions x, y, z, w in the space of the\n"
         "targets; without Feature.WITH_HAND those of the forearms.");
-    add("residuals", &residuals,
+    add(
+        "residuals", 1,
+        [](swivel_crowd* held, const Limbs& limbs, swivel_out to) {
+            return swivel_residuals(held, limbs.group, limbs.first, limbs.count, to);
+        },
         "How far each wrist, or effector, is from its target: (count,) float64, in arm lengths (upper arm and\n"
         "forearm, scaled and stretched). 0 for limbs of no length, NaN for those with Flag.BAD_INPUT.");
     crowd.def("joint_angles", &joint_angles, py::arg("shoulder_order") = 0, py::arg("wrist_order") = 0,

@@ -27,23 +27,6 @@ py::array view(const py::object& self, const py::dtype& type, void* base, py::ss
     return rows;
 }
 
-py::array all_rows(const py::object& self, const swivel_rows& rows, bool writeable)
-{
-    return view(self, py::dtype::of<float>(), rows.base, rows.block_count, rows.row_count, rows.row_count, writeable);
-}
-
-py::array input_rows(const py::object& self, std::int64_t number)
-{
-    const HeldCrowd& held = self.cast<const HeldCrowd&>();
-    return all_rows(self, swivel_input_rows(held.crowd.get(), limbs_of(held, number, 0, {}).group), true);
-}
-
-py::array result_rows(const py::object& self, std::int64_t number)
-{
-    const HeldCrowd& held = self.cast<const HeldCrowd&>();
-    return all_rows(self, swivel_result_rows(held.crowd.get(), limbs_of(held, number, 0, {}).group), false);
-}
-
 std::uint32_t packed_row(const HeldCrowd& held, std::int64_t field, std::int64_t group)
 {
     const std::uint32_t g = limbs_of(held, group, 0, {}).group;
@@ -129,10 +112,6 @@ void add_shape(CrowdClass& crowd)
         "the group is [i // LANES, :, i % LANES]. float32; uint32 for Field.FLAGS. Inputs may be written to, the\n"
         "fast way in; results are for reading. The array keeps the crowd alive. ValueError if the group does not\n"
         "have the field.");
-    crowd.def("input_rows", &input_rows, py::arg("group") = 0,
-              "All input rows of a group, shape (blocks, rows, LANES) float32, sharing the crowd's memory.");
-    crowd.def("result_rows", &result_rows, py::arg("group") = 0,
-              "All result rows of a group, shape (blocks, rows, LANES) float32, to read.");
     crowd.def("pack", &pack, py::arg("group") = 0,
               "The results of a group in 16-bit words, shape (blocks, rows, LANES) uint16, as swivel_pack() says.");
     crowd.def("packed_row", &packed_row, py::arg("field"), py::arg("group") = 0,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <utility>
 #include <vector>
 
 namespace py = pybind11;
@@ -126,56 +125,23 @@ Wanted member_of(const char* enum_name, const char* what, std::int64_t number)
     return static_cast<Wanted>(number);
 }
 
-// One line of Arms' documentation.
-std::string arms_line(std::string name, const std::string& text)
-{
-    name.resize(16, ' ');
-    return name + text + "\n";
-}
-
-std::string result_line(const swivel_field_info& info)
-{
-    const swivel_features needed = needed_features(info.field);
-    const bool many = (info.needs & SWIVEL_WITH_TWIST_BONES) != 0;
-    const auto shape = [&](swivel_features has) {
-        const std::uint32_t k = swivel_component_count(info.field, has);
-        std::string text = "(n,";
-        if (k > 1) text.append(" ").append(std::to_string(k)).append(many ? " b" : "");
-        return text.append(")");
-    };
-    std::string text = shape(needed), bound = shape(needed | SWIVEL_JOINTS);
-    if (bound != text) text += "; with binding= " + bound;
-    if (info.field == SWIVEL_FLAGS) text += " uint32, bits of Flag";
-    for (const char* joint = many ? " with b * " : " with "; const Named& feature : feature_table())
-        if (info.needs & static_cast<swivel_features>(feature.value))
-            text.append(std::exchange(joint, ", ")).append("Feature.").append(feature.name);
-    return arms_line(info.name, text);
-}
-
 // The named tuple that swivel.solve() gives: the results that all arms have, positions, and the others or None.
 void add_arms(py::module_& module)
 {
     py::list names, more;
-    std::string text =
-        "What solve() gives for n arms, float32 where nothing else is said; docs/python.md has the meanings.\n\n";
-    std::string more_text;
     for (const swivel_field_info& info : fields())
-        if (info.kind != SWIVEL_FIELD_INPUT) {
-            (info.needs ? more : names).append(info.name);
-            (info.needs ? more_text : text) += result_line(info);
-        }
-    for (const auto& [name, line] :
-         {std::pair{"elbow_position", "(n, 3) float64, in the space and unit of the targets"},
-          std::pair{"wrist_position", "(n, 3) float64, in the space and unit of the targets"},
-          std::pair{"residual", "(n,) float64, from target to wrist, or effector, in arm lengths"}}) {
-        names.append(name);
-        text += arms_line(name, line);
-    }
+        if (info.kind != SWIVEL_FIELD_INPUT) (info.needs ? more : names).append(info.name);
+    for (const char* name : {"elbow_position", "wrist_position", "residual"}) names.append(name);
     const py::object nones = py::make_tuple(py::none()) * py::int_(more.size());
     const py::object made =
         py::module_::import("collections")
             .attr("namedtuple")("Arms", names + more, py::arg("defaults") = nones, py::arg("module") = "swivel");
-    made.attr("__doc__") = text + more_text + "\nNone: the arms were not asked for it.";
+    made.attr("__doc__") =
+        "What solve() gives for n arms: the results of docs/python.md, with their shapes; None: the arms were not "
+        "asked\n"
+        "for it. elbow_position and wrist_position are (n, 3) float64, in the space and unit of the targets. residual "
+        "is\n"
+        "(n,) float64, from target to wrist, or effector, in arm lengths.";
     module.attr("Arms") = made;
 }
 

@@ -14,11 +14,10 @@ def enum_text(enum):
     return f"class {enum.__name__}(enum.{enum.__bases__[0].__name__}):\n{members}"
 
 
-def type_of(name):
-    return "npt.NDArray[np.uint32]" if name == "flags" else "_Doubles" if name in ("elbow_position", "wrist_position", "residual") else "_Floats"
-
-
-def arms_text(arms):
+def arms_text(module):
+    def type_of(name):
+        return "npt.NDArray[np.uint32]" if name == "flags" else "_Floats" if name.upper() in module.Field.__members__ else "_Doubles"
+    arms = module.Arms
     members = "".join(f"    {name}: Optional[{type_of(name)}] = None\n" if name in arms._field_defaults else f"    {name}: {type_of(name)}\n"
                       for name in arms._fields)
     return f"class Arms(NamedTuple):\n{members}"
@@ -29,7 +28,7 @@ def main(module_path, template, stub):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     enums = [enum_text(each) for each in vars(module).values() if isinstance(each, type) and issubclass(each, int)]
-    text = template.read_text(encoding="utf-8").replace("@ENUMS@\n", "\n".join([*enums, arms_text(module.Arms)]) + "\n")
+    text = template.read_text(encoding="utf-8").replace("@ENUMS@\n", "\n".join([*enums, arms_text(module)]) + "\n")
     stub.unlink(missing_ok=True)  # a link, where the stub was a source
     stub.write_text(text, encoding="utf-8")
 

@@ -10,20 +10,7 @@ namespace swivel::tools {
 
 namespace {
 
-void add_memory(CLI::App& command, std::string& memory)
-{
-    takes(command.add_option("--memory", memory, "Memory at most, such as 512M or 4G, whatever the crowd's size")
-              ->capture_default_str(),
-          bytes());
-}
-
-// Of a cache that is filled.
-CLI::Option* add_solving_threads(CLI::App& command, unsigned& threads)
-{
-    return add_threads(
-        command, threads,
-        "Threads that solve, up to 1024; 0 for all. Two more wait for the disk, but with 1 no thread is started");
-}
+constexpr const char* kQuiet = "Print errors and nothing else";
 
 // The positional CACHE.
 void add_cache(CLI::App& command, std::string& folder, const std::string& meaning)
@@ -42,57 +29,31 @@ void add_store(CLI::App& app)
                               "Frames of the crowd, 1 to 1 million. Without it those of the clip. More than the clip "
                               "has play it again and again"),
           whole_number(1, 1'000'000));
-    takes(command
-              ->add_option("--store", options->keep,
-                           "What the cache keeps once it is closed: goals, which give the same poses on any machine, "
-                           "poses, or both")
-              ->capture_default_str(),
-          one_of({"goals", "poses", "both"}));
     takes(command->add_option("--chunk", options->chunk,
                               "Frames and characters in a file, such as 8,4096. Without it by the crowd's size"),
           name("write FRAMES,CHARACTERS"));
-    command->add_flag("--compress", options->compressed, "Pack chunks by Blosc");
-    add_quiet(*command, options->crowd.quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->crowd.json);
+    command->add_flag("--no-poses", options->no_poses,
+                      "Keep goals and digests alone, which give the same poses on any machine");
+    add_quiet(*command, options->crowd.quiet, kQuiet);
     command->footer("Then swivel fill CACHE solves it, here or on many machines, and swivel check CACHE proves it.");
     command->callback([options] { run_store(*options); });
 }
 
-void add_fill(CLI::App& app)
+// A command that solves chunks.
+void add_solver(CLI::App& app, bool proves, const std::string& name, const std::string& meaning, const char* footer)
 {
-    CLI::App* command = app.add_subcommand("fill", "Solve the chunks of a cache, or a shard of them");
+    CLI::App* command = app.add_subcommand(name, meaning);
     auto options = std::make_shared<FillCommand>();
+    options->proves = proves;
     add_cache(*command, options->folder, "The folder that swivel store made");
-    command
-        ->add_option("--shard", options->shard,
-                     "Which part this process fills: i/n for the i-th of n, or auto, which reads the variables that "
-                     "Slurm and MPI set. Without it all")
-        ->type_name("i/n|auto");
-    command->add_flag("--resume", options->resumes, "Go on: leave chunks that are done");
-    command->add_flag("--verify", options->verifies,
-                      "Go on: solve chunks that are done, too, and write those again that differ. They are named, "
-                      "unless it is quiet, and are no error");
-    add_memory(*command, options->memory);
-    add_solving_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
+    command->add_option("--shard", options->shard, "The i-th of n parts of the cache alone, as i/n. Without it all")
+        ->type_name("i/n");
+    add_threads(
+        *command, options->threads,
+        "Threads that solve, up to 1024; 0 for all. Two more wait for the disk, but with 1 no thread is started");
+    add_quiet(*command, options->quiet, kQuiet);
+    command->footer(footer);
     command->callback([options] { run_fill(*options); });
-}
-
-void add_check(CLI::App& app)
-{
-    CLI::App* command = app.add_subcommand("check", "Prove that every chunk of a cache is right, and close it");
-    auto options = std::make_shared<CheckOptions>();
-    add_cache(*command, options->folder, "The folder that swivel store made");
-    add_memory(*command, options->memory);
-    add_solving_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
-    command->footer(
-        "All chunks are solved again and compared. Those that differ are named and written again, with exit code 1; "
-        "run check again then. If more than half of them differ, the goals are suspected, and nothing is written. A "
-        "closed cache of poses is compared with its digests.");
-    command->callback([options] { run_check(*options); });
 }
 
 void add_replay(CLI::App& app)
@@ -113,10 +74,8 @@ void add_replay(CLI::App& app)
                               "solve without its columns of clavicles; docs/cache.md says more. Without it the poses "
                               "are proved alone"),
           file_name());
-    add_memory(*command, options->memory);
     add_threads(*command, options->threads);
-    add_quiet(*command, options->quiet, "Print errors, and what --json asks for, and nothing else");
-    add_json(*command, options->json);
+    add_quiet(*command, options->quiet, kQuiet);
     command->callback([options] { run_replay(*options); });
 }
 
@@ -125,8 +84,13 @@ void add_replay(CLI::App& app)
 void add_cache_commands(CLI::App& app)
 {
     add_store(app);
-    add_fill(app);
-    add_check(app);
+    add_solver(app, false, "fill", "Solve the chunks of a cache, or a shard of them",
+               "Chunks that are done are left as they are, so an interrupted run goes on.");
+    add_solver(
+        app, true, "check", "Prove that every chunk of a cache is right, and mend those that are damaged",
+        "All chunks are solved again and compared. Those that are missing or damaged are named and written again, "
+        "with exit code 1; run check again then. Where both the digest and the poses are others than the goals "
+        "give, nothing is written.");
     add_replay(app);
 }
 

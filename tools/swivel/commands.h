@@ -50,32 +50,23 @@ void view_cache(const SolveOptions& options, const std::string& about_clip);
 
 struct StoreOptions {
     SolveOptions crowd;  // its outputs are not used
-    std::string folder, keep = "both";
+    std::string folder;
     std::string chunk;  // "FRAMES,CHARACTERS"; empty: by the crowd's size
-    bool compressed = false;
+    bool no_poses = false;
 };
 void run_store(const StoreOptions& options);
 
 struct FillCommand {
     std::string folder, shard;
-    std::string memory = "1G";
-    bool resumes = false, verifies = false, quiet = false, json = false;
+    bool proves = false;  // check, not fill
+    bool quiet = false;
     unsigned threads = 0;
 };
 void run_fill(const FillCommand& options);
 
-struct CheckOptions {
-    std::string folder;
-    std::string memory = "1G";
-    bool quiet = false, json = false;
-    unsigned threads = 0;
-};
-void run_check(const CheckOptions& options);
-
 struct ReplayOptions {
     std::string folder, frames = ":", characters = ":", out;
-    std::string memory = "1G";
-    bool quiet = false, json = false;
+    bool quiet = false;
     unsigned threads = 0;
 };
 void run_replay(const ReplayOptions& options);

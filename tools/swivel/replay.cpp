@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
-#include "tools/cli/option_checks.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/parallel.h"
@@ -19,7 +17,6 @@
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
 #include "tools/swivel/commands.h"
-#include "tools/swivel/report.h"
 
 namespace swivel::tools {
 
@@ -57,13 +54,15 @@ public:
     {
     }
 
-    std::uint32_t index() const { return column_.index(); }
     // Chunks of the column in order, from any on. Throws InputError if the chunk is not done, or has another digest.
     const Results& solve(std::uint32_t time)
     {
         const ChunkAt at{time, column_.index()};
         const std::uint64_t stored = cache_.digest(at);
-        if (stored == 0) throw not_done(at);
+        if (stored == 0)
+            throw InputError(
+                cache_.folder(),
+                fmt::format("chunk {}.{} is not done, so nothing proves it; run swivel fill", time, at.column));
         if (cache_.crowd().carries_state() && time > 0 && !has_begun_)
             column_.restore(cache_.require_state({time - 1, at.column}));
         has_begun_ = true;
@@ -77,13 +76,6 @@ public:
     std::span<const goal_character> characters() const { return characters_; }
 
 private:
-    InputError not_done(ChunkAt chunk) const
-    {
-        return InputError(cache_.folder(), fmt::format("chunk {}.{} is not done, so nothing proves it; run swivel fill "
-                                                       "--resume",
-                                                       chunk.time, chunk.column));
-    }
-
     const Cache& cache_;
     std::vector<goal_character> characters_;
     Column column_;
@@ -103,57 +95,36 @@ formats::PoseColumns columns_of(const CachedCrowd& crowd)
     return columns;
 }
 
-// Writes the table: the solver's own rotations. It has frames in order, so it holds the chunks of one time together.
+// Writes the table: the solver's own rotations, chunk after chunk.
 class TableWriter {
 public:
-    // For these characters of the cache, and for so many frames at once. Its memory is taken here and kept.
-    TableWriter(const std::string& path, const CachedCrowd& crowd, std::uint32_t frame_count, Range characters)
+    TableWriter(const std::string& path, const CachedCrowd& crowd)
         : crowd_(crowd),
           fields_(result_fields(crowd)),
           columns_(columns_of(crowd)),
           has_extras_(columns_.stretch || columns_.twist_count > 0),
-          first_(characters.begin),
-          characters_(characters.end - characters.begin),
           csv_(path, columns_)
     {
-        for (const ResultField& field : fields_)
-            results_.emplace_back(frame_count * crowd.limbs.size() * characters_.size() * field.count());
     }
 
-    // Keeps these frames and characters of a chunk, counted within it.
-    void add(const ColumnReplay& column, const Results& results, Range frames, Range characters)
-    {
-        const std::size_t width = characters_.size(), count = characters.end - characters.begin;
-        const std::size_t to = column.index() * crowd_.chunk.characters + characters.begin - first_;
-        std::ranges::copy(column.characters().subspan(characters.begin, count), &characters_[to]);
-        const std::size_t limbs = crowd_.limbs.size(), first_row = frames.begin * limbs, end_row = frames.end * limbs;
-        for (std::size_t f = 0; f < fields_.size(); ++f) {
-            const std::size_t parts = fields_[f].count();
-            for (std::size_t row = first_row; row < end_row; ++row) {
-                const std::size_t from = row * crowd_.chunk.characters + characters.begin;
-                std::ranges::copy(std::span(results[f]).subspan(from * parts, count * parts),
-                                  &results_[f][((row - first_row) * width + to) * parts]);
-            }
-        }
-    }
-
-    // Writes these frames, once all their chunks were added.
-    void write(Range frames)
+    // These frames and characters of a chunk, counted within it.
+    void write(ChunkAt at, std::span<const goal_character> who, const Results& results, Range frames, Range characters)
     {
         for (std::uint32_t frame = frames.begin; frame < frames.end; ++frame)
-            for (std::uint32_t n = 0; n < characters_.size(); ++n)
+            for (std::uint32_t n = characters.begin; n < characters.end; ++n)
                 for (std::size_t limb = 0; limb < crowd_.limbs.size(); ++limb)
-                    write_row(frame, frame - frames.begin, limb, n);
+                    write_row(at, who[n], results, frame, limb, n);
     }
     void commit() { csv_.commit(); }
 
 private:
-    void write_row(std::uint32_t frame, std::size_t held_frame, std::size_t limb, std::uint32_t n)
+    void write_row(ChunkAt at, const goal_character& who, const Results& results, std::uint32_t frame_in_chunk,
+                   std::size_t limb, std::uint32_t n)
     {
-        const goal_character& who = characters_[n];
+        const std::uint32_t frame = at.time * crowd_.chunk.frames + frame_in_chunk;
         formats::PoseRow row;
         formats::PoseExtra extra;
-        row.character = first_ + n;
+        row.character = at.column * crowd_.chunk.characters + n;
         row.limb = crowd_.limbs[limb].name;
         row.place = std::to_array(who.place);
         row.size = who.size;
@@ -161,10 +132,10 @@ private:
         const auto clip_frame = (std::size_t{frame} + who.start) % crowd_.clip_frames;
         row.wrist = std::to_array(crowd_.limbs[limb].sources[clip_frame].wrist_local);
         extra.twist_count = crowd_.limbs[limb].setup.twist_bone_count();
-        const std::size_t at = (held_frame * crowd_.limbs.size() + limb) * characters_.size() + n;
+        const std::size_t place = crowd_.place(frame_in_chunk, limb, n);
         for (std::size_t f = 0; f < fields_.size(); ++f) {
             const std::size_t parts = fields_[f].count();
-            put(fields_[f].field, std::span(results_[f]).subspan(at * parts, parts), row, extra);
+            put(fields_[f].field, std::span(results[f]).subspan(place * parts, parts), row, extra);
         }
         csv_.append(frame, {&row, 1}, {&extra, has_extras_ ? 1u : 0u});
     }
@@ -188,20 +159,8 @@ private:
     std::vector<ResultField> fields_;
     formats::PoseColumns columns_;
     bool has_extras_;
-    std::uint32_t first_;
-    std::vector<goal_character> characters_;
-    Results results_;  // frame by frame, limb by limb; each row as wide as characters_
     formats::PosesCsv csv_;
 };
-
-// What a table holds at once: the results of these frames, and who is in them.
-double bytes_of_rows(const CachedCrowd& crowd, std::uint32_t frame_count, Range characters)
-{
-    double bytes_of_limb = 0;
-    for (const ResultField& field : result_fields(crowd)) bytes_of_limb += 4.0 * static_cast<double>(field.count());
-    const double bytes_of_character = frame_count * bytes_of_limb * static_cast<double>(crowd.limbs.size());
-    return (characters.end - characters.begin) * (bytes_of_character + sizeof(goal_character));
-}
 
 // What of [whole.begin, whole.end) is in the piece of that many from first on, counted from first.
 Range within(Range whole, std::uint32_t first, std::uint32_t count)
@@ -209,60 +168,39 @@ Range within(Range whole, std::uint32_t first, std::uint32_t count)
     return {std::max(whole.begin, first) - first, std::min(whole.end, first + count) - first};
 }
 
-// A table needs the columns of one time together. Without one, each column is gone through at once.
-std::vector<ChunkAt> order_of(Range times, Range columns, bool is_by_time)
-{
-    std::vector<ChunkAt> order;
-    for (std::uint32_t time = times.begin; time < times.end; ++time)
-        for (std::uint32_t column = columns.begin; column < columns.end; ++column) order.push_back({time, column});
-    if (!is_by_time) std::ranges::stable_sort(order, {}, &ChunkAt::column);
-    return order;
-}
-
 }  // namespace
 
 void run_replay(const ReplayOptions& options)
 {
-    const std::uint64_t memory = bytes_of(options.memory);
-    const Cache cache(options.folder, memory);
-    cache.require_goals();
+    const Cache cache(options.folder);
     const CachedCrowd& crowd = cache.crowd();
+    const ChunkShape chunk = crowd.chunk;
     const Range frames = range_of("--frames", options.frames, crowd.frame_count);
     const Range characters = range_of("--characters", options.characters, crowd.character_count);
-    const ChunkShape chunk = crowd.chunk;
-    const std::uint32_t held_frames = std::min(chunk.frames, frames.end - frames.begin);
-    double bytes = bytes_to_replay(crowd, cache.arrays());
-    if (!options.out.empty()) bytes += bytes_of_rows(crowd, held_frames, characters);
-    require_memory(cache.folder(), bytes, memory, options.out.empty() ? "a chunk" : "a chunk with the table's rows",
-                   "give more by --memory, or ask for fewer characters");
-    const ThreadLimit limit(options.threads);
-    std::optional<TableWriter> table;
-    if (!options.out.empty()) table.emplace(options.out, crowd, held_frames, characters);
     const Range times{frames.begin / chunk.frames, (frames.end - 1) / chunk.frames + 1};
     const Range columns{characters.begin / chunk.characters, (characters.end - 1) / chunk.characters + 1};
-    const std::vector<ChunkAt> order = order_of(times, columns, table.has_value());
+    const std::uint64_t count = std::uint64_t{times.end - times.begin} * (columns.end - columns.begin);
+    const ThreadLimit limit(options.threads);
+    std::optional<TableWriter> table;
+    if (!options.out.empty()) table.emplace(options.out, crowd);
     {
-        Progress progress("chunks", order.size(), options.quiet);
-        std::optional<ColumnReplay> column;
-        for (std::size_t n = 0; n < order.size(); ++n) {
-            progress.show(n);
-            const ChunkAt at = order[n];
-            if (!column || column->index() != at.column) column.emplace(cache, at.column);
-            const Results& results = column->solve(at.time);
-            if (!table) continue;
-            const Range when = within(frames, at.time * chunk.frames, crowd.frames_in(at.time));
-            table->add(*column, results, when,
-                       within(characters, at.column * chunk.characters, crowd.characters_in(at.column)));
-            const std::uint32_t first = at.time * chunk.frames;
-            if (at.column + 1 == columns.end) table->write({first + when.begin, first + when.end});
+        Progress progress("chunks", count, options.quiet);
+        std::uint64_t done = 0;
+        for (std::uint32_t index = columns.begin; index < columns.end; ++index) {
+            ColumnReplay column(cache, index);
+            const Range who = within(characters, index * chunk.characters, crowd.characters_in(index));
+            for (std::uint32_t time = times.begin; time < times.end; ++time) {
+                progress.show(done++);
+                const Results& results = column.solve(time);
+                const Range when = within(frames, time * chunk.frames, crowd.frames_in(time));
+                if (table) table->write({time, index}, column.characters(), results, when, who);
+            }
         }
     }
     if (table) table->commit();
+    if (options.quiet) return;
     std::FILE* const to = formats::is_standard_stream(options.out) ? stderr : stdout;
-    if (options.json)
-        print_json({{"cache", options.folder}, {"chunks_proved", order.size()}, {"out", options.out}}, to);
-    if (options.json || options.quiet) return;
-    say(to, "chunks   {} proved: their digests are those of the cache\n", order.size());
+    say(to, "chunks   {} proved: their digests are those of the cache\n", count);
     if (table && to == stdout) say(to, "written  {}\n", options.out);
 }
 

@@ -3,8 +3,6 @@
 // `swivel view` of a cache: the page of its crowd.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "tools/cache/column.h"
 #include "tools/cli/command_error.h"
 #include "tools/cli/progress.h"
@@ -55,20 +53,6 @@ private:
     std::vector<ChunkGoals> goals_;  // of each column, in the time chunk at hand
 };
 
-// What a page of that many characters takes while it is made. The clip is there as numbers and, several times, as text.
-double bytes_of_page(const Cache& cache, std::uint32_t count)
-{
-    constexpr double kCopies = 4;
-    const CachedCrowd& crowd = cache.crowd();
-    const double characters = count, columns = std::ceil(characters / crowd.chunk.characters);
-    double bytes =
-        kProgramBytes + kCopies * bytes_all_along(crowd, cache.arrays()) + bytes_of_solver(crowd, characters);
-    bytes += 2 * columns * crowd.chunk.characters * sizeof(goal_character);
-    for (const ZarrArray& array : cache.arrays().given)
-        bytes += (columns + 1) * static_cast<double>(array.chunk_bytes());
-    return bytes;
-}
-
 }  // namespace
 
 void view_cache(const SolveOptions& options, const std::string& about_clip)
@@ -76,19 +60,15 @@ void view_cache(const SolveOptions& options, const std::string& about_clip)
     if (!about_clip.empty())
         throw CommandError(2, fmt::format("{}: the cache has its crowd already; leave the option out", about_clip));
     const Cache cache(options.file);
-    cache.require_goals();
     const CachedCrowd& crowd = cache.crowd();
     const std::uint32_t count = options.characters.value_or(crowd.character_count);
     if (count > crowd.character_count)
         throw CommandError(2, fmt::format("--characters {}: the cache has {}", count, crowd.character_count));
-    if (crowd.budget_blocks > 0 && count < crowd.character_count)
-        throw CommandError(2, "--characters: a budget couples the whole crowd; leave the option out");
-    require_memory(cache.folder(), bytes_of_page(cache, count), kUsualMemory,
-                   fmt::format("a page of {} characters", count), "ask for fewer by --characters");
+    require_memory(cache.folder(), crowd, cache.arrays(), count, "ask for fewer by --characters");
     ViewPage page(options.view);
     const std::vector<LimbSetup> setups = setups_of(crowd);
     const ThreadLimit limit(options.threads);
-    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), crowd.budget_blocks, cache.folder());
+    GoalCrowd solved(setups, sources_of(crowd), first_characters(cache, count), 0, cache.folder());
     GivenGoals goals(cache);
     const std::uint32_t frames = crowd.clip_frames;  // the page plays the clip round and round
     Progress progress("frames", frames, options.quiet);
