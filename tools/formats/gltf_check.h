@@ -9,7 +9,7 @@ namespace swivel::formats {
 
 // Checks what a reader of skeletons needs of a document: its version, nodes, skins, animations, accessors, buffer views
 // and buffers.
-// Throws InputError, naming the element, for
+// Throws InputError, naming the place, for
 // - a list or an element of a wrong type;
 // - a member that is missing;
 // - a member that is not what the specification says.

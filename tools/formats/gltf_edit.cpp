@@ -2,7 +2,6 @@
 #include "tools/formats/gltf_edit.h"
 
 #include <cstdint>
-#include <optional>
 
 #include "tools/formats/gltf_json.h"
 #include "tools/formats/gltf_keys.h"
@@ -57,22 +56,6 @@ void settle_binary(GltfAsset& asset, std::span<const std::string_view> buffers)
     list[0].erase("uri");
 }
 
-// A picture in the text of a GLB is one that the validator warns of; in the chunk it is as it should be.
-void move_pictures_into_chunk(GltfAsset& asset)
-{
-    const auto images = asset.document->find("images");
-    if (images == asset.document->end() || !images->is_array()) return;
-    for (Json& image : *images) {
-        if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
-        const std::optional<DataUri> data = data_of(image["uri"].get_ref<const std::string&>());
-        if (!data || data->kind.empty()) continue;
-        image.erase("uri");
-        if (!image.contains("mimeType")) image["mimeType"] = data->kind;
-        image["bufferView"] = asset.list("bufferViews").size();
-        asset.list("bufferViews").push_back(asset.add_bytes(data->bytes));
-    }
-}
-
 }  // namespace
 
 GltfContainer with_changes(const GltfContainer& file, std::span<const std::string_view> buffers,
@@ -80,13 +63,11 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
 {
     GltfAsset asset;
     asset.document = gltf_document(from, file.json);
-    if (binary) {
+    if (binary)
         settle_binary(asset, buffers);
-        move_pictures_into_chunk(asset);
-    } else {
+    else
         settle_text(asset, buffers);
-    }
-    for_each_uri(*asset.document, [&](Json& object) {
+    for_each_uri(asset.document, [&](Json& object) {
         auto& uri = object["uri"].get_ref<std::string&>();
         if (!is_data_uri(uri)) uri = moved_uri(uri, from, to);
     });
@@ -98,7 +79,7 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
     if (binary && asset.bytes.empty() && buffers.empty()) list.clear();
     asset.drop_empty_lists();
     GltfContainer out;
-    out.json = asset.document->dump();
+    out.json = asset.document.dump();
     out.is_binary = binary;
     if (binary) {
         out.bytes = std::move(asset.bytes);

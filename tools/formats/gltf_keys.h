@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A glTF document on its way into a file, and keys put into its animation. What only the replaced keys used is used by
-// the new ones, so that nothing without a use is left behind. Knows no file.
+// A glTF document on its way into a file, and keys put into its animation. What only the replaced keys used stays
+// without a use. Knows no file.
 
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace swivel::formats {
 
 // Its JSON, and where new bytes go.
 struct GltfAsset {
-    GltfDocument document;
+    nlohmann::json document;
     std::string bytes;       // of the GLB's chunk, or of a new buffer
     std::size_t buffer = 0;  // whose bytes these are
 
