@@ -135,7 +135,7 @@ TEST_CASE("help: a slip in a command or an option is told")
          std::vector<Words>{{"--characters", "5", "demo"}, {"--characters=5", "demo"}, {"--characters", "5"}})
         CHECK(said(early) == "swivel: --characters is an option of a command; write it after the command\n");
     CHECK(said({"-o", "y", "solve", "x"}) == "swivel: -o is an option of a command; write it after the command\n");
-    CHECK(said({"--toml", "demo"}) == "swivel: there is no option --toml; see swivel --help\n");  // demo has none
+    CHECK(said({"--joints", "demo"}) == "swivel: there is no option --joints; see swivel --help\n");  // demo has none
     CHECK(said({"solve", "x", "--limbs", "arms", "--limbs", "legs"}) ==
           "swivel: --limbs is given twice; give it once\n");
     CHECK(said({"solve", "x", "-o", "a.csv", "--out", "b.csv"}) == "swivel: --out is given twice; give it once\n");
@@ -223,7 +223,6 @@ TEST_CASE("help: bash completes commands, options and their values")
                                                                     {"swivel solve --limbs =", "arms legs all"},
                                                                     {"swivel solve --fps 3", ""},
                                                                     {"swivel solve --form", "--format"},
-                                                                    {"swivel rig --to", "--toml"},
                                                                     {"swivel completion z", "zsh"},
                                                                     {"swivel help ver", "verify"}};
     std::string script = "source ./swivel.bash\n", expected;

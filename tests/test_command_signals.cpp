@@ -178,7 +178,6 @@ TEST_CASE("process: a standard output that is full is one line and exit code 1, 
                                                  {"info"},
                                                  {"info", "--json"},
                                                  {"rig", "clip.bvh"},
-                                                 {"rig", "clip.bvh", "--toml"},
                                                  {"rig", "clip.bvh", "--json"},
                                                  {"solve", "clip.bvh"},
                                                  {"demo", "--characters", "2", "--frames", "2"}}) {

@@ -21,7 +21,7 @@ SAMPLE = 10  # of the requests of one command line, in each of both ways
 ONE = ("--threads", "1")
 LINES = [
     ("--version",), ("slove",), ("help", "solve"), ("help", "--man"), ("completion", "zsh"), ("info", "--json"),
-    ("rig", "clip.bvh", "--joints"), ("rig", "figure.glb", "--json", "--joints"), ("rig", "clip.bvh", "--toml"), ("rig", "table.csv"),
+    ("rig", "clip.bvh", "--joints"), ("rig", "figure.glb", "--json", "--joints"), ("rig", "table.csv"),
     ("solve", "clip.bvh", "--crowd", "crowd.toml", "--out", "o.csv", "--report", "r.html", "--view", "v.html", "--export-targets", "t.csv", *ONE),
     ("solve", "clip.bvh", "--targets", "table.csv", "--out", "o.bvh", "--json", *ONE), ("solve", "figure.glb", "--out", "o.glb", *ONE),
     ("view", "clip.bvh", "--characters", "3", *ONE), ("view", "full", *ONE), ("steps", "--json"), ("steps", "clip.bvh", "--frame", "1"),

@@ -83,7 +83,7 @@ struct RigOptions {
     std::string file, kinds = "all";
     MotionChoice motion;
     std::vector<std::string> arms, legs;
-    bool joints = false, toml = false, json = false;
+    bool joints = false, json = false;
 };
 void run_rig(const RigOptions& options);
 

@@ -19,8 +19,6 @@ namespace swivel::tools {
 
 void run_rig(const RigOptions& options)
 {
-    if (options.toml && (options.json || options.joints))
-        throw CommandError(2, "--toml prints a crowd file and nothing else; leave out --json and --joints");
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     MotionFile motion(options.file, options.motion);
     LimbChoice choice;
@@ -33,8 +31,6 @@ void run_rig(const RigOptions& options)
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
         print_json(json_of(motion, options.file, search, options.joints));
-    else if (options.toml)
-        print_crowd_file(motion, options.file, search);
     else
         print_rig(motion, options.file, search, options.joints);
     if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))
