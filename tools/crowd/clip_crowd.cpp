@@ -6,7 +6,6 @@
 #include <chrono>
 #include <type_traits>
 
-#include "tools/crowd/limb_setups.h"
 #include "tools/crowd/parallel.h"
 
 namespace swivel::tools {
