@@ -46,9 +46,9 @@ TEST_CASE("bvh: a tiny file gives its joints and known positions")
         world_pose(clip, 1);  // Rz Rx Ry in this order: y first, x to -z, z keeps it
     CHECK((second_w[1].position - Vector3d(10, 30, 30)).norm() < 1e-12);
     CHECK((second_w[2].position - Vector3d(10, 30, 25)).norm() < 1e-12);
-    const std::vector<Vector3d> rest_w = rest_positions(clip);
-    CHECK(rest_w[0] == Vector3d(1, 2, 3));
-    CHECK(rest_w[2] == Vector3d(6, 12, 3));
+    const std::vector<JointPose> rest_w = rest_pose(clip);
+    CHECK(rest_w[0].position == Vector3d(1, 2, 3));
+    CHECK(rest_w[2].position == Vector3d(6, 12, 3));
 }
 
 TEST_CASE("clip: joints by name, path and family")

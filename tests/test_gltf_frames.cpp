@@ -208,21 +208,6 @@ TEST_CASE("gltf frames: each joint goes by steps or evenly as it did, and one th
     }
 }
 
-TEST_CASE("gltf frames: channels with the same keys share them")
-{
-    GltfRig rig = body_rig();
-    add_keys(rig, Body::hips, "translation", {0, 2800});
-    json& animation = rig.json["animations"][0];
-    animation["samplers"].push_back(json(animation["samplers"][0]));
-    for (int node = 1; node < Body::count; ++node) {
-        animation["channels"].push_back({{"sampler", node % 2}, {"target", {{"node", node}, {"path", "translation"}}}});
-        animation["channels"].push_back({{"sampler", node % 2}, {"target", {{"node", node}, {"path", "scale"}}}});
-    }
-    const GltfFile file = frames_of(rig);
-    CHECK(file.channels.size() == 15);
-    CHECK(file.samplers.size() == 1);
-}
-
 TEST_CASE("gltf frames: what the solver does not hold is refused at a limb's joint, with node and value")
 {
     const auto refuses = [](const GltfRig& rig, const char* part) {

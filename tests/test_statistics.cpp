@@ -49,30 +49,6 @@ void add(LimbStatistics& to, const Pose& pose)
 
 }  // namespace
 
-TEST_CASE("statistics: a run went wrong where most limbs are out of reach or have bad input, each counted once")
-{
-    rc::prop("", [](std::uint32_t seed) {
-        std::mt19937 random(seed);
-        constexpr std::uint32_t words[] = {SWIVEL_REACHED, SWIVEL_CLAMPED_FAR, SWIVEL_CLAMPED_NEAR, SWIVEL_BAD_INPUT,
-                                           SWIVEL_BAD_INPUT | SWIVEL_CLAMPED_FAR};
-        Statistics statistics;
-        std::uint64_t lost = 0, count = random() % 12;
-        for (std::uint64_t n = 0; n < count; ++n) {
-            const std::size_t kind = random() % 2 == 0 ? 0 : 1 + random() % 4;
-            const auto limb = kLimbNames[random() % 4];
-            const bool is_near = random() % 2 == 0;  // clamped by rounding at the end of the reach
-            statistics.of(limb.kind).add_flags(words[kind], is_near ? 1e-6 : 1e-3, {n, 0, limb});
-            lost += (words[kind] & SWIVEL_BAD_INPUT) != 0 || (kind != 0 && !is_near);
-        }
-        Statistics sum;
-        sum.arms.add(statistics.arms);
-        sum.legs.add(statistics.legs);
-        RC_ASSERT(sum.limb_count() == count);
-        RC_ASSERT(sum.unreached() + sum.bad() == lost);
-        RC_ASSERT(went_wrong(sum) == (lost > count - lost));
-    });
-}
-
 TEST_CASE("statistics: in any order, in any parts, the worst limbs are those of all, each in its worst pose")
 {
     rc::prop("", [](std::uint32_t seed) {

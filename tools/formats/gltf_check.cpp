@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/formats/gltf_check.h"
+#include "tools/formats/gltf_json.h"
 
 #include <fmt/format.h>
 

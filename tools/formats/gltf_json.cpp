@@ -7,7 +7,6 @@
 #include <string>
 
 #include "tools/formats/error.h"
-#include "tools/formats/gltf_check.h"
 #include "tools/formats/printable.h"
 
 namespace swivel::formats {

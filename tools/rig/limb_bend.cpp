@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "tools/rig/cannot_bind.h"
 #include "tools/rig/vectors.h"
 
 namespace swivel::tools {

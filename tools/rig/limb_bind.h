@@ -10,7 +10,6 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/formats/clip.h"
-#include "tools/rig/cannot_bind.h"
 #include "tools/rig/facing.h"
 #include "tools/rig/limb_chain.h"
 #include "tools/rig/limb_joints.h"

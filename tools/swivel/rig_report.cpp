@@ -100,9 +100,9 @@ std::string shown_path(const Clip& clip, int joint)
 
 void print_joints(const Clip& clip)
 {
-    const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
+    const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
     for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
-        say(stdout, "#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(places_w[joint]),
+        say(stdout, "#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(rest_w[joint].position),
             shown_path(clip, static_cast<int>(joint)), clip.joints[joint].is_bone ? "" : " (no bone)");
 }
 
