@@ -20,13 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-json rig_report(const TempFolder& folder)
-{
-    const Outcome outcome = run_command(folder.path, {"rig", "rig.glb", "--json"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    return json::parse(outcome.out);
-}
+json rig_report(const TempFolder& folder) { return report_of(folder.path, {"rig", "rig.glb"}); }
 
 // Of a figure with its limbs along these directions on its left: the words for the axes of each limb.
 std::vector<std::array<std::string, 3>> words_of(const Vector3d& arm, const Vector3d& leg,
@@ -57,11 +51,9 @@ std::string lines_of(const std::string& report, const std::string& limb)
 int limited(const TempFolder& folder, const std::string& toml, std::vector<std::string> options = {})
 {
     spill(folder / "crowd.toml", toml);
-    options.insert(options.begin(), {"solve", "rig.glb", "--crowd", "crowd.toml", "--json"});
-    const Outcome outcome = run_command(folder.path, options);
-    INFO(toml << outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    const json flags = json::parse(outcome.out).at("flags");
+    INFO(toml);
+    options.insert(options.begin(), {"solve", "rig.glb", "--crowd", "crowd.toml"});
+    const json flags = report_of(folder.path, options).at("flags");
     return flags.at("limited by shoulder cone").get<int>() + flags.at("limited by flexion").get<int>();
 }
 

@@ -49,15 +49,6 @@ void require_refused(const Outcome& outcome, const std::string& part)
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
 }
 
-json report_of(const TempFolder& folder, Words words)
-{
-    words.push_back("--json");
-    const Outcome outcome = run_command(folder.path, words);
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    return json::parse(outcome.out);
-}
-
 // Arms of these sides, as joints in a row: LeftArm, LeftForeArm, LeftHand.
 void write_arms(const fs::path& path, const Words& sides)
 {
@@ -128,7 +119,7 @@ TEST_CASE("rigs: an option names a limb of its own side alone, and the other is 
         spill(folder / "crowd.toml", toml);
         options.insert(options.begin(), {"solve", "rig.glb", "--crowd", "crowd.toml"});
         Words found;
-        const json report = report_of(folder, options);
+        const json report = report_of(folder.path, options);
         for (const json& limb : report.at("arms_bound"))
             found.push_back(limb.at("side").get<std::string>() + " " + limb.at("shoulder").get<std::string>());
         return found;
@@ -145,7 +136,7 @@ TEST_CASE("rigs: an option names a limb of its own side alone, and the other is 
     CHECK(bound(arms + third, {"--arm", joints_of("Left")}) == Words{"left LeftArm", "right ThirdArm"});
     CHECK(bound(arms + third, {"--arm", joints_of("Right")}) == Words{"left LeftArm", "right RightArm"});
     CHECK(bound(third, fourth_left) == Words{"left FourthArm", "right ThirdArm"});
-    const json rig = report_of(folder, {"rig", "rig.glb", "--arm", "right:" + joints_of("Third")});
+    const json rig = report_of(folder.path, {"rig", "rig.glb", "--arm", "right:" + joints_of("Third")});
     CHECK(limb_of(rig, "left_arm").at("joints")[0] == "LeftArm");
     CHECK(limb_of(rig, "right_arm").at("joints")[0] == "ThirdArm");
 }
@@ -155,10 +146,10 @@ TEST_CASE("rigs: a joint that is named for one limb is no other's")
     const TempFolder folder;
     write_arms(folder / "rig.glb", {"Left", "Right"});
     const std::string left = "left:" + joints_of("Right"), right = "right:" + joints_of("Right");
-    const json report = report_of(folder, {"rig", "rig.glb", "--arm", left});
+    const json report = report_of(folder.path, {"rig", "rig.glb", "--arm", left});
     CHECK(report["limbs"][0]["joints"][0] == "RightArm");
     CHECK(report["limbs"][1]["problem"] == "'RightArm' is named for the left arm");
-    CHECK(report_of(folder, {"solve", "rig.glb", "--limbs", "arms", "--arm", left})["missing"][0]["problem"] ==
+    CHECK(report_of(folder.path, {"solve", "rig.glb", "--limbs", "arms", "--arm", left})["missing"][0]["problem"] ==
           "'RightArm' is named for the left arm");
     const auto refused = [&](std::vector<std::string> options, const std::string& message) {
         options.insert(options.begin(), {"solve", "rig.glb"});
@@ -180,7 +171,7 @@ TEST_CASE("rigs: rig and solve see the same figure, of which one limb alone is n
     const TempFolder folder;
     rig_of({.left_at = -1, .toe_step = {}}).write(folder / "rig.glb");  // it faces -z
     const auto right_arm = [&](const char* command, const char* limbs) {
-        const json report = report_of(folder, {command, "rig.glb", "--arm", "right:" + joints_of("Left")});
+        const json report = report_of(folder.path, {command, "rig.glb", "--arm", "right:" + joints_of("Left")});
         for (const json& limb : report.at(limbs))
             if (limb.contains("bend")) return limb;
         return json();

@@ -25,15 +25,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-json report_of(const fs::path& path, const Words& options = {}, int exit_code = 0)
+json rig_of_file(const fs::path& path, Words options = {}, int exit_code = 0)
 {
-    Words words = {"rig", path.string(), "--json"};
-    words.insert(words.end(), options.begin(), options.end());
-    const Outcome outcome = run_command(path.parent_path(), words);
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == exit_code);
-    CHECK(outcome.err.empty() == (exit_code == 0));
-    return json::parse(outcome.out);
+    options.insert(options.begin(), {"rig", path.string()});
+    return report_of(path.parent_path(), options, exit_code);
 }
 
 std::vector<LimbNodes> bound_limbs(const json& report)
@@ -149,7 +144,7 @@ TEST_CASE("rigs: every animation of the shared figures comes back")
             INFO(file.name << ", animation " << index);
             Words options = file.options;
             if (index > 0) options.insert(options.end(), {"--clip", std::to_string(index)});
-            const std::vector<LimbNodes> bound = bound_limbs(report_of(path, options));
+            const std::vector<LimbNodes> bound = bound_limbs(rig_of_file(path, options));
             CHECK(bound.size() == file.limbs);
             solve(path, index, files.back().second, file.options);
             require_closed(closure(plain_gltf_of(path), plain_gltf_of(files.back().second), index, bound));
@@ -166,7 +161,7 @@ TEST_CASE("rigs: the bends of the shared figures")
         if (path.empty()) continue;
         INFO(file.name);
         const PlainGltf plain = plain_gltf_of(path);
-        const json report = report_of(path, file.options);
+        const json report = rig_of_file(path, file.options);
         for (const json& limb : report.at("limbs")) {
             if (limb.at("bound") == false) continue;
             const Eigen::Affine3d upper = plain_world(plain, -1, limb.at("numbers")[0], 0);
@@ -177,7 +172,7 @@ TEST_CASE("rigs: the bends of the shared figures")
         const fs::path path = find_or_warn(name);
         if (path.empty()) continue;
         INFO(name);
-        const json report = report_of(path);
+        const json report = rig_of_file(path);
         CHECK(bound_limbs(report).size() == 4);
         for (const json& limb : report.at("limbs"))  // BVH rests without rotations
             judge_bend(limb, vector_of(limb.at("bend")), kZ, {name, 1, 4, "clip", "clip"});
@@ -238,7 +233,7 @@ TEST_CASE("rigs: what is scaled unevenly by little is off by no more than the re
         const auto is_odd = [&](const LimbNodes& limb) { return unevenness_above(plain, limb) > 1e-3; };
         const auto odd_count =
             static_cast<std::size_t>(std::count_if(figure.limbs.begin(), figure.limbs.end(), is_odd));
-        const json report = report_of(folder / "in.glb", {}, odd_count == 4 ? 1 : 0);
+        const json report = rig_of_file(folder / "in.glb", {}, odd_count == 4 ? 1 : 0);
         refused += odd_count;
         for (std::size_t n = 0; n < 4; ++n) {
             const json limb = limb_of(report, kLimbs[n]);
