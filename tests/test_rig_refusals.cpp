@@ -128,7 +128,7 @@ TEST_CASE("rigs: an option names a limb of its own side alone, and the other is 
     const Words fourth_left = {"--arm", "left:" + joints_of("Fourth")};
     CHECK(bound(arms, {}) == Words{"left LeftArm", "right RightArm"});
     CHECK(bound(arms, fourth_left) == Words{"left FourthArm", "right RightArm"});
-    CHECK(bound("", fourth_left) == Words{"left FourthArm"});  // no kind is asked for
+    CHECK(bound("[crowd]\n", fourth_left) == Words{"left FourthArm"});  // no kind is asked for
     CHECK(bound(arms + third, {}) == Words{"left LeftArm", "right ThirdArm"});
     CHECK(bound(arms + third, fourth_left) == Words{"left FourthArm", "right ThirdArm"});
     CHECK(bound(arms + third, {"--arm", "right:" + joints_of("Fourth")}) == Words{"left LeftArm", "right FourthArm"});
