@@ -54,8 +54,8 @@ void solve(const fs::path& path, int index, const fs::path& out, Words options =
 // Files as they were read and as they were written.
 using WrittenFiles = std::vector<std::pair<fs::path, fs::path>>;
 
-// Khronos' validator has no error or warning about a written file that it has not about its source. (But a GLB says that
-// it goes on using a picture in the text.)
+// Khronos' validator has no error or warning about a written file that it has not about its source. (But a GLB says
+// that it goes on using a picture in the text.)
 void require_no_new_messages(const WrittenFiles& files)
 {
     const std::vector<std::multiset<std::string>> news = new_gltf_messages(files);
