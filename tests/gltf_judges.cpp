@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gltf_judges.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <iterator>
 
 namespace swivel::test {
 
@@ -17,15 +19,12 @@ nlohmann::json ask_check(std::vector<std::string> arguments)
     return nlohmann::json::parse(outcome.out);
 }
 
-std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::string>* warnings)
+std::multiset<std::string> gltf_errors(const fs::path& path)
 {
     std::multiset<std::string> errors;
     const nlohmann::json reports = ask_check({"validate", path.string()});
     for (const auto& message : reports.at(0).at("messages"))
-        if (message.at("severity") == 0)
-            errors.insert(message.dump());
-        else if (warnings && message.at("severity") == 1)
-            warnings->insert(message.dump());
+        if (message.at("severity") == 0) errors.insert(message.dump());
     return errors;
 }
 
@@ -34,15 +33,19 @@ std::vector<std::multiset<std::string>> new_gltf_messages(const std::vector<std:
     std::vector<std::string> arguments = {"validate"};
     for (const auto& [source, written] : files) arguments.insert(arguments.end(), {source.string(), written.string()});
     const nlohmann::json reports = ask_check(arguments);
-    const auto text = [](const nlohmann::json& message) {
-        return message.at("code").get<std::string>() + ' ' + message.value("pointer", "");
+    const auto said_of = [&](std::size_t n) {
+        std::multiset<std::string> said;
+        for (const auto& message : reports.at(n).at("messages"))
+            if (message.at("severity") <= 1)
+                said.insert(message.at("code").get<std::string>() + ' ' + message.value("pointer", ""));
+        return said;
     };
     std::vector<std::multiset<std::string>> news;
     for (std::size_t n = 0; n < files.size(); ++n) {
-        std::multiset<std::string>& said = news.emplace_back();
-        for (const auto& message : reports.at(2 * n + 1).at("messages")) said.insert(text(message));
-        for (const auto& message : reports.at(2 * n).at("messages"))
-            if (const auto known = said.find(text(message)); known != said.end()) said.erase(known);
+        const std::multiset<std::string> before = said_of(2 * n), after = said_of(2 * n + 1);
+        std::multiset<std::string>& added = news.emplace_back();
+        std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                            std::inserter(added, added.end()));
     }
     return news;
 }

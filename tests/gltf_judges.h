@@ -17,10 +17,10 @@ namespace swivel::test {
 
 nlohmann::json ask_check(std::vector<std::string> arguments);
 
-// The validator's errors, each as text; and in `warnings`, where given, its warnings.
-std::multiset<std::string> gltf_errors(const fs::path& path, std::multiset<std::string>* warnings = nullptr);
+// The validator's errors, each as text.
+std::multiset<std::string> gltf_errors(const fs::path& path);
 
-// The validator's messages of every kind about `written` that it does not have about `source`, code and place of each.
+// The validator's errors and warnings about `written` that it does not have about `source`, code and place of each.
 std::multiset<std::string> new_gltf_messages(const fs::path& source, const fs::path& written);
 
 // The same of many pairs of source and written file, in their order.

@@ -21,7 +21,7 @@ struct FigureNames {
     const char *left, *right;
 };
 
-// As the exporters spell them.
+// As some exporters spell them; tests/test_limb_joints.cpp has all.
 const std::vector<FigureNames>& figure_names();
 
 struct FigureWish {

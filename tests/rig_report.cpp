@@ -16,6 +16,16 @@ std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>&
     return keys;
 }
 
+nlohmann::json report_of(const fs::path& folder, std::vector<std::string> words, int exit_code)
+{
+    words.push_back("--json");
+    const Outcome outcome = run_command(folder, words);
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == exit_code);
+    CHECK(outcome.err.empty() == (exit_code == 0));
+    return nlohmann::json::parse(outcome.out);
+}
+
 nlohmann::json rig_report(const GltfRig& rig, const std::vector<std::string>& options)
 {
     const TempFolder folder;

@@ -4,11 +4,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cctype>
-#include <random>
 
 #include "tests/bvh_samples.h"
 #include "tests/complaint.h"
+#include "tests/plain_motion.h"
 #include "tests/test_data.h"
 #include "tools/formats/bvh.h"
 #include "tools/formats/clip.h"
@@ -25,27 +26,6 @@ namespace {
 std::string complaint(const TempFolder& folder, std::string_view text)
 {
     return complaint_of(folder, [&] { read(folder, text); });
-}
-
-// World transforms of one frame by 4x4 matrices, channel by channel in the file's order.
-std::vector<Eigen::Affine3d> matrices_w(const BvhFile& file, const double* values)
-{
-    std::vector<Eigen::Affine3d> all_w;
-    for (std::size_t i = 0; i < file.joints.size(); ++i) {
-        const Joint& joint = file.clip.joints[i];
-        Vector3d translation = joint.offset;
-        Eigen::Affine3d turned = Eigen::Affine3d::Identity();
-        for (const Channel channel : file.joints[i].channels) {
-            const int code = static_cast<int>(channel);
-            if (code < 3)
-                translation[code] = *values++;
-            else
-                turned.rotate(turn(static_cast<char>('X' + code - 3), *values++));
-        }
-        const Eigen::Affine3d local = Eigen::Translation3d(translation) * turned;
-        all_w.push_back(joint.parent < 0 ? local : all_w[static_cast<std::size_t>(joint.parent)] * local);
-    }
-    return all_w;
 }
 
 }  // namespace
@@ -66,9 +46,9 @@ TEST_CASE("bvh: a tiny file gives its joints and known positions")
         world_pose(clip, 1);  // Rz Rx Ry in this order: y first, x to -z, z keeps it
     CHECK((second_w[1].position - Vector3d(10, 30, 30)).norm() < 1e-12);
     CHECK((second_w[2].position - Vector3d(10, 30, 25)).norm() < 1e-12);
-    const std::vector<Vector3d> rest_w = rest_positions(clip);
-    CHECK(rest_w[0] == Vector3d(1, 2, 3));
-    CHECK(rest_w[2] == Vector3d(6, 12, 3));
+    const std::vector<JointPose> rest_w = rest_pose(clip);
+    CHECK(rest_w[0].position == Vector3d(1, 2, 3));
+    CHECK(rest_w[2].position == Vector3d(6, 12, 3));
 }
 
 TEST_CASE("clip: joints by name, path and family")
@@ -135,11 +115,6 @@ TEST_CASE("bvh: dialects give the same clip")
 TEST_CASE("bvh: unusual channels, names and roots are read")
 {
     const TempFolder folder;
-    SECTION("one channel")
-    {
-        const Clip clip = read(folder, one_joint("1 Yrotation", "90\n", 1)).clip;
-        CHECK(angle_between(clip.rotation[0], Quaterniond(turn('Y', 90))) < 1e-15);
-    }
     SECTION("six channels, rotations first and one position alone")
     {
         const std::string mixed = "6 Xrotation Zposition Yrotation Xposition Zrotation Yposition";
@@ -161,16 +136,6 @@ TEST_CASE("bvh: unusual channels, names and roots are read")
         CHECK(child_joints(clip, -1) == std::vector<int>{0, 1});
         CHECK(world_pose(clip, 0)[1].position == Vector3d(7, 0, 0));
     }
-    SECTION("as many lines as announced") { CHECK(read(folder, kTiny).surplus_count == 0); }
-    SECTION("lines beyond those announced, with blank ones between")
-    {
-        const BvhFile file = read(folder, kTiny + "\n1 2 3 4 5 6 7 8 9\n\n1 2 3 4 5 6 7 8 9\n\n");
-        CHECK(file.clip.frame_count == 2);
-        CHECK(file.surplus_count == 2);
-        CHECK(file.frames_line == 21);
-        write_bvh(folder / "w.bvh", file, {});
-        CHECK(slurp(folder / "w.bvh") == file.text);
-    }
     SECTION("one line more than announced")
     {
         const BvhFile file = read(folder, edited(kTiny, "Frames: 2", "Frames: 1"));
@@ -181,17 +146,6 @@ TEST_CASE("bvh: unusual channels, names and roots are read")
         write_bvh(folder / "w.bvh", file, {{{1, one}}});
         CHECK_THAT(slurp(folder / "w.bvh"),
                    Contains("90 0 0 0.000000000 0.000000000 0.000000000\n10 20 30 0 0 0 90 0 90\n"));
-    }
-    SECTION("nested to the limit")
-    {
-        std::string open = "HIERARCHY\n", close;
-        for (int depth = 0; depth < 1000; ++depth) {
-            open += depth == 0 ? "ROOT a\n{\nOFFSET 0 0 1\nCHANNELS 1 Zrotation\n" : "JOINT a\n{\nOFFSET 0 0 1\n";
-            close += "}\n";
-        }
-        const Clip clip = read(folder, open + close + "MOTION\nFrames: 1\nFrame Time: 1\n5\n").clip;
-        CHECK(world_pose(clip, 0)[999].position == Vector3d(0, 0, 1000));
-        CHECK(joint_path(clip, 999).size() == 1999);
     }
 }
 
@@ -208,49 +162,34 @@ TEST_CASE("bvh: malformed files are refused with line and cause")
         {"ROOT Hips", "ROOT", "t.bvh:2: a joint without a name"},
         {"Hips\n{", "Hips\nOFFSET", "t.bvh:3: 'OFFSET' where { should be"},
         {"OFFSET 1 2 3", "OFFSET 1 2", "t.bvh:4: OFFSET has fewer than three numbers"},
-        {"OFFSET 1 2 3", "OFFSET 1 2 3 4", "t.bvh:4: OFFSET has more than three numbers"},
         {"OFFSET 1 2 3", "OFFSET 1 1e30 3", "t.bvh:4: OFFSET: 1e+30 is more than 1e+15; correct it"},
         {"OFFSET 1 2 3", "OFFSET 1 nan 3", "t.bvh:4: OFFSET: 'nan' is not a finite decimal number"},
         {"OFFSET 1 2 3", "OFFSET 1 2 3\nOFFSET 1 2 3", "t.bvh:5: 'OFFSET' where OFFSET or CHANNELS (once"},
         {"  OFFSET 1 2 3\n", "", "t.bvh:18: joint 'Hips' has no OFFSET"},
         {"CHANNELS 6", "CHANNELS 7", "t.bvh:5: CHANNELS: '7' is not a count from 0 to 6"},
-        {"CHANNELS 6", "CHANNELS -1", "t.bvh:5: CHANNELS: '-1' is not a count"},
-        {"CHANNELS 6", "CHANNELS", "t.bvh:5: CHANNELS: 'Xposition' is not a count"},
         {"CHANNELS 3", "CHANNELS 2", "t.bvh:9: CHANNELS announces 2 and names 3"},
-        {"CHANNELS 3", "CHANNELS 4", "t.bvh:9: CHANNELS announces 4 and names 3"},
         {"Xrotation", "Wrotation", "t.bvh:5: unknown channel 'Wrotation'; known are"},
         {"Yposition", "Xposition", "t.bvh:5: CHANNELS names Xposition twice"},
         {"    }\n  }\n", "    }\n  CHANNELS 1 Xrotation\n  }\n", "t.bvh:18: 'CHANNELS' where OFFSET or CHANNELS (once"},
         {"        OFFSET 1 0 0\n", "        CHANNELS 0\n", "t.bvh:15: 'CHANNELS' where OFFSET should be"},
-        {"End Site", "End Site {\nJOINT x", "t.bvh:14: 'JOINT' where OFFSET should be"},
         {"MOTION\nFrames: 2", "Frames: 2", "t.bvh:20: 'Frames:' where ROOT or MOTION should be"},
-        {"}\nMOTION", "}\n}\nMOTION", "t.bvh:20: '}' where ROOT or MOTION should be"},
         {"}\nMOTION", "MOTION", "t.bvh:19: 'MOTION' where OFFSET or CHANNELS"},
         {"Frames: 2", "Frames: 0", "t.bvh:21: Frames: '0' is not a whole number above 0"},
-        {"Frames: 2", "Frames: -2", "t.bvh:21: Frames: '-2' is not a whole number"},
         {"Frames: 2", "Frames: 2.5", "t.bvh:21: Frames: '2.5' is not a whole number"},
-        {"Frames: 2", "Frames:", "t.bvh:21: Frames: '' is not a whole number"},
-        {"Frames: 2", "Frames: 99999999999999999999", "t.bvh:21: Frames: '99999999999999999999' is not"},
         {"Frames: 2", "Frames: 9000000000000000000",
          "t.bvh:24: the file ends after 2 of the 9000000000000000000 frames"},
         {"Frames: 2", "Frames: 3", "t.bvh:24: the file ends after 2 of the 3 frames announced in line 21; is it cut"},
         {last, last + last + "1 2\n", "t.bvh:26: 2 values, the channels need 9"},
-        {last, last + "1 2\n", "t.bvh:25: 2 values, the channels need 9"},
         {"Frame Time: .5", "Frame Time: 0", "t.bvh:22: Frame Time: '0' is not a number of seconds above 0"},
-        {"Frame Time: .5", "Frame Time: -1", "t.bvh:22: Frame Time: '-1' is not"},
-        {"Frame Time: .5", "Frame Time: inf", "t.bvh:22: Frame Time: 'inf' is not"},
         {"Frame Time: .5", "Frame Time: ,5", "t.bvh:22: Frame Time: ',5' is not"},
         {"Frame Time: .5\n", "", "t.bvh:22: '10' where Frame should be"},
         {last, "10 20 30 0 0 0 90 0\n", "t.bvh:24: 8 values, the channels need 9 (one frame is one line)"},
         {last, "10 20 30 0 0 0 90 0 90 1\n", "t.bvh:24: 10 values, the channels need 9"},
-        {last, "10 20 30 0 0\n0 90 0 90\n", "t.bvh:24: 5 values, the channels need 9"},
         {last, "10 20 30 0 0 0 90 nan 90\n", "t.bvh:24: value 8 (Arm Xrotation): 'nan' is not a finite"},
-        {last, "10 20 30 0 0 0 90 0 1e999\n", "t.bvh:24: value 9 (Arm Yrotation): '1e999' is not a finite"},
         {last, "10 20 30 0 0 0 90 0 1e308\n", "t.bvh:24: value 9 (Arm Yrotation): 1e+308 is more than 1e+09 degrees"},
         {last, "10 -2e15 30 0 0 0 90 0 0\n",
          "t.bvh:24: value 2 (Hips Yposition): -2e+15 is more than 1e+15; correct it"},
         {last, "10 2o 30 0 0 0 90 0 90\n", "t.bvh:24: value 2 (Hips Yposition): '2o' is not a finite"},
-        {last, "10 -inf 30 0 0 0 90 0 90\n", "t.bvh:24: value 2 (Hips Yposition): '-inf' is not a finite"},
     };
     const TempFolder folder;
     for (const Damage& damage : damages) {
@@ -291,25 +230,6 @@ TEST_CASE("bvh: a file cut anywhere is refused, unless only blanks or digits are
     }
 }
 
-TEST_CASE("bvh: mutated files are read or refused in one line")
-{
-    const TempFolder folder;
-    std::mt19937 random(11);
-    int read_count = 0;
-    for (int round = 0; round < 5000; ++round) {
-        const std::string text = mutated(kTiny, random);
-        CAPTURE(round, text);
-        if (!complaint(folder, text).empty()) continue;
-        ++read_count;
-        const BvhFile file = read_bvh(folder / "t.bvh");
-        REQUIRE(file.clip.rotation.size() == file.clip.frame_count * file.clip.joints.size());
-        write_bvh(folder / "copy.bvh", file, {});
-        REQUIRE(slurp(folder / "copy.bvh") == text);
-    }
-    CHECK(read_count > 200);
-    CHECK(read_count < 4800);
-}
-
 TEST_CASE("bvh: real files agree with matrices from the bare text and come back byte for byte")
 {
     must_find_jump();
@@ -319,42 +239,17 @@ TEST_CASE("bvh: real files agree with matrices from the bare text and come back 
         const BvhFile file = read_bvh(path);
         write_bvh(folder / "copy.bvh", file, {});
         CHECK(slurp(folder / "copy.bvh") == slurp(path));
-        const std::vector<double> values = motion_values(file.text);
-        REQUIRE(values.size() >= file.clip.frame_count * file.channel_count);  // Boxing_Toes.bvh has a line too many
+        const PlainMotion plain = plain_motion(file.text);
+        REQUIRE(plain.lines.size() >= file.clip.frame_count);  // Boxing_Toes.bvh has a line too many
         double worst = 0;
         for (std::size_t frame = 0; frame < file.clip.frame_count; frame += 97) {
             const std::vector<JointPose> pose_w = world_pose(file.clip, frame);
-            const std::vector<Eigen::Affine3d> wanted_w = matrices_w(file, &values[frame * file.channel_count]);
+            const std::vector<PlainPose> wanted_w = pose_of(plain, frame);
             for (std::size_t i = 0; i < pose_w.size(); ++i) {
-                worst = std::max(worst, (pose_w[i].position - wanted_w[i].translation()).norm());
-                worst = std::max(worst, (pose_w[i].rotation.toRotationMatrix() - wanted_w[i].linear()).norm());
+                worst = std::max(worst, (pose_w[i].position - wanted_w[i].position).norm());
+                worst = std::max(worst, (pose_w[i].rotation.toRotationMatrix() - wanted_w[i].rotation).norm());
             }
         }
         CHECK(worst < 1e-11);
-    }
-}
-
-TEST_CASE("bvh: the known shape of each CMU file")
-{
-    struct Known {
-        const char* name;
-        std::size_t frame_count;
-        double frame_time;
-    };
-    for (const Known& known :
-         {Known{"cmu_01_01_forward_jump.bvh", 2752, 0.0083333}, Known{"cmu_02_01_walk.bvh", 343, 0.008333},
-          Known{"cmu_05_06_dance.bvh", 885, 0.008333}}) {
-        const fs::path path = find_data(known.name);
-        if (path.empty()) {
-            WARN("skipped, not on this machine: " << known.name);
-            continue;
-        }
-        const Clip clip = read_bvh(path).clip;
-        CHECK(clip.joints.size() == 31);
-        CHECK(clip.frame_count == known.frame_count);
-        CHECK(clip.frame_time == known.frame_time);
-        REQUIRE(find_joints(clip, "LeftForeArm").size() == 1);
-        CHECK(joint_path(clip, find_joints(clip, "LeftForeArm")[0]) ==
-              "Hips/LowerBack/Spine/Spine1/LeftShoulder/LeftArm/LeftForeArm");
     }
 }

@@ -106,7 +106,7 @@ TEST_CASE("help: a slip in a command or an option is told")
     CHECK(said({"solve", "x", "--trgets=y"}) == "swivel: there is no option --trgets; did you mean --targets?\n");
     CHECK(said({"solve", "x", "y"}) == "swivel: 'y' is one word too many; see swivel solve --help\n");
     CHECK(said({"slove", "--limbs", "arms"}) == "swivel: there is no command 'slove'; did you mean solve?\n");
-    CHECK(said({"--toml", "demo"}) == "swivel: there is no option --toml; see swivel --help\n");
+    CHECK(said({"--joints", "demo"}) == "swivel: there is no option --joints; see swivel --help\n");
     CHECK(said({"solve", "x", "--limbs", "arms", "--limbs", "legs"}) ==
           "swivel: --limbs is given twice; give it once\n");
     CHECK(said({"solve", "x", "-o", "a.csv", "--out", "b.csv"}) == "swivel: --out is given twice; give it once\n");

@@ -139,7 +139,6 @@ TEST_CASE("process: a standard output that is full is one line and exit code 1, 
                                                  {"help", "solve"},
                                                  {"info", "--json"},
                                                  {"rig", "clip.bvh"},
-                                                 {"rig", "clip.bvh", "--toml"},
                                                  {"solve", "clip.bvh", "--json"},
                                                  {"demo", "--characters", "2", "--frames", "2"}}) {
         const Outcome outcome = spawn_command(stage.folder.path, words, full);

@@ -117,11 +117,6 @@ TEST_CASE("crowd file: joints and bend")
     }
     stage.require_refused("[limb.left_arm]\nbend = [1, 0, 0]\n",
                           "bend, limb.left_arm.bend of c.toml, is along its upper bone");
-    // What crowd files had before: the line to write instead binds as it did.
-    stage.require_refused(
-        "[limb.left_arm]\nhinge = [0, 1, 0]\n",
-        "limb.left_arm.hinge of c.toml is an axis, and a crowd file now says where the limb bends to; "
-        "write bend = [0.000, 0.000, 1.000] instead");
 }
 
 TEST_CASE("crowd file: target.offset and target.point")

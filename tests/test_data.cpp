@@ -2,7 +2,6 @@
 #include "tests/test_data.h"
 
 #include <unistd.h>
-#include <array>
 #include <cstdlib>
 
 namespace swivel::test {
@@ -73,35 +72,6 @@ std::string edited(std::string text, std::string_view from, std::string_view to)
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
-}
-
-std::string mutated(std::string text, std::mt19937& random)
-{
-    static constexpr std::array<std::string_view, 12> kScraps = {
-        "nan", "-", "1e999", "{", "}", "\n", ",", "99999999999999999999", "\r", "-1", "#", "JOINT"};
-    const auto below = [&](std::size_t limit) { return limit == 0 ? 0 : random() % limit; };
-    for (std::size_t accidents = 1 + below(4); accidents > 0; --accidents) {
-        const std::size_t at = below(text.size());
-        const std::size_t length = 1 + below(20);
-        switch (below(5)) {
-            case 0:
-                if (!text.empty()) text[at] = static_cast<char>(random() & 0xff);
-                break;
-            case 1:
-                text.erase(at, length);
-                break;
-            case 2:
-                text.insert(at, text.substr(at, length));
-                break;
-            case 3:
-                text.insert(at, kScraps[below(kScraps.size())]);
-                break;
-            default:
-                if (below(10) == 0) text.resize(at);
-                break;
-        }
-    }
-    return text;
 }
 
 TempFolder::TempFolder()

@@ -1,7 +1,7 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// Files for tests: real motion where a machine keeps it, a folder of its own for what a test writes, what a folder
-// holds, and text mutated at random. Real files are looked for in $SWIVEL_TEST_DATA, in Debian's assimp-testmodels, and
+// Files for tests: real motion where a machine keeps it, a folder of its own for what a test writes, and what
+// a folder holds. Real files are looked for in $SWIVEL_TEST_DATA, in Debian's assimp-testmodels, and
 // in ../shared/data beside the repository.
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <random>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -54,8 +53,5 @@ std::map<std::string, std::string> contents(const fs::path& folder);
 
 // `text` with the first `from` replaced by `to`; fails the test if there is none.
 std::string edited(std::string text, std::string_view from, std::string_view to);
-
-// `text` after one to four accidents: bytes changed, cut, doubled or inserted.
-std::string mutated(std::string text, std::mt19937& random);
 
 }  // namespace swivel::test

@@ -77,8 +77,7 @@ std::vector<Quaterniond> turns(std::size_t count, double step)
 
 int joint_of(const GltfFile& file, int node) { return find_joints(file.clip, "#" + std::to_string(node)).at(0); }
 
-// What must survive of a file: its JSON without what the writer owns. Accessors and buffer views 0 and 1 are the old
-// keys that nobody needs any more, and hold new ones.
+// What must survive of a file: its JSON without what the writer owns.
 json kept(json whole, std::size_t accessors, std::size_t views)
 {
     whole.erase("buffers");
@@ -86,7 +85,6 @@ json kept(json whole, std::size_t accessors, std::size_t views)
     whole["animations"][0].erase("samplers");
     whole["animations"][0].erase("channels");
     whole["nodes"][2] = {{"children", whole["nodes"][2]["children"]}, {"extras", whole["nodes"][2]["extras"]}};
-    for (const char* list : {"accessors", "bufferViews"}) whole[list][0] = whole[list][1] = nullptr;
     whole["accessors"].get_ref<json::array_t&>().resize(accessors);
     whole["bufferViews"].get_ref<json::array_t&>().resize(views);
     return whole;
@@ -111,10 +109,6 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
             const RotationOverride changes[] = {
                 {joint_of(file, 1), arm}, {joint_of(file, 2), fore}, {joint_of(file, 3), hand}};
             write_gltf(folder / to, file, changes);
-            std::multiset<std::string> warnings;
-            CHECK(gltf_errors(folder / to, &warnings).empty());
-            CHECK(warnings.empty());
-
             const PlainGltf before = plain_gltf_of(folder / from), after = plain_gltf_of(folder / to);
             const std::size_t accessors = rig.json["accessors"].size(), views = rig.json["bufferViews"].size();
             json wanted = kept(before.json, accessors, views), found = kept(after.json, accessors, views);
@@ -134,10 +128,7 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
                 CHECK(plain_local(after, 0, 2, time).translation() == Eigen::Vector3d(0.3, 0, 0));
             }
             CHECK((poses[0][3] - plain_world(after, 0, 3, 0.5).matrix()).norm() < 1e-5);
-            // No message that the source did not have; but a GLB says that it goes on using a file.
-            std::multiset<std::string> news = new_gltf_messages(folder / from, folder / to);
-            if (fs::path(to).extension() == ".glb") news.erase("URI_GLB /images/0/uri");
-            CHECK(news == std::multiset<std::string>());
+            CHECK(new_gltf_messages(folder / from, folder / to).empty());
             const json& image = after.json["images"][0];
             CHECK(image["uri"] ==
                   (std::string_view(to).starts_with("in/") ? "pic%20ture.png" : "../in/pic%20ture.png"));
@@ -147,31 +138,6 @@ TEST_CASE("gltf write: rotations go in, all else stays, in every shape of file")
                     CHECK(after.json["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()]
                                     ["interpolation"] == "STEP");
         }
-}
-
-TEST_CASE("gltf write: the validator does see what is wrong")
-{
-    const TempFolder folder;
-    GltfRig rig = furnished_rig();
-    rig.json["accessors"][1]["count"] = 99;
-    rig.write(folder / "rig.glb");
-    CHECK_FALSE(gltf_errors(folder / "rig.glb").empty());
-}
-
-TEST_CASE("gltf write: without overrides a file keeps its values and bytes")
-{
-    const TempFolder folder;
-    const GltfRig rig = furnished_rig();
-    rig.write(folder / "rig.glb");
-    spill(folder / "pic ture.png", kPixel);
-    write_gltf(folder / "same.gltf", read_clip(folder / "rig.glb"), {});
-    write_gltf(folder / "again.gltf", read_clip(folder / "same.gltf"), {});
-    CHECK(slurp(folder / "again.gltf") == slurp(folder / "same.gltf"));
-    const PlainGltf plain = plain_gltf_of(folder / "again.gltf");
-    json document = plain.json;
-    document.erase("buffers");
-    CHECK(document == rig.json);
-    CHECK(plain.buffers[0] == rig.bytes);
 }
 
 TEST_CASE("gltf write: successive keys lie on one side, and move evenly unless all went by steps")
@@ -193,23 +159,6 @@ TEST_CASE("gltf write: successive keys lie on one side, and move evenly unless a
         for (std::size_t c = 0; c < 4; ++c) dot += keys[n + c] * keys[n + c - 4];
         CHECK(dot >= 0);
     }
-}
-
-TEST_CASE("gltf write: a file without animations gets one")
-{
-    const TempFolder folder;
-    GltfRig rig;
-    const int root = rig.add("root", -1, {0, 0, 0});
-    rig.add("arm", root, {1, 0, 0});
-    rig.write(folder / "rig.glb");
-    const GltfFile file = read_clip(folder / "rig.glb");
-    const std::vector<Quaterniond> turn = {Quaterniond(0, 1, 0, 0)};
-    const RotationOverride change[] = {{1, turn}};
-    write_gltf(folder / "new.glb", file, change);
-    CHECK(gltf_errors(folder / "new.glb").empty());
-    const GltfFile written = read_clip(folder / "new.glb");
-    CHECK(written.animation_names == std::vector<std::string>{"swivel"});
-    CHECK(written.clip.rotation[1].isApprox(turn[0], 1e-7));
 }
 
 // Skeletons with so few or so many members that one more makes their list of members move in memory.
@@ -236,6 +185,7 @@ TEST_CASE("gltf write: keys go into files that have nothing yet to hold them")
             CHECK(gltf_errors(folder / to).empty());
             const PlainGltf after = plain_gltf_of(folder / to);
             CHECK(plain_local(after, 0, 1, 0).linear().isApprox(turn[0].toRotationMatrix(), 1e-7));
+            if (!whole.contains("animations")) CHECK(after.json["animations"][0]["name"] == "swivel");
             for (const auto& [name, value] : whole.items())
                 if (name != "animations" && name != "images") CHECK(after.json[name] == value);
             write_gltf(folder / to, read_clip(folder / "rig.gltf"), {});
@@ -254,38 +204,13 @@ TEST_CASE("gltf write: the caller's mistakes, and a folder that is not there")
     const auto write = [&](std::vector<RotationOverride> changes, const char* name = "new.glb") {
         write_gltf(folder / name, file, changes);
     };
-    CHECK_THROWS_AS(write({{99, good}}), std::invalid_argument);
-    CHECK_THROWS_AS(write({{-1, good}}), std::invalid_argument);
-    CHECK_THROWS_AS(write({{1, few}}), std::invalid_argument);
-    CHECK_THROWS_AS(write({{1, zero}}), std::invalid_argument);
-    CHECK_THROWS_AS(write({{1, good}, {1, good}}), std::invalid_argument);
+    for (const std::vector<RotationOverride>& changes :
+         {std::vector<RotationOverride>{{99, good}}, {{-1, good}}, {{1, few}}, {{1, zero}}, {{1, good}, {1, good}}})
+        CHECK_THROWS_AS(write(changes), std::invalid_argument);
     CHECK_THROWS_AS(write({{1, good}}, "no/new.glb"), InputError);
     GltfFile sheared = file;
     sheared.clip.joints[1].is_sheared = true;
     const RotationOverride change[] = {{1, good}};
     CHECK_THROWS_AS(write_gltf(folder / "new.glb", sheared, change), InputError);
     CHECK(folder.file_count() == 1);
-}
-
-TEST_CASE("gltf write: real files come out without errors")
-{
-    for (const char* name : {"RobotExpressive.glb", "m2m_human_ymca.glb", "m2m_human_male.glb", "cesium_man.gltf",
-                             "simple_skin/simple_skin.gltf"}) {
-        const fs::path path = find_data(name);
-        if (path.empty()) {
-            WARN("skipped: this machine has no " << name);
-            continue;
-        }
-        INFO(name);
-        const TempFolder folder;
-        const GltfFile file = read_clip(path);
-        const auto turned = turns(file.clip.frame_count, 0.1);
-        const RotationOverride change[] = {{bones_of(file.clip).back(), turned}};
-        write_gltf(folder / "new.glb", file, change);
-        std::multiset<std::string> news = new_gltf_messages(path, folder / "new.glb");
-        news.erase("URI_GLB /images/0/uri");
-        CHECK(news == std::multiset<std::string>());
-        const PlainGltf before = plain_gltf_of(path), after = plain_gltf_of(folder / "new.glb");
-        CHECK(after.buffers[0].substr(0, before.buffers[0].size()) == before.buffers[0]);
-    }
 }

@@ -214,31 +214,6 @@ TEST_CASE("weights blend with the incoming pose")
     });
 }
 
-TEST_CASE("the elbow's flexion stays within its limit")
-{
-    rc::prop("the wrist stops short, and the limit is said", [](std::uint64_t seed) {
-        LimbUse use;
-        use.limits.flexion = true;
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            const double least = random.between(0, 1.5), most = random.between(least, 3.1);
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.limits.flexion = {static_cast<float>(std::cos(least / 2)), static_cast<float>(std::cos(most / 2))};
-            const Solved<float> got = solve(use, goal);
-            const double flexion = 2 * std::atan2(double{got.pose.arm.sin_half}, double{got.pose.arm.cos_half});
-            RC_ASSERT(flexion >= least - 1e-3 && flexion <= most + 1e-3);
-            const double free = 2 * std::atan2(double{solve<float>(arm).sin_half}, double{solve<float>(arm).cos_half});
-            const bool inside = free > least + 1e-3 && free < most - 1e-3;
-            if (inside) RC_ASSERT(got.pose.arm.flags == SWIVEL_REACHED);
-            if (free < least - 1e-3)
-                RC_ASSERT(got.pose.arm.flags == (SWIVEL_CLAMPED_FAR | SWIVEL_LIMITED_FLEXION) &&
-                          std::fabs(flexion - least) <= 1e-3);
-            if (free > most + 1e-3)
-                RC_ASSERT(got.pose.arm.flags == (SWIVEL_CLAMPED_NEAR | SWIVEL_LIMITED_FLEXION) &&
-                          std::fabs(flexion - most) <= 1e-3);
-        });
-    });
-}
-
 TEST_CASE("a limit of flexion that stretching makes up for is not said; an arm of no length reaches nothing")
 {
     LimbUse use;

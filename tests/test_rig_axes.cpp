@@ -6,13 +6,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <string>
 
 #include "swivel/swivel.hpp"
 #include "tests/plain_gltf.h"
 #include "tests/random_figure.h"
-#include "tests/rig_report.h"
+#include "tests/rig_body.h"
 #include "tests/run_command.h"
 
 using namespace swivel::test;
@@ -21,33 +20,13 @@ using nlohmann::json;
 
 namespace {
 
-json rig_report(const TempFolder& folder)
-{
-    const Outcome outcome = run_command(folder.path, {"rig", "rig.glb", "--json"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    return json::parse(outcome.out);
-}
+json rig_report(const TempFolder& folder) { return report_of(folder.path, {"rig", "rig.glb"}); }
 
-// Of a figure with its limbs along these directions: the words for the axes of each limb.
-std::vector<std::array<std::string, 3>> words_of(const std::array<Vector3d, 4>& along, const Eigen::Quaterniond& turn)
+// Of a figure with its limbs along these directions on its left: the words for the axes of each limb.
+std::vector<std::array<std::string, 3>> words_of(const Vector3d& arm, const Vector3d& leg,
+                                                 const Eigen::Quaterniond& turn)
 {
-    const TempFolder folder;
-    GltfRig rig;
-    const int hips = rig.add("Hips", -1, {0, 0, 0}, turn), chest = rig.add("Chest", hips, {0, 1, 0});
-    const std::array<std::array<std::string, 3>, 2> names = {{{"Arm", "ForeArm", "Hand"}, {"UpLeg", "Leg", "Foot"}}};
-    for (std::size_t limb = 0; limb < 4; ++limb) {
-        const std::string side = limb % 2 == 0 ? "Left" : "Right";
-        int parent = limb < 2 ? chest : hips;
-        Vector3d step = {limb % 2 == 0 ? 0.1 : -0.1, 0, 0};
-        for (const std::string& name : names[limb / 2]) {
-            parent = rig.add(side + name, parent, step);
-            step = along[limb];
-        }
-        if (limb >= 2) rig.add(side + "Toe", parent, {0, 0, 0.1});
-    }
-    rig.write(folder / "rig.glb");
-    const json report = rig_report(folder);
+    const json report = swivel::test::rig_report(rig_of({.arm_bone = arm, .leg_bone = leg, .turn = turn}));
     CHECK(report.at("faces_by") == "the toes");
     CHECK(vector_of(report.at("faces")).isApprox(turn * Vector3d::UnitZ(), 1e-6));
     std::vector<std::array<std::string, 3>> words;
@@ -58,42 +37,52 @@ std::vector<std::array<std::string, 3>> words_of(const std::array<Vector3d, 4>& 
     return words;
 }
 
-int limited(const TempFolder& folder, const std::string& toml, const char* flag)
+// The lines for a crowd file that the report for people has of one limb; empty without any.
+std::string lines_of(const std::string& report, const std::string& limb)
+{
+    const std::size_t from = report.find("           [limb." + limb + "]\n");
+    if (from == std::string::npos) return {};
+    const std::size_t last = report.find("           flexion_deg", from);
+    REQUIRE(last != std::string::npos);
+    return report.substr(from, report.find('\n', last) + 1 - from);
+}
+
+// How many limbs a crowd file's limits hold back in a solve of all limbs.
+int limited(const TempFolder& folder, const std::string& toml, std::vector<std::string> options = {})
 {
     spill(folder / "crowd.toml", toml);
-    const Outcome outcome =
-        run_command(folder.path, {"solve", "rig.glb", "--limbs", "all", "--crowd", "crowd.toml", "--json"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    return json::parse(outcome.out).at("flags").at(flag).get<int>();
+    INFO(toml);
+    options.insert(options.begin(), {"solve", "rig.glb", "--crowd", "crowd.toml"});
+    const json flags = report_of(folder.path, options).at("flags");
+    return flags.at("limited shoulder cone").get<int>() + flags.at("limited flexion").get<int>();
 }
 
-std::string cone_of(const json& limb, double less)
+// The lines with a number of theirs, the last before `end`, less by 0.2.
+std::string narrower(std::string lines, const std::string& key, const std::string& end)
 {
-    const json& cone = limb.at("clip_range").at("shoulder_cone");
-    return fmt::format(
-        "[limb.{0}]\nbend = {1}\n[limb.{0}.limits]\nshoulder_cone = {{ axis = {2}, opening_deg = {3} }}\n",
-        limb.at("limb").get<std::string>(), limb.at("clip_range").at("bend").dump(), cone.at("axis").dump(),
-        cone.at("opening_deg").get<double>() - less);
+    const std::size_t to = lines.find(end, lines.find(key)), from = lines.rfind(' ', to - 1) + 1;
+    return lines.replace(from, to - from, fmt::format("{:.1f}", std::stod(lines.substr(from, to - from)) - 0.2));
 }
 
-std::string flexion_of(const json& limb, double less)
+// A turn about an axis, a key each half second in degrees, as a node's animation.
+void add_turn(GltfRig& rig, int animation, int node, const Vector3d& axis, const std::vector<double>& degrees)
 {
-    const json& range = limb.at("clip_range").at("flexion_deg");
-    return fmt::format("[limb.{}.limits]\nflexion_deg = [{}, {}]\n", limb.at("limb").get<std::string>(),
-                       range[0].get<double>(), range[1].get<double>() - less);
+    std::vector<float> times;
+    for (std::size_t n = 0; n < degrees.size(); ++n) times.push_back(0.5f * static_cast<float>(n));
+    rig.add_keys(animation, node, "rotation", times, turns(axis, degrees));
 }
 
 }  // namespace
 
-TEST_CASE("rig axes: z runs along the resting limb, y where it bends to, whatever the joints' axes")
+TEST_CASE("rig axes: joints and lengths are the figure's, z runs along the resting limb, y where it bends to")
 {
     const TempFolder folder;
     std::mt19937 random(11);
-    for (int round = 0; round < 12; ++round) {
+    for (int round = 0; round < 24; ++round) {
         FigureWish wish;
         wish.moves = false;
         wish.bent = round % 2 == 0;
+        wish.toes = round % 3 == 0;
         wish.scales = wish.mirrors = round % 3 == 0 ? 0 : 0.4;
         const Figure figure =
             random_figure(random, wish, figure_names()[static_cast<std::size_t>(round) % figure_names().size()]);
@@ -108,6 +97,9 @@ TEST_CASE("rig axes: z runs along the resting limb, y where it bends to, whateve
             };
             const auto axis = [&](const char* name) { return vector_of(limb.at("axes").at(name).at("world")); };
             const Vector3d x = axis("x"), y = axis("y"), z = axis("z");
+            CHECK(limb.at("numbers") == json(figure.limbs[n]));
+            CHECK(limb["lengths"][0].get<double>() == Approx(figure.upper[n]).epsilon(1e-5));
+            CHECK(limb["lengths"][1].get<double>() == Approx(figure.lower[n]).epsilon(1e-5));
             CHECK((z - (place(1) - place(0)).normalized()).norm() < 1e-5);
             CHECK(y.dot(n < 2 ? figure.front : Vector3d(-figure.front)) > 0.9);
             CHECK((x - y.cross(z) * (limb.at("mirrored") == true ? -1 : 1)).norm() < 1e-6);
@@ -122,14 +114,12 @@ TEST_CASE("rig axes: directions are said as the figure would")
                               {"down", "forwards", "right"},
                               {"right", "backwards", "down"},
                               {"right", "backwards", "down"}};
-    const std::array<Vector3d, 4> along = {Vector3d(1, 0, 0), {-1, 0, 0}, {0, -1, 0}, {0, -1, 0}};
-    CHECK(words_of(along, Eigen::Quaterniond::Identity()) == t_pose);
-    CHECK(words_of(along, Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5)) == t_pose);
-    const std::array<Vector3d, 4> a_pose = {Vector3d(0.8, -0.6, 0), {-0.6, -0.8, 0}, {0.1, -1, 0}, {-0.1, -1, 0}};
-    const AxisWords words = words_of(a_pose, Eigen::Quaterniond::Identity());
-    CHECK(words[0] == std::array<std::string, 3>{"up and left", "forwards", "left and down"});
-    CHECK(words[1] == std::array<std::string, 3>{"left and down", "forwards", "down and right"});
-    CHECK(words[2][2] == "down");
+    CHECK(words_of({1, 0, 0}, {0, -1, 0}, Eigen::Quaterniond::Identity()) == t_pose);
+    CHECK(words_of({1, 0, 0}, {0, -1, 0}, Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5)) == t_pose);
+    const AxisWords a_pose = words_of({0.8, -0.6, 0}, {0.1, -1, 0}, Eigen::Quaterniond::Identity());
+    CHECK(a_pose[0] == std::array<std::string, 3>{"up and left", "forwards", "left and down"});
+    CHECK(a_pose[1] == std::array<std::string, 3>{"down and left", "forwards", "right and down"});
+    CHECK(a_pose[2][2] == "down");
 }
 
 TEST_CASE("rig axes: a clip fits into the limits that are printed, and into none much narrower")
@@ -140,94 +130,21 @@ TEST_CASE("rig axes: a clip fits into the limits that are printed, and into none
         FigureWish wish;
         wish.scales = wish.mirrors = round == 0 ? 0 : 0.4;
         random_figure(random, wish, figure_names()[0]).rig.write(folder / "rig.glb");
-        const json report = rig_report(folder);
-        REQUIRE(report.at("limbs").size() == 4);
-        for (const json& limb : report.at("limbs")) {
-            INFO("round " << round << ": " << limb.dump());
-            CHECK(limited(folder, cone_of(limb, 0), "limited shoulder cone") == 0);
-            CHECK(limited(folder, cone_of(limb, 0.2), "limited shoulder cone") > 0);
-            CHECK(limited(folder, flexion_of(limb, 0), "limited flexion") == 0);
-            CHECK(limited(folder, flexion_of(limb, 0.2), "limited flexion") > 0);
+        const std::string out = run_command(folder.path, {"rig", "rig.glb"}).out;
+        std::string all;
+        for (const char* limb : {"left_arm", "right_arm", "left_leg", "right_leg"}) {
+            const std::string lines = lines_of(out, limb);
+            INFO("round " << round << ": " << lines);
+            REQUIRE_FALSE(lines.empty());
+            CHECK(limited(folder, narrower(lines, "opening_deg", " }")) > 0);
+            CHECK(limited(folder, narrower(lines, "flexion_deg", "]")) > 0);
+            all += lines;
         }
+        CHECK(limited(folder, all) == 0);
     }
-}
-
-namespace {
-
-// The lines for a crowd file that the report for people has of one limb; empty without any.
-std::string lines_of(const std::string& report, const std::string& limb)
-{
-    const std::size_t from = report.find("           [limb." + limb + "]\n");
-    if (from == std::string::npos) return {};
-    const std::size_t last = report.find("           flexion_deg", from);
-    REQUIRE(last != std::string::npos);
-    return report.substr(from, report.find('\n', last) + 1 - from);
-}
-
-Outcome solved_under(const TempFolder& folder, const std::string& toml, std::vector<std::string> options = {})
-{
-    spill(folder / "crowd.toml", toml);
-    options.insert(options.begin(), {"solve", "rig.glb", "--crowd", "crowd.toml", "--json"});
-    return run_command(folder.path, options);
-}
-
-// A turn about an axis, key by key in degrees, as a node's animation.
-void add_turn(GltfRig& rig, int animation, int node, const Vector3d& axis, const std::vector<double>& degrees)
-{
-    std::vector<float> times, keys;
-    for (const double each : degrees) {
-        times.push_back(0.5f * static_cast<float>(times.size()));
-        const Eigen::Quaterniond turn(Eigen::AngleAxisd(each * 3.14159265358979 / 180, axis));
-        for (const double part : turn.coeffs()) keys.push_back(static_cast<float>(part));
-    }
-    rig.add_keys(animation, node, "rotation", times, keys);
-}
-
-}  // namespace
-
-TEST_CASE("rig axes: the lines for people are a crowd file's, and say what JSON says")
-{
-    const TempFolder folder;
-    std::mt19937 random(13);
-    random_figure(random, {}, figure_names()[0]).rig.write(folder / "rig.glb");
-    const std::string out = run_command(folder.path, {"rig", "rig.glb"}).out;
-    const json report = rig_report(folder);
-    std::string all;
-    for (const json& limb : report.at("limbs")) {
-        const std::string lines = lines_of(out, limb.at("limb"));
-        all += lines;
-        INFO(lines << limb.dump());
-        double bend[3], axis[3], opening, flexion[2];
-        char joints[3][80], word[80], limits[80];
-        REQUIRE(std::sscanf(lines.c_str(),
-                            " [limb.%79[^]]] joints = [\"%79[^\"]\", \"%79[^\"]\", \"%79[^\"]\"] bend = [%lf, %lf, %lf]"
-                            " [limb.%79[^]]] shoulder_cone = { axis = [%lf, %lf, %lf], opening_deg = %lf }"
-                            " flexion_deg = [%lf, %lf]",
-                            word, joints[0], joints[1], joints[2], &bend[0], &bend[1], &bend[2], limits, &axis[0],
-                            &axis[1], &axis[2], &opening, &flexion[0], &flexion[1]) == 14);
-        const json& range = limb.at("clip_range");
-        CHECK(word == limb.at("limb").get<std::string>());
-        CHECK(limits == limb.at("limb").get<std::string>() + ".limits");
-        for (std::size_t n = 0; n < 3; ++n) {
-            CHECK(joints[n] == limb.at("joints")[n].get<std::string>());
-            CHECK(bend[n] == range.at("bend")[n].get<double>());
-            CHECK(std::abs(bend[n] - limb.at("bend")[n].get<double>()) <= 0.5001e-3);
-            CHECK(axis[n] == range.at("shoulder_cone").at("axis")[n].get<double>());
-        }
-        CHECK(opening == range.at("shoulder_cone").at("opening_deg").get<double>());
-        for (std::size_t n = 0; n < 2; ++n) CHECK(flexion[n] == range.at("flexion_deg")[n].get<double>());
-    }
-    const Outcome outcome = solved_under(folder, all);  // the legs, too, by their joints
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    const json solved = json::parse(outcome.out);
-    CHECK(solved.at("legs_bound").size() == 2);
-    CHECK(solved.at("flags").at("limited shoulder cone") == 0);
-    CHECK(solved.at("flags").at("limited flexion") == 0);
     FigureWish still;
     still.moves = false;
     random_figure(random, still, figure_names()[0]).rig.write(folder / "rig.glb");
-    CHECK_FALSE(rig_report(folder).at("limbs")[0].contains("clip_range"));
     CHECK(lines_of(run_command(folder.path, {"rig", "rig.glb"}).out, "left_arm").empty());
 }
 
@@ -254,79 +171,27 @@ TEST_CASE("rig axes: the printed lines hold for another clip, which shows anothe
     const std::string arm_lines = lines_of(printed.out, "left_arm"), leg_lines = lines_of(printed.out, "left_leg");
     REQUIRE_FALSE(arm_lines.empty());
     REQUIRE_FALSE(leg_lines.empty());
-    const auto limited = [&](const std::string& toml) {
-        const Outcome outcome = solved_under(folder, toml, {"--clip", "up"});
-        INFO(toml << outcome.err);
-        REQUIRE(outcome.exit_code == 0);
-        const json flags = json::parse(outcome.out).at("flags");
-        return flags.at("limited shoulder cone").get<int>() + flags.at("limited flexion").get<int>();
-    };
-    CHECK(limited(arm_lines + leg_lines) == 0);
+    CHECK(limited(folder, arm_lines + leg_lines, {"--clip", "up"}) == 0);
     std::string own_bend = arm_lines;
     own_bend.erase(own_bend.find("bend"), own_bend.find('\n', own_bend.find("bend")) - own_bend.find("bend"));
-    CHECK(limited(own_bend) > 0);
-}
-
-TEST_CASE("rig axes: limits are of the frames that --fps gives")
-{
-    const TempFolder folder;
-    GltfRig rig;
-    const int arm = rig.add("LeftArm", -1, {0, 0, 0}), fore_arm = rig.add("LeftForeArm", arm, {1, 0, 0});
-    rig.add("LeftHand", fore_arm, {1, 0, 0});
-    add_turn(rig, rig.add_animation("wave"), fore_arm, {0, -1, 0}, {10, 80, 10});  // a key each half second
-    rig.write(folder / "rig.glb");
-    const auto report = [&](const char* fps) {
-        const Outcome outcome = run_command(folder.path, {"rig", "rig.glb", "--json", "--fps", fps});
-        INFO(outcome.err);
-        REQUIRE(outcome.exit_code == 0);
-        return json::parse(outcome.out);
-    };
-    const auto widest = [](const json& of) { return of["limbs"][0]["clip_range"]["flexion_deg"][1].get<double>(); };
-    CHECK(report("1").at("frames") == 2);
-    CHECK(widest(report("1")) == Approx(10.1).margin(0.11));
-    CHECK(report("2").at("frames") == 3);
-    CHECK(widest(report("2")) == Approx(80.1).margin(0.11));
+    CHECK(limited(folder, own_bend, {"--clip", "up"}) > 0);
 }
 
 TEST_CASE("rig axes: what tells which way is up")
 {
     const TempFolder folder;
-    const auto told_by = [&](bool arms, bool legs) {
-        GltfRig rig;
-        const int root = rig.add("root", -1, {0, 0, 0});
-        for (const double side : {1.0, -1.0}) {
-            const std::string word = side > 0 ? "Left" : "Right";
-            if (arms)
-                for (int at = root; const std::string name : {"Arm", "ForeArm", "Hand"})
-                    at = rig.add(word + name, at, {side, at == root ? 2.0 : 0, 0});
-            if (legs)
-                for (int at = root; const std::string name : {"UpLeg", "Leg", "Foot"})
-                    at = rig.add(word + name, at, {at == root ? side : 0, at == root ? 0 : -1.0, 0});
-        }
-        rig.write(folder / "rig.glb");
+    const auto told_by = [&](const std::vector<std::size_t>& limbs) {
+        rig_of({.limbs = limbs}).write(folder / "rig.glb");
         const json report = rig_report(folder);
         CHECK(vector_of(report.at("up")).isApprox(Vector3d::UnitY(), 1e-6));
-        const std::string said = run_command(folder.path, {"rig", "rig.glb"}).out;
-        CHECK(said.find("up is (0.000 1.000 0.000), told by " + report.at("up_by").get<std::string>() + "\n") !=
-              std::string::npos);
-        return report.at("up_by").get<std::string>();
+        const std::string by = report.at("up_by");
+        CHECK_THAT(run_command(folder.path, {"rig", "rig.glb"}).out,
+                   Catch::Contains("up is (0.000 1.000 0.000), told by " + by + "\n"));
+        return by;
     };
-    CHECK(told_by(true, true) == "hips to shoulders");
-    CHECK(told_by(false, true) == "the file's +Y");
-    CHECK(told_by(true, false) == "the file's +Y");
-}
-
-TEST_CASE("rig axes: solve's report has no sign of a zero either")
-{
-    const TempFolder folder;
-    GltfRig rig;
-    int parent = -1;
-    for (const char* name : {"LeftArm", "LeftForeArm", "LeftHand"}) parent = rig.add(name, parent, {1, 0, 0});
-    rig.write(folder / "rig.glb");
-    spill(folder / "crowd.toml", "[limb.left_arm]\nbend = [-0.0001, 1, -0.0]\n");
-    const Outcome outcome = run_command(folder.path, {"solve", "rig.glb", "--crowd", "crowd.toml"});
-    INFO(outcome.err << outcome.out);
-    CHECK(outcome.out.find("[0.000, 1.000, 0.000]: limb.left_arm.bend of crowd.toml") != std::string::npos);
+    CHECK(told_by({0, 1, 2, 3}) == "hips to shoulders");
+    CHECK(told_by({2, 3}) == "the file's +Y");
+    CHECK(told_by({0, 1}) == "the file's +Y");
 }
 
 TEST_CASE("rig axes: a limb's chain is what bind() takes")

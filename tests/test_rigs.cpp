@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include "tests/gltf_judges.h"
 #include "tests/plain_motion.h"
@@ -24,15 +25,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-json report_of(const fs::path& path, const Words& options = {}, int exit_code = 0)
+json rig_of_file(const fs::path& path, Words options = {}, int exit_code = 0)
 {
-    Words words = {"rig", path.string(), "--json"};
-    words.insert(words.end(), options.begin(), options.end());
-    const Outcome outcome = run_command(path.parent_path(), words);
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == exit_code);
-    CHECK(outcome.err.empty() == (exit_code == 0));
-    return json::parse(outcome.out);
+    options.insert(options.begin(), {"rig", path.string()});
+    return report_of(path.parent_path(), options, exit_code);
 }
 
 std::vector<LimbNodes> bound_limbs(const json& report)
@@ -55,35 +51,18 @@ void solve(const fs::path& path, int index, const fs::path& out, Words options =
     REQUIRE(outcome.exit_code == 0);
 }
 
-// How far a limb's end is off in any of these frames, as a share of the limb's length.
-double end_error(const PlainGltf& from, const PlainGltf& to, int index, const LimbNodes& limb, std::size_t frame_count)
-{
-    const auto place = [&](const PlainGltf& gltf, int animation, std::size_t part, double time) {
-        return Vector3d(plain_world(gltf, animation, limb[part], time).translation());
-    };
-    double worst = 0, length = 0;
-    for (std::size_t part = 0; part < 2; ++part)
-        length += (place(from, -1, part + 1, 0) - place(from, -1, part, 0)).norm();
-    for (std::size_t frame = 0; frame < frame_count; ++frame) {
-        const double time = 0.25 * static_cast<double>(frame);  // see random_figure.cpp
-        const double off = (place(to, 0, 2, time) - place(from, index, 2, time)).norm() / length;
-        worst = off <= worst ? worst : off;  // NaN stays
-    }
-    return worst;
-}
-
 // Files as they were read and as they were written.
 using WrittenFiles = std::vector<std::pair<fs::path, fs::path>>;
 
-// Khronos' validator has no message about a written file that it has not about its source. (But a GLB says that it goes
-// on using a picture's file.)
+// Khronos' validator has no error or warning about a written file that it has not about its source. (But a GLB says
+// that it goes on using a picture in the text.)
 void require_no_new_messages(const WrittenFiles& files)
 {
     const std::vector<std::multiset<std::string>> news = new_gltf_messages(files);
     for (std::size_t n = 0; n < files.size(); ++n) {
         INFO(files[n].second);
         std::multiset<std::string> said = news[n];
-        if (files[n].first.extension() == ".gltf") said.erase("URI_GLB /images/0/uri");
+        said.erase("DATA_URI_GLB /images/0/uri");
         CHECK(said == std::multiset<std::string>());
     }
 }
@@ -168,7 +147,7 @@ TEST_CASE("rigs: every animation of the shared figures comes back")
             INFO(file.name << ", animation " << index);
             Words options = file.options;
             if (index > 0) options.insert(options.end(), {"--clip", std::to_string(index)});
-            const std::vector<LimbNodes> bound = bound_limbs(report_of(path, options));
+            const std::vector<LimbNodes> bound = bound_limbs(rig_of_file(path, options));
             CHECK(bound.size() == file.limbs);
             solve(path, index, files.back().second, file.options);
             require_closed(closure(plain_gltf_of(path), plain_gltf_of(files.back().second), index, bound));
@@ -185,7 +164,7 @@ TEST_CASE("rigs: the bends of the shared figures")
         if (path.empty()) continue;
         INFO(file.name);
         const PlainGltf plain = plain_gltf_of(path);
-        const json report = report_of(path, file.options);
+        const json report = rig_of_file(path, file.options);
         for (const json& limb : report.at("limbs")) {
             if (limb.at("bound") == false) continue;
             const Eigen::Affine3d upper = plain_world(plain, -1, limb.at("numbers")[0], 0);
@@ -196,36 +175,10 @@ TEST_CASE("rigs: the bends of the shared figures")
         const fs::path path = find_or_warn(name);
         if (path.empty()) continue;
         INFO(name);
-        const json report = report_of(path);
+        const json report = rig_of_file(path);
         CHECK(bound_limbs(report).size() == 4);
         for (const json& limb : report.at("limbs"))  // BVH rests without rotations
             judge_bend(limb, vector_of(limb.at("bend")), kZ, {name, 1, 4, "clip", "clip"});
-    }
-}
-
-TEST_CASE("rigs: all limbs of the shared motion come back")
-{
-    const TempFolder folder;
-    for (const char* name : {"cmu_01_01_forward_jump.bvh", "cmu_02_01_walk.bvh"}) {  // the dance: test_clip_back.cpp
-        const fs::path path = find_or_warn(name);
-        if (path.empty()) continue;
-        INFO(name);
-        spill(folder / "in.bvh", cut(plain_motion_of(path), 0, 7));
-        const Outcome outcome =
-            run_command(folder.path, {"solve", "in.bvh", "--limbs", "all", "--targets", "clip", "--out", "out.bvh"});
-        INFO(outcome.err);
-        REQUIRE(outcome.exit_code == 0);
-        const PlainMotion from = plain_motion_of(folder / "in.bvh"), to = plain_motion_of(folder / "out.bvh");
-        REQUIRE(to.lines.size() == from.lines.size());
-        std::vector<PlainArm> limbs = arms_of(from);
-        for (const PlainArm& leg : legs_of(from)) limbs.push_back(leg);
-        double worst = 0;
-        for (std::size_t frame = 0; frame < from.lines.size(); ++frame)
-            for (const PlainArm& limb : limbs) {
-                const Vector3d off = arm_pose(to, limb, frame).wrist - arm_pose(from, limb, frame).wrist;
-                worst = std::max(worst, off.norm() / limb.length());
-            }
-        CHECK(worst <= 1e-5);
     }
 }
 
@@ -246,24 +199,6 @@ TEST_CASE("rigs: the page shows what the command prints")
     CHECK(lines > 10);
 }
 
-TEST_CASE("rigs: what is no figure is refused in one line")
-{
-    for (const char* name : {"rigged_simple.gltf", "interpolation_test.gltf"}) {
-        const fs::path path = find_or_warn(name);
-        if (path.empty()) continue;
-        INFO(name);
-        const TempFolder folder;
-        report_of(path, {}, 1);
-        for (const Words& words : {Words{"rig", path.string()}, {"solve", path.string(), "--out", "out.glb"}}) {
-            const Outcome outcome = run_command(folder.path, words);
-            INFO(outcome.err);
-            CHECK(outcome.exit_code == 1);
-            CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-        }
-        CHECK(folder.file_count() == 0);
-    }
-}
-
 TEST_CASE("rigs: any figure gives its clip back")
 {
     const TempFolder folder;
@@ -282,9 +217,7 @@ TEST_CASE("rigs: any figure gives its clip back")
         const int index = wish.moves ? 0 : -1;
         solve(folder / name, index, files.back().second);
         const PlainGltf from = plain_gltf_of(folder / name), to = plain_gltf_of(files.back().second);
-        for (const LimbNodes& limb : figure.limbs)
-            RC_ASSERT(end_error(from, to, index, limb, wish.moves ? 5 : 1) <= 1e-5);
-        if (files.size() % 8 == 0) require_closed(closure(from, to, index, {figure.limbs.begin(), figure.limbs.end()}));
+        require_closed(closure(from, to, index, {figure.limbs.begin(), figure.limbs.end()}));
     });
     files.resize(std::min<std::size_t>(files.size(), 20));  // the validator is slow
     require_no_new_messages(files);
@@ -303,7 +236,7 @@ TEST_CASE("rigs: what is scaled unevenly by little is off by no more than the re
         const auto is_odd = [&](const LimbNodes& limb) { return unevenness_above(plain, limb) > 1e-3; };
         const auto odd_count =
             static_cast<std::size_t>(std::count_if(figure.limbs.begin(), figure.limbs.end(), is_odd));
-        const json report = report_of(folder / "in.glb", {}, odd_count == 4 ? 1 : 0);
+        const json report = rig_of_file(folder / "in.glb", {}, odd_count == 4 ? 1 : 0);
         refused += odd_count;
         for (std::size_t n = 0; n < 4; ++n) {
             const json limb = limb_of(report, kLimbs[n]);
@@ -317,7 +250,7 @@ TEST_CASE("rigs: what is scaled unevenly by little is off by no more than the re
         for (std::size_t n = 0; n < 4; ++n) {
             if (is_odd(figure.limbs[n])) continue;
             const double bound = limb_of(report, kLimbs[n]).at("unevenness");
-            const double end = end_error(plain, written, 0, figure.limbs[n], 5);
+            const double end = closure(plain, written, 0, {figure.limbs[n]}).end;
             CHECK(end <= bound + 1e-5);
             off += end > 1e-5;
             ++bound_count;
@@ -326,39 +259,6 @@ TEST_CASE("rigs: what is scaled unevenly by little is off by no more than the re
     CHECK(off > 10);  // else there was nothing to bound
     CHECK(bound_count > 40);
     CHECK(refused > 10);
-}
-
-TEST_CASE("rigs: lengths, joints and the way joints bend are what the figure was made of")
-{
-    const TempFolder folder;
-    std::mt19937 random(5);
-    for (std::size_t round = 0; round < 24; ++round) {
-        const FigureWish wish{.moves = false,
-                              .bent = round % 2 == 0,
-                              .toes = round % 3 == 0,
-                              .scales = round % 4 == 0 ? 0 : 0.3,
-                              .mirrors = round % 3 == 0 ? 0.3 : 0};
-        const FigureNames& names = figure_names()[round % figure_names().size()];
-        const Figure figure = random_figure(random, wish, names);
-        figure.rig.write(folder / "rig.glb");
-        const json report = report_of(folder / "rig.glb");
-        const PlainGltf plain = plain_gltf_of(folder / "rig.glb");
-        for (std::size_t n = 0; n < 4; ++n) {
-            const json limb = limb_of(report, kLimbs[n]);
-            INFO("round " << round << ", " << names.habit << ": "
-                          << limb.value("problem", limb.value("bend_source", "")));
-            REQUIRE(limb.at("bound") == true);
-            CHECK(limb.at("numbers").get<LimbNodes>() == figure.limbs[n]);
-            CHECK(limb["lengths"][0].get<double>() == Approx(figure.upper[n]).epsilon(1e-5));
-            CHECK(limb["lengths"][1].get<double>() == Approx(figure.lower[n]).epsilon(1e-5));
-            const int upper = figure.limbs[n][0];
-            const json& at = plain.nodes()[static_cast<std::size_t>(upper)];
-            const Vector3d scale = at.contains("scale") ? vector_of(at["scale"]) : Vector3d(Vector3d::Ones());
-            if (scale.minCoeff() < 0) continue;  // the plain reading's axes are turned over there
-            const Vector3d bend_w = plain_world(plain, -1, upper, 0).linear() * vector_of(limb["bend"]);
-            CHECK(degrees_between(bend_w, n < 2 ? figure.front : Vector3d(-figure.front)) < 1);
-        }
-    }
 }
 
 TEST_CASE("rigs: the animation and its rate are chosen, and what a file cannot hold is said")
@@ -372,16 +272,15 @@ TEST_CASE("rigs: the animation and its rate are chosen, and what a file cannot h
     };
     CHECK(run({"--clip", "motion", "--fps", "30", "--out", "new.glb"}).exit_code == 0);
     CHECK(plain_gltf_of(folder / "new.glb").json["animations"].size() == 1);
-    const auto refused = [&](const Words& options, int code, const char* part) {
+    for (const auto& [options, code, part] : std::vector<std::tuple<Words, int, const char*>>{
+             {{"--clip", "dance"}, 1, "it has no animation 'dance'; it has 0 motion"},
+             {{"--out", "new.bvh"}, 2, "this clip is a glTF file; its poses go to .glb, .gltf, .vrm or .csv"},
+             {{"--out", "new.glb", "--characters", "2"}, 2, "a glTF file holds one character, not 2"},
+             {{"--arm", "#1,#2,#99"}, 1, "no joint is called '#99' (--arm); swivel rig --joints lists them"}}) {
         const Outcome outcome = run(options);
-        INFO(outcome.err);
         CHECK(outcome.exit_code == code);
-        CHECK(outcome.err.find(part) != std::string::npos);
-    };
-    refused({"--clip", "dance"}, 1, "it has no animation 'dance'; it has 0 motion");
-    refused({"--out", "new.bvh"}, 2, "this clip is a glTF file; its poses go to .glb, .gltf, .vrm or .csv");
-    refused({"--out", "new.glb", "--characters", "2"}, 2, "a glTF file holds one character, not 2");
-    refused({"--arm", "#1,#2,#99"}, 1, "no joint is called '#99' (--arm); swivel rig --joints lists them");
+        CHECK_THAT(outcome.err, Catch::Matchers::Contains(part));
+    }
     const Outcome rig = run_command(folder.path, {"rig", "rig.glb", "--joints"});
     CHECK_THAT(rig.out, Catch::Matchers::Matches("[^]*#3 +\\([-0-9. ]+\\) +Armature/hips/chest/mixamorig:LeftArm[^]*"));
     CHECK(run({"--characters", "5", "--out", "crowd.csv"}).exit_code == 0);

@@ -83,7 +83,6 @@ class Terminal(unittest.TestCase):
         said = self.run_with(clip, "rig", "clip.bvh", "--joints", "--json")[0]
         self.assertEqual(shown(said), [])
         self.assertEqual([joint["name"] for joint in json.loads(said)["joint_list"]][1:len(names) + 1], names)
-        self.assertEqual(shown(self.run_with(clip, "rig", "clip.bvh", "--toml")[0]), [])
 
     def test_messages_escape(self):
         evil = "a\x1b[2J\x9b31m\x85\u202eb\u2066c\u200fd\u061ce"

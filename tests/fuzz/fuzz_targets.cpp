@@ -2,8 +2,6 @@
 //
 // The table of targets: any text is read or refused in one line. What is read is finite and in order, and reads the
 // same when it is written down again.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,19 +25,6 @@ void check_target(const Target& target, std::size_t line_count)
     SWIVEL_REQUIRE(target.line >= 2 && target.line <= line_count);
 }
 
-std::string text_of(const std::vector<Target>& targets)
-{
-    std::string text = "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n";
-    for (const Target& t : targets) {
-        text += fmt::format("{},{},{},{},{},{},", t.frame, t.character, limb_word(t.limb), t.position.x(),
-                            t.position.y(), t.position.z());
-        text += t.has_pole ? fmt::format("{},{},{},", t.pole.x(), t.pole.y(), t.pole.z()) : ",,,";
-        const Eigen::Quaterniond& q = t.orientation;
-        text += t.has_orientation ? fmt::format("{},{},{},{}\n", q.x(), q.y(), q.z(), q.w()) : ",,,\n";
-    }
-    return text;
-}
-
 bool are_same(const Target& a, const Target& b)
 {
     return place_of(a) == place_of(b) && a.position == b.position && a.pole == b.pole && a.has_pole == b.has_pole &&
@@ -51,7 +36,7 @@ bool are_same(const Target& a, const Target& b)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const ScratchFolder folder;
-    const std::string_view text = swivel::fuzz::text_of(data, size);
+    const std::string_view text = text_of(data, size);
     std::vector<Target> targets;
     try {
         targets = read_targets_csv(folder.spill("in.csv", text));
@@ -64,7 +49,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto is_before = [](const Target& a, const Target& b) { return place_of(a) < place_of(b); };
     SWIVEL_REQUIRE(std::is_sorted(targets.begin(), targets.end(), is_before));
 
-    const std::vector<Target> again = read_targets_csv(folder.spill("again.csv", text_of(targets)));
+    TargetsCsv csv(folder.path / "again.csv");
+    csv.append(targets);
+    csv.commit();
+    const std::vector<Target> again = read_targets_csv(folder.path / "again.csv");
     SWIVEL_REQUIRE(std::equal(targets.begin(), targets.end(), again.begin(), again.end(), are_same));
     return 0;
 }

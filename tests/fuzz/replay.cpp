@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: what a fuzzer has found once stays fixed. Runs each fuzzer's function over the files of its folder of
-// seeds, or one over inputs of random bytes, in a build without libFuzzer. A crash, a sanitizer's complaint or an abort
-// names the file, or the number of the input, in the line before.
+// The promise: what a fuzzer has found once stays fixed, and damaged input is read or refused as it promises. Runs each
+// fuzzer's function over the files of its folder of seeds, and over each of them damaged at random, or one over inputs
+// of random bytes, in a build without libFuzzer. A crash, a sanitizer's complaint or an abort names the file and the
+// round, or the number of the input, in the line before.
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/fuzz/scratch_folder.h"
@@ -29,14 +32,50 @@ constexpr Fuzzer kFuzzers[] = {
 #undef FUZZER
 };
 
+constexpr int kRounds = 40;  // of each seed, the first of them undamaged
+
+// After one to four accidents: bytes changed, cut, doubled or inserted.
+std::string mutated(std::string text, std::mt19937& random)
+{
+    static constexpr std::array<std::string_view, 12> kScraps = {
+        "nan", "-", "1e999", "{", "}", "\n", ",", "99999999999999999999", "\r", "-1", "#", "JOINT"};
+    const auto below = [&](std::size_t limit) { return limit == 0 ? 0 : random() % limit; };
+    for (std::size_t accidents = 1 + below(4); accidents > 0; --accidents) {
+        const std::size_t at = below(text.size());
+        const std::size_t length = 1 + below(20);
+        switch (below(5)) {
+            case 0:
+                if (!text.empty()) text[at] = static_cast<char>(random() & 0xff);
+                break;
+            case 1:
+                text.erase(at, length);
+                break;
+            case 2:
+                text.insert(at, text.substr(at, length));
+                break;
+            case 3:
+                text.insert(at, kScraps[below(kScraps.size())]);
+                break;
+            default:
+                if (below(10) == 0) text.resize(at);
+                break;
+        }
+    }
+    return text;
+}
+
 int replay(const Fuzzer& fuzzer, const std::filesystem::path& folder)
 {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / fuzzer.name)) {
-        std::printf("%s\n", entry.path().c_str());
-        std::fflush(stdout);
-        const std::string bytes = swivel::fuzz::slurp(entry.path());
-        fuzzer.run(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+        std::mt19937 random(7);
+        const std::string seed = swivel::fuzz::slurp(entry.path());
+        for (int round = 0; round < kRounds; ++round) {
+            std::printf("%s, round %d\n", entry.path().c_str(), round);
+            std::fflush(stdout);
+            const std::string bytes = round == 0 ? seed : mutated(seed, random);
+            fuzzer.run(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+        }
         ++count;
     }
     return count;

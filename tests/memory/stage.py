@@ -19,8 +19,6 @@ def command_with_page():
     for folder in ("bin", "share/swivel"):
         (WORK / folder).mkdir(parents=True, exist_ok=True)
     (WORK / "share/swivel/view.html").write_text("<script data-digest=\"\">start(/*crowd*/null)</script>\n")
-    if (race := Path(os.environ["SWIVEL"] + "-race")).exists():
-        shutil.copy(race, WORK / "bin/swivel-race")
     return shutil.copy(os.environ["SWIVEL"], WORK / "bin/swivel")
 
 

@@ -20,17 +20,17 @@ SAMPLE = 10  # of the requests of one command line, in each of both ways
 
 ONE = ("--threads", "1")
 LINES = [
-    ("--version",), ("slove",), ("help", "solve"), ("help", "--man"), ("completion", "zsh"), ("info", "--json"),
-    ("rig", "clip.bvh", "--joints"), ("rig", "clip.bvh", "--json"), ("rig", "clip.bvh", "--toml"), ("rig", "table.csv"),
-    ("solve", "clip.bvh", "--crowd", "crowd.toml", "--out", "o.csv", "--report", "r.html", "--view", "v.html", "--export-targets", "t.csv", *ONE),
+    ("--version",), ("slove",), ("help", "solve"), ("info", "--json"),
+    ("rig", "clip.bvh", "--joints"), ("rig", "clip.bvh", "--json", "--joints"), ("rig", "table.csv"),
+    ("solve", "clip.bvh", "--crowd", "crowd.toml", "--out", "o.csv", "--view", "v.html", "--export-targets", "t.csv", *ONE),
     ("solve", "clip.bvh", "--targets", "table.csv", "--out", "o.bvh", "--json", *ONE),
-    ("view", "clip.bvh", "--characters", "3", *ONE), ("view", "full", *ONE), ("steps", "--json"), ("steps", "clip.bvh", "--frame", "1"),
+    ("view", "clip.bvh", "--characters", "3", *ONE), ("view", "full", *ONE), ("steps", "--json"),
     ("demo", "--characters", "3", "--frames", "2", "--view", "v.html", *ONE), ("demo", "--characters", "3", "--frames", "2", "--threads", "2"),
     ("store", "clip.bvh", "cache", "--targets", "table.csv"), ("store", "clip.bvh", "cache", "--crowd", "crowd.toml", "--no-poses"),
     ("fill", "empty", *ONE), ("fill", "empty", "--threads", "2"), ("fill", "full", *ONE), ("check", "full", *ONE),
     ("replay", "full", "--out", "o.csv", *ONE),
 ]
-FAULT = "swivel: a fault in swivel or in a library ends this run; unfinished files are removed; please report it\n"
+FAULT = "swivel: Segmentation fault; unfinished files are removed\n"
 TIMES = re.compile(rb"\"cpu\": .*|[\d.]+ (million [a-z]+/s|s\b|ms\b)|\"[a-z_]*(seconds|per_second)\": [\d.e+-]+")
 
 
@@ -57,13 +57,14 @@ class Memory(unittest.TestCase):
         # dlopen() of glibc 2.36, which oneTBB calls at its start, uses what malloc() did not give it.
         is_faulty = words[-2:] == ("--threads", "2")
         is_of_library = is_faulty and run.code == -signal.SIGSEGV and run.err == FAULT
-        if not (is_as_ever or says_why or is_loader or is_of_library):
+        # Variables of libraries are made before main() begins, whose first line is the same for all command lines.
+        is_before_main = words == ("--version",) and run.code == -signal.SIGABRT and "std::bad_alloc" in run.err
+        if not (is_as_ever or says_why or is_loader or is_of_library or is_before_main):
             faults.append(f"exit code {run.code}, {run.err!r}")
         if rest := [name for name in {*run.files, *run.folders} if ".swivel-" in name]:
             faults.append(f"left {sorted(rest)[:3]}, said {run.err!r}")
-        # A file is the old one or the new one. Reports have times in them.
-        faults += [f"{name} is half done" for name, content in run.files.items() if ".swivel-" not in name and name not in ("r.html",)
-                   and content not in (whole.files.get(name), self.before.get(name))]
+        # A file is the old one or the new one.
+        faults += [f"{name} is half done" for name, content in run.files.items() if ".swivel-" not in name and content not in (whole.files.get(name), self.before.get(name))]
         return [f"{' '.join(words)}, SWIVEL_LACKS={lacks}: {fault}" for fault in faults]
 
     def test_no_request_for_memory_that_fails_ends_a_run_otherwise(self):

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <type_traits>
 
-#include "tools/crowd/limb_setups.h"
 #include "tools/crowd/parallel.h"
 
 namespace swivel::tools {
@@ -237,34 +236,31 @@ formats::PoseColumns ClipCrowd::columns() const
     return columns;
 }
 
+template <class Row, class Make>
+std::span<const Row> ClipCrowd::rows_of(std::vector<Row>& rows, const Make& make) const
+{
+    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t n = begin; n < end; ++n)
+            for (std::size_t limb = 0; limb < limbs_.size(); ++limb) rows[n * limbs_.size() + limb] = make(limb, n);
+    });
+    return rows;
+}
+
 std::span<const formats::Target> ClipCrowd::targets()
 {
     targets_.resize(rows_.size());
-    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t n = begin; n < end; ++n)
-            for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
-                targets_[n * limbs_.size() + limb] = target(limb, n);
-    });
-    return targets_;
+    return rows_of(targets_, [&](std::size_t limb, std::uint32_t character) { return target(limb, character); });
 }
 
 std::span<const formats::PoseRow> ClipCrowd::poses()
 {
-    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t n = begin; n < end; ++n)
-            for (std::size_t limb = 0; limb < limbs_.size(); ++limb) rows_[n * limbs_.size() + limb] = pose(limb, n);
-    });
-    return rows_;
+    return rows_of(rows_, [&](std::size_t limb, std::uint32_t character) { return pose(limb, character); });
 }
 
 std::span<const formats::PoseExtra> ClipCrowd::extras()
 {
     if (extras_.empty()) return {};
-    for_ranges(character_count(), [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t n = begin; n < end; ++n)
-            for (std::size_t limb = 0; limb < limbs_.size(); ++limb) extras_[n * limbs_.size() + limb] = extra(limb, n);
-    });
-    return extras_;
+    return rows_of(extras_, [&](std::size_t limb, std::uint32_t character) { return extra(limb, character); });
 }
 
 }  // namespace swivel::tools

@@ -85,6 +85,9 @@ private:
     goal asked(std::size_t limb, std::uint32_t character) const;
     void set_given(std::size_t limb, std::uint32_t character);
     formats::PoseExtra extra(std::size_t limb, std::uint32_t character) const;
+    // Fills in rows of all characters and limbs.
+    template <class Row, class Make>
+    std::span<const Row> rows_of(std::vector<Row>& rows, const Make& make) const;
     void measure_range(std::size_t limb, std::uint32_t begin, std::uint32_t end, LimbStatistics& statistics) const;
     void measure_against_clip(std::size_t limb, const PoseName& pose, const Eigen::Vector3d& elbow,
                               LimbStatistics& statistics) const;

@@ -44,39 +44,25 @@ std::string checked_targets(const CrowdFile& file)
 
 void require_sense(const CrowdFile& file, const LimbSettings& s)
 {
-    const auto needs_hand = [&](const auto& given) {
-        if (given && s.hand && !s.hand->value)
-            refuse(file, *given,
-                   fmt::format("means nothing beside {} = false in line {}; take one of them out", s.hand->key,
-                               s.hand->line));
+    // None of these is given beside what makes it mean nothing.
+    const auto refuse_beside = [&](const auto& what, std::string_view value, const auto&... useless) {
+        const auto check = [&](const auto& given) {
+            if (given)
+                refuse(file, *given,
+                       fmt::format("means nothing beside {}{} in line {}; take one of them out", what->key, value,
+                                   what->line));
+        };
+        (check(useless), ...);
     };
-    needs_hand(s.effector);
-    needs_hand(s.hand_weight);
-    needs_hand(s.hand_cone);
-    needs_hand(s.forearm_twist_deg);
-    needs_hand(s.hand_twist);
-    needs_hand(s.wrist_box);
-    needs_hand(s.twist_bones);
-    needs_hand(s.aim);
-    const auto not_aiming = [&](const auto& given) {
-        if (given && s.aim)
-            refuse(file, *given,
-                   fmt::format("means nothing beside {} in line {}; take one of them out", s.aim->key, s.aim->line));
-    };
-    for (const auto* number : {&s.position_weight, &s.hand_weight, &s.pole_weight, &s.soft_far, &s.soft_near,
-                               &s.least_distance, &s.most_stretch})
-        not_aiming(*number);
-    not_aiming(s.flexion_deg);
-    not_aiming(s.hand_cone);
-    not_aiming(s.forearm_twist_deg);
-    not_aiming(s.hand_twist);
-    not_aiming(s.wrist_box);
-    const auto needs_pole = [&](const auto& given) {
-        if (given && s.pole_kind && s.pole_kind->value == PoleKind::incoming)
-            refuse(file, *given,
-                   fmt::format("means nothing beside {} = \"incoming\" in line {}; take one of them out",
-                               s.pole_kind->key, s.pole_kind->line));
-    };
+    if (s.hand && !s.hand->value)
+        refuse_beside(s.hand, " = false", s.effector, s.hand_weight, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
+                      s.wrist_box, s.twist_bones, s.aim);
+    if (s.aim)
+        refuse_beside(s.aim, "", s.position_weight, s.hand_weight, s.pole_weight, s.soft_far, s.soft_near,
+                      s.least_distance, s.most_stretch, s.flexion_deg, s.hand_cone, s.forearm_twist_deg, s.hand_twist,
+                      s.wrist_box);
+    if (s.pole_kind && s.pole_kind->value == PoleKind::incoming)
+        refuse_beside(s.pole_kind, " = \"incoming\"", s.pole_fixed, s.pole_weight);
     const bool points =
         s.pole_kind && (s.pole_kind->value == PoleKind::direction || s.pole_kind->value == PoleKind::normal);
     if (points && s.pole_fixed && !(s.pole_fixed->value.stableNorm() > 1e-15))
@@ -84,8 +70,6 @@ void require_sense(const CrowdFile& file, const LimbSettings& s)
                fmt::format("has no length, so no direction, and {} in line {} wants one; write [x, y, z], not all of "
                            "them 0",
                            s.pole_kind->key, s.pole_kind->line));
-    needs_pole(s.pole_fixed);
-    needs_pole(s.pole_weight);
     if (s.priority && !file.budget_blocks)
         refuse(file, *s.priority, "means nothing without budget.blocks; give that, or take this out");
 }

@@ -57,4 +57,7 @@ void add_choice(const formats::CrowdFile& file, LimbChoice& choice);
 // clavicle that is not the limb's own.
 CrowdPlan plan_crowd(const formats::CrowdFile* file, const formats::Clip& clip, std::span<const Limb> limbs);
 
+// The plan for the solver alone, limb by limb.
+std::vector<LimbSetup> limb_setups(std::span<const Limb> limbs, const CrowdPlan& plan);
+
 }  // namespace swivel::tools

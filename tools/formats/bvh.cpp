@@ -8,7 +8,6 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/formats/bvh_hierarchy.h"
 #include "tools/formats/bvh_scanner.h"
 #include "tools/formats/euler.h"
 #include "tools/formats/limits.h"

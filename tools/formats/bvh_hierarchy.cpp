@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/formats/bvh_hierarchy.h"
+#include "tools/formats/bvh_scanner.h"
 
 #include <fmt/format.h>
 

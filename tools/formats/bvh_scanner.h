@@ -1,10 +1,13 @@
 #pragma once
 // SPDX-License-Identifier: MIT
-// A walk through a BVH file's text, word by word, that knows the line it is in. Private to the reader.
+// A walk through a BVH file's text, word by word, that knows the line it is in, and its first half. Private to the
+// reader.
 
 #include <cstddef>
 #include <filesystem>
 #include <string_view>
+
+#include "tools/formats/bvh.h"
 
 namespace swivel::formats {
 
@@ -32,5 +35,9 @@ void expect(Scanner& scan, std::string_view word);
 
 // The same, saying that `found` stands where `wanted` should; nothing found means the file has ended.
 [[noreturn]] void fail_expected(const Scanner& scan, std::string_view wanted, std::string_view found);
+
+// Reads from HIERARCHY through the word MOTION into the joints of `file` and of its clip, and counts the channels.
+// Throws InputError for anything malformed. Keeps its own stack, so nesting cannot exhaust the program's.
+void read_hierarchy(Scanner& scan, BvhFile& file);
 
 }  // namespace swivel::formats

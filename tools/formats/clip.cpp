@@ -142,13 +142,6 @@ std::vector<JointPose> rest_pose(const Clip& clip)
     return pose_w;
 }
 
-std::vector<Eigen::Vector3d> rest_positions(const Clip& clip)
-{
-    std::vector<Eigen::Vector3d> position_w;
-    for (const JointPose& pose : rest_pose(clip)) position_w.push_back(pose.position);
-    return position_w;
-}
-
 std::vector<int> find_joints(const Clip& clip, std::string_view name_or_path)
 {
     std::vector<int> found;

@@ -102,9 +102,6 @@ std::vector<JointPose> world_pose(const Clip& clip, std::size_t frame);
 // Every joint in world space in the rest pose.
 std::vector<JointPose> rest_pose(const Clip& clip);
 
-// World positions of all joints in the rest pose.
-std::vector<Eigen::Vector3d> rest_positions(const Clip& clip);
-
 // All joints of this name, of this path or, written "#12", of this number, in the clip's order; none, or several where
 // names repeat: the caller decides.
 std::vector<int> find_joints(const Clip& clip, std::string_view name_or_path);

@@ -145,8 +145,6 @@ LimbSettings read_limb(TomlTable table, bool is_one)
     if (is_one) {  // others speak of several limbs, which do not share joints
         to.joints = table.texts("joints", 3);
         to.bend = table.axis("bend");
-        if (auto hinge = table.axis("hinge"))
-            to.bend = std::move(hinge);  // refused, with the bend, where bones are known
     }
     TomlTable target = table.table("target");
     to.target_point = target.vector("point");
@@ -247,23 +245,6 @@ LimbSettings settings_of(const CrowdFile& file, LimbName limb)
         if (selects(section.selector, limb))
             merge(settings, section.settings, limb.side == Side::right && speaks_of_both_sides(section.selector));
     return settings;
-}
-
-std::vector<std::string> crowd_file_keys()
-{
-    std::vector<std::string> keys;
-    const std::filesystem::path none;
-    const toml::table empty;
-    CrowdFile file;
-    read_root(TomlTable(none, empty, &keys), file);
-    for (std::string& key : keys)
-        for (const std::string_view selector : kSelectors) {
-            const std::string prefix = "limb." + std::string(selector);
-            if (key == prefix || key.starts_with(prefix + ".")) key.replace(5, selector.size(), "SELECTOR");
-        }
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    return keys;
 }
 
 }  // namespace swivel::formats

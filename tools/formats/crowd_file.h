@@ -40,7 +40,7 @@ struct AimGoal {
 // What the file says of a limb; what it does not say is as without a file.
 struct LimbSettings {
     Maybe<std::vector<std::string>> joints;  // three
-    Maybe<Eigen::Vector3d> bend;             // in the upper joint's frame, unit; its key may be an old file's `hinge`
+    Maybe<Eigen::Vector3d> bend;             // in the upper joint's frame, unit
 
     Maybe<Eigen::Vector3d> target_point, target_offset;  // world axes
     Maybe<bool> hand;
@@ -96,8 +96,5 @@ LimbSettings settings_of(const CrowdFile& file, LimbName limb);
 
 // True if [limb.SELECTOR] speaks of this limb.
 bool selects(std::string_view selector, LimbName limb);
-
-// Every key the reader knows, tables included, as crowd.seed or limb.SELECTOR.reach.soft_far.
-std::vector<std::string> crowd_file_keys();
 
 }  // namespace swivel::formats

@@ -173,8 +173,7 @@ GltfFile read_gltf(const std::filesystem::path& path, GltfContainer container, c
     file.path = path;
     file.choice = choice;
     file.container = std::move(container);
-    const GltfDocument text = gltf_document(path, file.container.json);
-    const Json& document = *text;
+    const Json document = gltf_document(path, file.container.json);
     file.files_beside = files_beside(path, document);
     GltfBuffers buffers = read_gltf_buffers(path, document, file.container);
     file.buffers = std::move(buffers.bytes);

@@ -67,8 +67,8 @@ inline double gibibytes(std::size_t bytes) { return static_cast<double>(bytes) /
 // - an animation that does not exist, or whose name is not unique;
 // - buffers beyond 8 GiB, and keys beyond the choice's most.
 // Meshes make it fail only if an accessor, buffer view or buffer has members of a wrong type.
-// It holds the file once, and its JSON as a document while it reads. A key takes 40 bytes, with CUBICSPLINE 104;
-// channels may share keys.
+// It holds the file once, a GLB twice while it takes it apart, and its JSON as a document while it reads. A key takes
+// 40 bytes, with CUBICSPLINE 104; channels may share keys.
 GltfFile read_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
 
 // The same of a container that is read already. path: what messages call it, and what its files lie beside.

@@ -48,14 +48,6 @@ const std::string* uri_of(const nlohmann::json& buffer)
     return found == buffer.end() ? nullptr : &found->get_ref<const std::string&>();
 }
 
-std::string bytes_in_text(const Buffer& buffer, const std::string& uri)
-{
-    std::optional<DataUri> data = data_of(uri);
-    if (!data) buffer.refuse("has an uri that is no base64; export it with a .bin file or as .glb");
-    buffer.require(data->bytes.size(), "its uri");
-    return std::move(data->bytes);
-}
-
 // The file at a buffer's address, which has the bytes, as far as can be known without reading it.
 fs::path file_of(const Buffer& buffer, const std::string& uri)
 {
@@ -88,28 +80,23 @@ std::string bytes_in_file(const Buffer& buffer, const std::string& uri)
     return bytes;
 }
 
-// Buffers by the addresses of their files, which several may share; of one address the largest. Throws InputError where
-// these and all other buffers come to more than kMostBytes.
-std::map<std::string, Buffer> files_of(const fs::path& path, const nlohmann::json& list)
+// How many bytes are needed of each file, by its address; several buffers may share one.
+std::map<std::string, std::uintmax_t> sizes_of_files(const fs::path& path, const nlohmann::json& list)
 {
-    std::map<std::string, Buffer> files;
-    std::uintmax_t total = 0;
-    const auto count = [&](std::uintmax_t size) {
-        if (size > kMostBytes - total) throw InputError(path, "its buffers come to more than 8 GiB; split it");
-        total += size;
-    };
+    std::map<std::string, std::uintmax_t> sizes;
     for (std::size_t n = 0; n < list.size(); ++n) {
         const Buffer buffer{path, n, list[n].at("byteLength").get<std::uintmax_t>()};
         const std::string* const uri = uri_of(list[n]);
         if (!uri || is_data_uri(*uri)) continue;  // no more than the file itself holds
         file_of(buffer, *uri);
-        const auto [known, is_new] = files.try_emplace(*uri, buffer);
-        if (!is_new && known->second.size >= buffer.size) continue;
-        count(buffer.size - (is_new ? 0 : known->second.size));
-        known->second.number = n;
-        known->second.size = buffer.size;
+        sizes[*uri] = std::max(sizes[*uri], buffer.size);
     }
-    return files;
+    std::uintmax_t total = 0;
+    for (const auto& [uri, size] : sizes) {
+        if (size > kMostBytes - total) throw InputError(path, "its buffers come to more than 8 GiB; split it");
+        total += size;
+    }
+    return sizes;
 }
 
 }  // namespace
@@ -122,17 +109,20 @@ GltfBuffers read_gltf_buffers(const fs::path& path, const nlohmann::json& docume
     const auto keep = [&](std::string bytes) {
         return buffers.contents.emplace_back(std::make_shared<const std::string>(std::move(bytes)));
     };
-    const std::map<std::string, Buffer> files = files_of(path, *list);
+    const std::map<std::string, std::uintmax_t> sizes = sizes_of_files(path, *list);
     std::map<std::string, std::shared_ptr<const std::string>> read;
     for (const auto& each : *list) {
         const Buffer buffer{path, buffers.bytes.size(), each.at("byteLength").get<std::uintmax_t>()};
         const std::string* const uri = uri_of(each);
         std::shared_ptr<const std::string> content;
         if (uri && is_data_uri(*uri)) {
-            content = keep(bytes_in_text(buffer, *uri));
+            std::optional<std::string> bytes = bytes_in_uri(*uri);
+            if (!bytes) buffer.refuse("has an uri that is no base64; export it with a .bin file or as .glb");
+            buffer.require(bytes->size(), "its uri");
+            content = keep(std::move(*bytes));
         } else if (uri) {
             content = read[*uri];
-            if (!content) content = read[*uri] = keep(bytes_in_file(files.at(*uri), *uri));
+            if (!content) content = read[*uri] = keep(bytes_in_file({path, buffer.number, sizes.at(*uri)}, *uri));
         } else {
             if (!container.is_binary || buffer.number > 0) buffer.refuse("has no uri; export the file again");
             buffer.require(container.bytes.size(), "the GLB's chunk");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/formats/gltf_check.h"
+#include "tools/formats/gltf_json.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char *kIndex = "a whole number from 0 to 2147483647", *kSize = "a whole number of bytes";
+// What a member must be.
+struct Kind {
+    const char* wanted;
+    bool (*is)(const Json& value);
+};
 
 // glTF has whole numbers without a fraction, be it .0; a reader that wants them so takes others for missing.
 bool is_whole(const Json& value, std::uint64_t most)
@@ -27,151 +31,110 @@ bool is_whole(const Json& value, std::uint64_t most)
     return value.is_number_integer() && (value.is_number_unsigned() || value.get<std::int64_t>() >= 0) &&
            value.get<std::uint64_t>() <= most;
 }
-
 bool is_index(const Json& value) { return is_whole(value, INT32_MAX); }
-bool is_size(const Json& value) { return is_whole(value, std::uint64_t{1} << 53); }  // as JSON's numbers go
-bool is_text(const Json& value) { return value.is_string(); }
-bool is_object(const Json& value) { return value.is_object(); }
 
 // Of the size of floats, which accessors have, too: squares and products of some are still finite.
 bool is_float(const Json& value) { return value.is_number() && std::abs(value.get<double>()) <= double{FLT_MAX}; }
-bool is_numbers(const Json& value, std::size_t count)
+template <std::size_t count>
+bool is_floats(const Json& value)
 {
     return value.is_array() && value.size() == count && std::all_of(value.begin(), value.end(), is_float);
 }
-
 bool is_indices(const Json& value) { return value.is_array() && std::all_of(value.begin(), value.end(), is_index); }
+bool is_stride(const Json& value) { return is_whole(value, 252) && value.get<int>() >= 4 && value.get<int>() % 4 == 0; }
+bool is_version_2(const Json& value) { return value.is_string() && value.get<std::string>().starts_with("2."); }
+bool is_objects(const Json& value)
+{
+    return value.is_array() &&
+           std::all_of(value.begin(), value.end(), [](const Json& each) { return each.is_object(); });
+}
 
-// One object of the document, and how messages call it.
-struct Element {
-    const std::filesystem::path& path;
-    std::string name;
-    const Json& object;
+constexpr Kind kIndex{"a whole number from 0 to 2147483647", is_index},
+    kSize{"a whole number of bytes", [](const Json&value) { return is_whole(value, std::uint64_t{1} << 53); }},
+    kText{"a text", [](const Json&value) { return value.is_string(); }},
+    kTruth{"true or false", [](const Json&value) { return value.is_boolean(); }},
+    kObject{"an object", [](const Json&value) { return value.is_object(); }}, kObjects{"a list of objects", is_objects},
+    kIndices{"a list of nodes", is_indices}, kVector{"a list of 3 numbers that floats can hold", is_floats<3>},
+    kRotation{"a list of 4 numbers that floats can hold", is_floats<4>},
+    kMatrix{"a list of 16 numbers that floats can hold", is_floats<16>},
+    kStride{"a multiple of 4 from 4 to 252", is_stride}, kVersion{"\"2.0\"", is_version_2};
 
-    [[noreturn]] void refuse(const char* member, const char* wanted) const
-    {
-        const auto found = object.find(member);
-        const std::string value = found == object.end() ? "nothing" : printable(found->dump(), 60);
-        throw InputError(path, fmt::format("{} has a bad {}: {} is needed, not {}", name, member, wanted, value));
-    }
-    template <class Test>
-    void may_have(const char* member, const char* wanted, Test&& test) const
-    {
-        if (const auto found = object.find(member); found != object.end() && !test(*found)) refuse(member, wanted);
-    }
-    template <class Test>
-    void must_have(const char* member, const char* wanted, Test&& test) const
-    {
-        const auto found = object.find(member);
-        if (found == object.end() || !test(*found)) refuse(member, wanted);
-    }
-    void may_have_text(const char* member) const { may_have(member, "a text", is_text); }
-    // An object in it, and how messages call that.
-    Element part(const char* member, const std::string& call) const
-    {
-        must_have(member, "an object", is_object);
-        return {path, call, object.at(member)};
-    }
+// A member of the object, or of each object of the list, at `owner`.
+struct Member {
+    std::string_view owner, name;
+    const Kind& kind;
+    bool is_needed = false;
+};
+const Member kMembers[] = {
+    {"", "asset", kObject, true},
+    {"/asset", "version", kVersion, true},
+    {"", "nodes", kObjects},
+    {"/nodes", "name", kText},
+    {"/nodes", "children", kIndices},
+    {"/nodes", "translation", kVector},
+    {"/nodes", "rotation", kRotation},
+    {"/nodes", "scale", kVector},
+    {"/nodes", "matrix", kMatrix},
+    {"", "skins", kObjects},
+    {"/skins", "joints", kIndices},
+    {"", "animations", kObjects},
+    {"/animations", "name", kText},
+    {"/animations", "channels", kObjects},
+    {"/animations/channels", "sampler", kIndex, true},
+    {"/animations/channels", "target", kObject, true},
+    {"/animations/channels/target", "node", kIndex},
+    {"/animations/channels/target", "path", kText, true},
+    {"/animations", "samplers", kObjects},
+    {"/animations/samplers", "input", kIndex, true},
+    {"/animations/samplers", "output", kIndex, true},
+    {"/animations/samplers", "interpolation", kText},
+    {"", "accessors", kObjects},
+    {"/accessors", "bufferView", kIndex},
+    {"/accessors", "byteOffset", kSize},
+    {"/accessors", "componentType", kIndex, true},
+    {"/accessors", "count", kIndex, true},
+    {"/accessors", "type", kText, true},
+    {"/accessors", "normalized", kTruth},
+    {"/accessors", "sparse", kObject},
+    {"/accessors/sparse", "count", kIndex, true},
+    {"/accessors/sparse", "indices", kObject, true},
+    {"/accessors/sparse/indices", "bufferView", kIndex, true},
+    {"/accessors/sparse/indices", "byteOffset", kSize},
+    {"/accessors/sparse/indices", "componentType", kIndex, true},
+    {"/accessors/sparse", "values", kObject, true},
+    {"/accessors/sparse/values", "bufferView", kIndex, true},
+    {"/accessors/sparse/values", "byteOffset", kSize},
+    {"", "bufferViews", kObjects},
+    {"/bufferViews", "buffer", kIndex, true},
+    {"/bufferViews", "byteLength", kSize, true},
+    {"/bufferViews", "byteOffset", kSize},
+    {"/bufferViews", "byteStride", kStride},
+    {"", "buffers", kObjects},
+    {"/buffers", "byteLength", kSize, true},
+    {"/buffers", "uri", kText},
 };
 
-template <class Check>
-void check_list(const std::filesystem::path& path, const Json& owner, const char* list, const std::string& name,
-                Check&& check)
+// owner: of the table; place: of the object, the same with the numbers of elements.
+void check_object(const std::filesystem::path& path, const std::string& owner, const std::string& place,
+                  const Json& object)
 {
-    const auto found = owner.find(list);
-    if (found == owner.end()) return;
-    if (!found->is_array()) throw InputError(path, fmt::format("its {} are no list", list));
-    for (std::size_t n = 0; n < found->size(); ++n) {
-        const Element element{path, fmt::format("{} {}", name, n), (*found)[n]};
-        if (!element.object.is_object()) throw InputError(path, fmt::format("{} is no object", element.name));
-        check(element);
+    for (const Member& member : kMembers) {
+        if (member.owner != owner) continue;
+        const auto found = object.find(member.name);
+        const bool is_there = found != object.end();
+        const std::string below = fmt::format("/{}", member.name);
+        if (is_there ? !member.kind.is(*found) : member.is_needed)
+            throw InputError(path,
+                             fmt::format("{} is bad: {} is needed, not {}; export the file again", place + below,
+                                         member.kind.wanted, is_there ? printable(found->dump(), 60) : "nothing"));
+        if (is_there && &member.kind == &kObject) check_object(path, owner + below, place + below, *found);
+        for (std::size_t n = 0; is_there && &member.kind == &kObjects && n < found->size(); ++n)
+            check_object(path, owner + below, fmt::format("{}{}/{}", place, below, n), (*found)[n]);
     }
-}
-
-void check_node(const Element& node)
-{
-    const auto numbers = [](std::size_t count) {
-        return [count](const Json& value) { return is_numbers(value, count); };
-    };
-    node.may_have_text("name");
-    node.may_have("children", "a list of nodes", is_indices);
-    node.may_have("translation", "a list of 3 numbers that floats can hold", numbers(3));
-    node.may_have("rotation", "a list of 4 numbers that floats can hold", numbers(4));
-    node.may_have("scale", "a list of 3 numbers that floats can hold", numbers(3));
-    node.may_have("matrix", "a list of 16 numbers that floats can hold", numbers(16));
-}
-
-void check_channel(const Element& channel)
-{
-    channel.must_have("sampler", kIndex, is_index);
-    const Element at = channel.part("target", "the target of " + channel.name);
-    at.may_have("node", kIndex, is_index);
-    at.must_have("path", "a text", is_text);
-}
-
-void check_sampler(const Element& sampler)
-{
-    for (const char* member : {"input", "output"}) sampler.must_have(member, kIndex, is_index);
-    sampler.may_have_text("interpolation");
-}
-
-void check_animation(const Element& animation)
-{
-    animation.may_have_text("name");
-    check_list(animation.path, animation.object, "channels", animation.name + ", channel", check_channel);
-    check_list(animation.path, animation.object, "samplers", animation.name + ", sampler", check_sampler);
-}
-
-void check_accessor(const Element& accessor)
-{
-    accessor.may_have("bufferView", kIndex, is_index);
-    accessor.may_have("byteOffset", kSize, is_size);
-    accessor.must_have("componentType", kIndex, is_index);
-    accessor.must_have("count", kIndex, is_index);
-    accessor.must_have("type", "a text", is_text);
-    accessor.may_have("normalized", "true or false", [](const Json& value) { return value.is_boolean(); });
-    if (!accessor.object.contains("sparse")) return;
-    const Element sparse = accessor.part("sparse", "the sparse part of " + accessor.name);
-    sparse.must_have("count", kIndex, is_index);
-    for (const char* member : {"indices", "values"}) {
-        const Element part = sparse.part(member, fmt::format("{}, {},", sparse.name, member));
-        part.must_have("bufferView", kIndex, is_index);
-        part.may_have("byteOffset", "a whole number of bytes below 2 GiB", is_index);
-    }
-    sparse.part("indices", sparse.name + ", indices,").must_have("componentType", kIndex, is_index);
-}
-
-void check_view(const Element& view)
-{
-    view.must_have("buffer", kIndex, is_index);
-    view.must_have("byteLength", kSize, is_size);
-    view.may_have("byteOffset", kSize, is_size);
-    view.may_have("byteStride", "a multiple of 4 from 4 to 252", [](const Json& value) {
-        return is_whole(value, 252) && value.get<int>() >= 4 && value.get<int>() % 4 == 0;
-    });
-}
-
-void check_buffer(const Element& buffer)
-{
-    buffer.must_have("byteLength", kSize, is_size);
-    buffer.may_have_text("uri");
 }
 
 }  // namespace
 
-void check_members(const std::filesystem::path& path, const Json& document)
-{
-    const Element whole{path, "the file", document};
-    whole.part("asset", "its asset").must_have("version", "\"2.0\"", [](const Json& value) {
-        return value.is_string() && value.get<std::string>().starts_with("2.");
-    });
-    check_list(path, document, "nodes", "node", check_node);
-    check_list(path, document, "skins", "skin",
-               [](const Element& skin) { skin.may_have("joints", "a list of nodes", is_indices); });
-    check_list(path, document, "animations", "animation", check_animation);
-    check_list(path, document, "accessors", "accessor", check_accessor);
-    check_list(path, document, "bufferViews", "buffer view", check_view);
-    check_list(path, document, "buffers", "buffer", check_buffer);
-}
+void check_members(const std::filesystem::path& path, const Json& document) { check_object(path, "", "", document); }
 
 }  // namespace swivel::formats

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
@@ -40,67 +41,34 @@ void append_chunk(std::string& glb, std::uint32_t type, std::string_view content
     throw InputError(path, fmt::format("{}; export the file again", cause));
 }
 
-// A GLB on its way in: what was read of it, and what its header lets one read.
-class GlbReader {
-public:
-    GlbReader(const std::filesystem::path& path, std::FILE* file, std::string begin)
-        : path_(path), file_(file), begin_(std::move(begin))
-    {
+// glb: what is read of it so far.
+GltfContainer read_glb(const std::filesystem::path& path, std::FILE* file, std::string glb)
+{
+    if (glb.size() < 12) refuse(path, "a GLB cut short");
+    if (const std::uint32_t version = word_at(glb, 4); version != 2)
+        refuse(path, fmt::format("a GLB of version {}; only 2 is read", version));
+    const std::size_t size = word_at(glb, 8);
+    if (size < 20) refuse(path, fmt::format("the GLB says it has {} bytes", size));
+    append_bytes(path, file, size - std::min(size, glb.size()), glb);
+    if (glb.size() < size) refuse(path, fmt::format("the GLB says it has {} bytes and has {}", size, glb.size()));
+    glb.resize(size);
+    GltfContainer container;
+    container.is_binary = true;
+    for (std::size_t chunk = 0, at = 12; at + 8 <= size; ++chunk) {
+        const std::size_t length = word_at(glb, at), type = word_at(glb, at + 4);
+        if (length > size - at - 8) refuse(path, fmt::format("chunk {} of the GLB runs beyond its end", chunk));
+        if (chunk == 0 && type != kJsonChunk) refuse(path, "the GLB does not start with its JSON");
+        if (chunk == 0)
+            container.json = glb.substr(at + 8, length);
+        else if (chunk == 1 && type == kBinChunk)
+            container.bytes = glb.substr(at + 8, length);
+        else
+            container.other_chunks += glb.substr(at, 8 + length);
+        at += 8 + length;
     }
-
-    GltfContainer read()
-    {
-        const std::string head = take(12);
-        if (head.size() < 12) refuse(path_, "a GLB cut short");
-        if (const std::uint32_t version = word_at(head, 4); version != 2)
-            refuse(path_, fmt::format("a GLB of version {}; only 2 is read", version));
-        size_ = word_at(head, 8);
-        if (size_ < 20) refuse(path_, fmt::format("the GLB says it has {} bytes", size_));
-        GltfContainer container;
-        container.is_binary = true;
-        for (std::size_t chunk = 0; at_ + 8 <= size_; ++chunk) read_chunk(container, chunk);
-        return container;
-    }
-
-private:
-    // Fewer bytes only at the end of the file.
-    std::string take(std::size_t count)
-    {
-        std::string bytes = begin_.substr(0, count);
-        begin_.erase(0, bytes.size());
-        append_bytes(path_, file_, count - bytes.size(), bytes);
-        at_ += bytes.size();
-        return bytes;
-    }
-    std::string require(std::size_t count)
-    {
-        std::string bytes = take(count);
-        if (bytes.size() < count) refuse(path_, fmt::format("the GLB says it has {} bytes and has {}", size_, at_));
-        return bytes;
-    }
-    void read_chunk(GltfContainer& container, std::size_t chunk)
-    {
-        const std::string head = require(8);
-        const std::size_t length = word_at(head, 0);
-        const std::uint32_t type = word_at(head, 4);
-        if (length > size_ - at_) refuse(path_, fmt::format("chunk {} of the GLB runs beyond its end", chunk));
-        if (chunk == 0 && type != kJsonChunk) refuse(path_, "the GLB does not start with its JSON");
-        std::string content = require(length);
-        if (chunk == 0) {
-            container.json = std::move(content);
-            container.json.resize(container.json.find_last_not_of(kBlanks) + 1);
-        } else if (chunk == 1 && type == kBinChunk) {
-            container.bytes = std::move(content);
-        } else {
-            container.other_chunks += head + content;
-        }
-    }
-
-    const std::filesystem::path& path_;
-    std::FILE* file_;
-    std::string begin_;
-    std::size_t at_ = 0, size_ = 0;
-};
+    container.json.resize(container.json.find_last_not_of(kBlanks) + 1);
+    return container;
+}
 
 }  // namespace
 
@@ -118,7 +86,7 @@ GltfContainer read_gltf_container(const std::filesystem::path& path, std::FILE* 
 {
     if (begin.size() < 12) append_bytes(path, file, 12 - begin.size(), begin);
     if (begin.empty()) throw InputError(path, "is empty; check how it was written");
-    if (begin.starts_with(kMagic)) return GlbReader(path, file, std::move(begin)).read();
+    if (begin.starts_with(kMagic)) return read_glb(path, file, std::move(begin));
     begin.erase(0, begin.size() - without_byte_order_mark(begin).size());
     if (const std::string_view start = trimmed(begin); !start.empty() && start[0] != '{')
         throw InputError(path, "is not glTF: it starts neither with 'glTF' nor with '{'");

@@ -23,7 +23,8 @@ bool is_gltf_begin(std::string_view begin);
 
 // Reads a file of either shape, told apart by its first bytes, not by its suffix. Throws InputError for a file that
 // cannot be read, is neither shape, is of glTF 1.0, or whose chunks run beyond its end. Of a GLB it reads the bytes
-// that the GLB's header counts, and of a text 2 GiB at most: a device may have no end. Holds the file once.
+// that the GLB's header counts, and of a text 2 GiB at most: a device may have no end. Holds a text once and a GLB
+// twice.
 GltfContainer read_gltf_container(const std::filesystem::path& path);
 
 // The same of an open file of which `begin` is read. path: what messages call it.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tools/formats/gltf_edit.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <optional>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "tools/formats/gltf_json.h"
-#include "tools/formats/gltf_keys.h"
 #include "tools/formats/gltf_uri.h"
 
 namespace swivel::formats {
@@ -13,6 +14,31 @@ namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
+
+constexpr int kFloat = 5126;  // glTF's componentType
+
+// A document on its way into a file: its JSON, and where new bytes go.
+struct GltfAsset {
+    Json document;
+    std::string bytes = {};  // of the GLB's chunk, or of a new buffer
+    std::size_t buffer = 0;  // whose bytes these are
+
+    // The document's list of this name, made where there is none.
+    Json& list(const char* name)
+    {
+        Json& found = document[name];
+        if (!found.is_array()) found = Json::array();
+        return found;
+    }
+    // Adds bytes; the buffer view of them.
+    Json add_bytes(std::string_view content)
+    {
+        bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+        const Json view{{"buffer", buffer}, {"byteOffset", bytes.size()}, {"byteLength", content.size()}};
+        bytes += content;
+        return view;
+    }
+};
 
 // Buffers of a .gltf: the chunk of a GLB moves into the text, and what lies in files is used from there.
 void settle_text(GltfAsset& asset, std::span<const std::string_view> buffers)
@@ -57,19 +83,69 @@ void settle_binary(GltfAsset& asset, std::span<const std::string_view> buffers)
     list[0].erase("uri");
 }
 
-// A picture in the text of a GLB is one that the validator warns of; in the chunk it is as it should be.
-void move_pictures_into_chunk(GltfAsset& asset)
+// An animated node must not have a matrix.
+void take_matrix_apart(Json& node, const GltfChanges::Track& track)
 {
-    const auto images = asset.document->find("images");
-    if (images == asset.document->end() || !images->is_array()) return;
-    for (Json& image : *images) {
-        if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
-        const std::optional<DataUri> data = data_of(image["uri"].get_ref<const std::string&>());
-        if (!data || data->kind.empty()) continue;
-        image.erase("uri");
-        if (!image.contains("mimeType")) image["mimeType"] = data->kind;
-        image["bufferView"] = asset.list("bufferViews").size();
-        asset.list("bufferViews").push_back(asset.add_bytes(data->bytes));
+    if (node.erase("matrix") == 0) return;
+    const Eigen::Quaterniond& q = track.rotation;
+    node["translation"] = {track.translation.x(), track.translation.y(), track.translation.z()};
+    node["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+    node["scale"] = {track.scale.x(), track.scale.y(), track.scale.z()};
+}
+
+// Adds an accessor of floats. Its index.
+std::size_t add_floats(GltfAsset& asset, std::span<const float> values, std::size_t width, const char* type)
+{
+    asset.list("bufferViews")
+        .push_back(asset.add_bytes({reinterpret_cast<const char*>(values.data()), values.size_bytes()}));
+    asset.list("accessors")
+        .push_back({{"bufferView", asset.list("bufferViews").size() - 1},
+                    {"componentType", kFloat},
+                    {"count", values.size() / width},
+                    {"type", type}});
+    return asset.list("accessors").size() - 1;
+}
+
+// The sampler of the node's rotation, unless other channels use it, too; else a new one.
+Json& sampler_for(Json& animation, int node)
+{
+    Json &channels = animation["channels"], &samplers = animation["samplers"];
+    const auto is_its = [&](const Json& channel) {
+        const Json& target = channel.at("target");
+        return target.at("path") == "rotation" && target.value("node", -1) == node;
+    };
+    auto channel = std::find_if(channels.begin(), channels.end(), is_its);
+    if (channel == channels.end()) {
+        channels.push_back({{"target", {{"node", node}, {"path", "rotation"}}}});
+        channel = channels.end() - 1;
+    } else {
+        const Json& old = channel->at("sampler");
+        const auto uses_it = [&](const Json& each) { return each.at("sampler") == old; };
+        if (std::count_if(channels.begin(), channels.end(), uses_it) == 1) return samplers[old.get<std::size_t>()];
+    }
+    (*channel)["sampler"] = samplers.size();
+    return samplers.emplace_back(Json::object());
+}
+
+void add_keys(GltfAsset& asset, const GltfChanges& changes)
+{
+    if (changes.tracks.empty()) return;
+    const std::size_t times = add_floats(asset, changes.times, 1, "SCALAR");
+    asset.list("accessors")[times]["min"] = {changes.times.front()};
+    asset.list("accessors")[times]["max"] = {changes.times.back()};
+    if (changes.animation < 0) asset.list("animations").push_back({{"name", "swivel"}});
+    Json& animations = asset.list("animations");
+    Json& animation =
+        changes.animation < 0 ? animations.back() : animations[static_cast<std::size_t>(changes.animation)];
+    for (const char* name : {"channels", "samplers"})
+        if (!animation.contains(name)) animation[name] = Json::array();
+    for (const GltfChanges::Track& track : changes.tracks) {
+        take_matrix_apart(asset.list("nodes")[static_cast<std::size_t>(track.node)], track);
+        const std::size_t rotations = add_floats(asset, track.xyzw, 4, "VEC4");
+        Json& sampler = sampler_for(animation, track.node);
+        sampler["input"] = times;
+        sampler["output"] = rotations;
+        sampler["interpolation"] = track.is_stepped ? "STEP" : "LINEAR";
     }
 }
 
@@ -78,15 +154,12 @@ void move_pictures_into_chunk(GltfAsset& asset)
 GltfContainer with_changes(const GltfContainer& file, std::span<const std::string_view> buffers,
                            const GltfChanges& changes, const fs::path& from, const fs::path& to, bool binary)
 {
-    GltfAsset asset;
-    asset.document = gltf_document(from, file.json);
-    if (binary) {
+    GltfAsset asset{gltf_document(from, file.json)};
+    if (binary)
         settle_binary(asset, buffers);
-        move_pictures_into_chunk(asset);
-    } else {
+    else
         settle_text(asset, buffers);
-    }
-    for_each_uri(*asset.document, [&](Json& object) {
+    for_each_uri(asset.document, [&](Json& object) {
         auto& uri = object["uri"].get_ref<std::string&>();
         if (!is_data_uri(uri)) uri = moved_uri(uri, from, to);
     });
@@ -96,9 +169,10 @@ GltfContainer with_changes(const GltfContainer& file, std::span<const std::strin
     if (!binary && asset.bytes.empty()) list.erase(asset.buffer);
     if (!binary && !asset.bytes.empty()) list[asset.buffer]["uri"] = data_uri_of(asset.bytes);
     if (binary && asset.bytes.empty() && buffers.empty()) list.clear();
-    asset.drop_empty_lists();
+    for (const char* name : {"buffers", "bufferViews", "accessors"})  // an empty list is not legal glTF
+        if (asset.list(name).empty()) asset.document.erase(name);
     GltfContainer out;
-    out.json = asset.document->dump();
+    out.json = asset.document.dump();
     out.is_binary = binary;
     if (binary) {
         out.bytes = std::move(asset.bytes);

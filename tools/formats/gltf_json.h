@@ -3,24 +3,25 @@
 // A glTF file's JSON text as a document. Knows which documents are refused, not what they say.
 
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 namespace swivel::formats {
-
-// Frees a document without asking for memory. The library's own destructor does ask, and where there is none the
-// program ends.
-struct FreeDocument {
-    void operator()(nlohmann::json* document) const noexcept;
-};
-using GltfDocument = std::unique_ptr<nlohmann::json, FreeDocument>;
 
 // The text as a document. Throws InputError for
 // - text that is no JSON object;
 // - text that is nested deeper than 500 levels;
 // - members that check_members() refuses;
 // - a document that says that its buffers are compressed.
-GltfDocument gltf_document(const std::filesystem::path& path, std::string_view json);
+nlohmann::json gltf_document(const std::filesystem::path& path, std::string_view json);
+
+// Checks what a reader of skeletons needs of a document: its version, nodes, skins, animations, accessors, buffer views
+// and buffers.
+// Throws InputError, naming the place, for
+// - a list or an element of a wrong type;
+// - a member that is missing;
+// - a member that is not what the specification says.
+// Allocates little; any number of threads may call it.
+void check_members(const std::filesystem::path& path, const nlohmann::json& document);
 
 }  // namespace swivel::formats

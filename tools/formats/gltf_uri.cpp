@@ -43,16 +43,11 @@ bool is_relative(const std::string& uri) { return !has_scheme(uri) && !fs::path(
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 
-std::optional<DataUri> data_of(std::string_view uri)
+std::optional<std::string> bytes_in_uri(std::string_view uri)
 {
-    constexpr std::string_view kBegin = "data:", kEnd = ";base64";
     const std::size_t comma = uri.find(',');
-    const std::string_view head = uri.substr(0, comma);
-    if (comma == std::string_view::npos || !head.starts_with(kBegin) || !head.ends_with(kEnd)) return std::nullopt;
-    const std::string_view kind = head.substr(kBegin.size(), head.size() - kBegin.size() - kEnd.size());
-    std::optional<std::string> bytes = bytes_of_base64(uri.substr(comma + 1));
-    if (!bytes) return std::nullopt;
-    return DataUri{std::string(kind.substr(0, kind.find(';'))), *std::move(bytes)};
+    if (!is_data_uri(uri) || !uri.substr(0, comma).ends_with(";base64") || comma == uri.npos) return std::nullopt;
+    return bytes_of_base64(uri.substr(comma + 1));
 }
 
 std::string data_uri_of(std::string_view bytes) { return "data:application/octet-stream;base64," + base64_of(bytes); }

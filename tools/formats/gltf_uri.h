@@ -13,13 +13,8 @@ namespace swivel::formats {
 // Whether the address holds its bytes itself.
 bool is_data_uri(std::string_view uri);
 
-struct DataUri {
-    std::string kind;  // "image/png"; may be empty
-    std::string bytes;
-};
-
-// What an address holds itself as base64; nothing for any other. Of a fault in the base64 there is nothing, too.
-std::optional<DataUri> data_of(std::string_view uri);
+// The bytes that an address holds itself as base64; nothing for any other address, and for a fault in the base64.
+std::optional<std::string> bytes_in_uri(std::string_view uri);
 
 // An address that holds these bytes.
 std::string data_uri_of(std::string_view bytes);

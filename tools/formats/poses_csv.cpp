@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -16,69 +17,41 @@ constexpr std::string_view kHeader =
     "elbow_x,elbow_y,elbow_z,elbow_w,wrist_x,wrist_y,wrist_z,wrist_w,flags,"
     "place_x,place_y,place_z,size,start";
 
-// Longest line: three whole numbers of 10 digits and one of 20, "right_arm", 45 floats such as -1.17549435e-38 (15), 4
-// doubles such as -2.2250738585072014e-308 (24), 54 separators: 884.
-constexpr std::size_t kMaxLineBytes = 896;
+using Line = fmt::memory_buffer;  // in the making
 
-// A line in the making.
-struct Line {
-    std::array<char, kMaxLineBytes> text;
-    char* end = text.data();
-};
-
-void put(Line& line, char c) { *line.end++ = c; }
-
-void put(Line& line, std::string_view word) { line.end += word.copy(line.end, word.size()); }
-
+// The fewest digits that give the same number back.
 template <class Number>
-void put_number(Line& line, Number number)
+void put(Line& line, Number number)
 {
-    line.end = std::to_chars(line.end, line.text.data() + line.text.size(), number).ptr;
-}
-
-void put_rotation(Line& line, const std::array<float, 4>& rotation)
-{
-    for (const float component : rotation) {
-        put_number(line, component);
-        put(line, ',');
-    }
-}
-
-void put_row(Line& line, std::uint32_t frame, const PoseRow& row)
-{
-    put_number(line, frame);
-    put(line, ',');
-    put_number(line, row.character);
-    put(line, ',');
-    put(line, limb_word(row.limb));
-    put(line, ',');
-    put_rotation(line, row.shoulder);
-    put_rotation(line, row.elbow);
-    put_rotation(line, row.wrist);
-    put_number(line, row.flags);
-    for (const double coordinate : row.place) {
-        put(line, ',');
-        put_number(line, coordinate);
-    }
-    put(line, ',');
-    put_number(line, row.size);
-    put(line, ',');
-    put_number(line, row.start);
+    char digits[32];
+    line.append(std::string_view(digits, std::to_chars(digits, std::end(digits), number).ptr));
 }
 
 void put_cells(Line& line, bool filled, const std::array<float, 4>& rotation)
 {
     for (const float component : rotation) {
-        put(line, ',');
-        if (filled) put_number(line, component);
+        line.push_back(',');
+        if (filled) put(line, component);
     }
+}
+
+void put_row(Line& line, std::uint32_t frame, const PoseRow& row)
+{
+    fmt::format_to(std::back_inserter(line), "{},{},{}", frame, row.character, limb_word(row.limb));
+    for (const auto* rotation : {&row.shoulder, &row.elbow, &row.wrist}) put_cells(line, true, *rotation);
+    fmt::format_to(std::back_inserter(line), ",{}", row.flags);
+    for (const double number : {row.place[0], row.place[1], row.place[2], row.size}) {
+        line.push_back(',');
+        put(line, number);
+    }
+    fmt::format_to(std::back_inserter(line), ",{}", row.start);
 }
 
 void put_extra(Line& line, const PoseColumns& columns, const PoseExtra& extra)
 {
     if (columns.stretch) {
-        put(line, ',');
-        put_number(line, extra.stretch);
+        line.push_back(',');
+        put(line, extra.stretch);
     }
     if (columns.clavicle) put_cells(line, extra.has_clavicle, extra.clavicle);
     for (unsigned bone = 0; bone < columns.twist_count; ++bone)
@@ -99,12 +72,13 @@ PosesCsv::PosesCsv(const std::filesystem::path& path, const PoseColumns& columns
 
 void PosesCsv::append(std::uint32_t frame, std::span<const PoseRow> rows, std::span<const PoseExtra> extras)
 {
+    Line line;
     for (std::size_t n = 0; n < rows.size(); ++n) {
-        Line line;
+        line.clear();
         put_row(line, frame, rows[n]);
         if (!extras.empty()) put_extra(line, columns_, extras[n]);
-        put(line, '\n');
-        out_.write({line.text.data(), static_cast<std::size_t>(line.end - line.text.data())});
+        line.push_back('\n');
+        out_.write({line.data(), line.size()});
     }
 }
 

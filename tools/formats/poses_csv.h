@@ -49,8 +49,7 @@ public:
     explicit PosesCsv(const std::filesystem::path& path, const PoseColumns& columns = {});
 
     // Writes the rows of one frame in the order given. Frames may come in any order and in several pieces. extras: one
-    // for each row, or none if there are no columns for them. Throws InputError when the disk is full. Allocates
-    // nothing.
+    // for each row, or none if there are no columns for them. Throws InputError when the disk is full.
     void append(std::uint32_t frame, std::span<const PoseRow> rows, std::span<const PoseExtra> extras = {});
 
     // Makes the file appear; without it there is none. To be called once, last.

@@ -3,14 +3,10 @@
 
 #include <fmt/format.h>
 
-#define CSV_IO_NO_THREAD
-#include <libfccp/csv.h>
-
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <tuple>
 
@@ -25,8 +21,8 @@ namespace {
 
 constexpr unsigned kColumnCount = 14;
 constexpr unsigned kLimb = 2, kSide = 13;  // side: what tables of arms had instead of limb
-constexpr std::array<const char*, kColumnCount> kColumns = {"frame",  "character", "limb", "x",  "y",  "z",  "pole_x",
-                                                            "pole_y", "pole_z",    "qx",   "qy", "qz", "qw", "side"};
+constexpr std::array<std::string_view, kColumnCount> kColumns = {
+    "frame", "character", "limb", "x", "y", "z", "pole_x", "pole_y", "pole_z", "qx", "qy", "qz", "qw", "side"};
 // Columns that belong together. Of those that are optional a table has all or none, and so has a row.
 struct Part {
     unsigned first, count;
@@ -37,39 +33,12 @@ constexpr std::string_view kColumnList =
     "frame,character,limb,x,y,z, all or none of pole_x,pole_y,pole_z, and all or none of qx,qy,qz,qw";
 constexpr double kMinNorm = 1 / kMaxNorm;
 
-using Csv = io::CSVReader<kColumnCount, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                          io::throw_on_overflow, io::single_and_empty_line_comment<'#'>>;
-
-// Feeds the parser, which takes a read error for the end and a zero byte for the end of a line, and which needs a line
-// end after the last line to be sure of it. Derived from the parser's base because that is its only door.
-class TextSource : public io::ByteSourceBase {
-public:
-    explicit TextSource(const fs::path& path) : path_(path), file_(open_text(path)) {}
-
-    int read(char* buffer, int size) override
-    {
-        const auto wanted = static_cast<std::size_t>(size);
-        std::size_t count = read_chunk(path_, file_.get(), buffer, wanted);
-        if (count > 0) ends_line_ = buffer[count - 1] == '\n';
-        if (count < wanted && !ends_line_) {
-            buffer[count++] = '\n';
-            ends_line_ = true;
-        }
-        return static_cast<int>(count);
-    }
-
-private:
-    fs::path path_;
-    TextFile file_;
-    bool ends_line_ = true;
-};
-
-// The values of one line, as the parser cut them out; empty for columns the file does not have.
+// The values of one line; empty for columns the file does not have.
 struct Row {
     const fs::path& path;
     std::size_t line = 0;
     bool has_side = false;  // the column side in place of limb
-    std::array<const char*, kColumnCount> cell;
+    std::array<std::string_view, kColumnCount> cell;
 };
 
 [[noreturn]] void fail(const Row& row, unsigned column, std::string_view problem)
@@ -117,7 +86,7 @@ Eigen::Vector3d point_at(const Row& row, unsigned column)
 bool has_part(const Row& row, Part part)
 {
     const auto first = row.cell.begin() + part.first;
-    return std::any_of(first, first + part.count, [](const char* cell) { return *cell != 0; });
+    return std::any_of(first, first + part.count, [](std::string_view cell) { return !cell.empty(); });
 }
 
 Eigen::Quaterniond orientation_of(const Row& row)
@@ -146,50 +115,53 @@ Target parse_target(const Row& row)
     return target;
 }
 
-// Calls a function of the parser, and says its complaints in our words.
-template <class Call>
-auto translated(const fs::path& path, const Csv& csv, Call call)
+// The cells of a line, without blanks around them and the quotes that they may stand in.
+void split(const fs::path& path, std::size_t line, std::string_view text, std::vector<std::string_view>& cells)
 {
-    const auto error = [&](std::string_view cause) { return InputError(path, csv.get_file_line(), cause); };
-    try {
-        return call();
-    } catch (const io::error::header_missing&) {
-        throw InputError(path, "is empty; its first line must name the columns");
-    } catch (const io::error::escaped_string_not_closed&) {
-        throw error("a quote is opened and not closed; close it or remove it");
-    } catch (const io::error::extra_column_in_header& e) {
-        if (std::string_view(e.column_name).find_first_of(";\t") != std::string_view::npos)
-            throw error("its columns are separated by semicolons or tabs; write commas, and points in numbers");
-        throw error(fmt::format("unknown column '{}'; known are {}", printable(e.column_name), kColumnList));
-    } catch (const io::error::duplicated_column_in_header& e) {
-        throw error(fmt::format("column {} is there twice", e.column_name));
-    } catch (const io::error::too_few_columns&) {
-        throw error("fewer values than the first line names columns; leave none out");
-    } catch (const io::error::too_many_columns&) {
-        throw error("more values than the first line names columns; remove the surplus");
-    } catch (const io::error::line_length_limit_exceeded&) {
-        throw error("a line longer than 16 MiB; is this a table?");
+    cells.clear();
+    for (bool is_last = false; !is_last;) {
+        bool is_quoted = false;
+        std::size_t end = 0;
+        for (; end < text.size() && (is_quoted || text[end] != ','); ++end) is_quoted = is_quoted != (text[end] == '"');
+        if (is_quoted) throw InputError(path, line, "a quote is opened and not closed; close it or remove it");
+        std::string_view cell = trimmed(text.substr(0, end));
+        if (cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"')) cell = cell.substr(1, cell.size() - 2);
+        cells.push_back(cell);
+        is_last = end == text.size();
+        text.remove_prefix(std::min(end + 1, text.size()));
     }
 }
 
-void read_column_names(const fs::path& path, Csv& csv)
+// Which of kColumns the cells of the first line name.
+std::vector<unsigned> columns_of(const fs::path& path, std::size_t line, const std::vector<std::string_view>& cells)
 {
-    translated(path, csv, [&] {
-        std::apply([&](auto... names) { csv.read_header(io::ignore_missing_column, names...); }, kColumns);
-    });
-    const auto is_there = [&](const char* name) { return csv.has_column(name); };
+    std::vector<unsigned> columns;
+    const auto is_there = [&](std::string_view name) {
+        return std::any_of(columns.begin(), columns.end(), [&](unsigned column) { return kColumns[column] == name; });
+    };
+    for (const std::string_view cell : cells) {
+        if (cells.size() == 1 && cell.find_first_of(";\t") != cell.npos)
+            throw InputError(path, line,
+                             "its columns are separated by semicolons or tabs; write commas, and points in numbers");
+        const auto known = std::find(kColumns.begin(), kColumns.end(), cell);
+        if (known == kColumns.end())
+            throw InputError(path, line,
+                             fmt::format("unknown column '{}'; known are {}", printable(cell), kColumnList));
+        if (is_there(cell)) throw InputError(path, line, fmt::format("column {} is there twice", cell));
+        columns.push_back(static_cast<unsigned>(known - kColumns.begin()));
+    }
     if (is_there(kColumns[kSide]) && is_there(kColumns[kLimb]))
-        throw InputError(path, csv.get_file_line(), "columns limb and side are both there; leave side out");
+        throw InputError(path, line, "columns limb and side are both there; leave side out");
     std::vector<std::string_view> missing;
     for (const Part part : {kPlace, kPole, kOrientation}) {
         const auto first = kColumns.begin() + part.first, last = first + part.count;
         if (part.is_optional && std::none_of(first, last, is_there)) continue;
-        std::copy_if(first, last, std::back_inserter(missing), [&](const char* name) {
+        std::copy_if(first, last, std::back_inserter(missing), [&](std::string_view name) {
             return !is_there(name) && !(name == kColumns[kLimb] && is_there(kColumns[kSide]));
         });
     }
-    if (missing.empty()) return;
-    throw InputError(path, csv.get_file_line(),
+    if (missing.empty()) return columns;
+    throw InputError(path, line,
                      fmt::format("column{} {} {} missing; the first line must name {}", missing.size() == 1 ? "" : "s",
                                  fmt::join(missing, ","), missing.size() == 1 ? "is" : "are", kColumnList));
 }
@@ -215,19 +187,58 @@ void sort_targets(const fs::path& path, std::vector<Target>& targets)
 
 std::vector<Target> read_targets_csv(const fs::path& path)
 {
-    Csv csv("", std::make_unique<TextSource>(path));
-    read_column_names(path, csv);
+    const std::string text = read_text(path);
     std::vector<Target> targets;
-    Row row{path, 0, csv.has_column(kColumns[kSide]), {}};
-    row.cell.fill("");
-    const auto read_row = [&] { return std::apply([&](auto&... cells) { return csv.read_row(cells...); }, row.cell); };
-    while (translated(path, csv, read_row)) {
-        row.line = csv.get_file_line();
+    std::vector<unsigned> columns;
+    std::vector<std::string_view> cells;
+    Row row{path, 0, false, {}};
+    for (std::string_view rest = without_byte_order_mark(text); !rest.empty();) {
+        const std::string_view line = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+        ++row.line;
+        if (trimmed(line).empty() || line[0] == '#') continue;
+        split(path, row.line, line, cells);
+        if (columns.empty()) {
+            columns = columns_of(path, row.line, cells);
+            row.has_side = std::find(columns.begin(), columns.end(), kSide) != columns.end();
+            continue;
+        }
+        if (cells.size() < columns.size())
+            throw InputError(path, row.line, "fewer values than the first line names columns; leave none out");
+        if (cells.size() > columns.size())
+            throw InputError(path, row.line, "more values than the first line names columns; remove the surplus");
+        for (std::size_t n = 0; n < cells.size(); ++n) row.cell[columns[n]] = cells[n];
         targets.push_back(parse_target(row));
     }
+    if (columns.empty()) throw InputError(path, "is empty; its first line must name the columns");
     if (targets.empty()) throw InputError(path, "has no targets below its first line");
     sort_targets(path, targets);
     return targets;
+}
+
+TargetsCsv::TargetsCsv(const std::filesystem::path& path) : out_(path)
+{
+    out_.write("frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n");
+}
+
+void TargetsCsv::append(std::span<const Target> targets)
+{
+    fmt::memory_buffer line;
+    const auto put = [&](bool is_there, const auto& numbers) {
+        for (const double number : numbers) {
+            line.push_back(',');
+            if (is_there) fmt::format_to(std::back_inserter(line), "{}", number);
+        }
+    };
+    for (const Target& target : targets) {
+        line.clear();
+        fmt::format_to(std::back_inserter(line), "{},{},{}", target.frame, target.character, limb_word(target.limb));
+        put(true, target.position);
+        put(target.has_pole, target.pole);
+        put(target.has_orientation, target.orientation.coeffs());
+        line.push_back('\n');
+        out_.write({line.data(), line.size()});
+    }
 }
 
 }  // namespace swivel::formats

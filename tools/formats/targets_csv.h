@@ -34,7 +34,7 @@ struct Target {
 // All targets, sorted by frame, then character, then limb. Throws InputError that names line and column: for a missing,
 // unknown or repeated column, and for a value that is missing, too many or not a finite number. It also does for an
 // unknown limb, a quaternion outside 1e-15 to 1e15, a second row for a limb and frame, and a table without rows. Holds
-// 96 bytes a row, and a window of 48 MiB of the file while reading.
+// 96 bytes a row, and the file while reading.
 std::vector<Target> read_targets_csv(const std::filesystem::path& path);
 
 // Writes such a table, with all columns. Numbers have the fewest digits that give the same double back; cells of what a

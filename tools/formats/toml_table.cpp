@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/formats/bvh.h"
@@ -18,25 +19,9 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1'000'000, kMostDots = 64;  // in a file, in a line
 
-std::string_view type_name(const toml::node& node)
-{
-    switch (node.type()) {
-        case toml::node_type::table:
-            return "a table";
-        case toml::node_type::array:
-            return "a list";
-        case toml::node_type::string:
-            return "text";
-        case toml::node_type::integer:
-            return "a whole number";
-        case toml::node_type::floating_point:
-            return "a number";
-        case toml::node_type::boolean:
-            return "true or false";
-        default:
-            return "a date or time";
-    }
-}
+// By toml::node_type.
+constexpr std::array kTypeNames = {"nothing",  "a table",       "a list",         "text",           "a whole number",
+                                   "a number", "true or false", "a date or time", "a date or time", "a date or time"};
 
 // The parser recurses for each part of a dotted key. What stands in a text or comment counts, too: telling it apart
 // would take the parser. Dots side by side, which no key has, count once, so that dotted rules may be drawn.
@@ -50,15 +35,6 @@ void require_flat(const std::filesystem::path& path, std::string_view text)
             throw InputError(path, line,
                              fmt::format("the line has more than {} dots; no key has so many parts", kMostDots));
     }
-}
-
-// The parser's own words, without those that it starts most errors with.
-std::string cause_of(std::string_view description)
-{
-    const std::size_t colon = description.find(": ");
-    if (description.starts_with("Error while parsing ") && colon != std::string_view::npos)
-        return fmt::format("{} ({})", description.substr(colon + 2), description.substr(20, colon - 20));
-    return std::string(description);
 }
 
 }  // namespace
@@ -76,12 +52,11 @@ toml::table read_toml(const std::filesystem::path& path)
     } catch (const toml::parse_error& error) {
         throw InputError(path, error.source().begin.line,
                          fmt::format("column {}: is no TOML: {}", error.source().begin.column,
-                                     printable(cause_of(error.description()), kMostQuoted)));
+                                     printable(error.description(), kMostQuoted)));
     }
 }
 
-TomlTable::TomlTable(const std::filesystem::path& path, const toml::table& root, std::vector<std::string>* asked)
-    : path_(&path), table_(&root), asked_(asked), line_(1)
+TomlTable::TomlTable(const std::filesystem::path& path, const toml::table& root) : path_(&path), table_(&root), line_(1)
 {
 }
 
@@ -104,13 +79,12 @@ void TomlTable::fail(std::string_view key, std::string_view cause) const
 
 void TomlTable::fail_type(std::string_view key, const toml::node& node, std::string_view wanted) const
 {
-    fail(key, fmt::format("is {}; write {}", type_name(node), wanted));
+    fail(key, fmt::format("is {}; write {}", kTypeNames[static_cast<std::size_t>(node.type())], wanted));
 }
 
 const toml::node* TomlTable::find(std::string_view key)
 {
     known_.emplace_back(key);
-    if (asked_) asked_->push_back(whole_key(key));
     return table_ ? table_->get(key) : nullptr;
 }
 
@@ -122,17 +96,22 @@ Maybe<bool> TomlTable::flag(std::string_view key)
     return given(key, node->as_boolean()->get());
 }
 
+template <class Number>
+void TomlTable::require_within(std::string_view key, Number value, Number least, Number most,
+                               std::string_view wanted) const
+{
+    if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));
+    if (value > most) fail(key, fmt::format("{} is more than {}; write {}", value, most, wanted));
+}
+
 Maybe<std::int64_t> TomlTable::whole(std::string_view key, std::int64_t least, std::int64_t most)
 {
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
     const std::string wanted = fmt::format("a whole number from {} to {}", least, most);
-    if (node->is_floating_point()) fail(key, fmt::format("must be {}, not {:#}", wanted, *node->value<double>()));
     if (!node->is_integer()) fail_type(key, *node, wanted);
-    const std::int64_t value = node->as_integer()->get();
-    if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));
-    if (value > most) fail(key, fmt::format("{} is more than {}; write {}", value, most, wanted));
-    return given(key, value);
+    require_within(key, node->as_integer()->get(), least, most, wanted);
+    return given(key, node->as_integer()->get());
 }
 
 double TomlTable::number_of(std::string_view key, const toml::node& node, std::string_view wanted) const
@@ -143,14 +122,20 @@ double TomlTable::number_of(std::string_view key, const toml::node& node, std::s
     return value;
 }
 
-std::vector<double> TomlTable::numbers_of(std::string_view key, const toml::node& node, std::size_t count,
-                                          std::string_view wanted) const
+const toml::array& TomlTable::array_of(std::string_view key, const toml::node& node, std::size_t count,
+                                       std::string_view wanted) const
 {
     const toml::array* const array = node.as_array();
     if (!array) fail_type(key, node, wanted);
     if (array->size() != count) fail(key, fmt::format("has {} values; write {}", array->size(), wanted));
+    return *array;
+}
+
+std::vector<double> TomlTable::numbers_of(std::string_view key, const toml::node& node, std::size_t count,
+                                          std::string_view wanted) const
+{
     std::vector<double> values;
-    for (const toml::node& each : *array) values.push_back(number_of(key, each, wanted));
+    for (const toml::node& each : array_of(key, node, count, wanted)) values.push_back(number_of(key, each, wanted));
     return values;
 }
 
@@ -160,8 +145,7 @@ Maybe<double> TomlTable::number(std::string_view key, double least, double most)
     if (!node) return std::nullopt;
     const std::string wanted = fmt::format("a number from {} to {}", least, most);
     const double value = number_of(key, *node, wanted);
-    if (value < least) fail(key, fmt::format("{} is less than {}; write {}", value, least, wanted));
-    if (value > most) fail(key, fmt::format("{} is more than {}; write {}", value, most, wanted));
+    require_within(key, value, least, most, wanted);
     return given(key, value);
 }
 
@@ -179,11 +163,8 @@ Maybe<std::vector<std::string>> TomlTable::texts(std::string_view key, std::size
     const toml::node* const node = find(key);
     if (!node) return std::nullopt;
     const std::string wanted = fmt::format("a list of {} texts in quotes", count);
-    const toml::array* const array = node->as_array();
-    if (!array) fail_type(key, *node, wanted);
-    if (array->size() != count) fail(key, fmt::format("has {} values; write {}", array->size(), wanted));
     std::vector<std::string> values;
-    for (const toml::node& each : *array) {
+    for (const toml::node& each : array_of(key, *node, count, wanted)) {
         if (!each.is_string()) fail_type(key, each, wanted);
         values.push_back(each.as_string()->get());
     }
@@ -206,10 +187,7 @@ Maybe<NumberRange> TomlTable::range(std::string_view key, double least, double m
     if (!node) return std::nullopt;
     const std::string wanted = fmt::format("[least, most], two numbers from {} to {}", least, most);
     const std::vector<double> ends = numbers_of(key, *node, 2, wanted);
-    for (const double end : ends) {
-        if (end < least) fail(key, fmt::format("{} is less than {}; write {}", end, least, wanted));
-        if (end > most) fail(key, fmt::format("{} is more than {}; write {}", end, most, wanted));
-    }
+    for (const double end : ends) require_within(key, end, least, most, wanted);
     if (ends[0] > ends[1])
         fail(key, fmt::format("the least, {}, is more than the most, {}; write {}", ends[0], ends[1], wanted));
     if (ends[1] - ends[0] > widest)
@@ -243,7 +221,6 @@ TomlTable TomlTable::table(std::string_view key)
     if (node && !node->is_table()) fail_type(key, *node, fmt::format("a table, [{}]", whole_key(key)));
     TomlTable inner;
     inner.path_ = path_;
-    inner.asked_ = asked_;
     inner.key_ = whole_key(key);
     if (node) {
         inner.table_ = node->as_table();

@@ -37,8 +37,8 @@ toml::table read_toml(const std::filesystem::path& path);
 
 class TomlTable {
 public:
-    // asked: unless null, every key asked for is added to it, tables and values alike. All three must outlive this.
-    TomlTable(const std::filesystem::path& path, const toml::table& root, std::vector<std::string>* asked = nullptr);
+    // Both must outlive this.
+    TomlTable(const std::filesystem::path& path, const toml::table& root);
 
     // The value of a key, or nothing where it is not there. They throw InputError for another type, and for values out
     // of the range given, ends included.
@@ -72,6 +72,10 @@ private:
     std::size_t line_of(std::string_view key) const;
     [[noreturn]] void fail_type(std::string_view key, const toml::node& node, std::string_view wanted) const;
     double number_of(std::string_view key, const toml::node& node, std::string_view wanted) const;
+    template <class Number>
+    void require_within(std::string_view key, Number value, Number least, Number most, std::string_view wanted) const;
+    const toml::array& array_of(std::string_view key, const toml::node& node, std::size_t count,
+                                std::string_view wanted) const;
     std::vector<double> numbers_of(std::string_view key, const toml::node& node, std::size_t count,
                                    std::string_view wanted) const;
     template <class T>
@@ -82,7 +86,6 @@ private:
 
     const std::filesystem::path* path_ = nullptr;
     const toml::table* table_ = nullptr;  // null: not there
-    std::vector<std::string>* asked_ = nullptr;
     std::vector<std::string> known_;
     std::string key_;
     std::size_t line_ = 0;

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "tools/rig/cannot_bind.h"
 #include "tools/rig/vectors.h"
 
 namespace swivel::tools {
@@ -89,9 +88,10 @@ Said clip_says(std::span<const Vector3d> axes)
             fmt::format("the clip, bent by {:.1f} degrees in the mean", degrees_of_sine(mean.norm()))};
 }
 
-}  // namespace
-
+// Where flexion carries a lower bone that turns about the opposite of this axis: across the bone, unit.
 Vector3d bend_of_hinge(const Vector3d& upper_bone, const Vector3d& axis) { return upper_bone.cross(axis).normalized(); }
+
+}  // namespace
 
 Bend choose_bend(const Clip& clip, LimbName limb, const LimbChain& chain, const ChainPose& rest,
                  const JointPose& parent_w, const Facing& facing)

@@ -36,8 +36,4 @@ Bend choose_bend(const formats::Clip& clip, formats::LimbName limb, const LimbCh
 std::string clip_against(const formats::Clip& clip, formats::LimbName limb, const LimbChain& chain,
                          const ChainPose& rest, const Eigen::Vector3d& bend);
 
-// Where flexion carries a lower bone that turns about the opposite of this axis, both in the upper joint's axes: across
-// the bone, unit.
-Eigen::Vector3d bend_of_hinge(const Eigen::Vector3d& upper_bone, const Eigen::Vector3d& axis);
-
 }  // namespace swivel::tools

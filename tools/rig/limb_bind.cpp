@@ -79,13 +79,7 @@ const GivenBend* given_bend(std::span<const GivenBend> bends, const Limb& limb)
     const auto given = std::find_if(bends.begin(), bends.end(), is_its);
     if (given == bends.end()) return nullptr;
     const Vector3d& upper = limb.upper_bone;
-    const bool is_along = given->direction.cross(upper).norm() < 0.1;  // about 6 degrees: no one means that
-    if (given->is_hinge)
-        throw CannotBind(
-            fmt::format("{} is an axis, and a crowd file now says where the limb bends to", place_of(*given)),
-            is_along ? "write bend instead"
-                     : fmt::format("write bend = {} instead", toml_row(bend_of_hinge(upper, given->direction))));
-    if (is_along)
+    if (given->direction.cross(upper).norm() < 0.1)  // about 6 degrees: no one means that
         throw CannotBind(fmt::format("its bend, {}, is along its upper bone ({:.3f} {:.3f} {:.3f})", place_of(*given),
                                      upper.x(), upper.y(), upper.z()),
                          "give a direction across it");

@@ -10,7 +10,6 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/formats/clip.h"
-#include "tools/rig/cannot_bind.h"
 #include "tools/rig/facing.h"
 #include "tools/rig/limb_chain.h"
 #include "tools/rig/limb_joints.h"
@@ -45,13 +44,11 @@ inline Eigen::Quaterniond quaternion(std::span<const float, 4> q)
     return Eigen::Quaterniond(double{q[3]}, double{q[0]}, double{q[1]}, double{q[2]}).normalized();
 }
 
-// A bend given by the user in a crowd file; or, under the key that files of 0.1 have, `hinge`, the axis that flexion
-// turns about the opposite of.
+// A bend given by the user in a crowd file.
 struct GivenBend {
     formats::LimbName limb;
     Eigen::Vector3d direction;  // in the upper joint's axes, unit
     std::string key, file;      // "limb.left_arm.bend"; for people
-    bool is_hinge = false;      // `hinge` of a file of 0.1: the axis whose opposite flexion turns about
 };
 
 // What bind() takes: the limb at rest, its lengths in its upper joint's parent's axes (times Limb::scale they are the
@@ -63,8 +60,7 @@ swivel_chain rest_chain(const formats::Clip& clip, const LimbChain& chain, const
 // - a bone of no length;
 // - a joint between that moves the next of the three by more than 1e-3 of the bone;
 // - scales that are uneven by more than 1e-3, sheared or nothing, and mirrors that come or go;
-// - a bend that is given along the upper bone or as a hinge, and one that is not given and that choose_bend() cannot
-//   tell.
+// - a bend that is given along the upper bone, and one that is not given and that choose_bend() cannot tell.
 Limb bind_limb(const formats::Clip& clip, formats::LimbName name, const LimbJoints& joints, const Facing& facing,
                std::span<const GivenBend> bends);
 

@@ -6,7 +6,9 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/formats/clip.h"
@@ -23,6 +25,15 @@ struct FoundJoints {
     std::string from;     // who names them so, for people: "Unreal, Mesh2Motion", "--arm"
     std::string problem;  // without joints: one line; empty if no name speaks of such a limb
     std::string advice;   // what to do about it, to follow after a semicolon; empty: name joints
+};
+
+// Why a limb is not solved. what() is one line that leaves out the file; advice is as above.
+struct CannotBind : std::runtime_error {
+    CannotBind(const std::string& cause, std::string what_to_do)
+        : std::runtime_error(cause), advice(std::move(what_to_do))
+    {
+    }
+    std::string advice;
 };
 
 // The joints of the four limbs, in the order of formats::kLimbNames. A file that says which joints are a limb's is

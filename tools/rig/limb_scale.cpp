@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "tools/rig/cannot_bind.h"
-
 namespace swivel::tools {
 
 namespace {

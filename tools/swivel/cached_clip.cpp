@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tools/crowd/limb_setups.h"
+#include "tools/crowd/crowd_plan.h"
 
 namespace swivel::tools {
 

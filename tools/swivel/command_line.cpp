@@ -105,8 +105,6 @@ void add_rig(CLI::App& app)
                "It decides the limits that are printed. Where the rest pose is straight or bends otherwise, it decides "
                "bends and axes, too");
     command->add_flag("--joints", options->joints, "List every joint, too: number, place at rest in the world, path");
-    command->add_flag("--toml", options->toml,
-                      "Print the limbs that bind as a crowd file, their joints and bends, for swivel solve --crowd");
     add_json(*command, options->json);
     command->callback([options] { run_rig(*options); });
 }

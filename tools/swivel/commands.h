@@ -73,7 +73,7 @@ void run_replay(const ReplayOptions& options);
 
 struct RigOptions {
     SolveOptions clip;  // its file, motion and limbs
-    bool joints = false, toml = false, json = false;
+    bool joints = false, json = false;
 };
 void run_rig(const RigOptions& options);
 

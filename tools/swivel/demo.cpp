@@ -29,7 +29,7 @@ std::vector<Limb> demo_limbs(const formats::Clip& clip)
 {
     LimbChoice choice;
     for (const formats::Side side : {formats::Side::left, formats::Side::right})
-        choice.bends.push_back({{formats::LimbKind::arm, side}, Eigen::Vector3d::UnitZ(), "demo", "", false});
+        choice.bends.push_back({{formats::LimbKind::arm, side}, Eigen::Vector3d::UnitZ(), "demo", ""});
     return require_limbs(bind_limbs(clip, choose_joints(clip, "demo", choice), choice), "demo");
 }
 

@@ -20,8 +20,6 @@ namespace swivel::tools {
 
 void run_rig(const RigOptions& options)
 {
-    if (options.toml && (options.json || options.joints))
-        throw CommandError(2, "--toml prints a crowd file and nothing else; leave out --json and --joints");
     if (!swivel_isa_name()) throw CommandError(1, swivel_last_error());
     const std::string& file = options.clip.file;
     const LimbChoice choice = choice_of(options.clip);
@@ -32,8 +30,6 @@ void run_rig(const RigOptions& options)
     const std::vector<LimbFinding>& findings = search.findings;
     if (options.json)
         print_json(json_of(motion, file, search, options.joints));
-    else if (options.toml)
-        print_crowd_file(motion, file, search);
     else
         print_rig(motion, file, search, options.joints);
     if (std::any_of(findings.begin(), findings.end(), [](const LimbFinding& each) { return each.limb.has_value(); }))

@@ -99,13 +99,13 @@ nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file
                                {"up_by", facing.up_source}};
     if (const auto notes = motion.notes(); !notes.empty()) out["notes"] = notes;
     for (const LimbFinding& finding : search.findings) out["limbs"].push_back(json_of(clip, finding, facing));
-    const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
+    const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
     if (with_joints)
         for (std::size_t n = 0; n < clip.joints.size(); ++n)
             out["joint_list"].push_back({{"number", clip.joints[n].number},
                                          {"name", clip.joints[n].name},
                                          {"parent", number_of(clip, clip.joints[n].parent)},
-                                         {"place", vector_of(places_w[n])},
+                                         {"place", vector_of(rest_w[n].position)},
                                          {"bone", clip.joints[n].is_bone}});
     return out;
 }

@@ -53,21 +53,6 @@ void print_axes(const Limb& limb, const Facing& facing)
     }
 }
 
-// A comment of a TOML file, which is UTF-8 as a whole.
-std::string toml_comment(const std::string& text)
-{
-    const nlohmann::json json = text;
-    return "# " + nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-                      .get<std::string>();
-}
-
-// Which joints are meant, as a line of a crowd file.
-std::string joints_line(const Clip& clip, const Limb& limb)
-{
-    return fmt::format("joints = [{}, {}, {}]", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
-                       toml_name(clip, limb.end()));
-}
-
 // What the clip fits into, as lines of a crowd file that bind the limb as they were taken.
 void print_range(const Clip& clip, const Limb& limb)
 {
@@ -77,7 +62,8 @@ void print_range(const Clip& clip, const Limb& limb)
     say(stdout, "           in the clip the {} is {:.1f} to {:.1f} degrees from z; all its frames fit into\n",
         words_of(limb.name.kind).upper, range->from_z.least, range->from_z.most);
     say(stdout, "           [limb.{}]\n", word);
-    say(stdout, "           {}\n", joints_line(clip, limb));
+    say(stdout, "           joints = [{}, {}, {}]\n", toml_name(clip, limb.upper()), toml_name(clip, limb.lower()),
+        toml_name(clip, limb.end()));
     say(stdout, "           bend = {}\n", toml_row(range->bend));
     say(stdout, "           [limb.{}.limits]\n", word);
     say(stdout, "           shoulder_cone = {{ axis = {}, opening_deg = {:.1f} }}\n", toml_row(range->axis),
@@ -114,9 +100,9 @@ std::string shown_path(const Clip& clip, int joint)
 
 void print_joints(const Clip& clip)
 {
-    const std::vector<Eigen::Vector3d> places_w = formats::rest_positions(clip);
+    const std::vector<formats::JointPose> rest_w = formats::rest_pose(clip);
     for (std::size_t joint = 0; joint < clip.joints.size(); ++joint)
-        say(stdout, "#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(places_w[joint]),
+        say(stdout, "#{:<5} {:<24} {}{}\n", clip.joints[joint].number, vector_text(rest_w[joint].position),
             shown_path(clip, static_cast<int>(joint)), clip.joints[joint].is_bone ? "" : " (no bone)");
 }
 
@@ -140,24 +126,6 @@ void print_rig(const MotionFile& motion, const std::string& file, const LimbSear
                 problem_text(finding));
     }
     if (with_joints) print_joints(clip);
-}
-
-void print_crowd_file(const MotionFile& motion, const std::string& file, const LimbSearch& search)
-{
-    const Clip& clip = motion.clip();
-    say(stdout, "{}\n", toml_comment("The limbs of " + printable(file, std::string::npos)));
-    for (const LimbFinding& finding : search.findings) {
-        if (!finding.limb) {
-            say(stdout, "\n{}\n",
-                toml_comment(fmt::format("{} {}: {}", plain_name(finding.name),
-                                         finding.has_joints ? "refused" : "missing", problem_text(finding))));
-            continue;
-        }
-        const Limb& limb = *finding.limb;
-        say(stdout, "\n[limb.{}]\n{}\n", limb_word(limb.name), joints_line(clip, limb));
-        say(stdout, "bend = [{:#}, {:#}, {:#}]  {}\n", limb.bend.x(), limb.bend.y(), limb.bend.z(),
-            toml_comment(limb.bend_source));
-    }
 }
 
 }  // namespace swivel::tools

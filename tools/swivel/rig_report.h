@@ -14,8 +14,6 @@ namespace swivel::tools {
 // On stdout. file: as the user wrote it; with_joints: every joint, too.
 void print_rig(const MotionFile& motion, const std::string& file, const LimbSearch& search, bool with_joints);
 
-// The limbs that bind as a crowd file, each with its joints and, to the last digit, its bend; the others as comments.
-void print_crowd_file(const MotionFile& motion, const std::string& file, const LimbSearch& search);
 nlohmann::ordered_json json_of(const MotionFile& motion, const std::string& file, const LimbSearch& search,
                                bool with_joints);
 

@@ -12,7 +12,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/streams.h"
 #include "tools/crowd/clip_crowd.h"
-#include "tools/crowd/limb_setups.h"
+#include "tools/crowd/crowd_plan.h"
 #include "tools/formats/error.h"
 #include "tools/formats/printable.h"
 #include "tools/formats/text.h"
