@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "batch/check.h"
-#include "batch/edge.h"
 #include "batch/explain.h"
+#include "batch/forward.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "batch/status.h"

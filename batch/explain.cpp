@@ -13,7 +13,7 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "batch/edge.h"
+#include "batch/forward.h"
 #include "batch/joint_angles.h"
 #include "batch/solve.h"
 #include "core/bit_cast.h"

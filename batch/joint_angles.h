@@ -3,7 +3,7 @@
 // A pose as joint angles, and their limits, for people and files.
 #pragma once
 
-#include "batch/edge.h"
+#include "batch/forward.h"
 
 namespace swivel {
 

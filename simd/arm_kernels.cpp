@@ -2,13 +2,13 @@
 //
 // The kernels of plain arms, compiled once for each instruction set. They load rows, call the formulas of core, and
 // store rows. Arms for which the formula does not hold are gathered, and solved as whole limbs. SWIVEL_ARCH is an
-// xsimd architecture or float. SWIVEL_REGISTERS is how many registers a step works on side by side.
+// xsimd architecture or float. SWIVEL_REGISTERS is how many registers a slice works on side by side.
 #include <bit>
 
 #include "core/solve_arm.h"
 #include "simd/aside.h"
 #include "simd/pack.h"
-#include "simd/step.h"
+#include "simd/slice.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -16,7 +16,7 @@ extern const LimbKernels limb_kernels;
 
 namespace {
 
-// What all steps of a run share. The elbow's local rotation is cos elbow_straight - sin elbow_hinge.
+// What all slices of a run share. The elbow's local rotation is cos elbow_straight - sin elbow_hinge.
 template <class T>
 struct Shared {
     Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm, elbow_straight, elbow_hinge;
@@ -79,9 +79,9 @@ SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Shared<T>&
     return holds;
 }
 
-// Solves a step of arms. Returns false where the formula does not hold; there the results mean nothing.
+// Solves a slice of arms. Returns false where the formula does not hold; there the results mean nothing.
 template <class T, swivel_features Features>
-SWIVEL_INLINE Mask<T> solve_step(const Rows<T, Features>& rows, const Shared<T>& shared)
+SWIVEL_INLINE Mask<T> solve_slice(const Rows<T, Features>& rows, const Shared<T>& shared)
 {
     ArmGoal<T> goal = load_goal(rows);
     Mask<T> ordinary = T(0) == T(0);
@@ -119,10 +119,10 @@ SWIVEL_INLINE void call_for_rows(const float* input, std::uint32_t row_count)
     for (std::uint32_t row = 0; row < row_count; ++row) __builtin_prefetch(input + std::size_t{row} * kLanes);
 }
 
-// The results of a step on their way to the rows, where limbs that are not chosen keep theirs. Those with bad input may
-// keep theirs, too.
+// The results of a slice on their way to the rows, where limbs that are not chosen keep theirs. Those with bad input
+// may keep theirs, too.
 template <class T, swivel_features Features>
-struct StepAside {
+struct SliceAside {
     static constexpr std::uint32_t kRows = kPlan<Features>.result_count;
     alignas(64) float results[kRows * kLanes];
 
@@ -138,17 +138,17 @@ struct StepAside {
     }
 };
 
-// Solves whole steps from block on, and returns the first block that is left. Arms for which the formula does not hold
+// Solves whole slices from block on, and returns the first block that is left. Arms for which the formula does not hold
 // go to `others`; it returns early when that list is full. Selective: there is a mask, or limbs keep results. It is a
 // function of its own for each T, so that its constants do not take registers from another loop.
 template <class T, swivel_features Features, bool Selective>
-SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, std::uint32_t block,
-                                                           WaitingLimbs& others)
+SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_slices(const SolveRun& run, std::uint32_t block,
+                                                            WaitingLimbs& others)
 {
     constexpr std::uint32_t lanes = lane_count<T>, blocks = lanes > kLanes ? lanes / kLanes : 1;
     const auto block_count = static_cast<std::uint32_t>(run.limb_count / kLanes);
     const Shared<T> shared = shared_by<T, Features>(run);
-    const std::size_t from = std::size_t{block} * kLanes, step = blocks * kLanes;
+    const std::size_t from = std::size_t{block} * kLanes, slice = blocks * kLanes;
     constexpr std::uint32_t inputs = kPlan<Features>.input_count, outputs = kPlan<Features>.result_count;
     const float* input = run.input + row_offset(from, inputs, 0);
     float* results = run.results + row_offset(from, outputs, 0);
@@ -157,12 +157,12 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
         std::uint32_t fails = 0;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const auto solve_to = [&](float* to) SWIVEL_INLINE_LAMBDA {
-                return solve_step(Rows<T, Features>{run, input + lane, to, kEveryLane}, shared);
+                return solve_slice(Rows<T, Features>{run, input + lane, to, kEveryLane}, shared);
             };
             if constexpr (Selective) {
                 const std::uint32_t chosen = chosen_lanes(run, std::size_t{block} * kLanes + lane, lanes);
                 if (chosen == 0) continue;
-                StepAside<T, Features> aside;
+                SliceAside<T, Features> aside;
                 const std::uint32_t failed = lane_bits(!solve_to(aside.results)) & chosen;
                 aside.store(results + lane, run.keeps ? chosen & ~failed : chosen);
                 fails |= failed << lane;
@@ -176,13 +176,13 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::uint32_t solve_steps(const SolveRun& run, 
             others.add(std::size_t{block} * kLanes, fails);
             if (others.is_full()) return block + blocks;
         }
-        input += row_offset(step, inputs, 0);
-        results += row_offset(step, outputs, 0);
+        input += row_offset(slice, inputs, 0);
+        results += row_offset(slice, outputs, 0);
     }
     return block;
 }
 
-// Solves steps of several registers, and then the rest with one register. The formula and the bits are the same.
+// Solves slices of several registers, and then the rest with one register. The formula and the bits are the same.
 template <swivel_features Features>
 void solve(const SolveRun& run)
 {
@@ -192,10 +192,10 @@ void solve(const SolveRun& run)
     WaitingLimbs others;
     for (std::uint32_t block = 0; block < block_count;) {
         if (run.mask || run.keeps) {
-            block = solve_steps<Narrow, Features, true>(run, block, others);
+            block = solve_slices<Narrow, Features, true>(run, block, others);
         } else {
-            block = solve_steps<Wide, Features, false>(run, block, others);
-            if (!others.is_full()) block = solve_steps<Narrow, Features, false>(run, block, others);
+            block = solve_slices<Wide, Features, false>(run, block, others);
+            if (!others.is_full()) block = solve_slices<Narrow, Features, false>(run, block, others);
         }
         while (others.is_full()) solve_others(run, others);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Limbs of a run that are gathered from their blocks into one block, solved together there, and written back. A step
-// takes as long as its slowest lane, so slow limbs are solved in steps of their own. They only wait while a kernel
+// Limbs of a run that are gathered from their blocks into one block, solved together there, and written back. A slice
+// takes as long as its slowest lane, so slow limbs are solved in slices of their own. They only wait while a kernel
 // runs, because the frames of two kernels would take too much of a small stack.
 #pragma once
 
@@ -29,7 +29,7 @@ inline SolveRun block_of(SolveRun run, std::uint32_t block)
 }
 
 // The limbs of a run that wait to be solved in a block of their own. A list is full with a block of them, and has room
-// for those of one step more, which are two blocks at most.
+// for those of one slice more, which are two blocks at most.
 struct WaitingLimbs {
     std::uint32_t limb[3 * kLanes];  // where each belongs in the run
     std::uint32_t count = 0;

@@ -27,7 +27,7 @@ struct SolveRun {
     std::size_t padding;        // the first lane of the run that is padding, which no mask chooses
 };
 
-// Bits of the lanes of a step that are chosen. limb: the step's first, in the run. All bits are set if there is no
+// Bits of the lanes of a slice that are chosen. limb: the slice's first, in the run. All bits are set if there is no
 // mask.
 inline constexpr std::uint32_t kEveryLane = ~0u;
 [[gnu::always_inline]] inline std::uint32_t chosen_lanes(const SolveRun& run, std::size_t limb, std::size_t lane_count)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A run of whole limbs, step by step. A step takes as long as its slowest limb. With Euler boxes, a search for the
+// A run of whole limbs, slice by slice. A slice takes as long as its slowest limb. With Euler boxes, a search for the
 // nearest end takes as long as the rest of the limb, and one for the least violation ten times as long. So limbs that
 // need a search are put aside, and solved together.
 #pragma once
@@ -9,15 +9,15 @@
 
 #include "core/allowed_arcs.h"
 #include "simd/aside.h"
-#include "simd/limb_step.h"
+#include "simd/limb_slice.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
-// Solves the steps of a run from a limb on, and calls left(first limb, Waiting) after each, until that returns true.
-// Returns the first limb that is left. A step has one register. Two were no faster, because their values do not stay in
-// registers.
+// Solves the slices of a run from a limb on, and calls left(first limb, Waiting) after each, until that returns true.
+// Returns the first limb that is left. A slice has one register. Two were no faster, because their values do not stay
+// in registers.
 template <class T, swivel_features Features, bool Aims, class Policy, class Left>
-SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& run, std::size_t limb, Left left)
+SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_slices(const SolveRun& run, std::size_t limb, Left left)
 {
     LimbUse use = limb_use<Features>(run);
     use.aim = Aims;  // as it is, but now the compiler knows
@@ -25,14 +25,15 @@ SWIVEL_FLATTEN [[gnu::noinline]] std::size_t solve_limb_steps(const SolveRun& ru
     bool is_enough = false;
     for (; limb < run.limb_count && !is_enough; limb += lane_count<T>)
         if (const std::uint32_t chosen = chosen_lanes(run, limb, lane_count<T>))
-            is_enough = left(limb, solve_limb_step<Aims, Policy>(use, bind, step_rows<T, Features>(run, limb, chosen)));
+            is_enough =
+                left(limb, solve_limb_slice<Aims, Policy>(use, bind, slice_rows<T, Features>(run, limb, chosen)));
     return limb;
 }
 template <class T, swivel_features Features, bool Aims, class Policy = SearchNow>
 void search_limbs(const SolveRun& run)
 {
-    solve_limb_steps<T, Features, Aims, Policy>(run, 0,
-                                                [](std::size_t, const Waiting&) SWIVEL_INLINE_LAMBDA { return false; });
+    solve_limb_slices<T, Features, Aims, Policy>(
+        run, 0, [](std::size_t, const Waiting&) SWIVEL_INLINE_LAMBDA { return false; });
 }
 
 // Aside, a limb is copied and solved again, which takes about as long as two limbs without a search. The nearest end
@@ -47,7 +48,7 @@ struct SearchForMany {
     }
 };
 
-// Puts the lanes of a step that wait on the list of their search. True: that list is full.
+// Puts the lanes of a slice that wait on the list of their search. True: that list is full.
 struct WaitingLists {
     WaitingLimbs for_end, for_least;
 
@@ -78,11 +79,11 @@ struct BoxedLimbs {
         if (waiting.for_end.count > 0) find_ends();
         while (waiting.for_least.count > 0) find_least();
     }
-    static std::size_t solve_until_full(const SolveRun& steps, std::size_t limb, WaitingLists& lists)
+    static std::size_t solve_until_full(const SolveRun& slices, std::size_t limb, WaitingLists& lists)
     {
-        return solve_limb_steps<T, kToldFeatures, Aims, SearchForMany>(
-            steps, limb, [&lists](std::size_t first, const Waiting& of_step) SWIVEL_INLINE_LAMBDA {
-                return lists.put(first, of_step);
+        return solve_limb_slices<T, kToldFeatures, Aims, SearchForMany>(
+            slices, limb, [&lists](std::size_t first, const Waiting& of_slice) SWIVEL_INLINE_LAMBDA {
+                return lists.put(first, of_slice);
             });
     }
     // All limbs aside need the nearest end, so it is not put off. Those that then wait again need the least violation.
@@ -133,7 +134,7 @@ inline AllowedArcs<float> allowed_arcs_of(const SolveRun& run, std::size_t limb)
     const LimbUse use = limb_use<kToldFeatures>(run);
     LimbGoal<float> goal;
     const LimbEntry<float> entry =
-        load_limb(use, binding_of<kToldFeatures>(run), step_rows<float, kToldFeatures>(run, limb, kEveryLane), goal);
+        load_limb(use, binding_of<kToldFeatures>(run), slice_rows<float, kToldFeatures>(run, limb, kEveryLane), goal);
     if (!entry.valid || !is_valid(use, goal)) return {};
     if (use.aim) return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<true>(use, goal).arm).limits);
     return allowed_arcs(swivel_limits(use.limits, goal.limits, place_limb<false>(use, goal).arm).limits);

@@ -99,12 +99,12 @@ must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/arm[.]h$" "formul
 
 # ---- simd: the two files of kernels and their headers see formulas and lanes; the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
-may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|step)[.]h\"")
+may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|slice)[.]h\"")
 may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"simd/(kernels|lanes|limb_run)[.]h\"")
-may_include(simd "simd/limb_step[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb)[.]h\"|\"simd/step[.]h\"")
-may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(aside|limb_step)[.]h\"")
+may_include(simd "simd/limb_slice[.]h$" "${standard}|\"core/(clavicle|forearm_twist|limb)[.]h\"|\"simd/slice[.]h\"")
+may_include(simd "simd/limb_run[.]h$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(aside|limb_slice)[.]h\"")
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
-may_include(simd "simd/step[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
+may_include(simd "simd/slice[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/pack[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/fields[.]h$" "${standard}|${public}")
 may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$" "${standard}|\"simd/(dispatch|fields|kernels)[.]h\"|\"core/isa[.]h\"")
@@ -115,7 +115,7 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/(api|api_solve|api_pose|sized|crowd|describe|digest|frame|lane_mask|overlap|solve|status|streams|use)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(rig|skeleton|angles|budget|check|edge|explain|joint_angles|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|skeleton|angles|budget|check|explain|forward|joint_angles|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- lecture: formulas in double and the oracle; it needs no crowd

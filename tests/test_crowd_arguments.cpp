@@ -93,6 +93,9 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     def.group_count = 0;
     refuse(&def);
     def = good;
+    def.reserved = 1;
+    refuse(&def);
+    def = good;
     def.groups = nullptr;
     refuse(&def);
     def = good;
@@ -159,6 +162,9 @@ TEST_CASE("wrong arguments are refused and change nothing")
     CHECK_REFUSED(solve_blocks(c, 4, 0), bad);
     CHECK_REFUSED(solve_blocks(c, 1, ~0u), bad);
     CHECK(solve_blocks(c, 3, 0) == SWIVEL_OK);
+    CHECK(swivel_write(c, SWIVEL_TARGET, 0, 20, 0, {nullptr, 12}) == SWIVEL_OK);  // no limbs need no data
+    CHECK(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 0, {nullptr, 16}) == SWIVEL_OK);
+    CHECK(swivel_forward(c, 0, 0, 0, {nullptr, 24}, {}, {}) == SWIVEL_OK);
 
     const swivel_out none{}, three{out3, 24};
     CHECK_REFUSED(swivel_forward(nullptr, 0, 0, 1, three, none, none), bad);
@@ -207,15 +213,6 @@ TEST_CASE("errors name group and field")
     says(swivel_forward(c, 1, 0, 1, none, {doubles, 8}, none),
          "group 1, wrist: stride 8 is smaller than a value, 24 bytes");
     says(swivel_residuals(c, 1, 0, 1, none), "group 1, distance: data is null");
-}
-
-TEST_CASE("ranges of no limbs are allowed")
-{
-    Crowd crowd = crowd_of(0, 20);
-    float value[4] = {7, 7, 7, 7};
-    CHECK(swivel_write(crowd.get(), SWIVEL_TARGET, 0, 20, 0, {value, 12}) == SWIVEL_OK);
-    CHECK(swivel_read(crowd.get(), SWIVEL_SHOULDER, 0, 0, 0, {value, 16}) == SWIVEL_OK);
-    CHECK(value[0] == 7);
 }
 
 TEST_CASE("statuses and errors have their texts, errors belong to their thread")
@@ -275,6 +272,23 @@ TEST_CASE("results as joints need bindings of unit rotations")
         }
         q[3] = 1;
     }
+}
+
+TEST_CASE("a binding of an older header gets what it has room for; one of no size, and what is reserved, are refused")
+{
+    swivel_chain chain = swivel_default_chain();
+    chain.elbow_offset[2] = chain.wrist_offset[2] = chain.bend[1] = 1;
+    swivel_binding whole = swivel_default_binding(), part = whole, none = whole;
+    part.size = offsetof(swivel_binding, lengths);
+    none.size = 0;
+    REQUIRE(swivel_bind(&chain, &whole) == SWIVEL_OK);
+    REQUIRE(swivel_bind(&chain, &part) == SWIVEL_OK);
+    CHECK(std::ranges::equal(part.wrist_rest, whole.wrist_rest));
+    CHECK(part.lengths[0] == 0);
+    CHECK(whole.lengths[0] == 1);
+    CHECK_REFUSED(swivel_bind(&chain, &none), SWIVEL_INVALID_ARGUMENT);
+    chain.reserved = 1;
+    CHECK_REFUSED(swivel_bind(&chain, &whole), SWIVEL_INVALID_ARGUMENT);
 }
 
 namespace {
@@ -468,12 +482,6 @@ struct Person {
     Floats grip;
     Float4 pose;
 };
-template <class Range, class Member>
-concept CanStream = requires(Range& range, Member member)
-{
-    stream(range, member);
-};
-static_assert(CanStream<std::vector<Person>, Floats Person::*>);
 static_assert(std::is_convertible_v<decltype(stream(std::declval<std::vector<Person>&>(), &Person::pose)), swivel_out>);
 static_assert(
     !std::is_convertible_v<decltype(stream(std::declval<const std::vector<Person>&>(), &Person::pose)), swivel_out>);
@@ -515,20 +523,4 @@ TEST_CASE("C++: ranges have a value for each limb, or say from which limb on; fr
     for (const std::size_t count : {std::size_t{1}, std::size_t{3}})
         CHECK_THROWS_WITH(crowd.solve({.frames = std::span(frames).first(count)}),
                           std::to_string(count) + " frames for 2 groups; give one for each");
-}
-
-TEST_CASE("groups and frames in braces")
-{
-    const swivel_group_def left = group_of(3), right = group_of(20);
-    const Crowd two = crowd_with(0, {left, right}), one = crowd_with(0, {&right, 1});
-    CHECK(swivel_group_limb_count(two.get(), 0) == 3);
-    CHECK(swivel_group_limb_count(two.get(), 1) == 20);
-    CHECK(swivel_group_limb_count(one.get(), 0) == 20);
-    CHECK(swivel_group_limb_count(one.get(), 1) == 0);
-    Crowd crowd = crowd_with(0, {left, right});
-    const Float3 target{0.2f, 0.3f, 0.4f};
-    const Frame frame = Frame().in(SWIVEL_TARGET, {target.data(), 0});
-    CHECK(crowd.solve({.frames = {frame, frame}}) == 23);
-    CHECK(read<Float3>(crowd, SWIVEL_TARGET, 1)[19] == target);
-    CHECK(crowd.solve({.limbs = {0u, 17u}}) == 2);
 }

@@ -91,7 +91,7 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
             const std::vector<std::uint32_t> mask(4, 0xffffbfffu);
             const swivel_blocks all{0, swivel_block_count(crowd.get())};
             crowd.solve({.blocks = on_this_thread ? std::optional(all) : std::nullopt,
-                         .mask = masked ? Given<std::uint32_t>(mask) : Given<std::uint32_t>(),
+                         .mask = masked ? Given<std::uint32_t>(mask) : Given<std::uint32_t>(everything),
                          .frames = {frame},
                          .on_this_thread = on_this_thread});
             for (std::uint32_t n = 0; n < count; ++n) {

@@ -5,8 +5,6 @@
 // compared with a second implementation, in long double, made from the documentation.
 #include "core/pack.h"
 
-#include <rapidcheck/catch.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -142,19 +140,6 @@ const Recipe& hard(const char* name) { return corpus::recipe_of(corpus::Part::ha
 
 TEST_CASE("any unit quaternion: its words are the documentation's, and lead back to it")
 {
-    rc::prop("random quaternions", [] {
-        Float4 q{};
-        double len2 = 0;
-        for (float& c : q) {
-            c = static_cast<float>(*rc::gen::inRange(-1000, 1001));
-            len2 += double{c} * c;
-        }
-        RC_PRE(len2 > 0);
-        for (float& c : q) c = static_cast<float>(c / std::sqrt(len2));
-        const Words3 words = pack(q);
-        RC_ASSERT(are_words_of(words, q));
-        RC_ASSERT(angle_between(unpack(words), q) <= kAngle);
-    });
     Random random{7};
     double worst = 0;
     for (int n = 0; n < 300000; ++n) {

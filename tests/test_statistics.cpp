@@ -78,7 +78,7 @@ TEST_CASE("statistics: errors are counted from the targets as they were asked fo
     const swivel::formats::Clip clip = demo_clip(3);
     LimbChoice choice;
     for (const auto side : {swivel::formats::Side::left, swivel::formats::Side::right})
-        choice.bends.push_back({{swivel::formats::LimbKind::arm, side}, Eigen::Vector3d::UnitZ(), "test", "", false});
+        choice.bends.push_back({{swivel::formats::LimbKind::arm, side}, Eigen::Vector3d::UnitZ(), "test", ""});
     const std::vector<Limb> limbs =
         require_limbs(bind_limbs(clip, choose_joints(clip, "test", choice), choice), "test");
     CrowdPlan plan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch/edge.h"
+#include "batch/forward.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What one step of lanes reads and writes: its rows, and how a skeleton's joints lie to its arms. The kernels of plain
-// arms and of whole limbs both use it.
+// A slice is the limbs that a kernel works on at once, one in each lane. Here is what it reads and writes: its rows,
+// and how a skeleton's joints lie to its arms. The kernels of plain arms and of whole limbs both use it.
 #pragma once
 
 #include "core/joint_limits.h"
@@ -28,9 +28,9 @@ SWIVEL_INLINE constexpr swivel_features features_of(const SolveRun& run)
     return Features & kTold ? run.features & Features : Features;
 }
 
-// The rows of one step of T's lanes: the places of its first lane in the first input row and in the first result row. A
-// step covers whole blocks or lies in one. So every other place is a constant away. A step whose features are told lies
-// in one.
+// The rows of one slice of T's lanes: the places of its first lane in the first input row and in the first result row.
+// A slice covers whole blocks or lies in one. So every other place is a constant away. A slice whose features are told
+// lies in one.
 template <class T, swivel_features Features>
 struct Rows {
     static_assert(!(Features & kTold) || lane_count<T> <= kLanes);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// One step of the whole limb. It loads the rows that a group has, brings them into the arm frame, solves, and stores
-// the results. All limbs of a run have the same rows, so the step asks for them once, and never for a single limb.
+// One slice of the whole limb. It loads the rows that a group has, brings them into the arm frame, solves, and stores
+// the results. All limbs of a run have the same rows, so the slice asks for them once, and never for a single limb.
 #pragma once
 
 #include "core/clavicle.h"
 #include "core/forearm_twist.h"
 #include "core/limb.h"
-#include "simd/step.h"
+#include "simd/slice.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -210,9 +210,9 @@ SWIVEL_INLINE void store_limb(const LimbUse& use, const Binding& bind, const Row
     }
 }
 
-// The rows of the step that starts with a limb of a run.
+// The rows of the slice that starts with a limb of a run.
 template <class T, swivel_features Features>
-SWIVEL_INLINE Rows<T, Features> step_rows(const SolveRun& run, std::size_t limb, std::uint32_t chosen)
+SWIVEL_INLINE Rows<T, Features> slice_rows(const SolveRun& run, std::size_t limb, std::uint32_t chosen)
 {
     const bool told = Features & kTold;
     const std::uint32_t inputs = told ? run.input_row_count : kPlan<Features>.input_count;
@@ -221,14 +221,14 @@ SWIVEL_INLINE Rows<T, Features> step_rows(const SolveRun& run, std::size_t limb,
             run.results ? run.results + row_offset(limb, results, 0) : nullptr, chosen};
 }
 
-// Lanes of a step that wait for a search, a bit for each: their results mean nothing yet.
+// Lanes of a slice that wait for a search, a bit for each: their results mean nothing yet.
 struct Waiting {
     std::uint32_t lanes;
     Search search;
 };
-// Solves one step.
+// Solves one slice.
 template <bool Aims, class Policy, class T, swivel_features Features>
-SWIVEL_INLINE Waiting solve_limb_step(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows)
+SWIVEL_INLINE Waiting solve_limb_slice(const LimbUse& use, const Binding& bind, const Rows<T, Features>& rows)
 {
     LimbGoal<T> goal;
     LimbEntry<T> entry = load_limb(use, bind, rows, goal);
