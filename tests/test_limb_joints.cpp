@@ -174,7 +174,7 @@ TEST_CASE("limb joints: several limbs are candidates, and none is taken")
 {
     const Names mixamo = {"LeftArm", "LeftForeArm", "LeftHand"}, unreal = {"upperarm_l", "lowerarm_l", "hand_l"};
     CHECK(left_arm({mixamo, {"LeftArm_1", "LeftForeArm_2", "LeftHand_3"}}).empty());  // see test_rig_table.cpp
-    CHECK(left_arm({mixamo, {"LeftArm"}, {"LeftHand"}}) == mixamo);  // which are no chain
+    CHECK(left_arm({mixamo, {"LeftArm"}, {"LeftHand"}}) == mixamo);                   // which are no chain
     // One limb by two rows is one: the palm and the fist of one arm.
     CHECK(left_arm({{"UpperArm.L", "LowerArm.L", "Palm.L", "Fist.L"}}) == Names{"UpperArm.L", "LowerArm.L", "Palm.L"});
     // Controls that no skin names are no figure, however many.
