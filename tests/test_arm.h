@@ -66,16 +66,6 @@ std::vector<Value> read(const Crowd& crowd, swivel_field field, std::uint32_t gr
     return values;
 }
 
-// All bits of one limb's results.
-inline std::vector<std::uint32_t> result_words(const Crowd& crowd, std::uint32_t limb)
-{
-    const swivel_rows rows = swivel_result_rows(crowd.get(), 0);
-    std::vector<std::uint32_t> words(rows.row_count);
-    for (std::uint32_t row = 0; row < rows.row_count; ++row)
-        std::memcpy(&words[row], rows.base + (std::size_t{limb / 16} * rows.row_count + row) * 16 + limb % 16, 4);
-    return words;
-}
-
 // Goal and pose of an arm in the arm frame, without any feature.
 struct Arm {
     Float3 target, pole;

@@ -82,19 +82,6 @@ inline std::size_t float_count(const swivel_rows& rows)
 {
     return std::size_t{rows.block_count} * rows.row_count * SWIVEL_LANES;
 }
-// The floats of each of a crowd's blocks, of input rows or of result rows: block_rows(crowd, swivel_result_rows).
-inline std::vector<std::span<float>> block_rows(const Crowd& crowd,
-                                                swivel_rows (*rows_of)(swivel_crowd*, std::uint32_t))
-{
-    std::vector<std::span<float>> blocks;
-    for (std::uint32_t group = 0; group < swivel_group_count(crowd.get()); ++group) {
-        const swivel_rows rows = rows_of(crowd.get(), group);
-        const std::size_t each = std::size_t{rows.row_count} * SWIVEL_LANES;
-        for (std::size_t block = 0; block < rows.block_count; ++block)
-            blocks.emplace_back(rows.base + block * each, each);
-    }
-    return blocks;
-}
 // The whole of a crowd's rows.
 inline std::vector<std::uint32_t> all_words(const Crowd& crowd)
 {

@@ -210,13 +210,6 @@ TEST_CASE("lengths times a power of two give the same arm")
         const auto everyday = [](Random& random) { return rounded(regular_arm(random)); };
         for_arms(seed, everyday, [=](const Arm& arm) { check_sizes(arm, {0x1p-10, 0x1p-3, 0x1p1, 0x1p10}); });
     });
-    rc::prop("the pole's own length, too", [](std::uint64_t seed) {
-        for_arms(seed, any_arm, [](const Arm& arm) {
-            const ArmPose<float> pose = solve<float>(arm),
-                                 other = solve<float>({arm.wrist, 8 * arm.pole, arm.upper, arm.fore});
-            RC_ASSERT(std::memcmp(pose.shoulder.c, other.shoulder.c, sizeof pose.shoulder.c) == 0);
-        });
-    });
 }
 
 // ---- swivel_verify()

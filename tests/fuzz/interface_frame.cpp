@@ -33,7 +33,7 @@ Frame::Frame(Session& session, std::uint32_t group)
         std::swap(fields[n - 1], fields[session.bytes.below(static_cast<std::uint32_t>(n))]);
     if (!fields.empty() && session.bytes.one_in(64)) {
         fields.push_back(fields[session.bytes.below(static_cast<std::uint32_t>(fields.size()))]);
-        is_valid = false;  // twice
+        if (fields.back().data) is_valid = false;  // twice; null is not given
     }
 }
 
