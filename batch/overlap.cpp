@@ -16,7 +16,7 @@ namespace {
 
 // Values in the caller's arrays: the first limb's address, and so on.
 struct FrameValue {
-    std::intptr_t at, stride, bytes, limb_count;
+    std::int64_t at, stride, bytes, limb_count;
     std::uint32_t group;
     const char* name;
 };
@@ -25,10 +25,10 @@ struct FrameValue {
 bool overlaps(const FrameValue& out, const FrameValue& in)
 {
     if (in.stride != 0 && in.stride != out.stride) return false;
-    const std::intptr_t apart = in.at - out.at, step = out.stride;
-    const std::intptr_t least = 1 - out.limb_count, most = in.stride == 0 ? 0 : in.limb_count - 1;
+    const std::int64_t apart = in.at - out.at, step = out.stride;
+    const std::int64_t least = 1 - out.limb_count, most = in.stride == 0 ? 0 : in.limb_count - 1;
     // Limb i + k of `in` overlaps limb i of `out` if -in.bytes < apart + k step < out.bytes.
-    std::intptr_t k = (-in.bytes - apart) / step - 1;
+    std::int64_t k = (-in.bytes - apart) / step - 1;
     while (apart + k * step <= -in.bytes) ++k;
     for (; apart + k * step < out.bytes; ++k) {
         const bool is_own = k == 0 && in.group == out.group && (in.stride != 0 || in.limb_count == 1);
@@ -44,9 +44,9 @@ void for_each_place(const swivel_crowd& crowd, const swivel_job& job, swivel_blo
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
         const swivel_frame frame = frame_at(job.frames, n);
         const auto place = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
-            return FrameValue{reinterpret_cast<std::intptr_t>(data),
-                              static_cast<std::intptr_t>(stride),
-                              static_cast<std::intptr_t>(bytes),
+            return FrameValue{static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(data)),
+                              static_cast<std::int64_t>(stride),
+                              static_cast<std::int64_t>(bytes),
                               group.limb_count,
                               static_cast<std::uint32_t>(&group - crowd.groups),
                               name};
