@@ -54,22 +54,7 @@ double elbow_allowed(const PlainArm& arm, const PlainArmPose& clip)
 // Measured on the three clips: wrist 4.8e-7 and bent elbow 2.4e-6 of the arm's length, hand 6e-7 rad, straight elbow
 // 0.19 of what elbow_allowed() allows.
 
-// How one arm of one frame comes out. Each figure is a share of what is allowed: 1 or less passes.
-struct ArmErrors {
-    double wrist, hand, elbow;
-    bool bent;
-};
-
-ArmErrors compare(const PlainMotion& clip, const PlainMotion& written, const PlainArm& arm, std::size_t frame)
-{
-    const PlainArmPose from = arm_pose(clip, arm, frame), to = arm_pose(written, arm, frame);
-    const double allowed = 1e-5 * arm.length();
-    const bool bent = from.bend() > kBent;
-    return {(to.wrist - from.wrist).norm() / allowed, angle_of(from.hand.transpose() * to.hand) / 1e-4,
-            (to.elbow - from.elbow).norm() / (bent ? allowed : elbow_allowed(arm, from)), bent};
-}
-
-// The worst of all frames and arms.
+// The worst of all frames and arms. Each figure is a share of what is allowed: 1 or less passes.
 struct Verdict {
     double wrist = 0, hand = 0, elbow_bent = 0, elbow_straight = 0;
     std::size_t arms = 0, straight = 0;
@@ -81,12 +66,17 @@ Verdict judge(const PlainMotion& clip, const PlainMotion& written, const Limbs& 
     Verdict v;
     for (const PlainArm& arm : limbs)
         for (std::size_t frame = 0; frame < clip.lines.size(); ++frame) {
-            const ArmErrors errors = compare(clip, written, arm, frame);
-            keep(v.wrist, errors.wrist);
-            keep(v.hand, errors.hand);
-            keep(errors.bent ? v.elbow_bent : v.elbow_straight, errors.elbow);
+            const PlainArmPose from = arm_pose(clip, arm, frame), to = arm_pose(written, arm, frame);
+            const double allowed = 1e-5 * arm.length(), elbow = (to.elbow - from.elbow).norm();
+            const bool bent = from.bend() > kBent;
+            keep(v.wrist, (to.wrist - from.wrist).norm() / allowed);
+            keep(v.hand, angle_of(from.hand.transpose() * to.hand) / 1e-4);
+            if (bent)
+                keep(v.elbow_bent, elbow / allowed);
+            else
+                keep(v.elbow_straight, elbow / elbow_allowed(arm, from));
             v.arms += 1;
-            v.straight += !errors.bent;
+            v.straight += !bent;
         }
     return v;
 }
