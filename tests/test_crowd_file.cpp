@@ -98,7 +98,6 @@ TEST_CASE("crowd file: wrong keys, types and values, with what to write")
 {
     require_refused({
         {"\n[crowd]\ncharacter = 3\n", "c.toml:3: crowd.character: unknown key; did you mean characters?"},
-        {"[crowds]\n", "c.toml:1: crowds: unknown key; did you mean crowd?"},
         {"[limb.arms.limits]\nshoulder_cone.opening = 3\n",
          "limb.arms.limits.shoulder_cone.opening: unknown key; did you mean opening_deg?"},
         {"[limb.arms.reach]\nbounce = 0.1\n",
