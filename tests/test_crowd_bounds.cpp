@@ -80,12 +80,9 @@ Violation box(const AngleBox& box, bool of_wrist)
 TEST_CASE("crowd bounds: limits are kept wherever a swivel can, those for both sides mirrored on the right one")
 {
     const CrowdStage stage;
-    const std::string limits = "[limb.left_arm.limits]\n";
     require_limit(stage, 0, "[limb.left_arm.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
                   SWIVEL_LIMITED_SHOULDER_CONE, cone({0.3, 0.2, 0.6}, 74, false));
-    require_limit(stage, 0, limits + "humeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
-                  twist(kBone, degrees(-20, 25), false));
-    require_limit(stage, 0, limits + "forearm_twist_deg = [-8, 4]\n", SWIVEL_LIMITED_FOREARM_TWIST,
+    require_limit(stage, 0, "[limb.left_arm.limits]\nforearm_twist_deg = [-8, 4]\n", SWIVEL_LIMITED_FOREARM_TWIST,
                   twist(kBone, degrees(-8, 4), true));
     require_limit(stage, 0, "[limb.left_arm.limits.hand_cone]\naxis = [0.3, 0, 1]\nopening_deg = 14\n",
                   SWIVEL_LIMITED_HAND_CONE, cone({0.3, 0, 1}, 14, true));

@@ -392,12 +392,11 @@ TEST_CASE("with weights, explain speaks of the blended target, and of how far th
         INFO(text);
         const Vector3d tip = Vector3d(wrists[n].data()) + Quaterniond(hands[n].data()) * vec(effectors[n]);
         const double missed = (tip - vec(targets[n])).norm();
+        const std::string point = n % 2 == 0 ? "wrist " : "effector ";
         if (weights[n][0] == 1) {
             CHECK(text.find("blended") == std::string::npos);
             if (!(flags[n] & (SWIVEL_REACHED | SWIVEL_CLAMPED_FAR | SWIVEL_CLAMPED_NEAR))) {
-                const std::string words = "A soft zone of reach keeps the ";
-                const std::string point = vec(effectors[n]).norm() == 0 ? "wrist " : "effector ";
-                CHECK(number_after(text, words + point) == Approx(missed).epsilon(1e-3));
+                CHECK(number_after(text, "A soft zone of reach keeps the " + point) == Approx(missed).epsilon(1e-3));
             }
             continue;
         }
@@ -405,8 +404,7 @@ TEST_CASE("with weights, explain speaks of the blended target, and of how far th
         CHECK(number_after(text, "With a position weight of ") ==
               Approx(double{weights[n][0]}).epsilon(6e-3).margin(1e-12));
         const std::size_t tail = text.find("With a position weight");
-        CHECK(number_after(text.substr(tail), n % 2 == 0 ? "the wrist is " : "the effector is ") ==
-              Approx(missed).epsilon(6e-4).margin(1e-5));
+        CHECK(number_after(text.substr(tail), "the " + point + "is ") == Approx(missed).epsilon(6e-4).margin(1e-5));
         if (flags[n] & SWIVEL_REACHED) {
             CHECK(text.starts_with("The blended target is reached."));
             ++reached;

@@ -36,7 +36,7 @@ Path path(Place place)
 
 // Paths through everything that is hard; t = 0 is the hard place.
 struct NamedPath {
-    const char* name;
+    std::string name;
     Path path;
 };
 std::vector<NamedPath> hard_paths()
@@ -113,9 +113,8 @@ TEST_CASE("without the limit the elbow jumps where it is said to, and only there
     for (const NamedPath& hard : hard_paths()) {
         INFO(hard.name);
         const Run got = run(hard.path, {}, kPi);
-        const std::string name = hard.name;
-        const bool passes_shoulder = name == "through the folded arm";
-        const bool passes_pole = name.find("pole") != std::string::npos;
+        const bool passes_shoulder = hard.name == "through the folded arm";
+        const bool passes_pole = hard.name.find("pole") != std::string::npos;
         if (passes_shoulder || passes_pole)
             CHECK(std::abs(got.largest_frame - kFrames / 2) <= 2);
         else
