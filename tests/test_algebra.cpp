@@ -161,9 +161,6 @@ TEST_CASE("points, spheres and lines are the dense algebra's; cross, dot, len2 a
         CHECK(std::fabs(scalar_product(mv(a), mv(b)) - a.dot(b)) < 1e-11);
         CHECK(std::fabs(len2(mv(a)) - a.squaredNorm()) < 1e-11);
         CHECK(distance(normalise(mv(a)), mv(Vector3d(a.normalized()))) < kTolerance);
-        // The plane through the origin and both points.
-        CHECK(distance(dense_of(dual(e0 ^ point(mv(b)) ^ point(mv(a)) ^ einf)), dense_of(mv(Vector3d(a.cross(b))))) <
-              1e-10);
     }
 }
 
@@ -247,19 +244,14 @@ void check_pair(Random& random)
     check_product<table::Product::inner, A, B>(random);
 }
 
-template <BladeSet A, BladeSet B>
-void check_sum(Random& random)
-{
-    const auto a = random_mv<A>(random);
-    const auto b = random_mv<B>(random);
-    check_near("sum", A, B, dense_of(a + b), dense_of(a) + dense_of(b), kTolerance);
-    check_near("difference", A, B, dense_of(a - b), dense_of(a) - dense_of(b), kTolerance);
-}
-
 template <BladeSet S>
 void check_one(Random& random)
 {
-    const auto a = random_mv<S>(random);
+    const auto a = random_mv<S>(random), same = random_mv<S>(random);
+    const auto other = random_mv<Point<double>::set>(random);
+    check_near("sum", S, S, dense_of(a + same), dense_of(a) + dense_of(same), kTolerance);
+    check_near("sum", S, other.set, dense_of(a + other), dense_of(a) + dense_of(other), kTolerance);
+    check_near("difference", S, other.set, dense_of(a - other), dense_of(a) - dense_of(other), kTolerance);
     check_near("negative", S, S, dense_of(-a), -dense_of(a), 0);
     check_near("reverse", S, S, dense_of(~a), ~dense_of(a), kTolerance);
     check_near("dual", S, S, dense_of(dual(a)), swivel::dense::dual(dense_of(a)), kTolerance);
@@ -275,14 +267,6 @@ void check_all_pairs(Random& random, std::index_sequence<N...>)
     constexpr std::size_t count = std::size(kSets);
     (check_pair<kSets[N / count], kSets[N % count]>(random), ...);
 }
-// Of each set with itself and with the next.
-template <std::size_t... N>
-void check_sums(Random& random, std::index_sequence<N...>)
-{
-    constexpr std::size_t count = std::size(kSets);
-    (check_sum<kSets[N], kSets[N]>(random), ...);
-    (check_sum<kSets[N], kSets[(N + 1) % count]>(random), ...);
-}
 template <std::size_t... N>
 void check_all_sets(Random& random, std::index_sequence<N...>)
 {
@@ -291,12 +275,6 @@ void check_all_sets(Random& random, std::index_sequence<N...>)
 
 }  // namespace
 
-TEST_CASE("sums and differences of blade sets are the dense algebra's")
-{
-    Random random{12};
-    for (int n = 0; n < 5; ++n) check_sums(random, std::make_index_sequence<std::size(kSets)>{});
-}
-
 TEST_CASE("products of every pair of blade sets are the dense algebra's")
 {
     Random random{9};
@@ -304,27 +282,9 @@ TEST_CASE("products of every pair of blade sets are the dense algebra's")
         check_all_pairs(random, std::make_index_sequence<std::size(kSets) * std::size(kSets)>{});
 }
 
-TEST_CASE("reverse, dual, negative and multiples of every blade set are the dense algebra's")
+TEST_CASE("sum, reverse, dual, negative and multiples of every blade set are the dense algebra's")
 {
     Random random{10};
     for (int n = 0; n < 20; ++n) check_all_sets(random, std::make_index_sequence<std::size(kSets)>{});
     for (int n = 0; n < 20; ++n) check_one<0xffffffffu>(random);
-}
-
-TEST_CASE("every product of two basis blades is the dense algebra's")
-{
-    using table::Product;
-    for (Blade a = 0; a < 32; ++a)
-        for (Blade b = 0; b < 32; ++b)
-            for (const Product kind : {Product::geometric, Product::outer, Product::inner}) {
-                const Dense da = dense_blade(a), db = dense_blade(b);
-                const Dense want = kind == Product::geometric ? da * db
-                                   : kind == Product::outer   ? (da ^ db)
-                                                              : swivel::dense::dot(da, db);
-                Dense got;
-                for (Blade out = 0; out < 32; ++out)
-                    got = got + Dense(table::coefficient(kind, a, b, out)) * dense_blade(out);
-                INFO(a << " and " << b << ", product " << static_cast<int>(kind));
-                CHECK(distance(got, want) == 0);
-            }
 }

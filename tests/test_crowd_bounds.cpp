@@ -77,35 +77,22 @@ Violation box(const AngleBox& box, bool of_wrist)
 
 }  // namespace
 
-TEST_CASE("crowd bounds: shoulder and wrist limits are kept wherever a swivel can")
+TEST_CASE("crowd bounds: limits are kept wherever a swivel can, those for both sides mirrored on the right one")
 {
     const CrowdStage stage;
-    const std::string limits = "[limb.left_arm.limits]\n";
     require_limit(stage, 0, "[limb.left_arm.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
                   SWIVEL_LIMITED_SHOULDER_CONE, cone({0.3, 0.2, 0.6}, 74, false));
-    require_limit(stage, 0, limits + "humeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
-                  twist(kBone, degrees(-20, 25), false));
-    require_limit(stage, 0, limits + "forearm_twist_deg = [-8, 4]\n", SWIVEL_LIMITED_FOREARM_TWIST,
+    require_limit(stage, 0, "[limb.left_arm.limits]\nforearm_twist_deg = [-8, 4]\n", SWIVEL_LIMITED_FOREARM_TWIST,
                   twist(kBone, degrees(-8, 4), true));
     require_limit(stage, 0, "[limb.left_arm.limits.hand_cone]\naxis = [0.3, 0, 1]\nopening_deg = 14\n",
                   SWIVEL_LIMITED_HAND_CONE, cone({0.3, 0, 1}, 14, true));
     require_limit(stage, 0, "[limb.left_arm.limits.hand_twist]\naxis = [0.2, 0, 1]\nrange_deg = [-8, 4]\n",
                   SWIVEL_LIMITED_HAND_TWIST, twist({0.2, 0, 1}, degrees(-8, 4), true));
-}
-
-TEST_CASE("crowd bounds: boxes of Euler angles, in their order")
-{
-    const CrowdStage stage;
     require_limit(
         stage, 0, "[limb.left_arm.limits.shoulder_box]\norder = \"YZX\"\nx_deg = [-60, 20]\nz_deg = [-50, 50]\n",
         SWIVEL_LIMITED_SHOULDER_BOX, box({{1, 2, 0}, {degrees(-180, 180), degrees(-50, 50), degrees(-60, 20)}}, false));
     require_limit(stage, 0, "[limb.left_arm.limits.wrist_box]\nz_deg = [-15, 10]\n", SWIVEL_LIMITED_WRIST_BOX,
                   box({{0, 1, 2}, {degrees(-180, 180), degrees(-180, 180), degrees(-15, 10)}}, true));
-}
-
-TEST_CASE("crowd bounds: limits for both sides are mirrored on the right one, its own are not")
-{
-    const CrowdStage stage;
     require_limit(stage, 1, "[limb.arms.limits.shoulder_cone]\naxis = [0.3, 0.2, 0.6]\nopening_deg = 74\n",
                   SWIVEL_LIMITED_SHOULDER_CONE, cone({-0.3, 0.2, 0.6}, 74, false));
     require_limit(stage, 1, "[limb.all.limits]\nhumeral_twist_deg = [-20, 25]\n", SWIVEL_LIMITED_HUMERAL_TWIST,
@@ -191,12 +178,9 @@ TEST_CASE("crowd bounds: the swivel turns no further in a frame than it may")
     const auto most = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
     REQUIRE(most(steps(stage.clip, left)) > 3);
     const std::string swivel = "[limb.left_arm.swivel]\nmost_deg_per_";
-    CHECK(most(steps(stage.motion(swivel + "frame = 1.5\n"), left)) < 1.52);
-    CHECK(most(steps(stage.motion(swivel + "frame = 1.5\n"), left)) > 1.48);
     const double frame_time = stage.json("[crowd]\n").at("frame_time");
-    const PlainMotion by_time = stage.motion(swivel + "second = " + std::to_string(1.5 / frame_time) + "\n");
-    CHECK(most(steps(by_time, left)) < 1.52);
-    CHECK(most(steps(by_time, left)) > 1.48);
+    for (const std::string& limit : {std::string("frame = 1.5"), "second = " + std::to_string(1.5 / frame_time)})
+        CHECK(most(steps(stage.motion(swivel + limit + "\n"), left)) == Approx(1.5).margin(0.02));
     CHECK(stage.json(swivel + "frame = 1.5\n").at("flags").at("limited step") > 10);
 
     // Character 1 starts within the clip. Where it starts the clip again nothing holds its elbow back.
@@ -248,16 +232,6 @@ TEST_CASE("crowd bounds: a budget solves so many blocks in a frame, the urgent o
         return changed;
     };
     CHECK(stage.json(crowd).at("arms") == 64 + 16 * (frames - 1));
-    std::size_t limbs = 0;
-    for (const std::string limb : {"left_arm", "right_arm"}) {
-        const auto changed = solved(crowd, limb);
-        CHECK(changed[0].size() == 32);
-        for (std::size_t frame = 1; frame < frames; ++frame) {
-            CHECK((changed[frame].empty() || changed[frame].size() == 16));
-            limbs += changed[frame].size();
-        }
-    }
-    CHECK(limbs == 16 * (frames - 1));
     const std::string left_alone = crowd + "[limb.right_arm]\npriority = 0\n";
     const auto of_right = solved(left_alone, "right_arm"), of_left = solved(left_alone, "left_arm");
     for (std::size_t frame = 1; frame < frames; ++frame) {
@@ -299,7 +273,6 @@ TEST_CASE("crowd bounds: the examples run")
         ",stretch,clavicle_x,clavicle_y,clavicle_z,clavicle_w,twist1_x,twist1_y,twist1_z,twist1_w,twist2_x,twist2_y,"
         "twist2_z,twist2_w";
     CHECK(stage.rows(slurp(examples / "crowd.toml"), "left_leg", columns).size() == 40 * stage.clip.lines.size());
-    const PlainMotion kick = stage.motion(slurp(examples / "kick.toml"));
-    const PlainArmPose at = arm_pose(kick, stage.legs[1], 10);
-    CHECK(angle_between(at.hand.col(2), Vector3d(0, 12, 60) - at.wrist) < 0.01);
+    const PlainArmPose kick = arm_pose(stage.motion(slurp(examples / "kick.toml")), stage.legs[1], 10);
+    CHECK(angle_between(kick.hand.col(2), Vector3d(0, 12, 60) - kick.wrist) < 0.01);
 }

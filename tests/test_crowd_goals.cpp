@@ -15,7 +15,7 @@ namespace {
 
 // Frames of an arm bent enough for its plane to be known.
 template <class See>
-std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
+void for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
 {
     std::size_t seen = 0;
     for (std::size_t frame = 0; frame < stage.clip.lines.size(); ++frame) {
@@ -24,8 +24,10 @@ std::size_t for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
         ++seen;
     }
     REQUIRE(seen > 30);
-    return seen;
 }
+
+// As a table has it.
+std::string cells_of(const Vector3d& v) { return text_of(v).substr(1, text_of(v).size() - 2); }
 
 }  // namespace
 
@@ -66,16 +68,11 @@ TEST_CASE("crowd file: size, stagger, spacing and targets beside the file")
     const PlainArm& left = stage.arms[0];
     const double span = 2 * std::max(stage.arms[0].length(), stage.arms[1].length());
     std::string table = "frame,character,limb,x,y,z,pole_x,pole_y,pole_z\n";
-    const auto add = [&](const Vector3d& v) {
-        table += "," + std::to_string(v.x()) + "," + std::to_string(v.y()) + "," + std::to_string(v.z());
-    };
     for (std::size_t c = 0; c < 4; ++c) {
         const Vector3d place = 5 * span * Vector3d(static_cast<double>(c % 2), 0, static_cast<double>(c / 2));
         const PlainArmPose at = arm_pose(stage.clip, left, 0);
-        table += "0," + std::to_string(c) + ",left_arm";
-        add(at.wrist + place);
-        add(at.elbow + place);
-        table += "\n";
+        table += "0," + std::to_string(c) + ",left_arm," + cells_of(at.wrist + place) + "," +
+                 cells_of(at.elbow + place) + "\n";
     }
     fs::create_directory(stage.folder / "sub");
     spill(stage.folder / "sub" / "t.csv", table);
@@ -251,8 +248,7 @@ TEST_CASE("crowd file: weights blend with the clip's own pose")
     // A table asks for another orientation; without weight the hand keeps its own, relative to the forearm or not.
     const PlainArmPose at = arm_pose(stage.clip, left, 7);
     spill(stage.folder / "t.csv", "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n7,0,left_arm," +
-                                      text_of(at.wrist).substr(1, text_of(at.wrist).size() - 2) + "," +
-                                      text_of(at.elbow).substr(1, text_of(at.elbow).size() - 2) + ",0,0,0,1\n");
+                                      cells_of(at.wrist) + "," + cells_of(at.elbow) + ",0,0,0,1\n");
     const auto hand = [&](const std::string& toml) {
         return arm_pose(stage.motion("[crowd]\ntargets = \"t.csv\"\n" + toml), left, 7).hand;
     };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The promise: dense.h is the algebra of D. Hildenbrand, "Inverse Kinematics of a Virtual Character" (TU Darmstadt,
-// 2019). Every identity of the lecture, numbered as there, and the axioms behind them. Rotations and cross products
-// are judged by Eigen.
+// 2019). The axioms, and the identities of the lecture, numbered as there. (3.19, 3.20, 3.22) follow from the square of
+// a line, (3.18). The arm's own steps, (7.1-7.4) and (7.6-7.9), are judged in the arms of test_reference.cpp. Rotations
+// and cross products are judged by Eigen.
 
 #include "core/dense.h"
 
@@ -12,7 +13,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 namespace {
 
@@ -66,26 +66,6 @@ Vector3d any_direction()
     return {radius * std::cos(azimuth), radius * std::sin(azimuth), height};
 }
 
-// Two directions at least `least` and at most pi - `least` apart.
-std::pair<Vector3d, Vector3d> any_two_directions(double least)
-{
-    const Vector3d a = any_direction();
-    const Vector3d across = a.cross(std::fabs(a.x()) < 0.5 ? Vector3d::UnitX() : Vector3d::UnitY());
-    const Vector3d axis = Eigen::AngleAxisd(uniform(-kPi, kPi), a) * across.normalized();
-    return {a, Eigen::AngleAxisd(uniform(least, kPi - least), axis) * a};
-}
-
-// exp(A) by its Taylor series; |A| <= pi, so 40 terms end below 1e-20.
-Multivector exponential(const Multivector& A)
-{
-    Multivector term = 1, sum = 1;
-    for (int n = 1; n <= 40; ++n) {
-        term = term * A / n;
-        sum = sum + term;
-    }
-    return sum;
-}
-
 }  // namespace
 
 TEST_CASE("the dense basis has the metric of G(4,1)", "[dense]")
@@ -99,15 +79,16 @@ TEST_CASE("the dense basis has the metric of G(4,1)", "[dense]")
         CHECK(distance(dot(e, e0), 0) == 0);
         CHECK(distance(dot(e, einf), 0) == 0);
     }
-    CHECK(distance(e1 * e2, -(e2 * e1)) == 0);
-    CHECK(distance(e2 * e3, -(e3 * e2)) == 0);
-    CHECK(distance(e1 * e3, -(e3 * e1)) == 0);
     // Where the head comment of dense.h puts the coefficients.
     CHECK((e1 * e2).c[0b00011] == 1);
     CHECK((e1 * e2 * e3).c[0b00111] == 1);
     CHECK((eplus * eminus).c[0b11000] == 1);
     CHECK(distance(I * I, -1) == 0);
     CHECK(distance(dual(I), 1) == 0);
+    // Table 3.2: quaternions are bivectors. (3.18) has the products of i, j and k.
+    CHECK(distance(e1 ^ e2, -k) == 0);
+    CHECK(distance(e1 ^ e3, j) == 0);
+    CHECK(distance(e2 ^ e3, -i) == 0);
 }
 
 TEST_CASE("the products obey the axioms", "[dense]")
@@ -128,7 +109,6 @@ TEST_CASE("the products obey the axioms", "[dense]")
         RC_ASSERT(same(a * b, dot(a, b) + (a ^ b)));
         RC_ASSERT(same(dot(a, b), dot(b, a)));
         RC_ASSERT(same(a ^ b, -(b ^ a)));
-        RC_ASSERT(same(a ^ a, 0));
     });
     rc::prop("reverse is an anti-automorphism and an involution, and leaves vectors alone", [] {
         const Multivector A = any_multivector(), B = any_multivector(), a = any_grade(1);
@@ -148,32 +128,6 @@ TEST_CASE("the products obey the axioms", "[dense]")
         RC_ASSERT(same(dual(a ^ B), dot(a, dual(B))));
         RC_ASSERT(same(dual(dual(B)), -B));
     });
-    rc::prop("a non-null vector has an inverse", [] {
-        const Multivector a = any_grade(1);
-        RC_PRE(std::fabs(scalar(a * a)) > 0.01);
-        RC_ASSERT(same(a * inverse(a), 1));
-        RC_ASSERT(same(inverse(a) * a, 1));
-    });
-}
-
-TEST_CASE("quaternions are bivectors: Table 3.2 and the imaginary units", "[dense]")
-{
-    CHECK(distance(e1 ^ e2, -k) == 0);
-    CHECK(distance(e1 ^ e3, j) == 0);
-    CHECK(distance(e2 ^ e3, -i) == 0);
-
-    CHECK(distance(i, e3 * e2) == 0);
-    CHECK(distance(j, e1 * e3) == 0);
-    CHECK(distance(k, e2 * e1) == 0);
-
-    CHECK(distance(i * i, -1) == 0);
-    CHECK(distance(j * j, -1) == 0);
-    CHECK(distance(k * k, -1) == 0);
-    CHECK(distance(i * j * k, -1) == 0);
-    CHECK(distance(i * j, k) == 0);
-    CHECK(distance(j * k, i) == 0);
-    CHECK(distance(k * i, j) == 0);
-    CHECK(distance(j * i, -k) == 0);
 }
 
 TEST_CASE("points, spheres and planes", "[dense]")
@@ -224,15 +178,7 @@ TEST_CASE("lines and planes through the origin", "[dense]")
 
 TEST_CASE("rotations by unit quaternions", "[dense]")
 {
-    rc::prop("(3.19, 3.20) exp(phi/2 L) is cos(phi/2) + L sin(phi/2)", [] {
-        const Multivector L = pure(any_direction());
-        const double phi = uniform(-2 * kPi, 2 * kPi);
-        const Multivector Q = std::cos(phi / 2) + L * std::sin(phi / 2);
-        RC_ASSERT(same(exponential(phi / 2 * L), Q));
-        RC_ASSERT(same(~Q, std::cos(phi / 2) - L * std::sin(phi / 2)));  // (3.22)
-        RC_ASSERT(same(Q * ~Q, 1));
-    });
-    rc::prop("(3.21) Q o ~Q rotates vectors, points and planes as Eigen does, a b applying b first", [] {
+    rc::prop("(3.21, 3.23) Q o ~Q rotates vectors, points and planes as Eigen does, a b applying b first", [] {
         const Vector3d axis = any_direction(), axis2 = any_direction(), x = any_vector();
         const double phi = uniform(-kPi, kPi), phi2 = uniform(-kPi, kPi), d = uniform(-2, 2);
         const Multivector Q = std::cos(phi / 2) + pure(axis) * std::sin(phi / 2);
@@ -243,37 +189,12 @@ TEST_CASE("rotations by unit quaternions", "[dense]")
         RC_ASSERT(same(Q * plane(dense(x), d) * ~Q, plane(dense(turned), d)));
         RC_ASSERT(same((Q2 * Q) * dense(x) * ~(Q2 * Q), dense(Eigen::AngleAxisd(phi2, axis2) * turned)));
     });
-    rc::prop("(3.23) for phi = pi the quaternion is the line itself", [] {
-        const Vector3d v = any_direction(), x = any_vector();
-        const Multivector Q = dual(e0 ^ point(dense(v)) ^ einf);
-        RC_ASSERT(same(Q, exponential(kPi / 2 * pure(v))));
-        RC_ASSERT(same(Q * dense(x) * ~Q, dense(Eigen::AngleAxisd(kPi, v) * x)));
-        RC_ASSERT(same(Q * dense(v) * ~Q, dense(v)));
-    });
 }
 
-TEST_CASE("quaternions from points and cosines", "[dense]")
+TEST_CASE("angles", "[dense]")
 {
-    rc::prop("(7.1-7.4) the normalised middle line carries P1 to P2", [] {
-        const auto [a, b] = any_two_directions(0.1);
-        const double r = uniform(0.5, 3);
-        const Multivector P1 = point(dense(r * a)), P2 = point(dense(r * b));
-        const Multivector pi_m = P1 - P2;                    // (7.1)
-        const Multivector pi_e = dual(e0 ^ P1 ^ P2 ^ einf);  // (7.2)
-        const Multivector L_m = pi_e ^ pi_m;                 // (7.3)
-        const Multivector Q = L_m / norm(L_m);               // (7.4)
-        RC_ASSERT(same(Q, pure((a + b).normalized())));
-        RC_ASSERT(same(Q * P1 * ~Q, P2));
-        RC_ASSERT(same(Q * P2 * ~Q, P1));
-    });
-    rc::prop("(7.1) the middle plane contains the points equally far from both", [] {
-        const Vector3d p1 = any_vector(), p2 = any_vector(), x = any_vector();
-        const Multivector pi_m = point(dense(p1)) - point(dense(p2));
-        RC_ASSERT(same(dot(point(dense(x)), pi_m), 0.5 * ((x - p2).squaredNorm() - (x - p1).squaredNorm())));
-    });
     rc::prop("(7.5) the angle between lines, and between planes, from o1 . o2", [] {
-        const auto [a, b] = any_two_directions(0);
-        const Vector3d p = any_vector(), q = any_vector();
+        const Vector3d a = any_direction(), b = any_direction(), p = any_vector(), q = any_vector();
         const Multivector L1_dual = point(dense(p)) ^ point(dense(p + a)) ^ einf;
         const Multivector L2_dual = point(dense(q)) ^ point(dense(q + b)) ^ einf;
         RC_ASSERT(same(dot(L1_dual, L2_dual) / (norm(L1_dual) * norm(L2_dual)), a.dot(b)));
@@ -282,15 +203,6 @@ TEST_CASE("quaternions from points and cosines", "[dense]")
         RC_ASSERT(same(dot(pi1, pi2) / (norm(pi1) * norm(pi2)), a.dot(b)));
         // Duals of planes meet with the other sign, I^2 = -1: why reference.cpp takes c3 from the planes themselves.
         RC_ASSERT(same(dot(dual(pi1), dual(pi2)) / (norm(dual(pi1)) * norm(dual(pi2))), -a.dot(b)));
-    });
-    rc::prop("(7.6-7.9) the cosine between two lines and their axis give the rotation between them", [] {
-        const auto [a, b] = any_two_directions(0.1);
-        const Multivector L1_dual = e0 ^ point(dense(a)) ^ einf;
-        const Multivector L2_dual = e0 ^ point(dense(b)) ^ einf;
-        const double c = scalar(dot(L1_dual, L2_dual)) / (norm(L1_dual) * norm(L2_dual));
-        const Multivector axis = pure(a.cross(b).normalized());
-        const Multivector Q = std::sqrt((1 + c) / 2) + axis * std::sqrt((1 - c) / 2);
-        RC_ASSERT(same(Q * dense(a) * ~Q, dense(b)));
     });
 }
 
@@ -303,21 +215,5 @@ TEST_CASE("point pairs", "[dense]")
         const Multivector PP = dual(A ^ B);
         const Multivector plus = point_of_pair(PP, +1), minus = point_of_pair(PP, -1);
         RC_ASSERT((same(plus, A) && same(minus, B)) || (same(plus, B) && same(minus, A)));
-    });
-    rc::prop("two spheres and a plane meet in their common point and in a second one", [] {
-        const Vector3d x = any_vector(), c1 = any_vector(), c2 = any_vector(), n = any_direction();
-        const Multivector S1 = sphere(point(dense(c1)), (x - c1).norm());
-        const Multivector S2 = sphere(point(dense(c2)), (x - c2).norm());
-        const Multivector pi = plane(dense(n), n.dot(x));
-        const Multivector PP = S1 ^ S2 ^ pi;
-        RC_PRE(scalar(dot(dual(PP), dual(PP))) > 0.1);  // two points apart, not one touched
-        const Multivector plus = point_of_pair(PP, +1), minus = point_of_pair(PP, -1);
-        for (const Multivector& P : {plus, minus}) {
-            RC_ASSERT(same(P * P, 0));
-            RC_ASSERT(same(dot(P, einf), -1));
-            for (const Multivector& o : {S1, S2, pi}) RC_ASSERT(same(dot(P, o), 0));
-        }
-        RC_ASSERT(same(plus, point(dense(x))) || same(minus, point(dense(x))));
-        RC_ASSERT(!same(plus, minus));
     });
 }

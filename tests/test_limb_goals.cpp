@@ -18,10 +18,12 @@ using namespace swivel::test;
 double off(const Vector3d& hinge, const Vector3d& normal) { return (hinge - normal).norm(); }
 
 template <class Check>
-void for_arms(std::uint64_t seed, Check check)
+void for_arms(const std::string& promise, Check check)
 {
-    Random random{seed};
-    for (int n = 0; n < 200; ++n) check(random, random_reachable(random));
+    rc::prop(promise, [&](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < 200; ++n) check(random, random_reachable(random));
+    });
 }
 
 struct Incoming {
@@ -54,163 +56,142 @@ TEST_CASE("everything on and at rest changes nothing")
     LimitUse& limits = all.limits;
     limits.flexion = limits.shoulder_cone = limits.hand_cone = limits.humeral_twist = limits.forearm_twist =
         limits.hand_twist = limits.shoulder_box = limits.wrist_box = true;
-    rc::prop("the arm is the plain solver's", [&](std::uint64_t seed) {
-        for_arms(seed, [&](Random&, const Arm& arm) {
-            const Solved<float> got = solve(all, limb_goal<float>(arm));
-            const ArmPose<float> plain = solve<float>(arm);
-            // Each solver's cross product knows the plane to 4.4e-7 over the sine of the pole's angle, the most of a
-            // billion plain arms and 100 million limbs. In the plane elbows were 4.2e-7 apart at most, of 80,000 arms.
-            const Vector3d apart = got.elbow - elbow_place(plain, arm);
-            const double sine = arm.wrist.normalized().cross(arm.pole.normalized()).norm();
-            const double across = apart.dot(arm.normal());
-            RC_ASSERT(std::fabs(across) <= 1e-6 / sine * arm.upper);
-            RC_ASSERT((apart - across * arm.normal()).norm() <= 1e-6 * arm.length());
-            RC_ASSERT((got.wrist - wrist_place(plain, arm)).norm() <= 1e-6 * arm.length());
-            RC_ASSERT(got.pose.arm.flags == SWIVEL_REACHED);
-        });
+    for_arms("the arm is the plain solver's", [&](Random&, const Arm& arm) {
+        const Solved<float> got = solve(all, limb_goal<float>(arm));
+        const ArmPose<float> plain = solve<float>(arm);
+        // Each solver's cross product knows the plane to 4.4e-7 over the sine of the pole's angle, the most of a
+        // billion plain arms and 100 million limbs. In the plane elbows were 4.2e-7 apart at most, of 80,000 arms.
+        const Vector3d apart = got.elbow - elbow_place(plain, arm);
+        const double sine = arm.wrist.normalized().cross(arm.pole.normalized()).norm();
+        const double across = apart.dot(arm.normal());
+        RC_ASSERT(std::fabs(across) <= 1e-6 / sine * arm.upper);
+        RC_ASSERT((apart - across * arm.normal()).norm() <= 1e-6 * arm.length());
+        RC_ASSERT((got.wrist - wrist_place(plain, arm)).norm() <= 1e-6 * arm.length());
+        RC_ASSERT(got.pose.arm.flags == SWIVEL_REACHED);
     });
 }
 
 TEST_CASE("effectors and hands")
 {
-    rc::prop("the effector is at the target, the hand as wanted", [](std::uint64_t seed) {
+    for_arms("the effector is at the target, the hand as wanted", [](Random& random, const Arm& arm) {
         LimbUse use;
         use.hand = use.effector = true;
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            const Quaterniond hand = random.rotation();
-            const Vector3d effector = random.between(0, 0.3) * random.direction();
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.arm.wrist = mv<float>(Vector3d(arm.wrist + hand * effector));
-            goal.hand = mv<float>(Quaterniond(random.spread(0.1, 10) * hand.coeffs()));
-            goal.effector = mv<float>(effector);
-            const Solved<float> got = solve(use, goal);
-            RC_ASSERT((got.wrist + got.hand * effector - eigen(goal.arm.wrist)).norm() <= 2e-6 * arm.length());
-            RC_ASSERT(distance(got.hand, hand) <= 1e-6);
-        });
+        const Quaterniond hand = random.rotation();
+        const Vector3d effector = random.between(0, 0.3) * random.direction();
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        goal.arm.wrist = mv<float>(Vector3d(arm.wrist + hand * effector));
+        goal.hand = mv<float>(Quaterniond(random.spread(0.1, 10) * hand.coeffs()));
+        goal.effector = mv<float>(effector);
+        const Solved<float> got = solve(use, goal);
+        RC_ASSERT((got.wrist + got.hand * effector - eigen(goal.arm.wrist)).norm() <= 2e-6 * arm.length());
+        RC_ASSERT(distance(got.hand, hand) <= 1e-6);
     });
 }
 
 TEST_CASE("where the elbow goes")
 {
-    rc::prop("a turn from the pole's side, by the right hand about the line to the wrist", [](std::uint64_t seed) {
-        LimbUse use;
-        use.angle = true;
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            const double angle = random.between(-kPi, kPi), size = random.spread(1e-3, 1e3);
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.angle = {static_cast<float>(size * std::cos(angle)), static_cast<float>(size * std::sin(angle))};
-            const Vector3d want = Eigen::AngleAxisd(angle, arm.wrist.normalized()) * arm.normal();
-            RC_ASSERT(off(solve(use, goal).hinge, want) <= 3e-6);
-        });
-    });
-    rc::prop("a plane's normal", [](std::uint64_t seed) {
+    for_arms("a turn from the pole's side, by the right hand about the line to the wrist",
+             [](Random& random, const Arm& arm) {
+                 LimbUse use;
+                 use.angle = true;
+                 const double angle = random.between(-kPi, kPi), size = random.spread(1e-3, 1e3);
+                 LimbGoal<float> goal = limb_goal<float>(arm);
+                 goal.angle = {static_cast<float>(size * std::cos(angle)), static_cast<float>(size * std::sin(angle))};
+                 const Vector3d want = Eigen::AngleAxisd(angle, arm.wrist.normalized()) * arm.normal();
+                 RC_ASSERT(off(solve(use, goal).hinge, want) <= 3e-6);
+             });
+    for_arms("a plane's normal", [](Random& random, const Arm& arm) {
         LimbUse use;
         use.wish = Wish::normal;
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            const Vector3d line = arm.wrist.normalized(), tilted = arm.normal() + random.between(-2, 2) * line;
-            goal.arm.pole = mv<float>(Vector3d(random.spread(1e-3, 1e3) * tilted));
-            RC_ASSERT(off(solve(use, goal).hinge, arm.normal()) <= 3e-6);
-        });
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        const Vector3d line = arm.wrist.normalized(), tilted = arm.normal() + random.between(-2, 2) * line;
+        goal.arm.pole = mv<float>(Vector3d(random.spread(1e-3, 1e3) * tilted));
+        RC_ASSERT(off(solve(use, goal).hinge, arm.normal()) <= 3e-6);
     });
-    rc::prop("as in the incoming pose", [](std::uint64_t seed) {
+    for_arms("as in the incoming pose", [](Random& random, const Arm& arm) {
         LimbUse use;
         use.incoming = true, use.wish = Wish::incoming;
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            const Incoming pose = random_incoming(random);
-            const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
-            const Vector3d across = hinge - hinge.dot(line) * line;
-            if (across.norm() < 0.05) return;
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.incoming = incoming_of<float>(pose);
-            RC_ASSERT(off(solve(use, goal).hinge, across.normalized()) <= 1e-5);
-        });
+        const Incoming pose = random_incoming(random);
+        const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
+        const Vector3d across = hinge - hinge.dot(line) * line;
+        if (across.norm() < 0.05) return;
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        goal.incoming = incoming_of<float>(pose);
+        RC_ASSERT(off(solve(use, goal).hinge, across.normalized()) <= 1e-5);
     });
-    rc::prop("where the pole does not say: the incoming pose, or the previous normal first", [](std::uint64_t seed) {
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            LimbUse use;
-            use.incoming = true;
-            const Incoming pose = random_incoming(random);
-            const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
-            const Vector3d across = hinge - hinge.dot(line) * line, previous = random.across(line);
-            if (across.norm() < 0.05) return;
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.arm.pole = mv<float>(Vector3d(random.between(-2, 2) * line));
-            goal.incoming = incoming_of<float>(pose);
-            const Solved<float> by_pose = solve(use, goal);
-            RC_ASSERT(off(by_pose.hinge, across.normalized()) <= 1e-5);
-            RC_ASSERT(by_pose.pose.arm.flags == (SWIVEL_REACHED | SWIVEL_SWIVEL_UNDEFINED));
-            use.continuity = true;
-            goal.continuity.previous_normal = mv<float>(previous);
-            RC_ASSERT(off(solve(use, goal).hinge, previous) <= 1e-5);
-        });
-    });
+    for_arms("where the pole does not say: the incoming pose, or the previous normal first",
+             [](Random& random, const Arm& arm) {
+                 LimbUse use;
+                 use.incoming = true;
+                 const Incoming pose = random_incoming(random);
+                 const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
+                 const Vector3d across = hinge - hinge.dot(line) * line, previous = random.across(line);
+                 if (across.norm() < 0.05) return;
+                 LimbGoal<float> goal = limb_goal<float>(arm);
+                 goal.arm.pole = mv<float>(Vector3d(random.between(-2, 2) * line));
+                 goal.incoming = incoming_of<float>(pose);
+                 const Solved<float> by_pose = solve(use, goal);
+                 RC_ASSERT(off(by_pose.hinge, across.normalized()) <= 1e-5);
+                 RC_ASSERT(by_pose.pose.arm.flags == (SWIVEL_REACHED | SWIVEL_SWIVEL_UNDEFINED));
+                 use.continuity = true;
+                 goal.continuity.previous_normal = mv<float>(previous);
+                 RC_ASSERT(off(solve(use, goal).hinge, previous) <= 1e-5);
+             });
 }
 
 TEST_CASE("weights blend with the incoming pose")
 {
     LimbUse use;
     use.hand = use.incoming = use.weights = true;
-    rc::prop("0 keeps its wrist, hand and swivel", [&](std::uint64_t seed) {
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            Incoming pose = random_incoming(random);
-            pose.elbow =
-                Quaterniond(Eigen::AngleAxisd(-random.between(0.3, 2.5), Vector3d::UnitX()));  // the hinge alone
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.incoming = incoming_of<float>(pose);
-            goal.hand = mv<float>(random.rotation());
-            goal.weights = {0, 0, 0};
-            const Solved<float> got = solve(use, goal);
-            RC_ASSERT((got.wrist - pose.wrist_place(arm)).norm() <= 2e-6 * arm.length());
-            RC_ASSERT((got.elbow - pose.shoulder * Vector3d(0, 0, arm.upper)).norm() <= 1e-5 * arm.length());
-            RC_ASSERT(distance(got.hand, pose.shoulder * pose.elbow * pose.wrist) <= 3e-6);
-        });
+    for_arms("0 keeps its wrist, hand and swivel", [&](Random& random, const Arm& arm) {
+        Incoming pose = random_incoming(random);
+        pose.elbow = Quaterniond(Eigen::AngleAxisd(-random.between(0.3, 2.5), Vector3d::UnitX()));  // the hinge alone
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        goal.incoming = incoming_of<float>(pose);
+        goal.hand = mv<float>(random.rotation());
+        goal.weights = {0, 0, 0};
+        const Solved<float> got = solve(use, goal);
+        RC_ASSERT((got.wrist - pose.wrist_place(arm)).norm() <= 2e-6 * arm.length());
+        RC_ASSERT((got.elbow - pose.shoulder * Vector3d(0, 0, arm.upper)).norm() <= 1e-5 * arm.length());
+        RC_ASSERT(distance(got.hand, pose.shoulder * pose.elbow * pose.wrist) <= 3e-6);
     });
-    rc::prop("1 takes the target itself, however near the shoulder it is", [](std::uint64_t seed) {
+    for_arms("1 takes the target itself, however near the shoulder it is", [](Random& random, const Arm& arm) {
         LimbUse without, with;
         without.incoming = with.incoming = with.weights = true;
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            const double distance_wanted = arm.length() * random.spread(1e-12, 1);
-            Arm near = arm;
-            near.wrist *= distance_wanted / arm.wrist.norm();
-            LimbGoal<float> goal = limb_goal<float>(rounded(near));
-            goal.incoming = incoming_of<float>(random_incoming(random));
-            const ArmPose<float> want = solve(without, goal).pose.arm, got = solve(with, goal).pose.arm;
-            RC_ASSERT(distance(eigen(got.shoulder), eigen(want.shoulder)) <= 1e-6);
-            RC_ASSERT(got.cos_half == want.cos_half && got.sin_half == want.sin_half && got.flags == want.flags);
-        });
+        const double distance_wanted = arm.length() * random.spread(1e-12, 1);
+        Arm near = arm;
+        near.wrist *= distance_wanted / arm.wrist.norm();
+        LimbGoal<float> goal = limb_goal<float>(rounded(near));
+        goal.incoming = incoming_of<float>(random_incoming(random));
+        const ArmPose<float> want = solve(without, goal).pose.arm, got = solve(with, goal).pose.arm;
+        RC_ASSERT(distance(eigen(got.shoulder), eigen(want.shoulder)) <= 1e-6);
+        RC_ASSERT(got.cos_half == want.cos_half && got.sin_half == want.sin_half && got.flags == want.flags);
     });
-    rc::prop("between: the wrist on the straight way, the hand and the swivel between the two",
-             [&](std::uint64_t seed) {
-                 for_arms(seed, [&](Random& random, const Arm& arm) {
-                     const Incoming pose = random_incoming(random);
-                     const Quaterniond hand = random.rotation(), hand_was = pose.shoulder * pose.elbow * pose.wrist;
-                     LimbGoal<float> goal = limb_goal<float>(arm);
-                     goal.incoming = incoming_of<float>(pose);
-                     goal.hand = mv<float>(hand);
-                     const double w = static_cast<float>(random.unit());
-                     goal.weights = {static_cast<float>(w), static_cast<float>(w), 1};
-                     const Solved<float> got = solve(use, goal);
-                     const Vector3d was = pose.wrist_place(arm), place = was + w * (arm.wrist - was);
-                     if (got.pose.arm.flags & SWIVEL_REACHED)
-                         RC_ASSERT((got.wrist - place).norm() <= 3e-6 * arm.length());
-                     const double whole = hand_was.angularDistance(hand);
-                     if (whole > 3) return;
-                     RC_ASSERT(std::fabs(hand_was.angularDistance(got.hand) + got.hand.angularDistance(hand) - whole) <=
-                               1e-4);
-                 });
-             });
-    rc::prop("half of a pole's weight: the middle of the two planes", [&](std::uint64_t seed) {
-        for_arms(seed, [&](Random& random, const Arm& arm) {
-            const Incoming pose = random_incoming(random);
-            const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
-            const Vector3d was = (hinge - hinge.dot(line) * line).normalized(), middle = was + arm.normal();
-            if ((hinge - hinge.dot(line) * line).norm() < 0.05 || middle.norm() < 0.1) return;
-            LimbGoal<float> goal = limb_goal<float>(arm);
-            goal.incoming = incoming_of<float>(pose);
-            goal.weights = {1, 1, 0.5f};
-            RC_ASSERT(off(solve(use, goal).hinge, middle.normalized()) <= 1e-4);
-        });
+    for_arms("between: the wrist on the straight way, the hand and the swivel between the two", [&](Random& random,
+                                                                                                    const Arm& arm) {
+        const Incoming pose = random_incoming(random);
+        const Quaterniond hand = random.rotation(), hand_was = pose.shoulder * pose.elbow * pose.wrist;
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        goal.incoming = incoming_of<float>(pose);
+        goal.hand = mv<float>(hand);
+        const double w = static_cast<float>(random.unit());
+        goal.weights = {static_cast<float>(w), static_cast<float>(w), 1};
+        const Solved<float> got = solve(use, goal);
+        const Vector3d was = pose.wrist_place(arm), place = was + w * (arm.wrist - was);
+        if (got.pose.arm.flags & SWIVEL_REACHED) RC_ASSERT((got.wrist - place).norm() <= 3e-6 * arm.length());
+        const double whole = hand_was.angularDistance(hand);
+        if (whole > 3) return;
+        RC_ASSERT(std::fabs(hand_was.angularDistance(got.hand) + got.hand.angularDistance(hand) - whole) <= 1e-4);
+    });
+    for_arms("half of a pole's weight: the middle of the two planes", [&](Random& random, const Arm& arm) {
+        const Incoming pose = random_incoming(random);
+        const Vector3d line = arm.wrist.normalized(), hinge = pose.shoulder * Vector3d::UnitX();
+        const Vector3d was = (hinge - hinge.dot(line) * line).normalized(), middle = was + arm.normal();
+        if ((hinge - hinge.dot(line) * line).norm() < 0.05 || middle.norm() < 0.1) return;
+        LimbGoal<float> goal = limb_goal<float>(arm);
+        goal.incoming = incoming_of<float>(pose);
+        goal.weights = {1, 1, 0.5f};
+        RC_ASSERT(off(solve(use, goal).hinge, middle.normalized()) <= 1e-4);
     });
 }
 

@@ -48,6 +48,15 @@ class Scripts(unittest.TestCase):
         path.write_text(content if isinstance(content, str) else json.dumps(content), encoding="utf-8")
         return str(path)
 
+    def bench(self, name, document, more=""):
+        """A program that writes this result where swivel_bench would."""
+        path = self.folder / name
+        path.write_text(f"#!{sys.executable}\nimport sys\n{more}\n"
+                        "out = next(a for a in sys.argv if a.startswith('--benchmark_out='))\n"
+                        f"open(out.split('=')[1], 'w').write({json.dumps(document)!r})\n", encoding="utf-8")
+        path.chmod(0o755)
+        return str(path)
+
     def run_script(self, script, *arguments):
         return subprocess.run([sys.executable, str(BENCH / script), *arguments], capture_output=True, text=True, check=False)
 
@@ -100,7 +109,7 @@ class Scripts(unittest.TestCase):
         self.assertRegex(said, r"loop with two acos +6\.00 +2\.0 +3\.3 +missed\n")
 
     def test_pages(self):
-        (self.folder / "cpu.json").write_text(json.dumps(full_result()), encoding="utf-8")
+        self.file("cpu.json", full_result())
         page = self.file("page.md", "Text.\n\n<!-- bench: held cpu -->\nold\n<!-- bench end -->\n\nMore.\n")
         options = ("--page", page, "--results", str(self.folder))
         self.assertEqual(self.run_script("pages.py", "--check", *options).returncode, 1)
@@ -119,7 +128,7 @@ class Scripts(unittest.TestCase):
             document = full_result()
             document["context"]["date"] = date
             document["benchmarks"] += result({"P/avx2/L2": ns})["benchmarks"]
-            (self.folder / f"{name}.json").write_text(json.dumps(document), encoding="utf-8")
+            self.file(f"{name}.json", document)
         sentence = "An arm takes <!-- bench: arm newest -->{}<!-- bench end -->.\n"
         says = sentence.format("3.50 nanoseconds on one core with AVX2")  # b, whose date is later by the clock of the world
         table = "<!-- bench: summary newest -->\n<!-- bench end -->\n"
@@ -132,11 +141,7 @@ class Scripts(unittest.TestCase):
                              self.file("page.md", sentence.format("").replace("arm newest", "answer b")))
 
     def test_record_without_ozz(self):
-        binary = self.folder / "swivel_bench"
-        binary.write_text(f"#!{sys.executable}\nimport sys\n"
-                          f"open(sys.argv[1].removeprefix('--benchmark_out='), 'w').write({json.dumps(full_result())!r})\n", encoding="utf-8")
-        binary.chmod(0o755)
-        run = self.run_script("record.py", "cpu", "--busy", "--binary", str(binary), "--results", str(self.folder), "--page",
+        run = self.run_script("record.py", "cpu", "--busy", "--binary", self.bench("swivel_bench", full_result()), "--results", str(self.folder), "--page",
                               self.file("page.md", "No block.\n"))
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertRegex(run.stderr, "^note: this build has no ozz-animation.*\n$")
@@ -147,16 +152,9 @@ class Scripts(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_in_turns(self):
-        binaries, turns = [], self.folder / "turns"
-        for name, ns in (("old", 2.0), ("new", 2.1)):
-            path = self.folder / name
-            document = json.dumps(result({"P": ns, name: 1.0}))
-            path.write_text(f"#!{sys.executable}\nimport sys\n"
-                            f"open({str(turns)!r}, 'a').write('{name} ')\n"
-                            "out = next(a for a in sys.argv if a.startswith('--benchmark_out='))\n"
-                            f"open(out.split('=')[1], 'w').write({document!r})\n", encoding="utf-8")
-            path.chmod(0o755)
-            binaries.append(str(path))
+        turns = self.folder / "turns"
+        binaries = [self.bench(name, result({"P": ns, name: 1.0}), f"open({str(turns)!r}, 'a').write('{name} ')")
+                    for name, ns in (("old", 2.0), ("new", 2.1))]
         run = self.run_script("in_turns.py", *binaries, "--rounds", "2")
         self.assertEqual(run.returncode, 1, run.stderr)
         self.assertRegex(run.stdout, r"P +2\.00 +2\.10 +1\.050 +1\.05 +1\.05  slower\n1 of 1 rows")

@@ -228,8 +228,7 @@ TEST_CASE("a demo's page holds its crowd")
 TEST_CASE("without the page's program view says how to build it, and writes nothing")
 {
     const Stage stage(false);
-    const Outcome outcome = stage.run({"view", "clip.bvh"});
-    require_failure(outcome, 1, "build it with tools/view/build");
+    require_failure(stage.run({"view", "clip.bvh"}), 1, "build it with tools/view/build");
     CHECK(!fs::exists(stage.at("clip.bvh.html")));
     require_failure(stage.run({"demo", "--view", "demo.html"}), 1, "build it with tools/view/build");
 }

@@ -134,8 +134,6 @@ class Mistakes(unittest.TestCase):
         write, read = crowd.write, crowd.read
         self.fails(ValueError, "target: expected shape (100, 3), or (3,) for all limbs, got (99, 3)", write, Field.TARGET,
                    np.zeros((99, 3)))
-        self.fails(ValueError, "target: expected shape (100, 3), or (3,) for all limbs, got (100,)", write, Field.TARGET,
-                   np.zeros(N))
         self.fails(ValueError, "parent_scale: expected shape (100,), or () for all limbs, got (100, 1)", write, Field.PARENT_SCALE,
                    np.zeros((N, 1)))
         self.fails(ValueError, "target: not an array of numbers", write, Field.TARGET, [[1, 2], [3]])
