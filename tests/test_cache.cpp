@@ -255,10 +255,8 @@ TEST_CASE("Metadata that no store writes is refused, whatever its digest")
         {"a limb's joints are not three", [](CachedCrowd& crowd) { crowd.limbs[1].joints.clear(); }},
         {"unknown features: bits 0x8000000000000000",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.features |= std::uint64_t{1} << 63; }},
-        {"SWIVEL_WITH_CLAVICLE needs SWIVEL_WORLD",
-         [](CachedCrowd& crowd) {
-             crowd.limbs[0].setup.features = SWIVEL_WITH_CLAVICLE | (crowd.limbs[0].setup.features & ~SWIVEL_WORLD);
-         }},
+        {"SWIVEL_POLE_DIRECTION excludes SWIVEL_POLE_NORMAL",
+         [](CachedCrowd& crowd) { crowd.limbs[0].setup.features |= SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL; }},
         {"shoulder_order is 6, not a number from 0 to 5",
          [](CachedCrowd& crowd) { crowd.limbs[0].setup.shoulder_order = static_cast<swivel_euler_order>(6); }},
         {"field is 264, not a number from 0 to 263",
