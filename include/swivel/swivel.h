@@ -23,8 +23,9 @@
 // CONVENTIONS. Lengths are in the caller's unit. Axes are right-handed; docs/engines.md is for engines with others.
 // Quaternions are Hamilton's, stored x, y, z, w; a*b applies b first. In the arm frame the shoulder is at the origin. A
 // straight limb at rest lies along +z. Flexion turns the forearm towards +y, about -x, so the elbow moves towards -y.
-// The elbow lies on the pole's side of the line from shoulder to wrist: a bend and its pole point opposite ways. An arm
-// length is both bones' length, scaled. In comments, WORLD means SWIVEL_WORLD, and so on.
+// The elbow lies on the pole's side of the line from shoulder to wrist. swivel_chain's bend says where the forearm
+// goes, a pole where the elbow goes, so the two point opposite ways. An arm length is both bones' length, scaled. In
+// comments, WORLD means SWIVEL_WORLD, and so on.
 //
 // ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
 //
@@ -43,8 +44,8 @@
 // accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
 // first. Data may be null for zero limbs.
 //
-// CHECKED BUILDS. Built with SWIVEL_CHECK_USE, as debug builds are, the library also refuses a crowd that is destroyed,
-// a crowd that two threads use against the rules, and frames whose results overlap other limbs' inputs.
+// CHECKED BUILDS. Debug builds, and those with SWIVEL_CHECK_USE, refuse more: a crowd that is destroyed, a crowd that
+// two threads use against the rules, and frames whose results overlap other limbs' inputs.
 //
 // Read next: swivel_field for every value's meaning, swivel_bind() for skeletons, and swivel_solve(). The folder docs/
 // has guides with pictures; docs/speed.md says what each feature costs.
@@ -160,9 +161,9 @@ typedef uint64_t swivel_features;
 // hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
 // - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
 //   angle is off by at most 3e-6, for a twist times (1 + cos swing) / 2. So a cone may be left by 0.14 degrees near 0
-//   and 180 degrees. In a box, what is off by at most 4e-6 is the sine of the middle angle, and the sines of the others
-//   times the middle one's cosine. So near a right angle the middle one may be off by 0.17 degrees, and the others may
-//   be free. docs/howto/limits.md has the figures that a search for the worst found.
+//   and 180 degrees. In a box, the sine of the middle angle is off by at most 4e-6. So is the sine of each other angle,
+//   times the cosine of the middle one. Near a right angle the middle one may so be off by 0.17 degrees, and the others
+//   may be free. docs/howto/limits.md has the figures that a search for the worst found.
 // - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
 //   the target, lower its weight or use WITH_CLAVICLE.
@@ -244,9 +245,9 @@ typedef enum swivel_field {
     // - If the elbow crosses that line between solves, the arm rolls over, whatever SWIVEL_MOST_SWIVEL says.
     SWIVEL_AIM,
     // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Give the
-    // parent's rotation as without this feature. The parent turns about its own origin, which is the shoulder's
-    // position less the clavicle. It turns towards the target by about share * position weight * the angle between
-    // clavicle and target. Limits, rotations and results of the arm are relative to the parent as turned. For shares
+    // parent's rotation as without this feature. The parent turns about its own origin, from which the shoulder's place
+    // is counted. It turns towards the target by about share * position weight * the angle between clavicle and
+    // target. Limits, rotations and results of the arm are relative to the parent as turned. For shares
     // below 1 the turn is continuous; it fades for targets on the other side of the body.
     SWIVEL_CLAVICLE,
     SWIVEL_INPUT_END,  // one past the last input of this release
@@ -804,21 +805,20 @@ SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t grou
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
-// Results in 16-bit words, for memory or for another machine: a third to half of the rows' bytes. swivel_pack() packs
-// blocks of a group, counted within it. words gets SWIVEL_LANES words for each row of words of each block: row r of
-// lane l of the nth block is words[(n * rows + r) * SWIVEL_LANES + l]. rows is swivel_packed_row() of
-// SWIVEL_RESULT_END. Results keep the order of swivel_field; swivel_packed_row() is the row in which a field begins.
+// Results in 16-bit words, for memory or for another machine: about half of the rows' bytes. swivel_pack() packs blocks
+// of a group, counted within it. Word r of lane l of the nth block becomes words[(n * rows + r) * SWIVEL_LANES + l],
+// where rows is swivel_packed_row() of SWIVEL_RESULT_END. Fields keep their order; swivel_packed_row() is the row in
+// which one begins.
 // - Rotations take 3 words: the quaternion's smallest three components. The component of largest size (the first of x,
 //   y, z, w if equal) is left out; its index 0..3 is word0 >> 15 | (word1 >> 15) << 1. The other three follow in the
 //   order x, y, z, w; each is ((word & 32767) - 16384) / (16383 * sqrt 2). The sign of the quaternion makes the
 //   component left out positive: it is sqrt(1 - the sum of their squares). Bit 15 of word2 is 0.
-// - SWIVEL_ELBOW without JOINTS takes 2 words and SWIVEL_STRETCH 1, IEEE half floats, rounded to nearest.
+// - SWIVEL_ELBOW without JOINTS takes 2 words and SWIVEL_STRETCH 1. They are IEEE half floats, rounded to nearest.
 // - SWIVEL_FLAGS takes 2 words, the low and the high half of the uint32_t.
 // - SWIVEL_NORMAL takes none: it is for the next solve alone.
 // A rotation is within 1.54e-4 rad of the result. A wrist is within 1.13e-3 arm lengths of its place, for any bones;
-// with JOINTS within 3.1e-4; and by half a thousandth of the arm's length more with WITH_REACH. The words are the same
-// on every CPU. Any thread, while nothing solves these blocks; no allocation; up to half as long as a solve of plain
-// arms.
+// with JOINTS within 3.1e-4. A stretch is within a 2048th of itself. The words are the same on every CPU. Any thread,
+// while nothing solves these blocks; no allocation; up to half as long as a solve of plain arms.
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
 // The first row of words of a field of groups with these features; the end of the field before it, if they do not have
 // it. Any thread.

@@ -42,7 +42,7 @@ void call_one(Session& session)
 {
     constexpr std::array calls = {call_fill,    call_write,        call_write_doubles, call_read,
                                   call_solve,   call_solve,        call_solve,         call_solve,
-                                  call_solve,   call_choose,       call_reset,         call_allowed_arcs,
+                                  call_pack,    call_choose,       call_reset,         call_allowed_arcs,
                                   call_forward, call_joint_angles, call_residuals,     call_helper};
     session.arena_before.assign(session.arena.begin(), session.arena.end());
     calls[session.bytes.take<std::uint8_t>() % calls.size()](session);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Calls of the C interface about single poses, and those that need no crowd.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -75,20 +76,26 @@ swivel_binding untouched_binding()
 {
     BindingNumbers numbers;
     numbers.fill(7);
-    return std::bit_cast<swivel_binding>(numbers);
+    swivel_binding binding = std::bit_cast<swivel_binding>(numbers);
+    binding.size = sizeof binding;
+    return binding;
 }
 void check_binding(swivel_status status, const swivel_binding& bound)
 {
-    constexpr std::size_t lengths = offsetof(swivel_binding, lengths) / sizeof(float),
-                          bones = offsetof(swivel_binding, twist_parent_from_arm) / sizeof(float);
+    constexpr std::size_t first = offsetof(swivel_binding, parent_from_arm) / sizeof(float),
+                          lengths = offsetof(swivel_binding, lengths) / sizeof(float),
+                          bones = offsetof(swivel_binding, twist_parent_from_arm) / sizeof(float),
+                          end = bones + 2 * 4 * SWIVEL_MOST_TWIST_BONES;
     const auto numbers = std::bit_cast<BindingNumbers>(bound);
     bool is_sound = bound.twist_bone_count <= SWIVEL_MOST_TWIST_BONES;
     for (const float length : bound.lengths) is_sound = is_sound && length > 0 && std::isfinite(length);
-    for (std::size_t n = 0; n < numbers.size(); n += 4) {
+    for (std::size_t n = first; n < end; n += 4) {
         if (n == lengths) n = bones;
         is_sound = is_sound && is_near_unit(numbers, n, 4);
     }
-    check_helper(status, numbers, is_sound);
+    std::array<float, end - first> members;
+    std::copy_n(numbers.begin() + first, members.size(), members.begin());
+    check_helper(status, members, is_sound);
 }
 
 // Joints as they come: what is no limb must be refused, and nothing outside the arrays be read.
@@ -239,6 +246,18 @@ void call_residuals(Session& session)
     const swivel_status status = swivel_residuals(session.crowd, limbs.group, limbs.first, limbs.count, distance.out());
     check_status(session, status, limbs.is_valid && distance.is_valid());
     distance.check_gaps(status != SWIVEL_OK);
+}
+
+void call_pack(Session& session)
+{
+    const std::uint32_t group = session.bytes.below(session.group_count + 1),
+                        blocks = (swivel_group_limb_count(session.crowd, group) + SWIVEL_LANES - 1) / SWIVEL_LANES,
+                        rows = swivel_packed_row(swivel_group_features(session.crowd, group), SWIVEL_RESULT_END);
+    const swivel_blocks range{session.bytes.below(blocks + 2), session.bytes.below(blocks + 2)};
+    const bool is_valid = blocks > 0 && range.first + range.count <= blocks;
+    std::vector<std::uint16_t> words(is_valid ? std::size_t{range.count} * rows * SWIVEL_LANES + 1 : 1);
+    check_status(session, swivel_pack(session.crowd, group, range, words.data()), is_valid);
+    SWIVEL_REQUIRE(words.back() == 0);
 }
 
 void call_helper(Session& session)

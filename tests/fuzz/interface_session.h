@@ -56,6 +56,7 @@ void call_allowed_arcs(Session& session);
 void call_joint_angles(Session& session);
 void call_forward(Session& session);
 void call_residuals(Session& session);
+void call_pack(Session& session);
 // Those that need no crowd.
 void call_helper(Session& session);
 

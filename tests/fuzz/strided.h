@@ -42,7 +42,7 @@ public:
             default:
                 stride_ = value_bytes;
         }
-        is_valid_ = !is_null_ && (stride_ >= value_bytes || (may_repeat && stride_ == 0));
+        is_valid_ = (!is_null_ || count == 0) && (stride_ >= value_bytes || (may_repeat && stride_ == 0));
         start_ = bytes.below(8);
         size_ = is_valid_ ? (count == 0 ? 0 : (stride_ == 0 ? 0 : (count - 1) * stride_) + value_bytes) : 0;
         memory_ = std::make_unique<char[]>(start_ + size_);
