@@ -27,7 +27,7 @@ void for_bent(const CrowdStage& stage, const PlainArm& limb, See see)
 }
 
 // As a table has it.
-std::string cells_of(const Vector3d& v) { return text_of(v).substr(1, text_of(v).size() - 2); }
+std::string three_cells(const Vector3d& v) { return text_of(v).substr(1, text_of(v).size() - 2); }
 
 }  // namespace
 
@@ -71,8 +71,8 @@ TEST_CASE("crowd file: size, stagger, spacing and targets beside the file")
     for (std::size_t c = 0; c < 4; ++c) {
         const Vector3d place = 5 * span * Vector3d(static_cast<double>(c % 2), 0, static_cast<double>(c / 2));
         const PlainArmPose at = arm_pose(stage.clip, left, 0);
-        table += "0," + std::to_string(c) + ",left_arm," + cells_of(at.wrist + place) + "," +
-                 cells_of(at.elbow + place) + "\n";
+        table += "0," + std::to_string(c) + ",left_arm," + three_cells(at.wrist + place) + "," +
+                 three_cells(at.elbow + place) + "\n";
     }
     fs::create_directory(stage.folder / "sub");
     spill(stage.folder / "sub" / "t.csv", table);
@@ -248,7 +248,7 @@ TEST_CASE("crowd file: weights blend with the clip's own pose")
     // A table asks for another orientation; without weight the hand keeps its own, relative to the forearm or not.
     const PlainArmPose at = arm_pose(stage.clip, left, 7);
     spill(stage.folder / "t.csv", "frame,character,limb,x,y,z,pole_x,pole_y,pole_z,qx,qy,qz,qw\n7,0,left_arm," +
-                                      cells_of(at.wrist) + "," + cells_of(at.elbow) + ",0,0,0,1\n");
+                                      three_cells(at.wrist) + "," + three_cells(at.elbow) + ",0,0,0,1\n");
     const auto hand = [&](const std::string& toml) {
         return arm_pose(stage.motion("[crowd]\ntargets = \"t.csv\"\n" + toml), left, 7).hand;
     };
