@@ -23,7 +23,7 @@ function check(data) {
     };
     expect("characters", data.characters, SIZE.character * data.character_count);
     for (const { name, binding, plan, sources } of data.limbs) {
-        expect(`the binding of ${name}`, binding, layout.swivel_binding.bytes);
+        expect(`the binding of ${name}`, binding, layout.swivel_binding.bytes - layout.swivel_binding.parent_from_arm);
         expect(`the plan of ${name}`, plan, SIZE.plan);
         expect(`the clip of ${name}`, sources, SIZE.source * clipFramesOf(data));
     }

@@ -33,10 +33,17 @@ export interface LimbJoints {
     bend?: Numbers;
 }
 
+/** Where a binding's numbers begin, behind its size. Their bytes are the same on every platform. */
+const BEGIN = layout.swivel_binding.parent_from_arm;
+
 /** Maps the arm frame to a skeleton's joints: a swivel_binding. Swivel.bind() and Swivel.bindJoints() make it. */
 export class Binding {
+    readonly bytes = new Uint8Array(layout.swivel_binding.bytes);
     /** @internal */
-    constructor(readonly bytes: Uint8Array) {}
+    constructor(numbers: Uint8Array) {
+        new Uint32Array(this.bytes.buffer)[0] = this.bytes.length;
+        this.bytes.set(numbers, BEGIN);
+    }
     /** Upper arm and forearm. */
     get lengths(): [number, number] {
         const [upper, fore] = new Float32Array(this.bytes.buffer, layout.swivel_binding.lengths, 2);
@@ -49,7 +56,7 @@ function make(memory: Memory, write: (borrowed: Borrowed, binding: number) => nu
     return memory.borrow((borrowed) => {
         const binding = borrowed.structure("swivel_binding");
         memory.check(write(borrowed, binding.at));
-        return new Binding(memory.bytes(binding.at, layout.swivel_binding.bytes).slice());
+        return new Binding(memory.bytes(binding.at + BEGIN, layout.swivel_binding.bytes - BEGIN));
     });
 }
 

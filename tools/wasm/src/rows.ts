@@ -170,7 +170,7 @@ export class CrowdRows {
     }
     /** A group's results in 16-bit words, a copy, as swivel_pack says. */
     pack(group = 0): Uint16Array {
-        const count = Math.ceil(this.limbCount(group) / LANES), rows = this.packedRow(RESULT_END, group);
+        const count = Math.ceil(this.limbCount(group) / LANES), rows = this.memory.calls.swivel_packed_row(this.features(group), RESULT_END);
         return this.memory.borrow((borrowed) => {
             const words = borrowed.bytes(2 * rows * count * LANES);
             this.memory.check(this.memory.calls.swivel_pack(this.crowd, group, borrowed.words([0, count]), words));
