@@ -35,14 +35,14 @@ CrowdStage::CrowdStage(std::size_t first, std::size_t step)
     legs = legs_of(clip);
 }
 
-Outcome CrowdStage::run(const std::string& toml, std::vector<std::string> more) const
+Outcome CrowdStage::run(const std::string& toml, Words more) const
 {
     spill(folder / "c.toml", toml);
     more.insert(more.begin(), {"solve", "clip.bvh", "--crowd", "c.toml"});
     return run_command(folder.path, more);
 }
 
-std::string CrowdStage::output(const std::string& toml, const std::string& out, std::vector<std::string> more) const
+std::string CrowdStage::output(const std::string& toml, const std::string& out, Words more) const
 {
     more.insert(more.end(), {"--out", out});
     const Outcome outcome = run(toml, more);
@@ -52,13 +52,13 @@ std::string CrowdStage::output(const std::string& toml, const std::string& out, 
     return slurp(folder / out);
 }
 
-PlainMotion CrowdStage::motion(const std::string& toml, const std::vector<std::string>& more) const
+PlainMotion CrowdStage::motion(const std::string& toml, const Words& more) const
 {
     return plain_motion(output(toml, "out.bvh", more));
 }
 
 std::vector<PoseLine> CrowdStage::rows(const std::string& toml, const std::string& limb, const std::string& columns,
-                                       const std::vector<std::string>& more) const
+                                       const Words& more) const
 {
     std::vector<PoseLine> lines = pose_lines(output(toml, "out.csv", more), columns);
     std::erase_if(lines, [&](const PoseLine& line) { return line.limb != limb; });
@@ -66,7 +66,7 @@ std::vector<PoseLine> CrowdStage::rows(const std::string& toml, const std::strin
     return lines;
 }
 
-nlohmann::json CrowdStage::json(const std::string& toml, std::vector<std::string> more) const
+nlohmann::json CrowdStage::json(const std::string& toml, Words more) const
 {
     more.push_back("--json");
     const Outcome outcome = run(toml, more);
@@ -87,7 +87,7 @@ ArmAxes CrowdStage::axes(std::size_t arm) const
 }
 
 void CrowdStage::require_refused(const std::string& toml, const std::string& said, const std::string& out,
-                                 std::vector<std::string> more) const
+                                 Words more) const
 {
     more.insert(more.end(), {"--out", out});
     fs::remove(folder / out);

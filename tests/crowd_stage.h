@@ -42,17 +42,17 @@ struct CrowdStage {
 
     explicit CrowdStage(std::size_t first = 100, std::size_t step = 25);
 
-    Outcome run(const std::string& toml, std::vector<std::string> more) const;
-    std::string output(const std::string& toml, const std::string& out, std::vector<std::string> more = {}) const;
-    PlainMotion motion(const std::string& toml, const std::vector<std::string>& more = {}) const;
+    Outcome run(const std::string& toml, Words more) const;
+    std::string output(const std::string& toml, const std::string& out, Words more = {}) const;
+    PlainMotion motion(const std::string& toml, const Words& more = {}) const;
     // columns: what the table has beside.
     std::vector<PoseLine> rows(const std::string& toml, const std::string& limb, const std::string& columns = "",
-                               const std::vector<std::string>& more = {}) const;
-    nlohmann::json json(const std::string& toml, std::vector<std::string> more = {}) const;
+                               const Words& more = {}) const;
+    nlohmann::json json(const std::string& toml, Words more = {}) const;
     // Of a limb whose bones lie on one line at rest, as this clip's arms do. The hinge is the one that is reported.
     ArmAxes axes(std::size_t arm) const;
     void require_refused(const std::string& toml, const std::string& said, const std::string& out = "out.csv",
-                         std::vector<std::string> more = {}) const;
+                         Words more = {}) const;
 };
 
 // "[x, y, z]", every digit.

@@ -27,13 +27,13 @@ struct PipeStage {
         spill(folder / "t.csv", kPipeTable);
         spill(folder / "c.toml", "[limb.arms]\nhand = false\n");
     }
-    Outcome run(std::vector<std::string> words, const std::string& input = {}) const
+    Outcome run(Words words, const std::string& input = {}) const
     {
         words.insert(words.begin(), "solve");
         return run_command(folder.path, words, input);
     }
     // What a run that must succeed writes to the file at the end of its words.
-    std::string written(const std::vector<std::string>& words) const
+    std::string written(const Words& words) const
     {
         const Outcome outcome = run(words);
         INFO(outcome.err);

@@ -16,7 +16,7 @@ std::vector<float> turns(const Eigen::Vector3d& axis, const std::vector<double>&
     return keys;
 }
 
-nlohmann::json report_of(const fs::path& folder, std::vector<std::string> words, int exit_code)
+nlohmann::json report_of(const fs::path& folder, Words words, int exit_code)
 {
     words.push_back("--json");
     const Outcome outcome = run_command(folder, words);
@@ -26,11 +26,11 @@ nlohmann::json report_of(const fs::path& folder, std::vector<std::string> words,
     return nlohmann::json::parse(outcome.out);
 }
 
-nlohmann::json rig_report(const GltfRig& rig, const std::vector<std::string>& options)
+nlohmann::json rig_report(const GltfRig& rig, const Words& options)
 {
     const TempFolder folder;
     rig.write(folder / "rig.glb");
-    std::vector<std::string> words = {"rig", "rig.glb", "--json"};
+    Words words = {"rig", "rig.glb", "--json"};
     words.insert(words.end(), options.begin(), options.end());
     const Outcome outcome = run_command(folder.path, words);
     INFO(outcome.err);

@@ -71,8 +71,7 @@ private:
 
 }  // namespace
 
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                    const std::string& input)
+Outcome run_command(const std::filesystem::path& folder, const Words& arguments, const std::string& input)
 {
     std::vector<const char*> argv = {"swivel"};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
@@ -87,10 +86,9 @@ Outcome run_command(const std::filesystem::path& folder, const std::vector<std::
     return outcome;
 }
 
-Outcome spawn_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                      const Surroundings& surroundings)
+Outcome spawn_command(const std::filesystem::path& folder, const Words& arguments, const Surroundings& surroundings)
 {
-    std::vector<std::string> words = {SWIVEL_COMMAND};
+    Words words = {SWIVEL_COMMAND};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_program(folder, std::move(words), surroundings);
 }

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "tests/run_program.h"
 
@@ -13,11 +12,10 @@ namespace swivel::test {
 
 // Runs `swivel arguments...` as a function of this process, with `folder` as its working directory and `input` on its
 // standard input.
-Outcome run_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                    const std::string& input = {});
+Outcome run_command(const std::filesystem::path& folder, const Words& arguments, const std::string& input = {});
 
 // The same as a process of its own. Only a process has an environment, a terminal, a peak of memory and a time.
-Outcome spawn_command(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+Outcome spawn_command(const std::filesystem::path& folder, const Words& arguments,
                       const Surroundings& surroundings = {});
 
 }  // namespace swivel::test

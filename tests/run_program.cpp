@@ -55,10 +55,10 @@ void open_channel(Channel& channel, bool terminal)
     REQUIRE(channel.writing >= 0);
 }
 
-std::vector<std::string> merged_environment(const std::vector<std::string>& changes)
+Words merged_environment(const Words& changes)
 {
     const auto name_of = [](std::string_view entry) { return entry.substr(0, entry.find('=')); };
-    std::vector<std::string> merged;
+    Words merged;
     for (char** entry = environ; *entry; ++entry) {
         bool is_changed = false;
         for (const std::string& change : changes) is_changed = is_changed || name_of(change) == name_of(*entry);
@@ -70,7 +70,7 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& chan
     return merged;
 }
 
-std::vector<char*> pointers(std::vector<std::string>& words)
+std::vector<char*> pointers(Words& words)
 {
     std::vector<char*> all;
     for (std::string& word : words) all.push_back(word.data());
@@ -116,8 +116,7 @@ void listen(pid_t child, const std::string& program, const Surroundings& surroun
 
 }  // namespace
 
-Outcome run_program(const std::filesystem::path& folder, std::vector<std::string> words,
-                    const Surroundings& surroundings)
+Outcome run_program(const std::filesystem::path& folder, Words words, const Surroundings& surroundings)
 {
     Channel out, err;
     open_channel(out, false);
@@ -129,7 +128,7 @@ Outcome run_program(const std::filesystem::path& folder, std::vector<std::string
         out.writing = ::open(surroundings.stdout_file.c_str(), O_WRONLY | O_CLOEXEC);
         REQUIRE(out.writing >= 0);
     }
-    std::vector<std::string> environment = merged_environment(surroundings.environment);
+    Words environment = merged_environment(surroundings.environment);
     const std::vector<char*> argv = pointers(words), envp = pointers(environment);
 
     const pid_t child = ::fork();

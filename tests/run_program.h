@@ -12,6 +12,8 @@
 
 namespace swivel::test {
 
+using Words = std::vector<std::string>;
+
 struct Outcome {
     int exit_code = -1;    // -N: ended by signal N; SIGALRM where it took too long
     std::string out, err;  // every byte of stdout and stderr
@@ -19,7 +21,7 @@ struct Outcome {
 };
 
 struct Surroundings {
-    std::vector<std::string> environment{};  // "NAME=value" on top of this process's own; "NAME" alone removes it
+    Words environment{};                     // "NAME=value" on top of this process's own; "NAME" alone removes it
     bool terminal = false;                   // stderr is a terminal
     unsigned short columns = 0;              // of that; 0: it does not say
     std::string stdout_file{};               // where stdout goes instead of Outcome::out
@@ -30,7 +32,6 @@ struct Surroundings {
 };
 
 // Runs words[0], a path, with `folder` as its working directory and waits for it. Fails the test if it cannot start.
-Outcome run_program(const std::filesystem::path& folder, std::vector<std::string> words,
-                    const Surroundings& surroundings = {});
+Outcome run_program(const std::filesystem::path& folder, Words words, const Surroundings& surroundings = {});
 
 }  // namespace swivel::test

@@ -111,8 +111,7 @@ TEST_CASE("Numbers of a crowd take no more memory than is given")
         store.write_attributes(attributes_of(crowd));
         for (const auto& each : {arrays.filled(crowd), arrays.made()})
             for (const ZarrArray& array : each) store.write_array(array);
-        for (const std::vector<std::string>& words :
-             std::vector<std::vector<std::string>>{{"fill", "cache"}, {"replay", "cache"}, {"view", "cache"}}) {
+        for (const Words& words : std::vector<Words>{{"fill", "cache"}, {"replay", "cache"}, {"view", "cache"}}) {
             const Outcome outcome = spawn_command(stage.folder.path, words);
             CHECK(outcome.exit_code == 1);
             CHECK_THAT(outcome.err, Contains(" MiB of memory at once, more than 1024; "));

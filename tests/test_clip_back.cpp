@@ -134,11 +134,10 @@ Limbs all(const PlainMotion& motion)
     return limbs;
 }
 
-void solve_clip_back(const fs::path& path, std::size_t frame_count, FindLimbs find = arms,
-                     const std::vector<std::string>& options = {})
+void solve_clip_back(const fs::path& path, std::size_t frame_count, FindLimbs find = arms, const Words& options = {})
 {
     const TempFolder folder;
-    std::vector<std::string> arguments = {"solve", path.string(), "--targets", "clip", "--out", "out.bvh"};
+    Words arguments = {"solve", path.string(), "--targets", "clip", "--out", "out.bvh"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Outcome outcome = run_command(folder.path, arguments);
     INFO(path << ": " << outcome.err);
@@ -163,7 +162,7 @@ void solve_clip_back(const fs::path& path, std::size_t frame_count, FindLimbs fi
 }
 
 void solve_if_present(const std::string& name, std::size_t frame_count, FindLimbs find = arms,
-                      const std::vector<std::string>& options = {})
+                      const Words& options = {})
 {
     const fs::path path = find_data(name);
     if (path.empty())

@@ -22,8 +22,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 // Runs it where nothing is but clip.bvh, a small file with two arms; `folder` is left to look at.
 Outcome run_beside_clip(const TempFolder& folder, const Words& arguments)
 {

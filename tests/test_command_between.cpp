@@ -17,8 +17,6 @@ using namespace swivel::test;
 using Catch::Matchers::Contains;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Words = std::vector<std::string>;
-
 namespace {
 
 constexpr std::size_t kFrames = 12;

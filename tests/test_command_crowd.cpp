@@ -13,12 +13,6 @@
 
 using namespace swivel::test;
 
-namespace {
-
-using Words = std::vector<std::string>;
-
-}  // namespace
-
 TEST_CASE("crowd: the table holds every frame, character and limb in order, and unit quaternions")
 {
     const CrowdStage stage;

@@ -15,8 +15,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 Outcome run(const Words& words)
 {
     const TempFolder folder;

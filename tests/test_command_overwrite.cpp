@@ -17,12 +17,6 @@
 using namespace swivel::test;
 using Catch::Matchers::Contains;
 
-namespace {
-
-using Words = std::vector<std::string>;
-
-}  // namespace
-
 TEST_CASE("overwrite: what is read is never written over")
 {
     const TempFolder folder;

@@ -18,8 +18,6 @@ using swivel::tools::progress_line;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 const Surroundings kTerminal{{"TERM=xterm"}, true};
 // Long enough for bars, 0.1 s apart, on a machine ten times faster than today's.
 const Words kLongRun = {"demo", "--characters", "20000", "--frames", "100"};

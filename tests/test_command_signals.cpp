@@ -21,8 +21,6 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 // ---- what a process may find itself in, for Surroundings::before
 
 void limit(int resource, std::uint64_t most)
@@ -179,13 +177,10 @@ TEST_CASE("process: closed standard streams lose their text, and no other file g
 
 TEST_CASE("process: a message that nobody can be told changes no exit code")
 {
-    const PipeStage stage;
+    const TempFolder folder;
     Surroundings mute;
     mute.before = [] { ::dup2(::open("/dev/full", O_WRONLY | O_CLOEXEC), STDERR_FILENO); };
-    CHECK(spawn_command(stage.folder.path, {"slove"}, mute).exit_code == 2);
-    const Outcome data = spawn_command(stage.folder.path, {"solve", "clip.bvh", "--out", "-"}, mute);
-    CHECK(data.exit_code == 0);  // its report goes to standard error
-    CHECK(data.out == stage.written({"clip.bvh", "--out", "a.csv"}));
+    CHECK(spawn_command(folder.path, {"slove"}, mute).exit_code == 2);
 }
 
 TEST_CASE("process: lack of memory is one line that blames no file, wherever it shows")

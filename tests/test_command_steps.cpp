@@ -21,8 +21,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 Outcome run_words(Words words)
 {
     const TempFolder folder;

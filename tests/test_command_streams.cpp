@@ -15,12 +15,6 @@ using namespace swivel::test;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-namespace {
-
-using Words = std::vector<std::string>;
-
-}  // namespace
-
 TEST_CASE("streams: a BVH clip, a table and a crowd file may come from standard input")
 {
     const PipeStage stage;
@@ -157,22 +151,4 @@ TEST_CASE("streams: a note says so where most limbs are out of reach or have bad
                Contains(head + ": of 4 arms, 2 are out of reach; are the targets in the right place and unit? 1 has "
                                "bad input;"));
     CHECK(nlohmann::json::parse(stage.run(json, rows(2, beyond_floats)).out).at("bad_input") == 1);
-}
-
-TEST_CASE("streams: aims that are too near miss, and are no errors")
-{
-    const PipeStage stage;
-    spill(stage.folder / "aim.toml", "[limb.arms.aim]\naxis = [0, 0, 1]\nflexion_deg = 40\n");
-    // The left shoulder is at (2.97, 7, 2.65) in the first frame: its ray cannot pass so near.
-    const std::string near_one = "frame,character,limb,x,y,z\n0,0,left_arm,2.97,7.1,2.65\n0,0,right_arm,-4,9,30\n";
-    const Outcome outcome = stage.run({"clip.bvh", "--crowd", "aim.toml", "--targets", "-", "--json"}, near_one);
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    const auto json = nlohmann::json::parse(outcome.out);
-    const std::uint64_t count = json.at("missed").at("aim").at("count");
-    CHECK(count >= 1);
-    CHECK(count == json.at("flags").at("clamped near"));
-    CHECK(json.at("missed").at("aim").at("worst") > 1e-3);
-    CHECK(json.at("errors").at("aim").at("count") == 4 - count);
-    CHECK(json.at("errors").at("aim").at("worst") < 1e-5);
 }

@@ -13,8 +13,6 @@
 
 using namespace swivel::test;
 using Catch::Matchers::Contains;
-using Words = std::vector<std::string>;
-
 namespace {
 
 const std::string kPlainCrowd = "[crowd]\n";

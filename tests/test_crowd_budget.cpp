@@ -154,30 +154,6 @@ TEST_CASE("nobody starves, and over time blocks are solved as often as their pri
     }
 }
 
-TEST_CASE("what is not wanted waits with what it had")
-{
-    const swivel_group_def group = group_of(16 * 3);
-    Crowd crowd = crowd_with(0, {&group, 1});
-    std::vector<float> urgency = no_urgency(crowd);
-    std::vector<std::uint32_t> words(2);
-    const auto chosen = [&](std::vector<float> of_blocks, std::uint32_t most) {
-        std::vector<float> priority;
-        for (const float each : of_blocks) priority.insert(priority.end(), 16, each);
-        const swivel_in priorities{priority.data(), sizeof(float)};
-        crowd.choose({&priorities, 1}, urgency, most, words);
-        std::string names;
-        for (std::uint32_t block = 0; block < 3; ++block)
-            if (is_set(words, block * 16)) names += static_cast<char>('a' + block);
-        return names;
-    };
-    CHECK(chosen({1, 5, 1}, 0) == "");
-    CHECK(chosen({1, 0, 1}, 3) == "ac");
-    CHECK(chosen({0, 0, 0}, 3) == "");
-    CHECK(chosen({2, 0, 4}, 1) == "c");
-    CHECK(chosen({2, 1, 4}, 1) == "b");  // 4, 6, 4
-    CHECK(chosen({1, 1, 1}, 2) == "ac");
-}
-
 TEST_CASE("without urgency each call starts anew; what is no number counts as none")
 {
     const swivel_group_def group = group_of(16 * 4);

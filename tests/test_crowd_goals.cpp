@@ -9,8 +9,6 @@
 #include "tests/crowd_stage.h"
 
 using namespace swivel::test;
-using Words = std::vector<std::string>;
-
 namespace {
 
 // Frames of an arm bent enough for its plane to be known.

@@ -17,8 +17,6 @@ using nlohmann::json;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 const std::string kMark = "\xEF\xBB\xBF";
 
 // A figure as a GLB, and the same as text that holds its bytes.

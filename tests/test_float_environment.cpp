@@ -12,7 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
-#include <set>
+#include <string_view>
 
 #ifdef __x86_64__
 #include <xmmintrin.h>
@@ -236,32 +236,11 @@ constexpr Calls kCalls[] = {
 };
 
 // These copy, count, or answer from integers.
-const std::set<std::string> kWithoutFloats = {"swivel_version",
-                                              "swivel_status_text",
-                                              "swivel_last_error",
-                                              "swivel_crowd_destroy",
-                                              "swivel_block_count",
-                                              "swivel_group_first_limb",
-                                              "swivel_digest",
-                                              "swivel_group_limb_count",
-                                              "swivel_field_first_row",
-                                              "swivel_field_row_count",
-                                              "swivel_input_rows",
-                                              "swivel_result_rows",
-                                              "swivel_packed_row",
-                                              "swivel_write",
-                                              "swivel_reset",
-                                              "swivel_find",
-                                              "swivel_isa_name",
-                                              "swivel_use_isa",
-                                              "swivel_isa_at",
-                                              "swivel_isa_runs",
-                                              "swivel_group_count",
-                                              "swivel_group_features",
-                                              "swivel_component_count",
-                                              "swivel_describe_field",
-                                              "swivel_describe_feature",
-                                              "swivel_flag_name"};
+constexpr std::string_view kWithoutFloats =
+    " version status_text last_error crowd_destroy block_count group_first_limb digest group_limb_count "
+    "field_first_row field_row_count input_rows result_rows packed_row write reset find isa_name use_isa "
+    "isa_at isa_runs group_count group_features component_count describe_field describe_feature "
+    "flag_name ";
 
 #ifdef __x86_64__
 // The control words and sticky flags of both units.
@@ -292,7 +271,8 @@ TEST_CASE("every function of swivel.h is called here, or computes nothing")
     for (std::sregex_iterator it(header.begin(), header.end(), declaration), end; it != end; ++it, ++declared) {
         const std::string name = (*it)[1];
         INFO(name);
-        CHECK((kWithoutFloats.contains(name) || here.find(" " + name + "(") != std::string::npos ||
+        const std::string bare = " " + name.substr(7) + " ";
+        CHECK((kWithoutFloats.find(bare) != std::string::npos || here.find(" " + name + "(") != std::string::npos ||
                here.find("(" + name + "(") != std::string::npos));
     }
     CHECK(declared > 40);

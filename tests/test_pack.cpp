@@ -345,19 +345,15 @@ TEST_CASE("wrists of random arms stay within the stated distance of the results'
         for (const swivel_field field : {SWIVEL_SHOULDER, SWIVEL_ELBOW, SWIVEL_WRIST})
             for (std::uint32_t n = 0; n < limbs; ++n) {
                 const std::uint32_t count = swivel_component_count(field, features),
-                                    from = swivel_packed_row(features, field);
-                const std::uint16_t* const word =
-                    &words[(std::size_t{n / 16} * row_count_of(crowd, 0) + from) * 16 + n % 16];
-                Float4 value{};
-                if (count == 4)
-                    swivel_unpack_rotation(word, SWIVEL_LANES, value.data());
-                else if (count == 2)
-                    value = {swivel_unpack_half(word[0]), swivel_unpack_half(word[SWIVEL_LANES]), 0, 0};
+                                    words_each = count == 4 ? 3 : count;
+                const Words value =
+                    words_of(words, row_count_of(crowd, 0), n, swivel_packed_row(features, field), words_each);
+                Float4 back{};
+                if (count == 4) swivel_unpack_rotation(value.data(), 1, back.data());
+                if (count == 2) back = {swivel_unpack_half(value[0]), swivel_unpack_half(value[1]), 0, 0};
+                const std::uint32_t row = swivel_field_first_row(crowd.get(), 0, field);
                 for (std::uint32_t c = 0; c < count; ++c)
-                    rows.base[(std::size_t{n / 16} * rows.row_count + swivel_field_first_row(crowd.get(), 0, field) +
-                               c) *
-                                  16 +
-                              n % 16] = value[c];
+                    rows.base[(std::size_t{n / 16} * rows.row_count + row + c) * 16 + n % 16] = back[c];
             }
         crowd.wrists(0, packed);
         double worst = 0;

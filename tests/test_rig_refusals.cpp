@@ -22,8 +22,6 @@ using nlohmann::json;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 // Arms are bent at rest, so that this tells where they bend to.
 int add_bone(GltfRig& rig, const std::string& name, int parent, const Vector3d& step = {1, 0, 0})
 {

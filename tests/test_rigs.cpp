@@ -23,8 +23,6 @@ using nlohmann::json;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 json rig_of_file(const fs::path& path, Words options = {}, int exit_code = 0)
 {
     options.insert(options.begin(), {"rig", path.string()});

@@ -3,13 +3,11 @@
 // Solves one limb with the native library: reads its features, its binding behind the size and its goal_input as bytes,
 // and prints the bits of its rotations and of its elbow and wrist. The page's must be the same.
 #include <cinttypes>
-#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <vector>
 
-#include "swivel/swivel.hpp"
-#include "tools/crowd/goals.h"
+#include "tools/crowd/limb_setup.h"
 
 namespace {
 
@@ -37,9 +35,8 @@ int main()
 {
     const auto features = read<std::uint64_t>();
     auto binding = swivel_default_binding();
-    constexpr std::size_t begin = offsetof(swivel_binding, parent_from_arm);
-    constexpr std::size_t end = offsetof(swivel_binding, twist_from_arm) + sizeof binding.twist_from_arm;
-    if (std::fread(reinterpret_cast<char*>(&binding) + begin, end - begin, 1, stdin) != 1) std::exit(2);
+    const std::span<char> numbers = swivel::tools::bytes_behind_size(binding);
+    if (std::fread(numbers.data(), numbers.size(), 1, stdin) != 1) std::exit(2);
     const auto input = read<goal_input>();
     swivel::Crowd crowd({swivel::group(1, binding, features)});
     swivel::check(swivel_goals_write(crowd.get(), 0, 1, &input));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "swivel/swivel.hpp"
@@ -32,5 +33,12 @@ struct LimbSetup {
         return static_cast<unsigned>(features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1));
     }
 };
+
+// The bytes behind a binding's size. They are the same on every platform, which the width of the size is not.
+inline std::span<char> bytes_behind_size(swivel_binding& binding)
+{
+    return {reinterpret_cast<char*>(binding.parent_from_arm),
+            reinterpret_cast<char*>(binding.twist_from_arm + SWIVEL_MOST_TWIST_BONES)};
+}
 
 }  // namespace swivel::tools

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -52,22 +51,15 @@ std::string base64_of(std::span<const Value> values)
     return formats::base64_of({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
 }
 
-// What follows a binding's size: the same bytes on every platform.
-std::string base64_of(const swivel_binding& binding)
-{
-    constexpr std::size_t begin = offsetof(swivel_binding, parent_from_arm);
-    constexpr std::size_t end = offsetof(swivel_binding, twist_from_arm) + sizeof binding.twist_from_arm;
-    return formats::base64_of({reinterpret_cast<const char*>(&binding) + begin, end - begin});
-}
-
 Json json_of_limb(const CachedLimb& limb, const LimbCrowds::Place& place)
 {
     const LimbSetup& setup = limb.setup;
+    swivel_binding binding = setup.binding;
     Json out{{"name", formats::limb_word(limb.name)},
              {"mirrored", setup.goals.is_mirrored != 0},
              {"crowd", place.crowd},
              {"group", place.group},
-             {"binding", base64_of(setup.binding)},
+             {"binding", base64_of(std::span<const char>(bytes_behind_size(binding)))},
              {"plan", base64_of(std::span(&setup.goals, 1))},
              {"sources", base64_of(std::span<const goal_source>(limb.sources))},
              {"effector", setup.goals.effector},
