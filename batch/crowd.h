@@ -20,7 +20,7 @@ struct Group {
     bool keeps;  // SWIVEL_KEEP_POSE
     swivel_euler_order shoulder_order, wrist_order;
     std::uint32_t input_row_count, result_row_count;
-    std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows of floats
+    std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows
     float *input, *results;                // rows
     swivel_binding binding;
 };

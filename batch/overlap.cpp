@@ -14,7 +14,7 @@ namespace swivel {
 
 namespace {
 
-// Values in the caller's arrays: the first limb's address, and so on.
+// A field's values in the caller's array: the first one's address, bytes between them, bytes of one.
 struct FrameValue {
     std::int64_t at, stride, bytes, limb_count;
     std::uint32_t group;
@@ -37,13 +37,13 @@ bool overlaps(const FrameValue& out, const FrameValue& in)
     return false;
 }
 
-// Calls take(place, is_input) for all values of a job's frames.
+// Calls take(value, is_input) for all values of a job's frames.
 template <class Take>
-void for_each_place(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks, const Take& take)
+void for_each_value(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks, const Take& take)
 {
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
         const swivel_frame frame = frame_at(job.frames, n);
-        const auto place = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
+        const auto value = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
             return FrameValue{static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(data)),
                               static_cast<std::int64_t>(stride),
                               static_cast<std::int64_t>(bytes),
@@ -51,12 +51,12 @@ void for_each_place(const swivel_crowd& crowd, const swivel_job& job, swivel_blo
                               static_cast<std::uint32_t>(&group - crowd.groups),
                               name};
         };
-        if (frame.origin.data) take(place(frame.origin.data, frame.origin.stride, 3 * sizeof(double), "origin"), true);
+        if (frame.origin.data) take(value(frame.origin.data, frame.origin.stride, 3 * sizeof(double), "origin"), true);
         for (const swivel_frame_field& each : fields_of(frame)) {
             const bool is_double = frame.origin.data && is_position(each.field);
             const std::size_t bytes =
                 field_row_count(group.features, each.field) * (is_double ? sizeof(double) : sizeof(float));
-            if (each.data) take(place(each.data, each.stride, bytes, name_of(each.field)), is_input(each.field));
+            if (each.data) take(value(each.data, each.stride, bytes, name_of(each.field)), is_input(each.field));
         }
     });
 }
@@ -66,10 +66,10 @@ void for_each_place(const swivel_crowd& crowd, const swivel_job& job, swivel_blo
 swivel_status check_overlap(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks)
 {
     swivel_status status = SWIVEL_OK;
-    for_each_place(crowd, job, blocks, [&](const FrameValue& out, bool is_no_result) {
-        if (is_no_result) return;
-        for_each_place(crowd, job, blocks, [&](const FrameValue& in, bool is_input) {
-            if (is_input && status == SWIVEL_OK && overlaps(out, in))
+    for_each_value(crowd, job, blocks, [&](const FrameValue& out, bool is_input) {
+        if (is_input) return;
+        for_each_value(crowd, job, blocks, [&](const FrameValue& in, bool is_also_input) {
+            if (is_also_input && status == SWIVEL_OK && overlaps(out, in))
                 status = fail(SWIVEL_INVALID_ARGUMENT,
                               "frames: group %u's %s overlaps another limb's input, group %u's %s; give it a place of "
                               "its own",

@@ -93,7 +93,8 @@ void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyz
     for (std::size_t n = 0; n < 4; ++n) xyzw[n] = static_cast<float>(unpacked[n]);
 }
 
-// By integers where that is exact in any floating-point environment: denormals may be off in the caller's.
+// Needs no FloatEnv. Integers move a normal half. A denormal half is a normal float, and its product with 2^-24 is
+// exact, whatever the caller's rounding and flushing.
 float swivel_unpack_half(uint16_t word)
 {
     const std::uint32_t sign = std::uint32_t{word} >> 15 << 31, exponent = word >> 10 & 31u, digits = word & 1023u;

@@ -107,8 +107,8 @@ bool can_start(std::size_t thread_count)
 
 // oneTBB's state is the process's, and so is what is known of it.
 std::atomic<int> most_threads{0};  // that could be started, the calling thread among them; 0: nothing has used oneTBB
-std::atomic<int> too_many_threads{
-    std::numeric_limits<int>::max()};  // the least that could not: trying takes the host's
+// The fewest that could not be started. They are not tried again, because trying takes threads from the host.
+std::atomic<int> too_many_threads{std::numeric_limits<int>::max()};
 std::atomic<bool> has_failed{false};  // it has thrown: what it left unfinished then, its later calls may await for ever
 
 // Whether all threads of the caller's arena can be started. oneTBB's threads start each other, and one that cannot ends
@@ -165,7 +165,8 @@ void solve_in_chunks(const Work& work)
     if (busy_block_count(work) > chunk) {
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         const Parts parts(work);
-        if (!try_on_threads(parts, std::max(1u, chunk * parts.count / work.blocks.count))) parts.solve_rest();
+        const auto grain = static_cast<std::uint32_t>(std::uint64_t{chunk} * parts.count / work.blocks.count);
+        if (!try_on_threads(parts, std::max(1u, grain))) parts.solve_rest();
         return;
     }
 #endif

@@ -42,7 +42,7 @@ using Notes = std::vector<std::pair<std::string, double>>;  // shown beside a ti
 
 // prepare is called at the start of every repetition; what it returns is timed.
 void add(const std::string& name, std::size_t arm_count, Clock clock, std::function<Work()> prepare, Notes notes = {});
-// To be shown beside the time of who is off by that much of the arm's length. Throws if that is wrong.
+// The note of a solver's worst error, in arm lengths, for add(). Throws if it is too large to be timed.
 Notes checked(const std::string& name, double worst_error);
 // A crowd solved by that instruction set on one thread: one of the suite's, or one's own.
 void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The lecture's five steps for people: every entity that core/pipeline.h makes, and why an arm has none.
+#include "include/swivel/lecture.h"
+
 #include <cmath>
 #include <cstdio>
 
 #include "core/pipeline.h"
-#include "include/swivel/lecture.h"
 #include "simd/float_env.h"
 
 using namespace swivel;

@@ -5,6 +5,8 @@
 // - The lecture's steps in double are compared with the dense oracle.
 // - The production formula in double is compared with the lecture's steps.
 // - The production formula in float is compared with its own target, through forward kinematics in double.
+#include "include/swivel/lecture.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,7 +14,6 @@
 #include "core/any_arm.h"
 #include "core/pipeline.h"
 #include "core/reference.h"
-#include "include/swivel/lecture.h"
 #include "simd/float_env.h"
 
 namespace swivel {

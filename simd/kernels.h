@@ -13,7 +13,7 @@ namespace swivel {
 // A run of blocks that share their features and binding.
 struct SolveRun {
     const float* input;  // input rows of the run's first block
-    float* results;      // result rows of the same block, floats
+    float* results;      // result rows of the same block
     std::uint32_t input_row_count, result_row_count;
     std::size_t limb_count;  // padding included, but gathered limbs may end within their block
     swivel_features features;

@@ -217,8 +217,7 @@ SWIVEL_INLINE Rows<T, Features> slice_rows(const SolveRun& run, std::size_t limb
     const bool told = Features & kTold;
     const std::uint32_t inputs = told ? run.input_row_count : kPlan<Features>.input_count;
     const std::uint32_t results = told ? run.result_row_count : kPlan<Features>.result_count;
-    return {run, run.input + row_offset(limb, inputs, 0),
-            run.results ? run.results + row_offset(limb, results, 0) : nullptr, chosen};
+    return {run, run.input + row_offset(limb, inputs, 0), run.results + row_offset(limb, results, 0), chosen};
 }
 
 // Lanes of a slice that wait for a search, a bit for each: their results mean nothing yet.

@@ -73,7 +73,7 @@ struct RowPlan {
     }
 };
 
-// The features with the most rows that a block of floats can have.
+// The features with the most rows that a block can have.
 inline constexpr swivel_features kEveryFeature = ~SWIVEL_POLE_INCOMING;
 
 // Bytes of a row, and of a block.

@@ -199,6 +199,8 @@ TEST_CASE("errors name group and field")
     says(swivel_write(c, SWIVEL_TARGET, 1, 0, 1, {value, 4}),
          "group 1, target: stride 4 is smaller than a value, 12 bytes");
     says(swivel_write(c, SWIVEL_POLE, 0, 0, 1, {nullptr, 12}), "group 0, pole: data is null");
+    says(swivel_write(c, SWIVEL_POLE, 0, 0, 1, {value, SIZE_MAX}),
+         "group 0, pole: stride " + std::to_string(SIZE_MAX) + " is larger than any array");
     says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
          "group 1, parent_scale: not part of this group; create it with SWIVEL_WORLD");
     says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
@@ -485,6 +487,18 @@ struct Person {
 static_assert(std::is_convertible_v<decltype(stream(std::declval<std::vector<Person>&>(), &Person::pose)), swivel_out>);
 static_assert(
     !std::is_convertible_v<decltype(stream(std::declval<const std::vector<Person>&>(), &Person::pose)), swivel_out>);
+template <class Value>
+concept FramesIn = requires(Frame frame, Stream<Value> values)
+{
+    frame.in(SWIVEL_TARGET, values);
+};
+template <class Value>
+concept FramesOut = requires(Frame frame, Stream<Value> values)
+{
+    frame.out(SWIVEL_SHOULDER, values);
+};
+static_assert(FramesIn<const Floats> && FramesIn<Doubles> && !FramesIn<int>);
+static_assert(FramesOut<Floats> && !FramesOut<Doubles> && !FramesOut<const Floats>);
 
 }  // namespace
 
@@ -499,6 +513,11 @@ TEST_CASE("C++: a stream is the first one's member and the way to the next")
     Frame doubles;
     doubles.in(SWIVEL_TARGET, stream(characters, &Person::place));
     CHECK_THROWS_WITH(swivel_frame(doubles), Catch::Contains("no origin()"));
+    CHECK_THROWS_WITH(doubles.in(SWIVEL_HAND, stream(characters, &Person::place)), Catch::Contains("is no position"));
+    Frame made;
+    const std::vector<Made> classes(20, Made(1));  // taken for floats, which need no origin
+    made.in(SWIVEL_PARENT_SCALE, stream(classes));
+    CHECK(swivel_frame(made).field_count == 1);
     characters.clear();
     CHECK(swivel_in(stream(characters, &Person::grip)).data == nullptr);
     CHECK(degrees(180) == Approx(3.14159265358979));

@@ -42,10 +42,10 @@
 //
 // SIZES. Structures that may grow start with their size. Start each from its swivel_default_ function. A library
 // accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
-// first. Data may be null for zero limbs.
+// first.
 //
-// CHECKED BUILDS. Debug builds, and those with SWIVEL_CHECK_USE, refuse more: a crowd that is destroyed, a crowd that
-// two threads use against the rules, and frames whose results overlap other limbs' inputs.
+// CHECKED BUILDS. Debug builds, and those with SWIVEL_CHECK_USE, refuse more, as far as they can see it: a crowd that
+// is destroyed, a crowd that two threads use against the rules, and frames whose results overlap other limbs' inputs.
 //
 // Read next: swivel_field for every value's meaning, swivel_bind() for skeletons, and swivel_solve(). The folder docs/
 // has guides with pictures; docs/speed.md says what each feature costs.
@@ -162,7 +162,7 @@ typedef uint64_t swivel_features;
 // - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
 //   angle is off by at most 3e-6, for a twist times (1 + cos swing) / 2. So a cone may be left by 0.14 degrees near 0
 //   and 180 degrees. In a box, the sine of the middle angle is off by at most 4e-6. So is the sine of each other angle,
-//   times the cosine of the middle one. Near a right angle the middle one may so be off by 0.17 degrees, and the others
+//   times the cosine of the middle one. So near a right angle the middle one may be off by 0.17 degrees, and the others
 //   may be free. docs/howto/limits.md has the figures that a search for the worst found.
 // - The wrist comes first. If no swivel keeps all limits, the solver takes the one that violates them least, and flags
 //   SWIVEL_INFEASIBLE. The violation of a twist is multiplied by (1 + cos swing) / 2. To keep a limit even then, move
@@ -247,8 +247,9 @@ typedef enum swivel_field {
     // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Give the
     // parent's rotation as without this feature. The parent turns about its own origin, from which the shoulder's place
     // is counted. It turns towards the target by about share * position weight * the angle between clavicle and
-    // target. Limits, rotations and results of the arm are relative to the parent as turned. For shares
-    // below 1 the turn is continuous; it fades for targets on the other side of the body.
+    // target. Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the
+    // turn
+    // is continuous; it fades for targets on the other side of the body.
     SWIVEL_CLAVICLE,
     SWIVEL_INPUT_END,  // one past the last input of this release
 
@@ -422,12 +423,12 @@ typedef struct swivel_crowd_def {
 typedef struct swivel_crowd swivel_crowd;
 
 typedef struct swivel_in {
-    const void* data;
-    size_t stride;  // bytes from one limb's value to the next; 0: one value for all limbs. Any alignment.
+    const void* data;  // null only for zero limbs
+    size_t stride;     // bytes from one limb's value to the next; 0: one value for all limbs. Any alignment.
 } swivel_in;
 
 typedef struct swivel_out {
-    void* data;
+    void* data;     // null only for zero limbs
     size_t stride;  // bytes; at least the value's size. Any alignment.
 } swivel_out;
 
@@ -461,12 +462,14 @@ SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
 // and hand as the identity. All else starts neutral: no turn, weights 1, every limit wide open. Results start as the
 // rest pose, without flags.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
-// Frees what create allocated. Null is allowed.
+// Frees what create allocated. Null is allowed. A checked build leaves a crowd that another thread uses as it is, and
+// swivel_last_error() says so.
 SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
 
-// The alignments of a limb from its rest pose, and its two bone lengths. Any thread; no allocation. It fails for a zero
-// or non-finite quaternion and a bone of no length. It fails for a bend parallel to the upper arm, and for one that
-// turns the forearm about itself. Without a bend it fails for a rest pose bent by 10 degrees or less.
+// The alignments of a limb from its rest pose, and its two bone lengths. Start binding from swivel_default_binding():
+// its size says how much is written. Any thread; no allocation. It fails for a zero or non-finite quaternion, a bone of
+// no length, and a binding without its size. It fails for a bend parallel to the upper arm, and for one that turns the
+// forearm about itself. Without a bend it fails for a rest pose bent by 10 degrees or less.
 SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // A skeleton at rest. Joints are named by index, in any order; every stride is at least a value's size.
@@ -520,8 +523,8 @@ SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, con
 
 // The crowd's shape. Each group starts a block. Masks and lists count limbs through the whole crowd, padding lanes,
 // too: limb n of a group is number swivel_group_first_limb() + n, and a group's first is a multiple of SWIVEL_LANES. A
-// group that does not exist has 0 limbs and no features. For a null crowd these calls and the next five give 0. Any
-// thread.
+// group that does not exist has 0 limbs and no features. For a null crowd these calls and the next four give 0 or null
+// rows. Any thread.
 SWIVEL_API uint32_t swivel_group_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
@@ -695,9 +698,9 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job
 // Chooses limbs by urgency, within a budget. Whole blocks are picked, because one limb costs about as much as its
 // block: at most most_blocks of them. Each call adds the largest priority among a block's limbs to the block's urgency.
 // It picks the most urgent blocks, of equals the lower index. The urgency of a picked block returns to 0. So over time
-// a block is picked about as often as its priority says, and blocks of equal priority take turns. No block with a
-// priority starves, because its urgency grows until it is picked. Place limbs of equal importance side by side. A block
-// whose limbs all have priority 0 is not picked in this call and keeps its urgency.
+// a block is picked about as often as its priority says, and blocks of equal priority take turns. None waits for ever,
+// unless others have 1e7 times its priority: floats then stop its urgency. Place limbs of equal importance side by
+// side. A block whose limbs all have priority 0 is not picked in this call and keeps its urgency.
 //
 // priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
 // one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
@@ -710,7 +713,8 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job
 // threads. A job with priorities does both steps in one call. *chosen_count, unless null, becomes how many limbs these
 // are. The choice depends on priorities and urgency alone, not on CPU, threads or time. On the calling thread, which
 // takes 1 to 3 nanoseconds for each limb of the crowd, picked or not; allocates nothing. Arrays must not overlap each
-// other or the crowd's own memory. Fails for missing priorities and for a stride below 4 other than 0.
+// other or the crowd's own memory. mask_word_count is (swivel_block_count() + 1) / 2. Fails for another one, for a null
+// mask, for missing priorities, and for a stride below 4 other than 0.
 SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency,
                                        uint32_t most_blocks, uint32_t* mask, uint32_t mask_word_count,
                                        uint32_t* chosen_count);
@@ -817,8 +821,12 @@ SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t gr
 // - SWIVEL_FLAGS takes 2 words, the low and the high half of the uint32_t.
 // - SWIVEL_NORMAL takes none: it is for the next solve alone.
 // A rotation is within 1.54e-4 rad of the result. A wrist is within 1.13e-3 arm lengths of its place, for any bones;
-// with JOINTS within 3.1e-4. A stretch is within a 2048th of itself. The words are the same on every CPU. Any thread,
-// while nothing solves these blocks; no allocation; up to half as long as a solve of plain arms.
+// with JOINTS within 3.1e-4. A stretch is within a 2048th of itself, and so is a wrist's distance that it makes longer.
+// A clavicle's turn adds 1.54e-4 times the distance from its parent joint. The words are the same on every CPU.
+//
+// words: room for blocks.count * rows * SWIVEL_LANES of them, not in the crowd's own memory; null only for no blocks.
+// Words of padding lanes mean nothing. Any thread, while nothing solves these blocks; no allocation; up to half as long
+// as a solve of plain arms. Fails for a group or blocks that do not exist.
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
 // The first row of words of a field of groups with these features; the end of the field before it, if they do not have
 // it. Any thread.
@@ -831,11 +839,10 @@ SWIVEL_API float swivel_unpack_half(uint16_t word);
 
 // A digest of all results, to compare machines by. Crowds with the same groups have equal digests if their results are
 // equal, and almost surely other ones if not, also in their low 32 bits. Padding lanes do not count. Each of the
-// SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. Group after group and block after block, it takes the
-// bits of the lane's number of every row, in the order of the group's rows. To take a
-// number, h becomes (h ^ number) * 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the
-// lanes, lane 0 first. 0 for a null crowd. It protects from accidents, not from forgers. On the calling thread; no
-// allocation.
+// SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. Group after group and block after block, a lane's hash
+// takes the bits of that lane in every row, in the order of the group's rows. To take a number, h becomes
+// (h ^ number) * 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the lanes, lane 0
+// first. 0 for a null crowd. It protects from accidents, not from forgers. On the calling thread; no allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this

@@ -100,7 +100,6 @@ inline std::array<double, 3> arm_axis(const swivel_binding& binding, const std::
     return axis;
 }
 
-// Values of limit fields from angles in radians: swivel_range() and its neighbours.
 template <std::size_t size, class Make, class... Angles>
 std::array<float, size> made_by(Make make, Angles... angles)
 {
@@ -108,6 +107,8 @@ std::array<float, size> made_by(Make make, Angles... angles)
     check(make(angles..., value.data()));
     return value;
 }
+// Values of fields from angles in radians: swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim(),
+// swivel_turn().
 inline std::array<float, 4> range(double least, double most) { return made_by<4>(swivel_range, least, most); }
 inline std::array<float, 4> cone(const std::array<double, 3>& axis, double most)
 {
@@ -167,8 +168,8 @@ concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ran
 template <class Range>
 concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
-// A larger value is stepped over by its size, but an array of floats that is no quaternion must be the field's: a
-// matrix is no rotation.
+// Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
+// are stepped over by their size.
 template <class Value>
 void check_value(swivel_field field)
 {
@@ -234,14 +235,22 @@ public:
         return *this;
     }
     template <class Value>
-    Frame& in(swivel_field field, const Stream<Value>& values)
+    Frame& in(swivel_field, const Stream<Value>&) = delete;  // neither floats nor doubles
+    template <class Value>
+    requires(FieldValue<Value> || DoubleValue<Value>) Frame& in(swivel_field field, const Stream<Value>& values)
     {
         check_value<std::remove_cv_t<Value>>(field);
-        has_doubles_ = has_doubles_ || DoubleValue<Value>;
+        if constexpr (!FieldValue<Value>) {
+            if (field != SWIVEL_TARGET && field != SWIVEL_POLE && field != SWIVEL_SHOULDER_POSITION)
+                fail(SWIVEL_INVALID_ARGUMENT, "field " + std::to_string(field) + " is no position; give it floats");
+            has_doubles_ = true;
+        }
         return in(field, swivel_in(values));
     }
+    template <class Value>
+    Frame& out(swivel_field, const Stream<Value>&) = delete;  // no floats to write to
     template <FieldValue Value>
-    Frame& out(swivel_field field, const Stream<Value>& values)
+    requires(!std::is_const_v<Value>) Frame& out(swivel_field field, const Stream<Value>& values)
     {
         check_value<Value>(field);
         return out(field, swivel_out(values));
@@ -290,7 +299,8 @@ public:
         else
             values_ = std::vector<Each>(values.begin(), values.end());
     }
-    template <std::ranges::contiguous_range Range>  // with a name, of what becomes such a thing, as a Frame does
+    // A range with a name, of what converts to Each, such as Frames: kept as copies.
+    template <std::ranges::contiguous_range Range>
     requires(std::is_lvalue_reference_v<Range> && !std::convertible_to<Range, std::span<const Each>> &&
              !std::is_arithmetic_v<Each> && std::convertible_to<std::ranges::range_reference_t<Range>, Each>)
         Given(Range&& range)
@@ -308,12 +318,13 @@ private:
     std::variant<Everything, std::span<const Each>, std::vector<Each>> values_;
 };
 
-// What a solve does, as swivel_job; left out, it is every limb, from and to rows, on oneTBB. Of mask, limbs and
+// What a solve does, as swivel_job. By default it solves every limb, from and to rows, on oneTBB. Of mask, limbs and
 // priorities at most one is given.
 struct Job {
     std::optional<swivel_blocks> blocks = {};
     Given<std::uint32_t> groups = everything;  // their numbers, which a solve allocates bits for
-    Given<std::uint32_t> mask = everything, limbs = everything;
+    Given<std::uint32_t> mask = everything;    // words of bits, (swivel_block_count() + 1) / 2 of them
+    Given<std::uint32_t> limbs = everything;   // numbers of limbs in the crowd
     Given<swivel_in> priorities = everything;  // one for each group
     std::span<float> urgency = {};             // with priorities: one for each block, kept by the caller
     std::uint32_t most_blocks = 0;             // with priorities
