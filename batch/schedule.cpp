@@ -111,8 +111,8 @@ std::atomic<int> most_threads{0};  // that could be started, the calling thread 
 std::atomic<int> too_many_threads{std::numeric_limits<int>::max()};
 std::atomic<bool> has_failed{false};  // it has thrown: what it left unfinished then, its later calls may await for ever
 
-// Whether all threads of the caller's arena can be started. oneTBB's threads start each other, and one that cannot ends
-// the process. A limit of the system, such as a container's, is so found before.
+// Whether all threads of the caller's arena can be started. oneTBB's threads start each other, and one that cannot
+// start ends the process. So a limit of the system, such as a container's, is found before.
 bool has_threads()
 {
     const int wanted = oneapi::tbb::this_task_arena::max_concurrency();

@@ -16,7 +16,7 @@ extern const LimbKernels limb_kernels;
 
 namespace {
 
-// What all slices of a run share. The elbow's local rotation is cos elbow_straight - sin elbow_hinge.
+// What all slices of a run share. The elbow's local rotation is cos_half * elbow_straight - sin_half * elbow_hinge.
 template <class T>
 struct Shared {
     Rotor<T> parent_from_arm, arm_from_upper, wrist_parent_from_arm, elbow_straight, elbow_hinge;
@@ -60,7 +60,7 @@ SWIVEL_INLINE Mask<T> store_pose(const Rows<T, Features>& rows, const Shared<T>&
     if constexpr (joints) {
         shoulder = pose.shoulder * shared.arm_from_upper;
         const Rotor<T> elbow = pose.cos_half * shared.elbow_straight - pose.sin_half * shared.elbow_hinge;
-        rows.store_rotor(SWIVEL_ELBOW, hemisphere(elbow));  // folded arms turn by pi
+        rows.store_rotor(SWIVEL_ELBOW, hemisphere(elbow));  // w may be 0: a folded arm turns by pi
     } else {
         rows.store(SWIVEL_ELBOW, 0, pose.cos_half);
         rows.store(SWIVEL_ELBOW, 1, pose.sin_half);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// For people who learn or check the formulas: the lecture's five steps for one arm, entity by entity, and a check of
-// swivel's formulas against them. Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU Darmstadt,
-// 2019). swivel_solve() takes other formulas, which hold for every arm. It is a static library of its own,
-// swivel_lecture, and needs no other. Any thread; no allocation; no call depends on the caller's floating-point
-// environment.
+// For people who learn or check the formulas. It gives the lecture's five steps for one arm, entity by entity, and
+// checks swivel's formulas against them. Source: D. Hildenbrand, Inverse Kinematics of a Virtual Character (TU
+// Darmstadt, 2019). swivel_solve() takes other formulas, which hold for every arm. The static library swivel_lecture
+// has these functions and needs no other library. Any thread may call them. They allocate nothing, and do not depend on
+// the caller's floating-point environment.
 #pragma once
 
 #include <stdint.h>
@@ -13,9 +13,9 @@
 extern "C" {
 #endif
 
-// An entity. Coefficients are of the 32 blades of G(4,1): bits 0 to 4 of a blade's number say whether e1, e2, e3, einf
-// and e0 are in it. Products of two of e1, e2 and e3 are the lecture's units i = e3^e2, j = e1^e3 and k = e2^e1, alone
-// and as a factor. swivel_blade_name() names them. A cosine has a scalar part alone.
+// An entity. It has one coefficient for each of the 32 blades of G(4,1). Bits 0 to 4 of a blade's number say whether
+// e1, e2, e3, einf and e0 are in it. A blade with exactly two of e1, e2 and e3 uses the lecture's units i = e3^e2, j =
+// e1^e3 and k = e2^e1, such as k^einf. swivel_blade_name() names every blade. A cosine has a scalar part alone.
 typedef struct swivel_entity {
     const char* name;     // as the lecture calls it, such as "S1"; a constant, as is the next
     const char* meaning;  // in a few words
@@ -31,10 +31,11 @@ enum { SWIVEL_ENTITY_COUNT = 18 };
 // pole: a point on the elbow's side, 3 components, likewise; at least 1e-15 from the shoulder.
 // upper, fore: the bones' lengths, 1e-15..1e15.
 // closing_error: becomes the distance from the target to the wrist that the rotors give, in arm lengths.
+//
 // Returns null if the arm has its entities. Otherwise it returns one line that says why, and writes nothing: for values
-// outside these ranges, and for an arm whose formulas divide by zero. Such an arm is out of reach, straight or folded,
-// has its pole on the line to the target, or its upper arm along e3 or -e3. The line is this thread's until its next
-// call. No pointer may be null. Any thread; no allocation.
+// outside these ranges, and for an arm whose formulas divide by zero. Such an arm has its target out of reach or on the
+// shoulder, or is straight or folded. Or its pole is on the line to the target, or its upper arm along e3 or -e3. The
+// line is this thread's until its next call. No pointer may be null.
 const char* swivel_steps(const double target[3], const double pole[3], double upper, double fore,
                          swivel_entity entities[SWIVEL_ENTITY_COUNT], double* closing_error);
 // The name of a blade, such as "e1^einf"; null from 32 on.

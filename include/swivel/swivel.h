@@ -27,7 +27,8 @@
 // goes, a pole where the elbow goes, so the two point opposite ways. An arm length is both bones' length, scaled. In
 // comments, WORLD means SWIVEL_WORLD, and so on.
 //
-// ERRORS. A call that fails changes nothing, returns a status and leaves one line in swivel_last_error().
+// ERRORS. A call that fails returns a status and leaves one line in swivel_last_error(). It changes nothing else, but
+// swivel_crowd_create() sets *crowd to null.
 //
 // THREADS. Different threads may use different crowds at once. Use one crowd on one thread at a time, with two
 // exceptions. Calls that take it const may run together while nothing changes it. Jobs on_this_thread may run together
@@ -94,7 +95,8 @@ typedef enum swivel_flag {
     SWIVEL_CLAMPED_FAR = 1u << 3,
     SWIVEL_CLAMPED_NEAR = 1u << 4,
     // The pole does not say where the elbow goes. It has no length, or it is on the line to the target: the sine of the
-    // angle between them is below 1e-3. Or the target is on the shoulder.
+    // angle between them is below 1e-3. Or the target is on the shoulder. The last solve's normal (WITH_MOST_SWIVEL)
+    // then says it, or the incoming pose. If neither does, the arm frame's x axis is the normal, or else its y axis.
     SWIVEL_SWIVEL_UNDEFINED = 1u << 5,
     SWIVEL_LIMITED_FLEXION = 1u << 6,  // the elbow's flexion limit keeps the wrist from the target
     // This limit forbids the swivel that was wished for.
@@ -149,16 +151,17 @@ typedef uint64_t swivel_features;
 // VALID INPUT. A limb with any value that is not valid gets SWIVEL_BAD_INPUT, and its rest pose or the pose it had: see
 // swivel_on_bad_input. No other limb changes by a bit. The magnitude of positions and poles is at most 1e15, in the
 // world as given and in the arm frame. The norm of a quaternion is 1e-9..1e9; it need not be normalised. The squared
-// length of an axis is 1 within 1e-6, summed in floats, and so is that of each pair of cosine and sine, but
-// SWIVEL_ANGLE's. They are used as they are. Weights and shares are 0..1. Other bounds are given at their fields.
+// length of an axis, summed in floats, is 1 within 1e-6. The same holds for each pair of cosine and sine, except
+// SWIVEL_ANGLE's. Limits and SWIVEL_MOST_SWIVEL use them as they are. Weights and shares are 0..1. Other bounds are
+// given at their fields.
 //
 // RANGES. A range of angles is four numbers: cos and sin of its middle, cos and sin of its half-width. The half-width
 // is 0..pi. swivel_range(), swivel_cone(), swivel_flexion(), swivel_aim() and swivel_turn() make values from angles.
 //
 // LIMITS are measured from the rest pose with the elbow straightened. All their axes, the hand's too, are given in the
 // arm frame; the axes of a skeleton's joints do not matter. swivel_arm_axis() converts a direction of the character. A
-// twist is the one of swing and twist: of a rotation (v, w) from rest the angle 2 atan2(dot(v, axis), w), by the right
-// hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
+// twist is that of swing and twist. For a rotation from rest with vector v and scalar w it is 2 atan2(dot(v, axis), w),
+// by the right hand. Its axis is +z, from shoulder to hand, or the one given. It equals none of the Euler angles.
 // - If the wish breaks a limit, the solver takes the nearest swivel that keeps all limits. The cosine of a limited
 //   angle is off by at most 3e-6, for a twist times (1 + cos swing) / 2. So a cone may be left by 0.14 degrees near 0
 //   and 180 degrees. In a box, the sine of the middle angle is off by at most 4e-6. So is the sine of each other angle,
@@ -200,12 +203,12 @@ typedef enum swivel_field {
     SWIVEL_EFFECTOR,
     // 2, WITH_ANGLE: cos and sin of an angle by which the elbow is turned away from the pole's side. The turn is about
     // the line from shoulder to wrist, by the right hand. The pair's length is 1e-9..1e9. If the pole does not define
-    // the swivel, the angle is ignored.
+    // the swivel, the last normal or the incoming pose may stand in: the angle is then ignored.
     SWIVEL_ANGLE,
-    // 4 each, WITH_INCOMING; the wrist also WITH_HAND: the pose so far, whole quaternions for the elbow, too. With
-    // JOINTS they are local rotations. Otherwise the shoulder is in the arm frame, the forearm relative to the upper
-    // arm, the hand relative to the forearm. If the pole does not define the swivel, the incoming pose does. Each
-    // result has the sign nearer to its incoming rotation.
+    // 4 each, WITH_INCOMING: the pose so far. The wrist's needs WITH_HAND, too. The elbow's is a whole quaternion, also
+    // without JOINTS. With JOINTS they are local rotations. Otherwise the shoulder is in the arm frame, the forearm
+    // relative to the upper arm, the hand relative to the forearm. If the pole does not define the swivel, this pose
+    // may: see SWIVEL_SWIVEL_UNDEFINED. Each result has the sign nearer to its incoming rotation.
     SWIVEL_INCOMING_SHOULDER,
     SWIVEL_INCOMING_ELBOW,
     SWIVEL_INCOMING_WRIST,
@@ -213,8 +216,8 @@ typedef enum swivel_field {
     SWIVEL_WEIGHTS,
     // 4, WITH_REACH: far soft zone, near soft zone, most stretch 1..1000, least distance. Zones and distance are shares
     // of both bones' length. Let R be the far end of the reach and s the far zone. A wanted distance d from R - s to R
-    // + s becomes d - (d - R + s)^2 / (4 s), a larger one R. The near end mirrors this. A zone is at most half of the
-    // range between the two ends. Stretch then lengthens the bones to close the gap, up to its most.
+    // + s becomes d - (d - R + s)^2 / (4 s). A larger distance becomes R. The near end mirrors this. A zone is at most
+    // half of the range between the two ends. Stretch then lengthens the bones to close the gap, up to its most.
     SWIVEL_REACH,
     // 2, WITH_MOST_SWIVEL: cos and sin of how far the swivel may turn in one solve, 0..pi. See SWIVEL_NORMAL.
     SWIVEL_MOST_SWIVEL,
@@ -354,9 +357,9 @@ typedef struct swivel_chain {
     float elbow_offset[3];       // elbow's place in the shoulder joint's frame
     float wrist_offset[3];       // wrist's place in the elbow joint's frame
     // Where flexion carries the forearm, in the shoulder joint's frame: mostly forwards for an arm, backwards for a
-    // leg. For a direction f in the world and the joint's world rotation q at rest it is conjugate(q) * f * q. Its
-    // length is 1e-15..1e15. It need not be perpendicular to the bones. A shorter one, such as zero, means that the
-    // rest pose shows it: that must then be bent by more than 10 degrees.
+    // leg. For a direction f in the world and the joint's world rotation q at rest, it is conjugate(q) * f * q. It need
+    // not be perpendicular to the bones. Its length is at most 1e15. If it is shorter than 1e-15, such as zero, the
+    // rest pose says where the limb bends. That pose must then be bent by more than 10 degrees.
     float bend[3];
     float reserved;  // 0
 } swivel_chain;
@@ -411,8 +414,9 @@ typedef struct swivel_crowd_def {
     uint32_t group_count;            // 1 or more
     uint32_t reserved;               // 0
     const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
-    // Memory, first that is set: the caller's (64-byte aligned, swivel_crowd_bytes() long, the caller frees it after
-    // destroy), the caller's callbacks (64-byte aligned results), the C library.
+    // Memory comes from the first of these that is set. 1: memory, the caller's own, aligned to 64 bytes and
+    // swivel_crowd_bytes() long, which the caller frees after destroy. 2: allocate, whose results are aligned to 64
+    // bytes. 3: the C library.
     void* memory;
     size_t memory_bytes;
     void* (*allocate)(size_t bytes, size_t alignment, void* user);
@@ -517,14 +521,14 @@ static inline swivel_limb_joints swivel_default_limb_joints(uint32_t shoulder, u
 // swivel_bind() of a limb in a skeleton. Local rotations are relative to the joint's own parent, as the skeleton has
 // them. It reads the joints from wrist and twist bones up to the shoulder, and parents up to the root. Other joints are
 // ignored. Any thread; no allocation. It fails as swivel_bind() does. It also fails for joints that do not exist or are
-// no limb, for parents that do not exist or go round in a circle, and for twist bones that are not in order.
+// no limb. It fails for parents that do not exist or form a circle, and for twist bones that are not in order.
 SWIVEL_API swivel_status swivel_bind_joints(const swivel_skeleton* skeleton, const swivel_limb_joints* joints,
                                             swivel_binding* binding);
 
-// The crowd's shape. Each group starts a block. Masks and lists count limbs through the whole crowd, padding lanes,
-// too: limb n of a group is number swivel_group_first_limb() + n, and a group's first is a multiple of SWIVEL_LANES. A
-// group that does not exist has 0 limbs and no features. For a null crowd these calls and the next four give 0 or null
-// rows. Any thread.
+// The crowd's shape. Each group starts a block. Masks and lists count limbs through the whole crowd, padding lanes
+// included. Limb n of a group has the number swivel_group_first_limb() + n. A group's first number is a multiple of
+// SWIVEL_LANES. A group that does not exist has 0 limbs and no features. For a null crowd these calls and the next four
+// give 0 or null rows. Any thread.
 SWIVEL_API uint32_t swivel_group_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_block_count(const swivel_crowd* crowd);
 SWIVEL_API uint32_t swivel_group_first_limb(const swivel_crowd* crowd, uint32_t group);
@@ -554,15 +558,15 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 // positions far from the origin may be given as doubles. An origin near the limb is subtracted in double before they
 // are rounded to floats. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction,
 // SWIVEL_SHOULDER_POSITION) must be given from the same origin. Any origin within some arm lengths of the limb will do,
-// such as the character's place: a position is rounded to 6e-8 of its distance from its origin. Rotations need no
+// such as the character's place. A position is rounded to 6e-8 of its distance from its origin. Rotations need no
 // origin; swivel_forward()'s positions are from it, too.
 //
-// The field is one of these three: 3 consecutive doubles for each limb. The limb's origin, 3 doubles as well (stride 0:
-// one for all), is subtracted in double and the difference rounded to the row's float, once, to nearest. Null data of
-// origins: nothing is subtracted. Poles that are directions or normals have no origin and are refused with one. A
-// difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap each
-// other, but not the crowd's own memory. Fails like swivel_write(), and for fields that are no positions. One thread;
-// no allocation; two to three times as long as swivel_write().
+// field is one of these three. Each limb has 3 consecutive doubles, and so has its origin; stride 0 means one origin
+// for all. The call subtracts the origin in double, and rounds the difference once, to the nearest float. If the data
+// of origins is null, it subtracts nothing. Poles that are directions or normals have no origin and are refused with
+// one. A difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap
+// each other, but not the crowd's own memory. Fails like swivel_write(), and for fields that are no positions. One
+// thread; no allocation; two to three times as long as swivel_write().
 SWIVEL_API swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                               uint32_t limb_count, swivel_in values, swivel_in origins);
 
@@ -574,8 +578,8 @@ typedef struct swivel_frame_field {
     size_t stride;  // bytes; for an input 0 is one value for the group, otherwise at least the value's size
 } swivel_frame_field;
 
-// One group's values as engines keep them. An input that is not listed keeps its rows; a result that is not listed is
-// not written. A field may be listed once.
+// One group's values as engines keep them: a frame of animation, not one of axes. An input that is not listed keeps its
+// rows; a result that is not listed is not written. A field may be listed once.
 typedef struct swivel_frame {
     size_t size;  // sizeof(swivel_frame), set by swivel_default_frame()
     const swivel_frame_field* fields;
@@ -615,11 +619,11 @@ typedef struct swivel_job {
     size_t size;  // sizeof(swivel_job), set by swivel_default_job()
 
     // Which blocks; null for all. Other blocks are neither read nor written. Frames of groups outside these blocks are
-    // ignored, but for the first one's size.
+    // ignored; the first one's size still is the array's step.
     const swivel_blocks* blocks;
     // Which groups, by bits: group g is bit g % 32 of groups[g / 32]; null for all. group_word_count must be
-    // (swivel_group_count() + 31) / 32, and bits past the last group are ignored. What solves is in these groups, in
-    // these blocks, and chosen below.
+    // (swivel_group_count() + 31) / 32, and bits past the last group are ignored. A limb is solved if its group is
+    // named here, its block is in blocks, and it is chosen below.
     const uint32_t* groups;
     uint32_t group_word_count;
 
@@ -671,11 +675,11 @@ static inline swivel_job swivel_default_job(void)
 // With frames, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
 // given. The bits are the same. It takes a run of blocks of each group in turn, so limbs of one character use shared
 // cache lines together. Rows hold inputs and results afterwards. Only the bytes of the values are read or written.
-// Inputs may overlap each other. A limb's inputs are read before its results are written, so its results may overlap
-// its own inputs: a pose may be read and written in place. Inputs of other limbs may be read later, by any thread. So a
-// limb's result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each other.
-// No value may overlap the crowd's own memory. It fails for a field that the group does not have and for a stride
-// smaller than a value. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
+// Inputs may overlap each other. A limb's inputs are read before its results are written. So its results may overlap
+// its own inputs, and a pose may be read and written in place. Inputs of other limbs may be read later, by any thread.
+// So a limb's result must not overlap another limb's input, nor an input of stride 0. Results must not overlap each
+// other. No value may overlap the crowd's own memory. It fails for a field that the group does not have and for a
+// stride smaller than a value. For arms of characters kept as structures, with SWIVEL_JOINTS, in a crowd of one group:
 //     const size_t stride = sizeof characters[0];
 //     const swivel_frame_field fields[] = {
 //         {SWIVEL_TARGET, &characters[0].grip, stride},
@@ -702,9 +706,9 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job
 // unless others have 1e7 times its priority: floats then stop its urgency. Place limbs of equal importance side by
 // side. A block whose limbs all have priority 0 is not picked in this call and keeps its urgency.
 //
-// priorities has one entry for each group, in the crowd's order: one float for each limb, any alignment, stride 0 for
-// one priority for the whole group. In any unit: only ratios matter. Above 1e15, and infinity, count as 1e15; below 0
-// and NaN as 0.
+// priorities has one entry for each group, in the crowd's order. An entry has one float for each limb, at any
+// alignment. With stride 0, one priority is for the whole group. In any unit: only ratios matter. Above 1e15, and
+// infinity, count as 1e15; below 0 and NaN as 0.
 //
 // urgency: a float for each block, the caller's, 0 at first, kept from call to call. Only its magnitude counts: the
 // sign is the library's. One that is not finite counts as 0. Null: each call starts from 0, so priorities alone decide.
@@ -732,14 +736,14 @@ SWIVEL_API int swivel_find(const swivel_crowd* crowd, uint32_t flags, uint32_t* 
 
 enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_explain()
 
-// Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, how far out of
-// reach the target is, which limit turned the elbow from its wish and by how much. Where no elbow keeps the limits, it
-// says by how many degrees the pose violates each. It says so if the results do not match the present inputs. It cannot
-// know the swivel from which the last step started. Distances are in the targets' unit, unless it says that they are of
-// the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not from the blended one.
-// limb is counted within the group. text gets at most size bytes, the 0 at its end among them. For people and logs: the
-// words may change, and the last digits differ between C libraries. A text that was cut ends in three dots. Takes up to
-// a millisecond; no allocation.
+// Explains a limb's state in a sentence or two, from its present inputs. It names the input that is bad, or how far out
+// of reach the target is. It names the limit that turned the elbow from its wish, and by how much. Where no elbow keeps
+// the limits, it says by how many degrees the pose violates each. It says so if the results do not match the present
+// inputs. It cannot know the swivel from which the last step started. Distances are in the targets' unit, unless it
+// says that they are of the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not
+// from the blended one. limb is counted within the group. text gets at most size bytes, the 0 at its end among them.
+// For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
+// in three dots. Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
@@ -828,8 +832,8 @@ SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t gr
 // Words of padding lanes mean nothing. Any thread, while nothing solves these blocks; no allocation; up to half as long
 // as a solve of plain arms. Fails for a group or blocks that do not exist.
 SWIVEL_API swivel_status swivel_pack(const swivel_crowd* crowd, uint32_t group, swivel_blocks blocks, uint16_t* words);
-// The first row of words of a field of groups with these features; the end of the field before it, if they do not have
-// it. Any thread.
+// The first row of words that a field is packed into, in groups with these features. If they lack the field, it is the
+// row after the fields before it. Any thread.
 SWIVEL_API uint32_t swivel_packed_row(swivel_features features, swivel_field field);
 // The rotation of three words that lie word_stride words apart, SWIVEL_LANES in rows: a unit quaternion with w >= 0.
 // Other words may give one of another length. Any thread.
@@ -837,12 +841,12 @@ SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride
 // The value of any half float, exactly. Any thread.
 SWIVEL_API float swivel_unpack_half(uint16_t word);
 
-// A digest of all results, to compare machines by. Crowds with the same groups have equal digests if their results are
-// equal, and almost surely other ones if not, also in their low 32 bits. Padding lanes do not count. Each of the
+// A digest of all results, to compare machines by. Crowds with the same groups and equal results have equal digests. If
+// results differ, digests almost surely differ, also in their low 32 bits. Padding lanes do not count. Each of the
 // SWIVEL_LANES lanes has a hash of 64 bits, which starts at 0. Group after group and block after block, a lane's hash
-// takes the bits of that lane in every row, in the order of the group's rows. To take a number, h becomes
-// (h ^ number) * 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the lanes, lane 0
-// first. 0 for a null crowd. It protects from accidents, not from forgers. On the calling thread; no allocation.
+// takes the bits of that lane in every row, in the order of the group's rows. To take a number, h becomes (h ^ number)
+// * 0x9e3779b97f4a7c15 modulo 2^64, then h ^ (h >> 32). One more hash takes those of the lanes, lane 0 first. 0 for a
+// null crowd. It protects from accidents, not from forgers. On the calling thread; no allocation.
 SWIVEL_API uint64_t swivel_digest(const swivel_crowd* crowd);
 
 // The instruction set in use. It is chosen at first use: SWIVEL_FORCE_ISA of the environment, else the best that this

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// C++ on top of swivel.h: a crowd that frees itself, ranges instead of pointers and strides, exceptions instead of
-// statuses, and checks of how many values a range has. Header only. Contracts, units and layouts are swivel.h's.
+// C++ on top of swivel.h. A crowd frees itself, ranges replace pointers and strides, and exceptions replace statuses.
+// Calls check how many values a range has. Header only. Contracts, units and layouts are swivel.h's.
 //
 // A call that fails throws swivel::Error. Without exceptions (-fno-exceptions) it prints the error's line and aborts.
 // To do something else before the abort, define SWIVEL_ON_ERROR(status, text) before each include, everywhere the same.
@@ -278,8 +278,8 @@ private:
     bool has_doubles_ = false;
 };
 
-// Some things, none of them, or everything. It views a std::span, or a range that has a name, and that range must
-// outlive it. Of other ranges, values in braces and a single one it keeps copies, which allocates.
+// Some things, none of them, or everything. It views a std::span or a range with a name, which must outlive it. It
+// copies other ranges, values in braces and single values, which allocates.
 struct Everything {};
 inline constexpr Everything everything;
 template <class Each>
