@@ -16,16 +16,18 @@ using namespace swivel::test;
 // Limbs that are not chosen are neither read nor written.
 TEST_CASE("frames of many rounds give the bits of rows, on threads and on this one")
 {
-    constexpr std::uint32_t counts[] = {5003, 40, 4999};  // three groups share a round of 64 blocks
-    const swivel_group_def groups[] = {group_of(counts[0]), group_of(counts[1]), group_of(counts[2])};
+    // Four groups share a round of 64 blocks, and two more have rounds of their own.
+    constexpr std::uint32_t counts[] = {5003, 40, 4999, 17, 2100, 3000}, group_count = std::size(counts);
+    std::vector<swivel_group_def> groups;
+    for (const std::uint32_t count : counts) groups.push_back(group_of(count));
     Random random{8};
     for (const std::uint32_t one_in : {1u, 2u, 3u, 16u, 200u}) {
         Crowd framed = crowd_with(SWIVEL_JOINTS, groups), rows = crowd_with(SWIVEL_JOINTS, groups);
         std::vector<std::uint32_t> mask((swivel_block_count(rows.get()) + 1) / 2);
-        std::vector<Float3> targets[3];
-        std::vector<Float4> shoulders[3];
-        std::array<Frame, 3> own;
-        for (std::uint32_t g = 0; g < 3; ++g) {
+        std::vector<Float3> targets[group_count];
+        std::vector<Float4> shoulders[group_count];
+        std::array<Frame, group_count> own;
+        for (std::uint32_t g = 0; g < group_count; ++g) {
             rows.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});  // what unchosen limbs have and keep
             framed.write_all(SWIVEL_TARGET, g, Float3{0, 0.5f, 1});
             targets[g].assign(counts[g], Float3{kNan, 7, 7});
@@ -40,15 +42,17 @@ TEST_CASE("frames of many rounds give the bits of rows, on threads and on this o
             own[g].in(SWIVEL_TARGET, {targets[g].data(), sizeof(Float3)});
             own[g].out(SWIVEL_SHOULDER, {shoulders[g].data(), sizeof(Float4)});
         }
-        const std::array<swivel_frame, 3> frames = {own[0], own[1], own[2]};
+        const std::vector<swivel_frame> frames(own.begin(), own.end());
         rows.solve({.mask = mask});
         const std::uint32_t blocks = swivel_block_count(rows.get()), part = 1 + random.below(blocks);
-        framed.solve({.blocks = swivel_blocks{0, part}, .mask = mask, .frames = frames});
-        framed.solve(
-            {.blocks = swivel_blocks{part, blocks - part}, .mask = mask, .frames = frames, .on_this_thread = true});
+        for (const bool second : {false, true})
+            framed.solve({.blocks = second ? swivel_blocks{part, blocks - part} : swivel_blocks{0, part},
+                          .mask = mask,
+                          .frames = frames,
+                          .on_this_thread = second == (one_in % 2 == 0)});
         INFO("one in " << one_in << ", cut at block " << part);
         CHECK((all_words(framed) == all_words(rows)));
-        for (std::uint32_t g = 0; g < 3; ++g) {
+        for (std::uint32_t g = 0; g < group_count; ++g) {
             const std::vector<Float4> wanted = read<Float4>(rows, SWIVEL_SHOULDER, g);
             for (std::uint32_t n = 0; n < counts[g]; ++n) {
                 const std::uint32_t limb = swivel_group_first_limb(rows.get(), g) + n;
@@ -81,6 +85,10 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
                 if (random.below(2)) pose.target[1] = kNan;
             }
             const std::vector<Pose> before = poses;
+            crowd.write_all(SWIVEL_TARGET, 0, Float3{1, 1, 1});
+            crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+            crowd.solve();
+            const auto had = read<Float4>(crowd, SWIVEL_SHOULDER);
             Frame frame;
             frame.in(SWIVEL_TARGET, {&poses[0].target, sizeof(Pose)});
             frame.in(SWIVEL_INCOMING_SHOULDER, {&poses[0].shoulder, sizeof(Pose)});
@@ -101,6 +109,7 @@ TEST_CASE("bad input keeps the pose in a frame that is read and written in place
                 CHECK((poses[n].flags == 7) == !is_chosen);
                 CHECK((poses[n].shoulder == before[n].shoulder) == (is_bad || !is_chosen));
                 CHECK((poses[n].elbow == before[n].elbow) == (is_bad || !is_chosen));
+                CHECK((read<Float4>(crowd, SWIVEL_SHOULDER)[n] == had[n]) == (is_bad || !is_chosen));
             }
             const std::string says = crowd.explain(0, 0);
             CHECK(says.find(std::isnan(before[0].target[1]) ? "keeps the pose it had" : "reached") !=
