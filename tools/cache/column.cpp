@@ -47,11 +47,9 @@ void Column::restore(const Results& state)
 {
     for (std::size_t n = 0; n < fields_.size(); ++n)
         for (std::size_t limb = 0; limb < cached_.limbs.size(); ++limb) {
-            if (!crowd_.crowds().has(limb, fields_[n].field)) continue;
-            const std::size_t count = fields_[n].count();
-            const std::size_t at = cached_.place(0, limb, 0) * count;
-            crowd_.crowds().restore(limb, fields_[n].field,
-                                    std::span(state[n]).subspan(at, crowd_.character_count() * count), count);
+            if (fields_[n].field != SWIVEL_NORMAL || !crowd_.crowds().has(limb, SWIVEL_NORMAL)) continue;
+            const std::size_t count = fields_[n].count(), at = cached_.place(0, limb, 0) * count;
+            crowd_.crowds().restore_normals(limb, std::span(state[n]).subspan(at, crowd_.character_count() * count));
         }
 }
 

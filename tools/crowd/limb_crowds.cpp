@@ -98,18 +98,16 @@ void LimbCrowds::read(std::size_t limb, swivel_field field, std::uint32_t first,
     check(swivel_read(crowd_of(limb).get(), field, places_[limb].group, first, count, to));
 }
 
-void LimbCrowds::restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers,
-                         std::size_t stride)
+void LimbCrowds::restore_normals(std::size_t limb, std::span<const std::uint32_t> numbers)
 {
     swivel_crowd* const crowd = crowd_of(limb).get();
     const std::uint32_t group = places_[limb].group;
     const swivel_rows rows = swivel_result_rows(crowd, group);
-    const std::uint32_t first_row = swivel_field_first_row(crowd, group, field),
-                        count = swivel_field_row_count(crowd, group, field);
-    for (std::size_t n = 0; n < numbers.size() / stride; ++n)
-        for (std::size_t part = 0; part < count; ++part) {
+    const std::uint32_t first_row = swivel_field_first_row(crowd, group, SWIVEL_NORMAL);
+    for (std::size_t n = 0; n < numbers.size() / 3; ++n)
+        for (std::size_t part = 0; part < 3; ++part) {
             const std::size_t row = n / SWIVEL_LANES * rows.row_count + first_row + part;
-            rows.base[row * SWIVEL_LANES + n % SWIVEL_LANES] = std::bit_cast<float>(numbers[n * stride + part]);
+            rows.base[row * SWIVEL_LANES + n % SWIVEL_LANES] = std::bit_cast<float>(numbers[3 * n + part]);
         }
 }
 

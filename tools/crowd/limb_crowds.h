@@ -27,9 +27,8 @@ public:
     // Inputs of all characters, to the fields that the limb has.
     void write_goals(std::size_t limb, std::span<const goal_input> inputs);
     void read(std::size_t limb, swivel_field field, std::uint32_t first, std::uint32_t count, swivel_out to) const;
-    // Puts results back that read() gave: stride numbers of 32 bits for each character, of which the first are the
-    // limb's own.
-    void restore(std::size_t limb, swivel_field field, std::span<const std::uint32_t> numbers, std::size_t stride);
+    // Puts the normals back that read() gave, as bits: what the next solve starts from.
+    void restore_normals(std::size_t limb, std::span<const std::uint32_t> numbers);
     void forward(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out elbow, swivel_out wrist,
                  swivel_out hand) const;
     void residuals(std::size_t limb, std::uint32_t first, std::uint32_t count, swivel_out distance) const;
