@@ -136,8 +136,6 @@ swivel_status check_stride(std::uint32_t group, const char* name, std::uint32_t 
     if (stride < value_bytes && !(may_repeat && stride == 0))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: stride %zu is smaller than a value, %zu bytes", group, name,
                     stride, value_bytes);
-    if (stride > PTRDIFF_MAX)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: stride %zu is larger than any array", group, name, stride);
     return SWIVEL_OK;
 }
 

@@ -45,11 +45,10 @@ void for_each_value(const swivel_crowd& crowd, const swivel_job& job, swivel_blo
         const swivel_frame frame = frame_at(job.frames, n);
         const auto value = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
             return FrameValue{static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(data)),
-                              static_cast<std::int64_t>(stride),
-                              static_cast<std::int64_t>(bytes),
-                              group.limb_count,
-                              static_cast<std::uint32_t>(&group - crowd.groups),
-                              name};
+                              // The stride of one value alone may be anything.
+                              static_cast<std::int64_t>(stride == 0 || group.limb_count > 1 ? stride : bytes),
+                              static_cast<std::int64_t>(bytes), group.limb_count,
+                              static_cast<std::uint32_t>(&group - crowd.groups), name};
         };
         if (frame.origin.data) take(value(frame.origin.data, frame.origin.stride, 3 * sizeof(double), "origin"), true);
         for (const swivel_frame_field& each : fields_of(frame)) {
