@@ -12,6 +12,7 @@
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/use.h"
+#include "batch/workspace.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -184,7 +185,9 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (status != SWIVEL_OK) return status;
     const Isa* const isa = usable_isa(status);
     if (!isa) return status;
-    if (job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
+    const Workspace workspace(*crowd, job.workspace);
+    status = workspace.status;
+    if (status == SWIVEL_OK && job.limbs) status = mark(*crowd, job.limbs->indices, job.limbs->count);
     if (status != SWIVEL_OK) return status;
     if (job.priorities) choose(*crowd, job.priorities, job.urgency, job.most_blocks, crowd->chosen);
 
@@ -194,7 +197,8 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     job.groups,
                     job.limbs || job.priorities ? crowd->chosen : job.mask,
                     job.frames,
-                    is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks))};
+                    is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
+                    workspace.strip};
     if (job.on_this_thread)
         solve_here(work);
     else
@@ -203,6 +207,12 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     if (job.limbs) clear(crowd->chosen, job.limbs->indices, job.limbs->count);
     if (job.priorities) std::fill_n(crowd->chosen, mask_word_count(crowd->block_count), 0u);
     return SWIVEL_OK;
+}
+
+size_t swivel_workspace_bytes(const swivel_crowd* crowd)
+{
+    const Use use(crowd, Sharing::shared);
+    return use.status == SWIVEL_OK ? workspace_bytes(crowd->strip_blocks) : 0;
 }
 
 swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,

@@ -94,7 +94,9 @@ swivel_status check(const swivel_crowd_def* given)
     if (const swivel_status status = check_size<swivel_crowd_def>("crowd def", size_of(given)); status != SWIVEL_OK)
         return status;
     const swivel_crowd_def def = full_def(given);
-    if (const swivel_status status = check_reserved("crowd def", def); status != SWIVEL_OK) return status;
+    if (def.workspace_count > kMostWorkspaces)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u workspaces, %u are the most; let jobs bring others",
+                    def.workspace_count, kMostWorkspaces);
     if (def.group_count == 0 || !def.groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def.allocate != !def.release)

@@ -30,8 +30,9 @@ std::uint64_t row_bytes(const swivel_group_def& group)
 }
 
 struct Layout {
-    std::uint32_t block_count = 0;
-    std::uint64_t groups, chosen, urgency, done, rows, end;  // byte offsets in the arena, also of one too large
+    std::uint32_t block_count = 0, strip_blocks = 0;
+    std::uint64_t groups, chosen, urgency, done, workspaces, rows,
+        end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def)
     {
@@ -40,12 +41,15 @@ struct Layout {
             const swivel_group_def group = group_at(def, g);
             block_count += blocks_in(group);
             bytes += row_bytes(group);
+            if (group.features & kLimbFeatures)
+                strip_blocks = std::max(strip_blocks, std::min(blocks_in(group), kStripBlocks));
         }
         groups = aligned(sizeof(swivel_crowd));
         chosen = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
         urgency = chosen + aligned(std::uint64_t{mask_word_count(block_count)} * sizeof(std::uint32_t));
         done = urgency + aligned(std::uint64_t{block_count} * sizeof(float));
-        rows = done + aligned(block_count);
+        workspaces = done + aligned(block_count);
+        rows = workspaces + def.workspace_count * workspace_bytes(strip_blocks);
         end = rows + bytes;
     }
 };
@@ -83,13 +87,24 @@ void spread(float* rows, std::uint32_t row_count, std::uint32_t block_count)
                         rows[std::size_t{row} * SWIVEL_LANES]);
 }
 
+// Solves the first block of a group of whole limbs.
+[[gnu::noinline]] void solve_block(const Kernels& kernels, const Group& group)
+{
+    alignas(64) float strip[kStripBlockFloats];
+    solve_group(kernels, group, {0, 1}, {strip, 1});
+}
+
 // Puts a group's limbs into their rest pose. The kernel does so, because their inputs are bad. Limbs that were never
 // solved have no flag.
 void rest(Group& group)
 {
     const FloatEnv env;
     const bool keeps = std::exchange(group.keeps, false);
-    solve_group(find_isa("scalar")->kernels, group, {0, 1});
+    const Kernels& scalar = find_isa("scalar")->kernels;
+    if (group.features & kLimbFeatures)
+        solve_block(scalar, group);
+    else
+        solve_group(scalar, group, {0, 1}, {});
     group.keeps = keeps;
     group.results[std::size_t{group.first_row[index_of(SWIVEL_FLAGS)]} * SWIVEL_LANES] = 0;
     spread(group.results, group.result_row_count, group.block_count);
@@ -103,6 +118,7 @@ void place_group(const swivel_group_def& def, std::uint32_t first_block, char* r
     group.limb_count = def.limb_count;
     group.features = def.features;
     group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
+    group.stages = StageList(def.features);
     group.shoulder_order = def.shoulder_order;
     group.wrist_order = def.wrist_order;
     group.input_row_count = input_row_count(def.features);
@@ -142,6 +158,9 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     crowd->chosen = reinterpret_cast<std::uint32_t*>(base + layout.chosen);
     crowd->urgency = reinterpret_cast<float*>(base + layout.urgency);
     crowd->done = reinterpret_cast<std::uint8_t*>(base + layout.done);
+    crowd->strip_blocks = layout.strip_blocks;
+    crowd->workspace_count = def.workspace_count;
+    crowd->workspaces = reinterpret_cast<float*>(base + layout.workspaces);
     char* rows = base + layout.rows;
     std::uint32_t first_block = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {

@@ -11,6 +11,7 @@
 #include "include/swivel/swivel.h"
 #include "simd/kernels.h"
 #include "simd/rows.h"
+#include "simd/strip_rows.h"
 
 namespace swivel {
 
@@ -23,6 +24,7 @@ struct Group {
     std::uint16_t first_row[kFieldCount];  // of each field, among input or result rows
     float *input, *results;                // rows
     swivel_binding binding;
+    StageList stages;
 };
 
 }  // namespace swivel
@@ -42,9 +44,22 @@ struct swivel_crowd {
     std::uint32_t* chosen;                   // a bit for each lane, zeros between calls (api_solve.cpp)
     float* urgency;                          // of each block, where the caller keeps none (budget.cpp)
     std::uint8_t* done;                      // a byte for each block, of a solve on threads (schedule.cpp)
+    std::uint32_t strip_blocks;              // of a workspace; 0: it has no whole limbs
+    std::uint32_t workspace_count;
+    float* workspaces;
+    std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
 };
 
 namespace swivel {
+
+// With any of these features, a group's limbs are whole limbs.
+inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
+
+inline constexpr std::uint32_t kMostWorkspaces = 64;  // of a crowd
+inline std::size_t workspace_bytes(std::uint32_t strip_blocks)
+{
+    return strip_blocks * kStripBlockFloats * sizeof(float);
+}
 
 // Words of one bit for each lane; and of one for each group.
 inline std::uint32_t mask_word_count(std::uint32_t block_count) { return (block_count + 1) / 2; }

@@ -69,11 +69,13 @@ public:
         swivel_crowd_def def = swivel_default_crowd_def();
         def.groups = &alone;
         def.group_count = 1;
+        def.workspace_count = 0;
         crowd_ = place_crowd(def, arena_);
         copy_lane(of_.input_row_count, of_.input + row_offset(limb_, of_.input_row_count, 0), group().input);
         if (of_.features & kCarryingFeatures)  // such as the normal that the next step is from
             copy_lane(of_.result_row_count, of_.results + row_offset(limb_, of_.result_row_count, 0), group().results);
     }
+    StripMemory strip() { return {strip_, 1}; }
     LimbPose pose() const { return forward(group(), 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
     double violation(swivel_field limit) const
@@ -103,7 +105,7 @@ public:
     std::uint32_t solve()
     {
         const Group& of = group();
-        solve_group(find_isa("scalar")->kernels, of, {0, 1});
+        solve_group(find_isa("scalar")->kernels, of, {0, 1}, strip());
         const std::size_t at = std::size_t{field_first_row(of.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
         return bit_cast<std::uint32_t>(of.results[at]);
     }
@@ -131,9 +133,10 @@ public:
 
 private:
     const Group& group() const { return crowd_->groups[0]; }
-    static constexpr std::size_t kArenaBytes = 16 * 1024;
+    static constexpr std::size_t kArenaBytes = 14 * 1024;
     static_assert(block_bytes(kEveryFeature) + 4096 <= kArenaBytes, "rows, and what stands before them");
     alignas(64) unsigned char arena_[kArenaBytes];
+    alignas(64) float strip_[kStripBlockFloats];
     const Group& of_;
     std::uint32_t limb_;
     swivel_crowd* crowd_;

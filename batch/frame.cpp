@@ -212,9 +212,9 @@ private:
     {
         copy_run(share, blocks, &Share::copy_in);
         if (work.mask)
-            solve_chosen_group(work.kernels, *share.group, work.mask, blocks);
+            solve_chosen_group(work.kernels, *share.group, work.mask, blocks, work.strip);
         else
-            solve_group(work.kernels, *share.group, blocks);
+            solve_group(work.kernels, *share.group, blocks, work.strip);
         copy_run(share, blocks, &Share::copy_out);
     }
     void copy_run(const Share& share, GroupBlocks blocks,

@@ -60,22 +60,34 @@ struct Parts {
     const Work& work;
     const std::uint32_t count;
     std::uint8_t* const done;
+    const std::thread::id caller = std::this_thread::get_id();
 
     explicit Parts(const Work& todo)
         : work(todo), count(todo.frames ? round_count(todo) : todo.blocks.count), done(todo.crowd.done)
     {
         std::fill_n(done, count, std::uint8_t{0});
     }
+    // The workspace is the calling thread's. Other threads have a smaller one on their stack.
     void solve(std::uint32_t first, std::uint32_t end) const
     {
-        if (work.frames) {
-            solve_rounds(work, first, end);
-        } else {
-            Work part = work;
-            part.blocks = {work.blocks.first + first, end - first};
-            solve_here(part);
-        }
+        if (std::this_thread::get_id() == caller || work.strip.block_count == 0)
+            solve_in(work.strip, first, end);
+        else
+            solve_on_stack(first, end);
         std::fill(done + first, done + end, std::uint8_t{1});
+    }
+    void solve_in(StripMemory strip, std::uint32_t first, std::uint32_t end) const
+    {
+        Work part = work;
+        part.strip = strip;
+        if (work.frames) return solve_rounds(part, first, end);
+        part.blocks = {work.blocks.first + first, end - first};
+        solve_here(part);
+    }
+    [[gnu::noinline]] void solve_on_stack(std::uint32_t first, std::uint32_t end) const
+    {
+        alignas(64) float rows[kStackBlocks * kStripBlockFloats];
+        solve_in({rows, kStackBlocks}, first, end);
     }
     void solve_rest() const
     {

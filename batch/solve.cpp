@@ -15,13 +15,10 @@ namespace swivel {
 
 namespace {
 
-// With any of these features, a group's limbs are whole limbs, which have one kernel (simd/limb_run.h).
-constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
-
 // Rows of more bytes than this are not in the caches from one solve to the next. It is a common size of level 3 caches.
 constexpr std::size_t kCachedBytes = std::size_t{32} << 20;
 
-SolveRun run_of(const Group& group, GroupBlocks blocks, bool from_memory, const std::uint32_t* mask)
+SolveRun run_of(const Group& group, GroupBlocks blocks, StripMemory strip, bool from_memory, const std::uint32_t* mask)
 {
     const std::size_t limb = std::size_t{blocks.first} * SWIVEL_LANES;
     return {group.input + row_offset(limb, group.input_row_count, 0),
@@ -38,15 +35,17 @@ SolveRun run_of(const Group& group, GroupBlocks blocks, bool from_memory, const 
             group.keeps,
             mask,
             std::size_t{group.first_block} * SWIVEL_LANES + limb,
-            group.limb_count - limb};
+            group.limb_count - limb,
+            &group.stages,
+            strip};
 }
 
 }  // namespace
 
-void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, bool from_memory,
+void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip, bool from_memory,
                  const std::uint32_t* mask)
 {
-    const SolveRun run = run_of(group, blocks, from_memory, mask);
+    const SolveRun run = run_of(group, blocks, strip, from_memory, mask);
     if (run.features & kLimbFeatures)
         kernels.limbs.solve(run);
     else
@@ -54,8 +53,9 @@ void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks,
 }
 
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
-                        bool from_memory)
+                        StripMemory strip, bool from_memory)
 {
+    if (group.features & kLimbFeatures) return solve_group(kernels, group, blocks, strip, from_memory, mask);
     const std::uint32_t end = blocks.first + blocks.count;
     // Blocks from one on that are all chosen whole, or all not.
     const auto run_from = [&](std::uint32_t block, bool whole) {
@@ -66,10 +66,10 @@ void solve_chosen_group(const Kernels& kernels, const Group& group, const std::u
     };
     for (std::uint32_t block = blocks.first; block < end;) {
         const std::uint32_t whole = run_from(block, true);
-        if (whole > 0) solve_group(kernels, group, {block, whole}, from_memory);
+        if (whole > 0) solve_group(kernels, group, {block, whole}, strip, from_memory);
         block += whole;
         const std::uint32_t part = run_from(block, false);
-        if (part > 0) solve_group(kernels, group, {block, part}, from_memory, mask);
+        if (part > 0) solve_group(kernels, group, {block, part}, strip, from_memory, mask);
         block += part;
     }
 }
@@ -82,9 +82,10 @@ bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count)
 std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint32_t limb, swivel_arc* arcs,
                            std::uint32_t capacity)
 {
+    alignas(64) float strip[kStripBlockFloats];
+    const SolveRun run = run_of(group, {0, group.block_count}, {strip, 1}, false, nullptr);
     ArcEnds ends[kMostArcs];
-    const std::uint32_t count =
-        scalar.limbs.allowed_arcs(run_of(group, {0, group.block_count}, false, nullptr), limb, ends);
+    const std::uint32_t count = scalar.limbs.allowed_arcs(run, limb, ends);
     for (std::uint32_t n = 0; n < std::min(count, capacity); ++n)
         arcs[n] = {{ends[n].from[0], ends[n].from[1]}, {ends[n].to[0], ends[n].to[1]}};
     return count;
@@ -96,9 +97,9 @@ void solve_here(const Work& work)
     const FloatEnv env;
     for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
         if (work.mask)
-            solve_chosen_group(work.kernels, group, work.mask, part, work.from_memory);
+            solve_chosen_group(work.kernels, group, work.mask, part, work.strip, work.from_memory);
         else
-            solve_group(work.kernels, group, part, work.from_memory);
+            solve_group(work.kernels, group, part, work.strip, work.from_memory);
     });
 }
 

@@ -17,12 +17,13 @@ struct GroupBlocks {
 
 // These solve blocks of one group on this thread. The caller has set the floating-point environment (FloatEnv).
 // solve_group() solves every limb, or those whose bits are set in mask, which has one bit for each lane of the crowd.
-// Other limbs keep their results. from_memory: the job's rows do not fit the caches.
-void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, bool from_memory = false,
-                 const std::uint32_t* mask = nullptr);
+// Other limbs keep their results. strip: of a workspace, which plain arms do not need. from_memory: the job's rows do
+// not fit the caches.
+void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
+                 bool from_memory = false, const std::uint32_t* mask = nullptr);
 // The limbs of a mask. Blocks that are chosen whole are solved as if there were none, which is faster.
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
-                        bool from_memory = false);
+                        StripMemory strip, bool from_memory = false);
 
 // The swivels that the limits of a limb, counted within its group, allow (swivel_allowed_arcs). scalar: the scalar
 // build's kernels.
@@ -38,6 +39,7 @@ struct Work {
     const std::uint32_t* mask;    // bits of the limbs to solve; null: all
     const swivel_frame* frames;   // of each group that is named; null: values are in rows
     bool from_memory;             // the job's rows do not fit the caches
+    StripMemory strip;            // of a workspace
 };
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 

@@ -14,10 +14,10 @@ template <class T>
 struct Arc {
     Turned<T> from, to;  // by the right hand about the line; equal for the whole circle
 };
-inline constexpr int kMostArcs = 4 * kMostEdges<kMostBoxes>;
+inline constexpr int kMostAllowedArcs = 4 * kMostEdges<kMostBoxes>;
 template <class T>
 struct AllowedArcs {
-    Arc<T> arc[kMostArcs];
+    Arc<T> arc[kMostAllowedArcs];
     int count = 0;
 };
 

@@ -17,6 +17,19 @@ struct FoundSwivel {
     Mask<T> allowed;  // false: no swivel was found that is
 };
 
+// Calls take() for each of two. With boxes this stays a loop, because what it does is long.
+template <int Boxes, class Each, class Take>
+SWIVEL_INLINE constexpr void for_both(const Each& first, const Each& second, const Take& take)
+{
+    if constexpr (Boxes == 0) {
+        take(first);
+        take(second);
+    } else {
+        SWIVEL_KEEP_LOOP
+        for (const Each* each : {&first, &second}) take(*each);
+    }
+}
+
 // The nearest end of an allowed arc, where there is one.
 template <class T, int Boxes>
 SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T, Boxes>& limits)
@@ -28,11 +41,11 @@ SWIVEL_INLINE constexpr FoundSwivel<T> nearest_end(const Limits<T, Boxes>& limit
     for (int n = 0; n < count; ++n) {
         const Crossings<T> ends = crossings(edge[n].line());
         const Mask<T> exist = ends.exist & edge[n].live();
-        for (const Turned<T>* end : {&ends.first, &ends.second}) {
-            const Mask<T> better = exist & (end->cos > nearest) & (room(limits, *end) >= T(kNoRoom));
-            best = select(better, *end, best);
-            nearest = select(better, end->cos, nearest);
-        }
+        for_both<Boxes>(ends.first, ends.second, [&](const Turned<T>& end) SWIVEL_INLINE_LAMBDA {
+            const Mask<T> better = exist & (end.cos > nearest) & (inlined_room(limits, end) >= T(kNoRoom));
+            best = select(better, end, best);
+            nearest = select(better, end.cos, nearest);
+        });
     }
     return {best, nearest >= T(-1.5)};
 }
@@ -60,79 +73,56 @@ SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& l
     const int count = edges(limits, true, edge);
     Turned<T> best{T(1), T(0)};
     T best_room = room(limits, best), most = best_room;
-    const auto consider = [&](const Turned<T>& swivel, const Mask<T>& exists) SWIVEL_INLINE_LAMBDA {
+    struct Candidate {
+        Turned<T> swivel;
+        Mask<T> exists;
+    };
+    const auto consider = [&](const Candidate& candidate) SWIVEL_INLINE_LAMBDA {
+        const auto& [swivel, exists] = candidate;
         const T left = room(limits, swivel);
         most = select(exists, hi(left, most), most);
-        const T enough =
-            select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));  // an allowed one never ties with a forbidden one
+        // An allowed one never ties with a forbidden one.
+        const T enough = select(most < T(kNoRoom), most - T(kTie), T(kNoRoom));
         const Mask<T> preferred = (best_room < enough) | (swivel.cos > best.cos + T(kTie));
         const Mask<T> better = exists & (left >= enough) & preferred;
         best = select(better, swivel, best);
         best_room = select(better, left, best_room);
     };
+    const Mask<T> never = T(1) < T(0);
     for (int n = 0; n < count; ++n) {
         const OnCircle<T> line = edge[n].line();
         const T r2 = line.a * line.a + line.b * line.b;
         const Mask<T> peaks = edge[n].live() & (r2 > T(kFlat2));
         const T per_r = T(1) / sqrt(select(peaks, r2, T(1)));
         const Turned<T> peak{per_r * line.a, per_r * line.b};
-        if (edge[n].front > 0 || edge[n].back > 0) consider(peak, peaks);
-        if (edge[n].front < 0 || edge[n].back < 0) consider({-peak.cos, -peak.sin}, peaks);
+        for_both<Boxes>(Candidate{peak, edge[n].front > 0 || edge[n].back > 0 ? peaks : never},
+                        Candidate{{-peak.cos, -peak.sin}, edge[n].front < 0 || edge[n].back < 0 ? peaks : never},
+                        consider);
         for (int m = 0; m < n; ++m)
-            for (const int sign : {1, -1}) {
-                if (!meet(edge[n], edge[m], sign)) continue;
+            for_both<Boxes>(1, -1, [&](int sign) SWIVEL_INLINE_LAMBDA {
+                if (!meet(edge[n], edge[m], sign)) return;
                 const OnCircle<T> other = edge[m].line(), off = sign > 0 ? line - other : line + other;
                 const Crossings<T> equal = crossings(off);
                 const Mask<T> exist = equal.exist & edge[n].live() & edge[m].live();
-                consider(equal.first, exist);
-                consider(equal.second, exist);
-            }
+                for_both<Boxes>(Candidate{equal.first, exist}, Candidate{equal.second, exist}, consider);
+            });
     }
     return {best, most >= T(kNoRoom)};  // an arc too short to have two ends
 }
-// The same as a function of its own, because with boxes it is long.
-template <class T, int Boxes>
-SWIVEL_FLATTEN [[gnu::noinline]] constexpr FoundSwivel<T> least_violation_called(const Limits<T, Boxes>& limits)
-{
-    return least_violation(limits);
-}
-
-enum class Search { nearest_end, least_violation };
-
-template <class T>
-struct ChosenSwivel {
-    Turned<T> swivel;
-    Mask<T> allowed;  // false: no swivel is, this one violates the limits least
-    Mask<T> settled;  // false: a search is put off, and the rest means nothing
-    Search next;      // the search that is put off
-};
-
-// A policy says whether a search is worth its time now, as these lanes need it. Else it is put off. is_short: the
-// compiler knows the limits, and few candidates are left.
-struct SearchNow {
-    static constexpr bool is_short = false;
-    SWIVEL_INLINE static constexpr bool is_worth(Search, const auto& /*lanes*/) { return true; }
-};
-struct ShortSearch : SearchNow {
-    static constexpr bool is_short = true;
-};
-
 // valid: false where the input is bad, so that nothing is searched for.
-template <class Policy = SearchNow, class T, int Boxes>
-SWIVEL_INLINE constexpr ChosenSwivel<T> choose_swivel(const Limits<T, Boxes>& limits, const Mask<T>& valid)
+template <class T, int Boxes>
+SWIVEL_INLINE constexpr FoundSwivel<T> choose_swivel(const Limits<T, Boxes>& limits, const Mask<T>& valid)
 {
     const Turned<T> wish{T(1), T(0)};
     const Mask<T> granted = (room(limits, wish) >= T(kNoRoom)) | !valid;
-    if (all(granted) || !Policy::is_worth(Search::nearest_end, !granted))
-        return {wish, granted, granted, Search::nearest_end};
+    if (all(granted)) return {wish, granted};
     const FoundSwivel<T> end = nearest_end(limits);
     const Mask<T> allowed = granted | end.allowed;
     const Turned<T> near = select(granted, wish, end.swivel);
-    if (all(allowed) || !Policy::is_worth(Search::least_violation, !allowed))
-        return {near, allowed, allowed, Search::least_violation};
-    const FoundSwivel<T> least = Policy::is_short ? least_violation(limits) : least_violation_called(limits);
-    const Mask<T> any_allowed = allowed | least.allowed, always = T(0) == T(0);
-    return {select(allowed, near, least.swivel), any_allowed, always, Search::least_violation};
+    if (all(allowed)) return {near, allowed};
+    const FoundSwivel<T> least = least_violation(limits);
+    const Mask<T> any_allowed = allowed | least.allowed;
+    return {select(allowed, near, least.swivel), any_allowed};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -76,6 +76,14 @@ SWIVEL_INLINE constexpr Rotor<T> frame_along(const Vector<T>& line, const Vector
     return from_e3(start, frame_from_start(line, start, T(1), normal, T(1)).from_start);
 }
 
+// Steps 3 to 5 for an arm of which lift says how it lies in the line's frame: the rotor that carries e3 to the upper
+// arm and e1 to the hinge, of unit length.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr Rotor<T> lifted(const Vector<T>& line, const Vector<T>& normal, const Lift& lift)
+{
+    return normalise(frame_along(line, normal) * lift);
+}
+
 // The rotor of unit length that carries e3 to the line and e1 to a normal orthogonal to it, both of any length.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector<T>& normal)

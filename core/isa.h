@@ -12,3 +12,9 @@
 #define SWIVEL_INLINE [[gnu::always_inline]] inline
 #define SWIVEL_INLINE_LAMBDA __attribute__((always_inline))
 #define SWIVEL_FLATTEN [[gnu::flatten]]
+// Before a loop that the compiler must not unroll.
+#ifdef __clang__
+#define SWIVEL_KEEP_LOOP _Pragma("clang loop unroll(disable)")
+#else
+#define SWIVEL_KEEP_LOOP _Pragma("GCC unroll 1")
+#endif

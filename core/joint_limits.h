@@ -59,13 +59,6 @@ struct SwivellingArm {
     Rotor<T> hand;  // orientation, in the arm frame
 };
 
-// The limits, and the flag of each in the order of Limits: lines, then boxes.
-template <class T, int Boxes>
-struct SwivelLimits {
-    Limits<T, Boxes> limits;
-    std::uint32_t line_flag[kMostLines] = {}, box_flag[kMostBoxes] = {};
-};
-
 // The component of a rotor that turns about the axis: the dot product of the axis and the rotor's vector part.
 template <class T>
 SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
@@ -74,101 +67,159 @@ SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
            axis.template at<kE3>() * q.template at<kK>();
 }
 
-// Boxes: how many there may be, 0 or kMostBoxes.
-template <int Boxes = kMostBoxes, class T, class Lift>
-SWIVEL_INLINE constexpr SwivelLimits<T, Boxes> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
-                                                             const SwivellingArm<T, Lift>& arm)
+// A fixed vector, in the line's frame.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr Vector<T> in_line(const SwivellingArm<T, Lift>& arm, const Vector<T>& v)
 {
-    const auto e3 = unit<T, kE3>();
-    const auto k = unit<T, kK>();
-    const Lift& to_arm = arm.to_arm;
-    const Vector<T> side = cross(arm.line, arm.normal);
-    const auto in_line = [&](const auto& v) SWIVEL_INLINE_LAMBDA {
-        return vector(scalar_product(arm.normal, v), scalar_product(side, v), scalar_product(arm.line, v));
+    return vector(scalar_product(arm.normal, v), scalar_product(cross(arm.line, arm.normal), v),
+                  scalar_product(arm.line, v));
+}
+// What moves with the arm is as much longer as to_arm's square.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr T per_size(const SwivellingArm<T, Lift>& arm)
+{
+    return T(1) / len2(arm.to_arm);
+}
+// The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr auto forearm_of(const SwivellingArm<T, Lift>& arm)
+{
+    return arm.to_arm * arm.elbow;
+}
+
+template <class T, class Lift>
+SWIVEL_INLINE constexpr OnCircle<T> shoulder_cone_limit(const SwivellingArm<T, Lift>& arm, const Cone<T>& cone)
+{
+    return cone_limit(per_size(arm) * inner(in_line(arm, cone.axis), sandwich(arm.to_arm, unit<T, kE3>())),
+                      cone.cos_opening);
+}
+template <class T, class Lift>
+SWIVEL_INLINE constexpr OnCircle<T> hand_cone_limit(const SwivellingArm<T, Lift>& arm, const Cone<T>& cone)
+{
+    return cone_limit(
+        per_size(arm) * inner(in_line(arm, sandwich(arm.hand, cone.axis)), sandwich(forearm_of(arm), unit<T, kE3>())),
+        cone.cos_opening);
+}
+
+// Twists come from products of a rotor's components. Near a swing of half a turn all of them are small, and sums of a
+// matrix's entries would leave their rounding errors.
+template <class T>
+struct Twisting {
+    Rotor<T> at_0, at_pi;  // the rotor that twists, at phi = 0 and at pi
+    T per_size;
+
+    // s: the rotor's part along the twist's axis.
+    SWIVEL_INLINE constexpr OnCircle<T> limit(const OnHalfCircle<T>& s, const Range<T>& range) const
+    {
+        const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()};
+        return per_size * twist_limit(w, s, range);
+    }
+    SWIVEL_INLINE constexpr OnHalfCircle<T> along_e3() const
+    {
+        return {at_0.template at<kK>(), at_pi.template at<kK>()};
+    }
+};
+template <class T, class Lift>
+SWIVEL_INLINE constexpr Twisting<T> upper_arm_twisting(const SwivellingArm<T, Lift>& arm)
+{
+    const Rotor<T> from_line = frame_along(arm.line, arm.normal);
+    return {from_line * arm.to_arm, from_line * unit<T, kK>() * arm.to_arm, per_size(arm) / len2(from_line)};
+}
+template <class T, class Lift>
+SWIVEL_INLINE constexpr Twisting<T> wrist_twisting(const SwivellingArm<T, Lift>& arm)
+{
+    const Rotor<T> from_line = frame_along(arm.line, arm.normal);
+    const auto forearm = forearm_of(arm);
+    const Rotor<T> hand = ~from_line * arm.hand;
+    return {~forearm * hand, ~forearm * ~unit<T, kK>() * hand, per_size(arm) / len2(from_line)};
+}
+template <class T, class Lift>
+SWIVEL_INLINE constexpr OnCircle<T> humeral_twist_limit(const SwivellingArm<T, Lift>& arm, const Range<T>& range)
+{
+    const Twisting<T> twisting = upper_arm_twisting(arm);
+    return twisting.limit(twisting.along_e3(), range);
+}
+template <class T, class Lift>
+SWIVEL_INLINE constexpr OnCircle<T> forearm_twist_limit(const SwivellingArm<T, Lift>& arm, const Range<T>& range)
+{
+    const Twisting<T> twisting = wrist_twisting(arm);
+    return twisting.limit(twisting.along_e3(), range);
+}
+template <class T, class Lift>
+SWIVEL_INLINE constexpr OnCircle<T> hand_twist_limit(const SwivellingArm<T, Lift>& arm, const Twist<T>& twist)
+{
+    const Twisting<T> twisting = wrist_twisting(arm);
+    return twisting.limit({about(twist.axis, twisting.at_0), about(twist.axis, twisting.at_pi)}, twist.range);
+}
+
+// The entries of the matrix whose rows are fixed axes, and whose columns turn with the arm.
+template <class T>
+struct TurningMatrix {
+    Vector<T> row[3];  // in the line's frame
+    T per_size;
+    template <class Turning>
+    SWIVEL_INLINE constexpr OnCircle<T> entry(int at, const Turning& column) const
+    {
+        return per_size * inner(row[at], column);
+    }
+};
+template <class T, class Lift, class Turning>
+SWIVEL_INLINE constexpr auto turning_matrix(const SwivellingArm<T, Lift>& arm, const Vector<T>& e1, const Vector<T>& e2,
+                                            const Vector<T>& e3, const Turning& turning)
+{
+    const TurningMatrix<T> matrix{{in_line(arm, e1), in_line(arm, e2), in_line(arm, e3)}, per_size(arm)};
+    const auto column1 = sandwich(turning, unit<T, kE1>());
+    const auto column2 = sandwich(turning, unit<T, kE2>());
+    const auto column3 = sandwich(turning, unit<T, kE3>());
+    return [=](int row, int column) SWIVEL_INLINE_LAMBDA {
+        if (column == 0) return matrix.entry(row, column1);
+        return column == 1 ? matrix.entry(row, column2) : matrix.entry(row, column3);
     };
-    // What moves with the arm is as much longer as to_arm's square.
-    const T per_size = T(1) / len2(to_arm);
-    const auto cosine = [&](const Vector<T>& fixed, const auto& moving)
-                            SWIVEL_INLINE_LAMBDA { return per_size * inner(fixed, moving); };
-    SwivelLimits<T, Boxes> out;
+}
+template <class T, class Lift>
+SWIVEL_INLINE constexpr EulerCurves<T> shoulder_box_curves(const SwivellingArm<T, Lift>& arm, const EulerOrder& order)
+{
+    const Vector<T> e1 = vector(T(1), T(0), T(0)), e2 = vector(T(0), T(1), T(0)), e3 = vector(T(0), T(0), T(1));
+    return euler_curves<T>(order, turning_matrix(arm, e1, e2, e3, arm.to_arm));
+}
+// Its matrix has the forearm's axes in its rows, so what moves belongs to the row.
+template <class T, class Lift>
+SWIVEL_INLINE constexpr EulerCurves<T> wrist_box_curves(const SwivellingArm<T, Lift>& arm, const EulerOrder& order)
+{
+    const Turn<T> hand = turn_by(arm.hand);
+    const auto transposed = turning_matrix(arm, hand.e1, hand.e2, hand.e3, forearm_of(arm));
+    return euler_curves<T>(order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); });
+}
+
+// The limits, and the flag of each in the order of Limits: lines, then boxes.
+template <class T>
+struct SwivelLimits {
+    Limits<T> limits;
+    std::uint32_t line_flag[kMostLines] = {}, box_flag[kMostBoxes] = {};
+};
+
+template <class T, class Lift>
+SWIVEL_INLINE constexpr SwivelLimits<T> swivel_limits(const LimitUse& use, const JointLimits<T>& limits,
+                                                      const SwivellingArm<T, Lift>& arm)
+{
+    SwivelLimits<T> out;
     const auto add = [&](const OnCircle<T>& line, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
         out.line_flag[out.limits.line_count] = flag;
         out.limits.line[out.limits.line_count++] = line;
     };
-    const auto add_box = [&]([[maybe_unused]] const EulerBox<T>& box, [[maybe_unused]] std::uint32_t flag)
-                             SWIVEL_INLINE_LAMBDA {
-                                 if constexpr (Boxes > 0) {
-                                     out.box_flag[out.limits.box_count] = flag;
-                                     out.limits.box[out.limits.box_count++] = box;
-                                 }
-                             };
-
-    // The entries of the matrix whose rows are fixed axes, and whose columns turn with the arm.
-    const auto matrix = [&](const Vector<T>& row1, const Vector<T>& row2, const Vector<T>& row3, const auto& turning)
-                            SWIVEL_INLINE_LAMBDA {
-                                const auto column1 = sandwich(turning, unit<T, kE1>());
-                                const auto column2 = sandwich(turning, unit<T, kE2>());
-                                const auto column3 = sandwich(turning, unit<T, kE3>());
-                                return [=](int row, int column) SWIVEL_INLINE_LAMBDA {
-                                    const Vector<T>& fixed = row == 0 ? row1 : row == 1 ? row2 : row3;
-                                    if (column == 0) return cosine(fixed, column1);
-                                    return column == 1 ? cosine(fixed, column2) : cosine(fixed, column3);
-                                };
-                            };
-
-    if (use.shoulder_cone)
-        add(cone_limit(cosine(in_line(limits.shoulder_cone.axis), sandwich(to_arm, e3)),
-                       limits.shoulder_cone.cos_opening),
-            SWIVEL_LIMITED_SHOULDER_CONE);
-    // Twists come from products of a rotor's components. Near a swing of half a turn all of them are small, and sums of
-    // a matrix's entries would leave their rounding errors.
-    const Rotor<T> from_line =
-        use.humeral_twist || use.forearm_twist || use.hand_twist ? frame_along(arm.line, arm.normal) : Rotor<T>{};
-    // s: the rotor's part along the twist's axis, as twist_limit() takes it.
-    const auto twist = [&](const Range<T>& range, const Rotor<T>& at_0, const Rotor<T>& at_pi, const OnHalfCircle<T>& s)
-                           SWIVEL_INLINE_LAMBDA {
-                               const OnHalfCircle<T> w{at_0.template at<kScalar>(), at_pi.template at<kScalar>()};
-                               return (per_size / len2(from_line)) * twist_limit(w, s, range);
-                           };
-    const auto along_e3 = [](const Rotor<T>& at_0, const Rotor<T>& at_pi) SWIVEL_INLINE_LAMBDA {
-        return OnHalfCircle<T>{at_0.template at<kK>(), at_pi.template at<kK>()};
+    const auto add_box = [&](const EulerCurves<T>& curves, const Range<T>(&box)[3],
+                             std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
+        out.box_flag[out.limits.box_count] = flag;
+        out.limits.box[out.limits.box_count++] = {curves, euler_ranges(box[0], box[1], box[2])};
     };
-    if (use.humeral_twist) {
-        const Rotor<T> at_0 = from_line * to_arm, at_pi = from_line * k * to_arm;
-        add(twist(limits.humeral_twist, at_0, at_pi, along_e3(at_0, at_pi)), SWIVEL_LIMITED_HUMERAL_TWIST);
-    }
+    if (use.shoulder_cone) add(shoulder_cone_limit(arm, limits.shoulder_cone), SWIVEL_LIMITED_SHOULDER_CONE);
+    if (use.humeral_twist) add(humeral_twist_limit(arm, limits.humeral_twist), SWIVEL_LIMITED_HUMERAL_TWIST);
+    if (use.hand_cone) add(hand_cone_limit(arm, limits.hand_cone), SWIVEL_LIMITED_HAND_CONE);
+    if (use.forearm_twist) add(forearm_twist_limit(arm, limits.forearm_twist), SWIVEL_LIMITED_FOREARM_TWIST);
+    if (use.hand_twist) add(hand_twist_limit(arm, limits.hand_twist), SWIVEL_LIMITED_HAND_TWIST);
     if (use.shoulder_box)
-        add_box(euler_box<T>(use.shoulder_order,
-                             matrix(in_line(unit<T, kE1>()), in_line(unit<T, kE2>()), in_line(unit<T, kE3>()), to_arm),
-                             limits.shoulder_box[0], limits.shoulder_box[1], limits.shoulder_box[2]),
-                SWIVEL_LIMITED_SHOULDER_BOX);
-    if (!(use.hand_cone || use.forearm_twist || use.hand_twist || use.wrist_box)) return out;
-
-    // The forearm turns with the arm, the hand stays. The wrist's rotor is (arm elbow)^-1 hand.
-    const auto forearm = to_arm * arm.elbow;
-    if (use.hand_cone)
-        add(cone_limit(cosine(in_line(sandwich(arm.hand, limits.hand_cone.axis)), sandwich(forearm, e3)),
-                       limits.hand_cone.cos_opening),
-            SWIVEL_LIMITED_HAND_CONE);
-    if (use.forearm_twist || use.hand_twist) {
-        const Rotor<T> hand = ~from_line * arm.hand;
-        const Rotor<T> at_0 = ~forearm * hand, at_pi = ~forearm * ~k * hand;
-        if (use.forearm_twist)
-            add(twist(limits.forearm_twist, at_0, at_pi, along_e3(at_0, at_pi)), SWIVEL_LIMITED_FOREARM_TWIST);
-        if (use.hand_twist) {
-            const Vector<T>& axis = limits.hand_twist.axis;
-            add(twist(limits.hand_twist.range, at_0, at_pi, {about(axis, at_0), about(axis, at_pi)}),
-                SWIVEL_LIMITED_HAND_TWIST);
-        }
-    }
-    if (use.wrist_box) {  // its matrix has the forearm's axes in its rows, so what moves belongs to the row
-        const Turn<T> hand = turn_by(arm.hand);
-        const auto transposed = matrix(in_line(hand.e1), in_line(hand.e2), in_line(hand.e3), forearm);
-        add_box(euler_box<T>(
-                    use.wrist_order, [&](int row, int column) SWIVEL_INLINE_LAMBDA { return transposed(column, row); },
-                    limits.wrist_box[0], limits.wrist_box[1], limits.wrist_box[2]),
-                SWIVEL_LIMITED_WRIST_BOX);
-    }
+        add_box(shoulder_box_curves(arm, use.shoulder_order), limits.shoulder_box, SWIVEL_LIMITED_SHOULDER_BOX);
+    if (use.wrist_box) add_box(wrist_box_curves(arm, use.wrist_order), limits.wrist_box, SWIVEL_LIMITED_WRIST_BOX);
     return out;
 }
 

@@ -89,52 +89,95 @@ SWIVEL_INLINE constexpr Mask<T> is_valid(const Cone<T>& cone)
 }
 
 template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const FlexionLimit<T>& flexion)
+{
+    return is_share(flexion.cos_half_least) & is_share(flexion.cos_half_most) &
+           (flexion.cos_half_least >= flexion.cos_half_most);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Twist<T>& twist)
+{
+    return is_valid(twist.range) & is_unit2(len2(twist.axis));
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Range<T> (&box)[3])
+{
+    return is_valid(box[0]) & is_valid(box[1]) & is_valid(box[2]);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const ArmGoal<T>& arm)
+{
+    return (len2(arm.wrist) <= T(kHuge2)) & (len2(arm.pole) <= T(kHuge2)) & is_length(arm.upper) & is_length(arm.fore);
+}
+// Of any length, as angles are given and as turns are stored.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Turned<T>& turned)
+{
+    return is_within(turned.cos * turned.cos + turned.sin * turned.sin, 1e-18, 1e18);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const IncomingPose<T>& incoming)
+{
+    return is_orientation(incoming.shoulder) & is_orientation(incoming.elbow) & is_orientation(incoming.wrist);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const AimGoal<T>& aim)
+{
+    return (aim.cos_half >= T(0)) & (aim.sin_half >= T(0)) &
+           is_unit2(aim.cos_half * aim.cos_half + aim.sin_half * aim.sin_half);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Weights<T>& weights)
+{
+    return is_share(weights.position) & is_share(weights.hand) & is_share(weights.pole);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const ReachGoal<T>& reach)
+{
+    return is_share(reach.soft_far) & is_share(reach.soft_near) & is_share(reach.least_distance) &
+           (reach.most_stretch >= T(1)) & (reach.most_stretch <= T(1e3));
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Continuity<T>& continuity)
+{
+    const Turned<T>& most = continuity.most;
+    return (len2(continuity.previous_normal) <= T(1.01)) & (most.sin >= T(-1e-6)) &
+           is_unit2(most.cos * most.cos + most.sin * most.sin);
+}
+// A product of two rotors as is_orientation() allows them.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_product(const Rotor<T>& q)
+{
+    return is_within(len2(q), 1e-37, 1e37);
+}
+
+template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const LimitUse& use, const JointLimits<T>& limits)
 {
     Mask<T> valid = T(0) == T(0);
-    if (use.flexion)
-        valid = valid & is_share(limits.flexion.cos_half_least) & is_share(limits.flexion.cos_half_most) &
-                (limits.flexion.cos_half_least >= limits.flexion.cos_half_most);
+    if (use.flexion) valid = valid & is_valid(limits.flexion);
     if (use.shoulder_cone) valid = valid & is_valid(limits.shoulder_cone);
     if (use.hand_cone) valid = valid & is_valid(limits.hand_cone);
     if (use.humeral_twist) valid = valid & is_valid(limits.humeral_twist);
     if (use.forearm_twist) valid = valid & is_valid(limits.forearm_twist);
-    if (use.hand_twist) valid = valid & is_valid(limits.hand_twist.range) & is_unit2(len2(limits.hand_twist.axis));
-    for (int n = 0; n < 3; ++n) {
-        if (use.shoulder_box) valid = valid & is_valid(limits.shoulder_box[n]);
-        if (use.wrist_box) valid = valid & is_valid(limits.wrist_box[n]);
-    }
+    if (use.hand_twist) valid = valid & is_valid(limits.hand_twist);
+    if (use.shoulder_box) valid = valid & is_valid(limits.shoulder_box);
+    if (use.wrist_box) valid = valid & is_valid(limits.wrist_box);
     return valid;
 }
 
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const LimbUse& use, const LimbGoal<T>& goal)
 {
-    Mask<T> valid = (len2(goal.arm.wrist) <= T(kHuge2)) & (len2(goal.arm.pole) <= T(kHuge2)) &
-                    is_length(goal.arm.upper) & is_length(goal.arm.fore) & is_valid(use.limits, goal.limits);
-    // A product of two rotors as is_orientation() allows them.
-    if (use.hand) valid = valid & is_within(len2(goal.hand), 1e-37, 1e37);
+    Mask<T> valid = is_valid(goal.arm) & is_valid(use.limits, goal.limits);
+    if (use.hand) valid = valid & is_product(goal.hand);
     if (use.effector) valid = valid & (len2(goal.effector) <= T(kHuge2));
-    if (use.angle) {
-        const T length2 = goal.angle.cos * goal.angle.cos + goal.angle.sin * goal.angle.sin;
-        valid = valid & is_within(length2, 1e-18, 1e18);
-    }
-    if (use.incoming)
-        valid = valid & is_orientation(goal.incoming.shoulder) & is_orientation(goal.incoming.elbow) &
-                is_orientation(goal.incoming.wrist);
-    if (use.aim)
-        valid = valid & (goal.aim.cos_half >= T(0)) & (goal.aim.sin_half >= T(0)) &
-                is_unit2(goal.aim.cos_half * goal.aim.cos_half + goal.aim.sin_half * goal.aim.sin_half);
-    if (use.weights)
-        valid = valid & is_share(goal.weights.position) & is_share(goal.weights.hand) & is_share(goal.weights.pole);
-    if (use.reach)
-        valid = valid & is_share(goal.reach.soft_far) & is_share(goal.reach.soft_near) &
-                is_share(goal.reach.least_distance) & (goal.reach.most_stretch >= T(1)) &
-                (goal.reach.most_stretch <= T(1e3));
-    if (use.continuity)
-        valid = valid & (len2(goal.continuity.previous_normal) <= T(1.01)) & (goal.continuity.most.sin >= T(-1e-6)) &
-                is_unit2(goal.continuity.most.cos * goal.continuity.most.cos +
-                         goal.continuity.most.sin * goal.continuity.most.sin);
+    if (use.angle) valid = valid & is_valid(goal.angle);
+    if (use.incoming) valid = valid & is_valid(goal.incoming);
+    if (use.aim) valid = valid & is_valid(goal.aim);
+    if (use.weights) valid = valid & is_valid(goal.weights);
+    if (use.reach) valid = valid & is_valid(goal.reach);
+    if (use.continuity) valid = valid & is_valid(goal.continuity);
     return valid;
 }
 

@@ -111,23 +111,41 @@ SWIVEL_INLINE constexpr Sines<T> sines(const Turned<T>& entry, const Mask<T>& en
 // and by a last one about the third. Each axis is as the rotations before have left it. The middle angle's cosine may
 // have either sign. With the other sign, the first and the last angle are half a turn off.
 template <class T>
-struct EulerBox {
+struct EulerCurves {
     OnCircle<T> sine;                                      // of the middle angle
     OnCircle<T> first_cos, first_sin, last_cos, last_sin;  // times the middle angle's cosine
+};
+template <class T>
+struct EulerRanges {
     Ends<T> first, last;
     Sines<T> front, back;  // of the middle angle, for either sign of its cosine
+};
+template <class T>
+struct EulerBox {
+    EulerCurves<T> curves;
+    EulerRanges<T> ranges;
 };
 
 template <class T>
 SWIVEL_INLINE constexpr T room(const EulerBox<T>& box, const Turned<T>& swivel)
 {
-    const T sine = box.sine.at(swivel);
-    const T first_cos = box.first_cos.at(swivel), first_sin = box.first_sin.at(swivel);
-    const T last_cos = box.last_cos.at(swivel), last_sin = box.last_sin.at(swivel);
-    const Rooms<T> first = room_between(box.first, first_cos, first_sin),
-                   last = room_between(box.last, last_cos, last_sin);
-    return hi(lo(room_between(box.front, sine), lo(first.front, last.front)),
-              lo(room_between(box.back, sine), lo(first.back, last.back)));
+    const auto& [curves, ranges] = box;
+    const T sine = curves.sine.at(swivel);
+    const T first_cos = curves.first_cos.at(swivel), first_sin = curves.first_sin.at(swivel);
+    const T last_cos = curves.last_cos.at(swivel), last_sin = curves.last_sin.at(swivel);
+    const Rooms<T> first = room_between(ranges.first, first_cos, first_sin),
+                   last = room_between(ranges.last, last_cos, last_sin);
+    return hi(lo(room_between(ranges.front, sine), lo(first.front, last.front)),
+              lo(room_between(ranges.back, sine), lo(first.back, last.back)));
+}
+
+template <class T>
+SWIVEL_INLINE constexpr EulerRanges<T> euler_ranges(const Range<T>& first, const Range<T>& middle, const Range<T>& last)
+{
+    const Ends<T> m = ends(middle);
+    const Mask<T> low_front = m.low.cos >= T(0), high_front = m.high.cos >= T(0);
+    return {ends(first), ends(last), sines(m.low, low_front, m.high, high_front, m.wide),
+            sines(m.high, !high_front, m.low, !low_front, m.wide)};
 }
 
 // Orders of axes: which the first, middle and last are, 0 to 2, and whether they are in cyclic order.
@@ -142,21 +160,12 @@ inline constexpr EulerOrder kEulerOrders[] = {{0, 1, 2, true},  {0, 2, 1, false}
 // order, R_pr = sin middle. (R_rr, -R_qr) is cos middle (cos, sin) of the first angle, and (R_pp, -R_pq) that of the
 // last. In the other order the sines change sign.
 template <class T, class Entry>
-SWIVEL_INLINE constexpr EulerBox<T> euler_box(const EulerOrder& order, const Entry& entry, const Range<T>& first,
-                                              const Range<T>& middle, const Range<T>& last)
+SWIVEL_INLINE constexpr EulerCurves<T> euler_curves(const EulerOrder& order, const Entry& entry)
 {
     const T sign = T(order.cyclic ? 1 : -1);
-    const Ends<T> m = ends(middle);
-    const Mask<T> low_front = m.low.cos >= T(0), high_front = m.high.cos >= T(0);
-    return {sign * entry(order.first, order.last),
-            entry(order.last, order.last),
-            -sign * entry(order.middle, order.last),
-            entry(order.first, order.first),
-            -sign * entry(order.first, order.middle),
-            ends(first),
-            ends(last),
-            sines(m.low, low_front, m.high, high_front, m.wide),
-            sines(m.high, !high_front, m.low, !low_front, m.wide)};
+    return {sign * entry(order.first, order.last), entry(order.last, order.last),
+            -sign * entry(order.middle, order.last), entry(order.first, order.first),
+            -sign * entry(order.first, order.middle)};
 }
 
 // All limits of an arm whose swivel is free: at most kMostLines single lines, and one box for each joint.
@@ -180,12 +189,24 @@ struct Limits<T, 0> {
 };
 
 template <class T, int Boxes>
-SWIVEL_INLINE constexpr T room(const Limits<T, Boxes>& limits, const Turned<T>& swivel)
+SWIVEL_INLINE constexpr T inlined_room(const Limits<T, Boxes>& limits, const Turned<T>& swivel)
 {
     T least = T(2);
     for (int n = 0; n < limits.line_count; ++n) least = lo(limits.line[n].at(swivel), least);
+    SWIVEL_KEEP_LOOP
     for (int n = 0; n < limits.box_count; ++n) least = lo(room(limits.box[n], swivel), least);
     return least;
+}
+// With boxes it is long, and a function of its own.
+template <class T>
+SWIVEL_INLINE constexpr T room(const Limits<T, 0>& limits, const Turned<T>& swivel)
+{
+    return inlined_room(limits, swivel);
+}
+template <class T>
+SWIVEL_FLATTEN [[gnu::noinline]] constexpr T room(const Limits<T, kMostBoxes>& limits, const Turned<T>& swivel)
+{
+    return inlined_room(limits, swivel);
 }
 
 // An edge of the limits: where the allowed arcs can begin and end, as there a line crosses zero. It says which line
@@ -219,16 +240,17 @@ SWIVEL_INLINE constexpr int edges(const Limits<T, Boxes>& limits, bool middles, 
     int count = 0;
     for (int n = 0; n < limits.line_count; ++n)
         edge[count++] = {E::whole, &limits.line[n], nullptr, nullptr, nullptr, -1, 1, 1};
+    SWIVEL_KEEP_LOOP
     for (int n = 0; n < limits.box_count; ++n) {
         const EulerBox<T>& box = limits.box[n];
         const auto add_sine = [&](const T& bound, int front, int back) SWIVEL_INLINE_LAMBDA {
-            const E sine = {E::sine, &box.sine, nullptr, nullptr, &bound, n, front, back};
+            const E sine = {E::sine, &box.curves.sine, nullptr, nullptr, &bound, n, front, back};
             if (any(sine.live())) edge[count++] = sine;
         };
-        add_sine(box.front.low, 1, 0);
-        add_sine(box.front.high, -1, 0);
-        add_sine(box.back.low, 0, 1);
-        add_sine(box.back.high, 0, -1);
+        add_sine(box.ranges.front.low, 1, 0);
+        add_sine(box.ranges.front.high, -1, 0);
+        add_sine(box.ranges.back.low, 0, 1);
+        add_sine(box.ranges.back.high, 0, -1);
         const auto add_angle = [&](const Ends<T>& ends, const OnCircle<T>& cos, const OnCircle<T>& sin)
                                    SWIVEL_INLINE_LAMBDA {
                                        edge[count++] = {E::past_turn, &cos, &sin, &ends.low, nullptr, n, 1, -1};
@@ -236,8 +258,8 @@ SWIVEL_INLINE constexpr int edges(const Limits<T, Boxes>& limits, bool middles, 
                                        if (!middles) return;
                                        edge[count++] = {E::along_turn, &cos, &sin, &ends.middle, nullptr, n, 1, -1};
                                    };
-        add_angle(box.first, box.first_cos, box.first_sin);
-        add_angle(box.last, box.last_cos, box.last_sin);
+        add_angle(box.ranges.first, box.curves.first_cos, box.curves.first_sin);
+        add_angle(box.ranges.last, box.curves.last_cos, box.curves.last_sin);
     }
     return count;
 }

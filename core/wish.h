@@ -81,8 +81,8 @@ SWIVEL_INLINE constexpr WishedNormal<T> wished_normal(const LimbUse& use, const 
 // The normal no further from the previous one than the frame's most swivel.
 template <class T>
 struct SteppedNormal {
-    Vector<T> normal, previous;  // previous: carried to the new line
-    Mask<T> has_previous, limited;
+    Vector<T> normal;
+    Mask<T> limited;
 };
 // Whether a turn about the line from one unit normal to another is larger than the most, by more than slack.
 template <class T>
@@ -95,17 +95,63 @@ SWIVEL_INLINE constexpr Mask<T> is_beyond(const Vector<T>& from, const Vector<T>
     return (sin_turn * most.cos - cos_turn * abs(most.sin) > T(slack)) | (cos_turn < most.cos - T(1e-3));
 }
 
+// The previous normal, carried to the new line. Where there is none, it is another one.
+template <class T>
+struct CarriedNormal {
+    Vector<T> normal;  // unit
+    Mask<T> exists;
+};
+template <class T>
+SWIVEL_INLINE constexpr CarriedNormal<T> carried_normal(const Continuity<T>& state, const Vector<T>& line,
+                                                        const Vector<T>& other)
+{
+    const Vector<T> carried = across(state.previous_normal, line);
+    const Mask<T> exists = len2(carried) > T(kPoleOff * kPoleOff);
+    return {normalise(select(exists, carried, other)), exists};
+}
 template <class T>
 SWIVEL_INLINE constexpr SteppedNormal<T> stepped_normal(const Continuity<T>& state, const Vector<T>& wish,
                                                         const Vector<T>& line)
 {
-    const Vector<T> carried = across(state.previous_normal, line);
-    const Mask<T> has_previous = len2(carried) > T(kPoleOff * kPoleOff);
-    const Vector<T> previous = normalise(select(has_previous, carried, wish));
+    const auto [previous, has_previous] = carried_normal(state, line, wish);
     const Mask<T> limited = has_previous & is_beyond(previous, wish, line, state.most, 1e-7);
     const T side = scalar_product(cross(previous, wish), line);
     const Vector<T> stepped = state.most.cos * previous + copysign(state.most.sin, side) * cross(line, previous);
-    return {select(limited, stepped, wish), previous, has_previous, limited};
+    return {select(limited, stepped, wish), limited};
+}
+// Whether the normal that the limits leave is further from the previous one than the frame's most swivel.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> jumps(const Continuity<T>& state, const Vector<T>& normal, const Vector<T>& line)
+{
+    const auto [previous, has_previous] = carried_normal(state, line, normal);
+    return has_previous & is_beyond(previous, normal, line, state.most, 1e-6);
+}
+
+// The normal that a limb starts its swivel from: the wish, no further from the previous one than the frame allows.
+template <class T>
+struct LimbNormal {
+    Vector<T> normal;  // unit
+    Bits<T> flags;
+};
+template <class T>
+SWIVEL_INLINE constexpr LimbNormal<T> limb_normal(const LimbUse& use, const LimbGoal<T>& goal, const Vector<T>& line)
+{
+    const WishedNormal<T> wish = wished_normal(use, goal, line);
+    LimbNormal<T> limb{wish.normal, bits_where(wish.undefined, SWIVEL_SWIVEL_UNDEFINED)};
+    if (use.continuity) {
+        const SteppedNormal<T> step = stepped_normal(goal.continuity, limb.normal, line);
+        limb = {step.normal, limb.flags | bits_where(step.limited, SWIVEL_LIMITED_STEP)};
+    }
+    // Once more: of a wish close to the line, rounding has left some of the line. What this shortens is less than
+    // rounding.
+    limb.normal = across(limb.normal, line);
+    return limb;
+}
+// The normal turned by the chosen swivel.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> swivelled(const Vector<T>& normal, const Vector<T>& line, const Turned<T>& swivel)
+{
+    return swivel.cos * normal + swivel.sin * cross(line, normal);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -9,6 +9,7 @@
 #include "simd/aside.h"
 #include "simd/pack.h"
 #include "simd/slice.h"
+#include "simd/strip_rows.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -101,11 +102,16 @@ SWIVEL_INLINE Mask<T> solve_slice(const Rows<T, Features>& rows, const Shared<T>
 // they lie.
 [[gnu::noinline, gnu::cold]] void solve_others(const SolveRun& run, WaitingLimbs& others)
 {
+    alignas(64) float strip[kPlainStripFloats];
+    const auto solve_block = [&](SolveRun block) {
+        block.strip = {strip, 1};
+        limb_kernels.solve(block);
+    };
     if (others.starts_with_block()) {
-        limb_kernels.solve(block_of(run, others.limb[0] / kLanes));
+        solve_block(block_of(run, others.limb[0] / kLanes));
     } else {
         BlockAside<kFormulaFeatures> aside;
-        limb_kernels.solve(aside.gather(run, others));
+        solve_block(aside.gather(run, others));
         aside.give_back(run, others);
     }
     others.drop_first();

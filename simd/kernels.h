@@ -7,8 +7,15 @@
 #include <cstdint>
 
 #include "simd/fields.h"
+#include "simd/stages.h"
 
 namespace swivel {
+
+// Memory for the rows of some blocks, which whole limbs work in (strip_rows.h).
+struct StripMemory {
+    float* rows;
+    std::uint32_t block_count;
+};
 
 // A run of blocks that share their features and binding.
 struct SolveRun {
@@ -25,6 +32,8 @@ struct SolveRun {
     const std::uint32_t* mask;  // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
     std::size_t first_lane;     // of the run, in the mask
     std::size_t padding;        // the first lane of the run that is padding, which no mask chooses
+    const StageList* stages;    // of whole limbs
+    StripMemory strip;          // the same
 };
 
 // Bits of the lanes of a slice that are chosen. limb: the slice's first, in the run. All bits are set if there is no

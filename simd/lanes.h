@@ -23,6 +23,11 @@ inline constexpr std::size_t lane_count = 1;
 
 template <class T, class Address>
 requires std::is_same_v<T, float> SWIVEL_INLINE float load_lanes(Address address) { return *address(0); }
+template <class T, class Address>
+requires std::is_same_v<T, float> SWIVEL_INLINE std::uint32_t load_lane_bits(Address address)
+{
+    return bit_cast<std::uint32_t>(*address(0));
+}
 template <class Address>
 SWIVEL_INLINE void store_lanes(Address address, float x)
 {
@@ -66,12 +71,18 @@ struct Lanes {
     SWIVEL_INLINE Lanes(const Lanes& other) { *this = other; }
     SWIVEL_INLINE Lanes& operator=(const Lanes& other)
     {
-        for (int n = 0; n < Registers; ++n) r[n].data = other.r[n].data;
+        set([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return other.r[n].data; });
         return *this;
     }
     explicit Lanes(double x)
     {
-        for (Batch& b : r) b = Batch(static_cast<float>(x));
+        set([&](std::size_t) SWIVEL_INLINE_LAMBDA { return Batch(static_cast<float>(x)).data; });
+    }
+    template <class F>
+    SWIVEL_INLINE void set(F f)
+    {
+        [&]<std::size_t... N>(std::index_sequence<N...>) SWIVEL_INLINE_LAMBDA { ((r[N].data = f(N)), ...); }
+        (std::make_index_sequence<Registers>{});
     }
 };
 
@@ -290,6 +301,12 @@ requires(lane_count<T> > 1) SWIVEL_INLINE T load_lanes(Address address)
     return each_register<T>([&](std::size_t n)
                                 SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
 }
+template <class T, class Address>
+requires(lane_count<T> > 1) SWIVEL_INLINE Bits<T> load_lane_bits(Address address)
+{
+    return each_register<Bits<T>>([&](std::size_t n)
+                                      SWIVEL_INLINE_LAMBDA { return T::Batch::load_aligned(address(n * T::width)); });
+}
 template <class Address, template <class, int> class L, class A, int R>
 SWIVEL_INLINE void store_lanes(Address address, const L<A, R>& x)
 {
@@ -325,11 +342,5 @@ struct KernelNumber {
 };
 
 #endif
-
-// One register of at most eight lanes: half of AVX-512's is one of AVX2's. Formulas with very many values take half the
-// stack then.
-template <class Arch>
-using NarrowNumber =
-    typename KernelNumber<std::conditional_t<std::is_same_v<Arch, xsimd::avx512bw>, xsimd::avx2, Arch>, 1>::type;
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -12,12 +12,8 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// A kernel is compiled for one set of features, or for every set of some features. It is then told the features with
-// each run. A limb without boxes takes a third of the stack.
-inline constexpr swivel_features kTold = swivel_features{1} << 63;
-inline constexpr swivel_features kToldFeatures = ~swivel_features{0};
-inline constexpr swivel_features kToldWithoutBoxes =
-    kToldFeatures & ~(SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX);
+// A kernel is compiled for one set of features, or is told the features with each run.
+inline constexpr swivel_features kTold = ~swivel_features{0};
 
 template <swivel_features Features>
 inline constexpr RowPlan kPlan{Features};
@@ -25,7 +21,7 @@ inline constexpr RowPlan kPlan{Features};
 template <swivel_features Features>
 SWIVEL_INLINE constexpr swivel_features features_of(const SolveRun& run)
 {
-    return Features & kTold ? run.features & Features : Features;
+    return Features == kTold ? run.features : Features;
 }
 
 // The rows of one slice of T's lanes: the places of its first lane in the first input row and in the first result row.
@@ -33,7 +29,7 @@ SWIVEL_INLINE constexpr swivel_features features_of(const SolveRun& run)
 // lies in one.
 template <class T, swivel_features Features>
 struct Rows {
-    static_assert(!(Features & kTold) || lane_count<T> <= kLanes);
+    static_assert(Features != kTold || lane_count<T> <= kLanes);
     const SolveRun& run;
     const float* input;
     float* results;
@@ -43,7 +39,7 @@ struct Rows {
     SWIVEL_INLINE std::uint32_t row(swivel_field field, int component) const
     {
         const std::uint32_t first =
-            Features & kTold ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
+            Features == kTold ? run.first_row[index_of(field)] : kPlan<Features>.first[index_of(field)];
         return first + static_cast<std::uint32_t>(component);
     }
     SWIVEL_INLINE T load(swivel_field field, int component) const
@@ -93,6 +89,12 @@ struct Rows {
             store_lanes(place, value);
         else
             store_lanes(place, value, lanes_where<T>(chosen));
+    }
+    SWIVEL_INLINE void store_vector(swivel_field field, const Vector<T>& v) const
+    {
+        store(field, 0, v.template at<kE1>());
+        store(field, 1, v.template at<kE2>());
+        store(field, 2, v.template at<kE3>());
     }
     SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
     {

@@ -93,7 +93,7 @@ TEST_CASE("a def that breaks its contract makes no crowd")
     def.group_count = 0;
     refuse(&def);
     def = good;
-    def.reserved = 1;
+    def.workspace_count = 65;
     refuse(&def);
     def = good;
     def.groups = nullptr;

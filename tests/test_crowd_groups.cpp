@@ -70,7 +70,11 @@ TEST_CASE("a large crowd of several kinds has the same bits on threads, ours and
         groups.push_back(group_of(3000));
         groups.back().features = features;
     }
-    Crowd one(groups), several(groups), shared(groups);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = groups.data();
+    def.group_count = static_cast<std::uint32_t>(groups.size());
+    def.workspace_count = 3;
+    Crowd one(groups), several(groups), shared(def);
     for (Crowd* crowd : {&one, &several, &shared})
         for (std::uint32_t g = 0; g < groups.size(); ++g) {
             Random random{g};

@@ -240,7 +240,7 @@ constexpr std::string_view kWithoutFloats =
     " version status_text last_error crowd_destroy block_count group_first_limb digest group_limb_count "
     "field_first_row field_row_count input_rows result_rows packed_row write reset find isa_name use_isa "
     "isa_at isa_runs group_count group_features component_count describe_field describe_feature "
-    "flag_name ";
+    "flag_name workspace_bytes ";
 
 #ifdef __x86_64__
 // The control words and sticky flags of both units.

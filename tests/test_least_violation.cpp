@@ -31,7 +31,7 @@ Limits<float> two_peaks(double peak, double least, double tilt)
     return both(line(tilt * c - s, tilt * s + c, least), line(tilt * c + s, tilt * s - c, least));
 }
 double angle(const Turned<float>& turn) { return std::atan2(double{turn.sin}, double{turn.cos}); }
-bool is_at(const ChosenSwivel<float>& chosen, double phi)
+bool is_at(const FoundSwivel<float>& chosen, double phi)
 {
     return std::fabs(std::remainder(angle(chosen.swivel) - phi, 2 * kPi)) < 1e-5;
 }
@@ -112,7 +112,7 @@ TEST_CASE("an allowed swivel ties with no other")
     for (const double far : {2.0, 2.5, 3.0, 4.0}) {
         const Limits<float> limits = two_peaks(far, -7.5e-7, 4e-7);
         CHECK_FALSE(nearest_end(limits).allowed);
-        const ChosenSwivel<float> chosen = choose_swivel(limits, true);
+        const FoundSwivel<float> chosen = choose_swivel(limits, true);
         CHECK(chosen.allowed);
         CHECK(is_at(chosen, far));
     }

@@ -412,7 +412,7 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
 typedef struct swivel_crowd_def {
     size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
     uint32_t group_count;            // 1 or more
-    uint32_t reserved;               // 0
+    uint32_t workspace_count;        // how many workspaces it has, 0 to 64: see swivel_workspace_bytes()
     const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
     // Memory comes from the first of these that is set. 1: memory, the caller's own, aligned to 64 bytes and
     // swivel_crowd_bytes() long, which the caller frees after destroy. 2: allocate, whose results are aligned to 64
@@ -452,10 +452,10 @@ SWIVEL_API const char* swivel_status_text(swivel_status status);
 // One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
 SWIVEL_API const char* swivel_last_error(void);
 
-// One group must still be given; the C library's memory.
+// One group must still be given; one workspace; the C library's memory.
 static inline swivel_crowd_def swivel_default_crowd_def(void)
 {
-    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 0, NULL, NULL, 0, NULL, NULL, NULL};
+    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 1, NULL, NULL, 0, NULL, NULL, NULL};
     return def;
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
@@ -651,14 +651,17 @@ typedef struct swivel_job {
     const swivel_frame* frames;
 
     // Not 0: solves on the calling thread, never allocates and never uses oneTBB. Several threads may make such calls
-    // at once, on blocks that do not overlap. They may share a mask and frames. 0: on the calling thread's oneTBB
-    // arena, if built with it and there is enough to do. oneTBB may allocate. Where it finds no memory or cannot start
-    // its threads, the calling thread solves what is left, with the same bits and status. If oneTBB itself failed, this
-    // process does not use it again.
+    // at once, on blocks that do not overlap, each in a workspace of its own. They may share a mask and frames. 0: on
+    // the calling thread's oneTBB arena, if built with it and there is enough to do. oneTBB may allocate. Where it
+    // finds no memory or cannot start its threads, the calling thread solves what is left, with the same bits and
+    // status. If oneTBB itself failed, this process does not use it again.
     int on_this_thread;
 
     // Unless null, becomes how many limbs were solved.
     uint32_t* solved_count;
+
+    // swivel_workspace_bytes() of memory for this call alone, aligned to 64. Null: one of the crowd's workspaces.
+    void* workspace;
 } swivel_job;
 
 // Every limb, from and to rows.
@@ -670,7 +673,14 @@ static inline swivel_job swivel_default_job(void)
     return job;
 }
 
-// Solves limbs; job may be null, for every limb from and to rows.
+// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in, up to 64 KiB. 0 if no group has
+// features but WORLD, JOINTS, WITH_HAND and POLE_DIRECTION. A call of swivel_solve() works in job.workspace, or in one
+// of the crowd's workspaces that no other call is using. So the crowd needs as many as jobs run on it together, or else
+// these jobs bring theirs. oneTBB's threads have their own. Any thread; 0 for a null crowd.
+SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
+
+// Solves limbs; job may be null, for every limb from and to rows. It fails for a workspace that is not aligned to 64,
+// and if the crowd has none that is free.
 //
 // With frames, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
 // given. The bits are the same. It takes a run of blocks of each group in turn, so limbs of one character use shared

@@ -330,6 +330,7 @@ struct Job {
     std::uint32_t most_blocks = 0;             // with priorities
     Given<swivel_frame> frames = everything;   // one for each group that is named, such as a Frame with a name
     bool on_this_thread = false;
+    void* workspace = nullptr;  // memory for this call alone; null: one of the crowd's workspaces
 };
 
 // Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb of the group; or, with
@@ -420,6 +421,7 @@ public:
             job.frames = (*wanted.frames).data();
         }
         job.on_this_thread = wanted.on_this_thread;
+        job.workspace = wanted.workspace;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
         check(swivel_solve(crowd_, &job));

@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<swivel_group_def> groups = groups_of(bytes, kMostLimbs);
     def.groups = groups.data();
     def.group_count = static_cast<std::uint32_t>(groups.size());
-    bytes.take<std::uint8_t>();  // the seeds are from a time when this byte spoilt the def
+    def.workspace_count = bytes.take<std::uint8_t>() % 4 == 3 ? 0 : 1;
 
     const std::size_t needed = swivel_crowd_bytes(&def);
     SWIVEL_REQUIRE(needed > 0);
@@ -65,6 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     def.memory = arena.get();
     def.memory_bytes = needed;
     Session session{bytes, nullptr, def.group_count, {arena.get(), needed}};
+    session.has_workspace = def.workspace_count > 0;
     SWIVEL_REQUIRE(swivel_crowd_create(&def, &session.crowd) == SWIVEL_OK);
     session.is_solved.resize(session.lane_count());
     session.groups = groups;

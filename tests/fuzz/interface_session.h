@@ -21,6 +21,7 @@ struct Session {
     std::vector<bool> is_solved = {};     // each lane
     std::span<const swivel_group_def> groups = {};
     std::vector<swivel_crowd*> alone = {};  // for one limb of each group
+    bool has_workspace = true;
 
     std::uint32_t lane_count() const { return swivel_block_count(crowd) * SWIVEL_LANES; }
 };

@@ -94,6 +94,11 @@ void check_choice(const Session& session, const std::vector<std::uint32_t>& word
     SWIVEL_REQUIRE(blocks <= most_blocks && bits == count);
 }
 
+bool has_workspace(const Session& session)
+{
+    return session.has_workspace || swivel_workspace_bytes(session.crowd) == 0;
+}
+
 // A job from bytes, what it points to, and which lanes it solves.
 struct TakenJob {
     Session& session;
@@ -109,6 +114,11 @@ struct TakenJob {
     std::vector<bool> lanes;
     bool is_valid = true;
     std::uint32_t solved_count = ~0u;
+
+    struct alignas(64) Line {
+        char bytes[64];
+    };
+    std::vector<Line> workspace = {};
 
     explicit TakenJob(Session& in) : session(in), lanes(in.lane_count(), true)
     {
@@ -130,6 +140,7 @@ struct TakenJob {
         if (bytes.one_in(4)) take_groups();
         if (bytes.one_in(2)) take_frames();
         if (bytes.one_in(2)) job.solved_count = &solved_count;
+        take_workspace();
         const bool is_part = job.blocks || job.on_this_thread;
         if ((job.limbs || job.priorities) && (is_part || job.mask)) is_valid = false;
         if (bytes.one_in(64)) {
@@ -167,6 +178,15 @@ private:
             for (std::uint32_t n = 0; is_named(group) && n < swivel_group_limb_count(session.crowd, group); ++n)
                 some[swivel_group_first_limb(session.crowd, group) + n] = true;
         keep(some);
+    }
+    void take_workspace()
+    {
+        const std::size_t bytes = swivel_workspace_bytes(session.crowd);
+        workspace.resize(bytes / sizeof(Line));
+        if (job.solved_count)
+            job.workspace = workspace.data();
+        else if (!has_workspace(session))
+            is_valid = false;
     }
     void take_mask()
     {
@@ -230,8 +250,8 @@ private:
 void call_solve(Session& session)
 {
     if (session.bytes.one_in(8)) {
-        check_status(session, swivel_solve(session.crowd, nullptr), true);
-        return check_solved(session, std::vector<bool>(session.lane_count(), true));
+        check_status(session, swivel_solve(session.crowd, nullptr), has_workspace(session));
+        return check_solved(session, std::vector<bool>(session.lane_count(), has_workspace(session)));
     }
     TakenJob taken(session);
     const swivel_status status = swivel_solve(session.crowd, &taken.job);

@@ -80,7 +80,7 @@ class Names(unittest.TestCase):
 
     def test_every_function_of_the_header_has_its_like(self):
         """What Python has under another name, or does by itself."""
-        others = {"crowd_create", "crowd_destroy", "crowd_bytes", "last_error", "status_text", "forward",
+        others = {"crowd_create", "crowd_destroy", "crowd_bytes", "workspace_bytes", "last_error", "status_text", "forward",
                   "unpack_rotation", "unpack_half", "field_row_count", "field_first_row", "group_first_limb", "group_limb_count",
                   "group_features", "input_rows", "result_rows", "describe_field", "describe_feature", "flag_name", "isa_at", "isa_runs"}
         functions = set(re.findall(r"SWIVEL_API[^(;]*?\bswivel_(\w+)\(", HEADER))

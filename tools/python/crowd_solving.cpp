@@ -130,6 +130,18 @@ void require_direct(const Frames& frames)
                 "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
+// A workspace of the calling thread's own.
+void* workspace_of(const HeldCrowd& held)
+{
+    struct alignas(64) Line {
+        std::byte bytes[64];
+    };
+    static thread_local std::vector<Line> lines;
+    const std::size_t wanted = swivel_workspace_bytes(held.crowd.get()) / sizeof(Line);
+    if (lines.size() < wanted) lines.resize(wanted);
+    return lines.data();
+}
+
 std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
                     const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> most_blocks,
                     const py::object& urgency, const py::object& frames, bool on_this_thread)
@@ -154,6 +166,7 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     const std::vector<swivel_frame> views(arrays.frames.begin(), arrays.frames.end());
     if (!frames.is_none()) job.frames = views;
     job.on_this_thread = on_this_thread;
+    job.workspace = workspace_of(held);
     const Way way = on_this_thread ? Way::kSolvingBlocks : Way::kAlone;
     const std::uint32_t solved = run(held, way, [&] { return held.crowd.solve(job); });
     for (const Output& each : arrays.outputs) each.finish();

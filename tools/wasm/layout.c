@@ -94,7 +94,7 @@ static void print_structures(void)
     OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
     OFFSET(swivel_group_def, binding), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
-    OFFSET(swivel_crowd_def, groups), END();
+    OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups), END();
     BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, groups);
     OFFSET(swivel_job, group_word_count), OFFSET(swivel_job, mask), OFFSET(swivel_job, mask_word_count);
     OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities), OFFSET(swivel_job, urgency);

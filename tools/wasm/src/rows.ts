@@ -67,7 +67,7 @@ export class CrowdRows {
                 def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
                 if (binding) def.copy("binding", binding.bytes);
             });
-            const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("groups", list);
+            const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);
             memory.check(memory.calls.swivel_crowd_create(def.at, crowd));
             return memory.words(crowd, 1)[0];
         });

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The workspace of one call of swivel_solve(): the job's own, or one of the crowd's that no other call is using.
+#pragma once
+
+#include <bit>
+
+#include "batch/crowd.h"
+#include "batch/status.h"
+
+namespace swivel {
+
+class Workspace {
+public:
+    Workspace(swivel_crowd& crowd, void* of_job)
+        : status(SWIVEL_OK), strip{static_cast<float*>(of_job), crowd.strip_blocks}, crowd_(crowd)
+    {
+        constexpr std::size_t alignment = 64;
+        if (reinterpret_cast<std::uintptr_t>(of_job) % alignment != 0)
+            status = fail(SWIVEL_INVALID_ARGUMENT, "job.workspace is not aligned to %zu", alignment);
+        else if (!of_job && crowd.strip_blocks > 0)
+            take_one();
+    }
+    ~Workspace() { crowd_.busy &= ~taken_; }
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+
+    swivel_status status;
+    StripMemory strip;
+
+private:
+    void take_one()
+    {
+        std::uint64_t busy = crowd_.busy;
+        for (;;) {
+            const auto free = static_cast<std::uint32_t>(std::countr_one(busy));
+            if (free >= crowd_.workspace_count) break;
+            const std::uint64_t bit = std::uint64_t{1} << free;
+            if (!crowd_.busy.compare_exchange_weak(busy, busy | bit)) continue;
+            taken_ = bit;
+            strip.rows = crowd_.workspaces + free * std::size_t{strip.block_count} * kStripBlockFloats;
+            return;
+        }
+        status = fail(SWIVEL_INVALID_ARGUMENT,
+                      "other calls use all %u workspaces of this crowd; create it with more, or give job.workspace",
+                      crowd_.workspace_count);
+    }
+
+    swivel_crowd& crowd_;
+    std::uint64_t taken_ = 0;  // its bit among the crowd's
+};
+
+}  // namespace swivel

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// Where the hand goes: the wrist's place and the hand's orientation that a goal asks for, and the line from the
+// shoulder to that place. Everything is in the arm frame.
+#pragma once
+
+#include "core/limb_goal.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> one()
+{
+    return rotor(T(0), T(0), T(0), T(1));
+}
+// From a to b by weight, along the shorter way.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> blended(const Rotor<T>& a, const Rotor<T>& b, const T& weight)
+{
+    const T side = scalar_product(~a, b);
+    const Rotor<T> near = for_each_blade<T, Rotor<T>::set>(
+        [&]<Blade B>() SWIVEL_INLINE_LAMBDA { return flip_sign(b.template at<B>(), side); });
+    return normalise(a + weight * (near - a));
+}
+
+// The hand's orientation and the wrist's place that the goal asks for.
+template <class T>
+struct WristGoal {
+    Rotor<T> hand;
+    Vector<T> place;
+};
+template <class T>
+SWIVEL_INLINE constexpr WristGoal<T> wrist_goal(const LimbUse& use, const LimbGoal<T>& goal)
+{
+    WristGoal<T> wrist{one<T>(), goal.arm.wrist};
+    if (use.hand) wrist.hand = normalise(goal.hand);
+    const auto& [shoulder, elbow, hand] = goal.incoming;
+    if (use.hand && use.weights)
+        wrist.hand = blended(normalise(shoulder * elbow * hand), wrist.hand, goal.weights.hand);
+    if (use.effector && !use.aim) wrist.place = wrist.place - sandwich(wrist.hand, goal.effector);
+    if (use.weights) {
+        // Each rotor also scales a bone by the square of its length.
+        const auto e3 = unit<T, kE3>();
+        const T shoulder2 = len2(shoulder), elbow2 = len2(elbow);
+        const Vector<T> was = (T(1) / (shoulder2 * elbow2)) * ((goal.arm.upper * elbow2) * sandwich(shoulder, e3) +
+                                                               goal.arm.fore * sandwich(shoulder * elbow, e3));
+        const T weight = goal.weights.position;
+        wrist.place = (T(1) - weight) * was + weight * wrist.place;  // exactly one of them at 0 and at 1
+    }
+    return wrist;
+}
+
+// The line from the shoulder to the wrist. If the wrist is on the shoulder, it is e3.
+template <class T>
+struct WristLine {
+    Vector<T> line;  // unit
+    T wanted;        // the distance
+    Mask<T> on_shoulder;
+};
+template <class T>
+SWIVEL_INLINE constexpr WristLine<T> wrist_line(const Vector<T>& wrist)
+{
+    const T wrist2 = len2(wrist);
+    const Mask<T> on_shoulder = wrist2 < T(kTiny2);
+    const T distance = sqrt(select(on_shoulder, T(1), wrist2));
+    return {select(on_shoulder, vector(T(0), T(0), T(1)), (T(1) / distance) * wrist),
+            select(on_shoulder, T(0), distance), on_shoulder};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// The first stages of the whole limb: they bring the goal and the incoming pose into the arm frame.
+#pragma once
+
+#include "core/clavicle.h"
+#include "core/wrist_goal.h"
+#include "simd/strip.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// stage<Stage>::slice(s) takes a slice one stage further.
+template <Stage stage>
+struct StageBody;
+
+// What a group's features make the formula use.
+template <class S>
+SWIVEL_INLINE LimbUse use_of(const S& s)
+{
+    LimbUse use;
+    use.hand = s.has(SWIVEL_WITH_HAND);
+    use.effector = s.has(SWIVEL_WITH_EFFECTOR);
+    use.angle = s.has(SWIVEL_WITH_ANGLE);
+    use.incoming = s.has(SWIVEL_WITH_INCOMING);
+    use.weights = s.has(SWIVEL_WITH_WEIGHTS);
+    use.reach = s.has(SWIVEL_WITH_REACH);
+    use.continuity = s.has(SWIVEL_WITH_MOST_SWIVEL);
+    use.aim = s.has(SWIVEL_WITH_AIM);
+    use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
+    use.limits.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
+    return use;
+}
+template <class S>
+SWIVEL_INLINE bool pole_is_point(const S& s)
+{
+    return !s.has(SWIVEL_POLE_DIRECTION) && !s.has(SWIVEL_POLE_NORMAL) && !s.has(SWIVEL_POLE_INCOMING);
+}
+// A vector of the hand joint's own frame.
+template <class S>
+SWIVEL_INLINE Vector<typename S::T> in_hand(const S& s, const Vector<typename S::T>& v)
+{
+    return s.has(SWIVEL_JOINTS) ? sandwich(broadcast<typename S::T>(s.strip.bind.hand_from_arm), v) : v;
+}
+
+template <>
+struct StageBody<Stage::see> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
+        const Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
+        const ParentFrame<T> parent = s.io.load_parent();
+        s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
+        // The arm frame goes with the parent.
+        Rotor<T> rotation = parent.rotation;
+        if constexpr (S::is(SWIVEL_JOINTS)) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+        const SeenGoal<T> seen =
+            seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
+        const T shrink = T(1) / seen.size;
+        s.set_vector(kWristRow, shrink * seen.wrist);
+        s.set_vector(kPoleRow, shrink * seen.pole);
+        if constexpr (S::is(SWIVEL_WITH_HAND)) {
+            const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+            s.require(is_orientation(hand));
+            s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~rotation * hand);
+        }
+    }
+};
+
+// Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
+template <>
+struct StageBody<Stage::clavicle> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Rotor<T> parent_from_arm = broadcast<T>(s.strip.bind.parent_from_arm);
+        const Vector<T> bone = sandwich(~parent_from_arm, s.io.load_vector(SWIVEL_CLAVICLE));
+        const T share = s.io.load(SWIVEL_CLAVICLE, 3);
+        const Vector<T> target = s.get_vector(kWristRow) + bone, pole = s.get_vector(kPoleRow);
+        s.require((len2(bone) <= T(kHuge2)) & is_share(share));
+        const Rotor<T> turn =
+            clavicle_turn(bone, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
+        const Turn<T> back = turn_by(~turn);
+        s.set_vector(kWristRow, back(target) - bone);
+        s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
+        if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM)) s.set_rotor(kHandRow, ~turn * s.get_rotor(kHandRow));
+        s.set_rotor(kClavicleRow, turn);
+    }
+};
+
+template <>
+struct StageBody<Stage::incoming> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        const Binding& bind = s.strip.bind;
+        take(s, SWIVEL_INCOMING_SHOULDER, kIncomingRow, bind.parent_from_arm, bind.upper_from_arm);
+        take(s, SWIVEL_INCOMING_ELBOW, kIncomingRow + 4, bind.elbow_parent_from_arm, bind.fore_from_arm);
+        if (s.has(SWIVEL_WITH_HAND))
+            take(s, SWIVEL_INCOMING_WRIST, kIncomingRow + 8, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
+    }
+
+private:
+    template <class S>
+    SWIVEL_INLINE static void take(const S& s, swivel_field field, std::uint32_t row, const Rotor<float>& from,
+                                   const Rotor<float>& to)
+    {
+        using T = typename S::T;
+        const Rotor<T> local = s.io.load_rotor(field);
+        Rotor<T> of_arm = local;
+        if constexpr (S::is(SWIVEL_JOINTS)) of_arm = ~broadcast<T>(from) * local * broadcast<T>(to);
+        of_arm = scaled(of_arm);
+        s.require(is_orientation(local) & is_orientation(of_arm));
+        s.set_rotor(row, of_arm);
+    }
+};
+
+template <>
+struct StageBody<Stage::goal> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        constexpr bool hands = S::is(SWIVEL_WITH_HAND), weighs = S::is(SWIVEL_WITH_WEIGHTS);
+        const Binding& bind = s.strip.bind;
+        const LimbUse use = use_of(s);
+        const bool seen = s.has(SWIVEL_WORLD);
+        LimbGoal<T> goal;
+        goal.arm.wrist = s.goal_vector(seen, kWristRow, SWIVEL_TARGET);
+        Mask<T> valid = len2(goal.arm.wrist) <= T(kHuge2);
+        if constexpr (hands) {
+            goal.hand = seen ? s.get_rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
+            if (!seen) valid = valid & is_orientation(goal.hand);
+            if (s.has(SWIVEL_JOINTS))
+                goal.hand = (use.aim ? ~broadcast<T>(bind.wrist_parent_from_arm) * goal.hand : goal.hand) *
+                            ~broadcast<T>(bind.hand_from_arm);
+            valid = valid & is_product(goal.hand);
+        }
+        if (use.effector && !use.aim) {
+            goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
+            valid = valid & (len2(goal.effector) <= T(kHuge2));
+        }
+        if constexpr (weighs) {
+            goal.arm.upper = s.io.load(SWIVEL_LENGTHS, 0);
+            goal.arm.fore = s.io.load(SWIVEL_LENGTHS, 1);
+            goal.incoming = {s.get_rotor(kIncomingRow), s.get_rotor(kIncomingRow + 4),
+                             hands ? s.get_rotor(kIncomingRow + 8) : one<T>()};
+            goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};
+            valid = valid & is_valid(goal.weights);
+        }
+        const WristGoal<T> wrist = wrist_goal(use, goal);
+        s.set_vector(kWristRow, wrist.place);
+        if constexpr (hands) s.set_rotor(kHandRow, wrist.hand);
+        s.require(valid);
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of the whole limb: what each knows, and which of them a group needs. A stage takes a strip of blocks
+// (strip.h) one step further. It is compiled once for each set of the features that it knows, so these are constants in
+// it. The number of functions grows with the sum over the stages, not with the sets of all features.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+#include "simd/fields.h"
+
+namespace swivel {
+
+// In the order in which they run. place is bones and wish in one, for limbs that ask nothing special of either.
+enum class Stage : std::uint8_t {
+    see,       // the goal, as the parent sees it
+    clavicle,  // turned by its share, and the goal turned back
+    incoming,  // the incoming pose, in the arm frame
+    goal,      // the hand's orientation and the wrist's place
+    place,
+    bones,  // the line to the wrist, the flexion and the lift
+    aim,    // the same, for a line of the hand that goes through the target
+    wish,   // the swivel plane's normal
+    shoulder_cone,
+    humeral_twist,
+    hand_cone,
+    forearm_twist,
+    hand_twist,
+    shoulder_box,
+    wrist_box,
+    choose,         // the swivel that the lines allow
+    choose_in_box,  // the same, with boxes
+    store,          // lifts the arm, and stores the results
+    twist_bones,
+    count
+};
+
+// The limits of the swivel that are a line each, in the order of their lines; and those that are boxes.
+inline constexpr swivel_features kLineFeatures = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_HUMERAL_TWIST |
+                                                 SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
+                                                 SWIVEL_WITH_HAND_TWIST;
+inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
+
+struct StageRow {
+    Stage stage;
+    swivel_features knows;
+    swivel_features needed_by;      // groups with any of these need it; 0: all groups
+    swivel_features not_needed_by;  // but not those with any of these
+};
+inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_AIM,
+                                 kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL,
+                                 kSpecial = kSpecialBones | kSpecialWish;
+inline constexpr StageRow kStages[] = {
+    {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, 0},
+    {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
+    {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, 0},
+    {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
+    {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},
+    {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM},
+    {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
+    {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL, kSpecial, 0},
+    {Stage::shoulder_cone, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_CONE, 0},
+    {Stage::humeral_twist, SWIVEL_WITH_AIM, SWIVEL_WITH_HUMERAL_TWIST, 0},
+    {Stage::hand_cone, 0, SWIVEL_WITH_HAND_CONE, 0},
+    {Stage::forearm_twist, 0, SWIVEL_WITH_FOREARM_TWIST, 0},
+    {Stage::hand_twist, 0, SWIVEL_WITH_HAND_TWIST, 0},
+    {Stage::shoulder_box, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_BOX, 0},
+    {Stage::wrist_box, 0, SWIVEL_WITH_WRIST_BOX, 0},
+    {Stage::choose, 0, kLineFeatures, kBoxFeatures},
+    {Stage::choose_in_box, 0, kBoxFeatures, 0},
+    {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM, 0, 0},
+    {Stage::twist_bones, 0, kTwistBones, 0},
+};
+constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
+constexpr bool needs(swivel_features features, const StageRow& row)
+{
+    return (row.needed_by == 0 || features & row.needed_by) && !(features & row.not_needed_by);
+}
+
+constexpr std::uint32_t line_count(swivel_features features)
+{
+    return static_cast<std::uint32_t>(std::popcount(features & kLineFeatures));
+}
+
+// A stage's functions: one for each subset of what it knows, the nth for subset n. `choose` has one for one line, one
+// for two, and one for more.
+inline constexpr std::size_t kLineCounts = 3;
+constexpr std::size_t function_count(Stage stage)
+{
+    return stage == Stage::choose ? kLineCounts : std::size_t{1} << std::popcount(row_of(stage).knows);
+}
+constexpr swivel_features subset(swivel_features knows, std::size_t n)
+{
+    swivel_features has = 0;
+    for (; knows != 0; knows &= knows - 1, n /= 2)
+        if (n % 2 == 1) has |= knows & -knows;
+    return has;
+}
+constexpr std::size_t function_of(Stage stage, swivel_features features)
+{
+    if (stage == Stage::choose) return line_count(features) < kLineCounts ? line_count(features) - 1 : kLineCounts - 1;
+    std::size_t n = 0;
+    while (subset(row_of(stage).knows, n) != (features & row_of(stage).knows)) ++n;
+    return n;
+}
+// The functions of all stages have numbers, stage after stage.
+constexpr std::size_t first_function(Stage stage)
+{
+    std::size_t first = 0;
+    for (const StageRow& row : kStages)
+        if (row.stage < stage) first += function_count(row.stage);
+    return first;
+}
+inline constexpr std::size_t kStageFunctions = first_function(Stage::count);
+static_assert(kStageFunctions <= 256 && std::size(kStages) == static_cast<std::size_t>(Stage::count));
+
+// The functions that the limbs of a group go through, by their numbers.
+struct StageList {
+    std::uint8_t function[std::size(kStages)] = {};
+    std::uint32_t count = 0;
+
+    constexpr StageList() = default;
+    constexpr explicit StageList(swivel_features features)
+    {
+        for (const StageRow& row : kStages)
+            if (needs(features, row))
+                function[count++] =
+                    static_cast<std::uint8_t>(first_function(row.stage) + function_of(row.stage, features));
+    }
+};
+
+}  // namespace swivel

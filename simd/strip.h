@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//
+// A strip: up to eight blocks of a run, which go through the stages together. What one stage finds for a later one lies
+// in rows of the strip, which stay in the cache of level 1.
+#pragma once
+
+#include "simd/slice.h"
+#include "simd/stages.h"
+#include "simd/strip_rows.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+static_assert(kMostLines == kMostLimitLines && kMostBoxes == kMostLimitBoxes);
+
+struct Strip {
+    const SolveRun& run;
+    const Binding& bind;
+    float* const rows;  // of its blocks
+    std::uint32_t block_count = 0;
+    std::uint32_t block[kStripBlocks] = {};   // of the run
+    std::uint32_t chosen[kStripBlocks] = {};  // bits of its lanes that are solved; others may hold anything
+    std::uint32_t good[kStripBlocks] =
+        {};  // bits of the chosen lanes whose inputs are valid, as far as stages have seen
+
+    // The floats of one lane of its blocks.
+    float* lane(std::uint32_t n) const { return rows + n / kLanes * kStripBlockFloats + n % kLanes; }
+    const float* input(std::uint32_t n) const
+    {
+        return run.input + row_offset(std::size_t{block[n / kLanes]} * kLanes + n % kLanes, run.input_row_count, 0);
+    }
+};
+
+// A slice of a strip. Knows: the features that are constants of the stage, and Has: which of them the group has.
+template <class Number, swivel_features Knows, swivel_features Has>
+struct StripSlice {
+    using T = Number;
+    static constexpr std::uint32_t kEvery = (1u << lane_count<T>)-1;
+
+    Strip& strip;
+    Rows<T, kTold> io;  // the group's own rows
+    float* rows;        // the strip's
+    std::uint32_t block, lane;
+
+    // Whether the group has a feature; and the same of one that the stage knows, as a constant.
+    SWIVEL_INLINE bool has(swivel_features feature) const
+    {
+        return ((Knows & feature ? Has : strip.run.features) & feature) != 0;
+    }
+    static constexpr bool is(swivel_features feature) { return (Has & feature) != 0; }
+
+    SWIVEL_INLINE T get(std::uint32_t row) const { return load_lanes<T>(place(row)); }
+    SWIVEL_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(place(kFlagsRow)); }
+    SWIVEL_INLINE Vector<T> get_vector(std::uint32_t row) const { return vector(get(row), get(row + 1), get(row + 2)); }
+    SWIVEL_INLINE Rotor<T> get_rotor(std::uint32_t row) const
+    {
+        return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
+    }
+    SWIVEL_INLINE Hinge<T> get_elbow() const { return hinge(get(kFlexionRow), -get(kFlexionRow + 1)); }
+    template <class Value>
+    SWIVEL_INLINE void set(std::uint32_t row, const Value& value) const
+    {
+        store_lanes(place(row), value);
+    }
+    SWIVEL_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
+    {
+        set(row, v.template at<kE1>());
+        set(row + 1, v.template at<kE2>());
+        set(row + 2, v.template at<kE3>());
+    }
+    SWIVEL_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
+    {
+        set(row, q.template at<kI>());
+        set(row + 1, q.template at<kJ>());
+        set(row + 2, q.template at<kK>());
+        set(row + 3, q.template at<kScalar>());
+    }
+    // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
+    SWIVEL_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
+    {
+        const float* const at = in_strip ? rows + row * kLanes : io.input + std::size_t{io.row(field, 0)} * kLanes;
+        const auto load = [&](std::size_t c) SWIVEL_INLINE_LAMBDA {
+            return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return at + c * kLanes + n; });
+        };
+        return vector(load(0), load(1), load(2));
+    }
+
+    // Bits of its lanes.
+    SWIVEL_INLINE std::uint32_t good() const { return strip.good[block] >> lane & kEvery; }
+    SWIVEL_INLINE std::uint32_t chosen() const { return strip.chosen[block] >> lane & kEvery; }
+    // Lanes with an input that is not valid are bad from now on.
+    SWIVEL_INLINE void require(const Mask<T>& valid) const
+    {
+        strip.good[block] &= ~((lane_bits(!valid) & kEvery) << lane);
+    }
+
+private:
+    SWIVEL_INLINE auto place(std::uint32_t row) const
+    {
+        return [at = rows + row * kLanes](std::size_t n) SWIVEL_INLINE_LAMBDA { return at + n; };
+    }
+};
+
+// Calls take(slice) for each slice of a strip that has chosen lanes.
+template <class T, swivel_features Knows, swivel_features Has, class Take>
+SWIVEL_INLINE void for_each_slice(Strip& strip, const Take& take)
+{
+    constexpr std::uint32_t lanes = lane_count<T>;
+    const SolveRun& run = strip.run;
+    for (std::uint32_t n = 0; n < strip.block_count; ++n) {
+        const std::size_t limb = std::size_t{strip.block[n]} * kLanes;
+        const float* const input = run.input + row_offset(limb, run.input_row_count, 0);
+        float* const results = run.results + row_offset(limb, run.result_row_count, 0);
+        float* const rows = strip.lane(n * kLanes);
+        for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
+            const StripSlice<T, Knows, Has> slice{
+                strip, {run, input + lane, results + lane, kEveryLane}, rows + lane, n, lane};
+            if (lanes == kLanes || slice.chosen() != 0) take(slice);
+        }
+    }
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

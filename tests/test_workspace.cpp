@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a solve works in the workspace that it is given, or in one of the crowd's that is free, and is refused
+// without one. What a workspace holds before does not matter, and plain arms need none.
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "tests/solve_jobs.h"
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+#include "tests/test_random.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+constexpr swivel_features kSome = SWIVEL_WITH_SHOULDER_CONE | SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_REACH;
+
+struct alignas(64) Line {
+    unsigned char bytes[64];
+};
+
+Crowd crowd_of_limbs(std::uint32_t workspace_count, std::uint32_t limb_count = 1000)
+{
+    swivel_group_def group = swivel_default_group_def(limb_count);
+    group.features = kSome;
+    swivel_crowd_def def = def_of(group);
+    def.workspace_count = workspace_count;
+    Crowd crowd(def);
+    Random random{6};
+    for (std::uint32_t n = 0; n < limb_count; ++n) {
+        const Float3 target = floats(Eigen::Vector3d(random.between(0.2, 2) * random.direction()));
+        const Float4 narrow = cone({1, 0, 0}, random.between(0.2, 2));
+        crowd.write(SWIVEL_TARGET, 0, std::span(&target, 1), n);
+        crowd.write(SWIVEL_SHOULDER_CONE, 0, std::span(&narrow, 1), n);
+    }
+    crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
+    const Float4 sides = range(-1, 1);
+    std::array<float, 12> box;
+    for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(sides, box.begin() + 4 * k);
+    crowd.write_all(SWIVEL_SHOULDER_BOX, 0, box);
+    return crowd;
+}
+
+}  // namespace
+
+TEST_CASE("a workspace is as large as the crowd needs it, and part of its memory")
+{
+    CHECK(swivel_workspace_bytes(nullptr) == 0);
+    CHECK(swivel_workspace_bytes(Crowd({group(1000)}).get()) == 0);
+    const std::size_t small = swivel_workspace_bytes(crowd_of_limbs(1, 10).get()),
+                      large = swivel_workspace_bytes(crowd_of_limbs(1, 100000).get());
+    CHECK((small > 0 && small < large && large <= 65536 && large % 64 == 0));
+    swivel_group_def group = swivel_default_group_def(100000);
+    group.features = kSome;
+    swivel_crowd_def def = def_of(group);
+    const std::size_t one = swivel_crowd_bytes(&def);
+    def.workspace_count = 5;
+    CHECK(swivel_crowd_bytes(&def) == one + 4 * large);
+    def.workspace_count = 65;
+    CHECK(swivel_crowd_bytes(&def) == 0);
+    CHECK(std::string(swivel_last_error()).find("65 workspaces") != std::string::npos);
+}
+
+TEST_CASE("a job's own workspace may hold anything, and gives the same bits")
+{
+    Crowd usual = crowd_of_limbs(1), bare = crowd_of_limbs(0);
+    usual.solve();
+    std::vector<Line> workspace(swivel_workspace_bytes(bare.get()) / sizeof(Line));
+    for (const int byte : {0xff, 0x7f, 0}) {
+        std::memset(workspace.data(), byte, workspace.size() * sizeof(Line));
+        bare.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});
+        CHECK(bare.solve({.on_this_thread = byte != 0, .workspace = workspace.data()}) == 1000);
+        CHECK((all_words(bare) == all_words(usual)));
+    }
+    CHECK_THROWS_WITH(bare.solve({.workspace = workspace.data()->bytes + 4}),
+                      Catch::Contains("job.workspace is not aligned to 64"));
+}
+
+TEST_CASE("a solve without a free workspace is refused and changes nothing")
+{
+    Crowd bare = crowd_of_limbs(0);
+    const auto before = all_words(bare);
+    CHECK_THROWS_WITH(bare.solve(), Catch::Contains("other calls use all 0 workspaces of this crowd"));
+    CHECK((all_words(bare) == before));
+    Crowd arms({[] {
+        swivel_group_def plain = swivel_default_group_def(100);
+        plain.features = SWIVEL_WORLD | SWIVEL_WITH_HAND | SWIVEL_POLE_DIRECTION;
+        return plain;
+    }()});
+    CHECK(arms.solve() == 100);
+}
+
+TEST_CASE("as many jobs run together as the crowd has workspaces, and each other one is refused whole")
+{
+    constexpr std::uint32_t limbs = 4096, thread_count = 4, blocks = limbs / SWIVEL_LANES / thread_count;
+    Crowd wanted = crowd_of_limbs(1, limbs);
+    wanted.solve();
+    for (const std::uint32_t workspaces : {thread_count, 1u}) {
+        Crowd crowd = crowd_of_limbs(workspaces, limbs);
+        std::atomic<int> refused = 0;
+        std::vector<std::thread> threads;
+        for (std::uint32_t n = 0; n < thread_count; ++n)
+            threads.emplace_back([&, n] {
+                const swivel_blocks part{n * blocks, blocks};
+                swivel_job job = swivel_default_job();
+                job.blocks = &part;
+                job.on_this_thread = 1;
+                for (int k = 0; k < 50; ++k)
+                    while (swivel_solve(crowd.get(), &job) != SWIVEL_OK) ++refused;
+            });
+        for (std::thread& thread : threads) thread.join();
+        INFO(workspaces << " workspaces, refused " << refused);
+        CHECK((all_words(crowd) == all_words(wanted)));
+        if (workspaces == thread_count) CHECK(refused == 0);
+    }
+}
