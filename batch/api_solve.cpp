@@ -209,11 +209,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     return SWIVEL_OK;
 }
 
-size_t swivel_workspace_bytes(const swivel_crowd* crowd)
-{
-    const Use use(crowd, Sharing::shared);
-    return use.status == SWIVEL_OK ? workspace_bytes(crowd->strip_blocks) : 0;
-}
+size_t swivel_workspace_bytes(const swivel_crowd* crowd) { return crowd ? workspace_bytes(crowd->strip_blocks) : 0; }
 
 swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,
                             uint32_t* mask, uint32_t word_count, uint32_t* chosen_count)

@@ -53,8 +53,8 @@ private:
     std::size_t used_ = 0;
 };
 
-// A crowd of one limb, which takes a limb of another. It is half of the stack that a call may take, so there is one,
-// which takes the limb again for each question.
+// A crowd of one limb, which takes a limb of another. With its strip it takes three fifths of the stack that a call
+// may take. So there is one, which takes the limb again for each question.
 class Probe {
 public:
     Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), crowd_(nullptr) { take(); }

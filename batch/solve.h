@@ -21,7 +21,7 @@ struct GroupBlocks {
 // not fit the caches.
 void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
                  bool from_memory = false, const std::uint32_t* mask = nullptr);
-// The limbs of a mask. Blocks that are chosen whole are solved as if there were none, which is faster.
+// The limbs of a mask. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster.
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         StripMemory strip, bool from_memory = false);
 

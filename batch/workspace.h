@@ -21,7 +21,10 @@ public:
         else if (!of_job && crowd.strip_blocks > 0)
             take_one();
     }
-    ~Workspace() { crowd_.busy &= ~taken_; }
+    ~Workspace()
+    {
+        if (taken_ != 0) crowd_.busy &= ~taken_;
+    }
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
 
@@ -41,9 +44,10 @@ private:
             strip.rows = crowd_.workspaces + free * std::size_t{strip.block_count} * kStripBlockFloats;
             return;
         }
-        status = fail(SWIVEL_INVALID_ARGUMENT,
-                      "other calls use all %u workspaces of this crowd; create it with more, or give job.workspace",
-                      crowd_.workspace_count);
+        status = fail(
+            SWIVEL_INVALID_ARGUMENT,
+            "other calls use this crowd's workspaces, of which it has %u; create it with more, or give job.workspace",
+            crowd_.workspace_count);
     }
 
     swivel_crowd& crowd_;

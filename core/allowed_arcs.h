@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "core/limb.h"
+#include "core/choose_swivel.h"
 
 namespace swivel::inline SWIVEL_ISA {
 

@@ -68,8 +68,8 @@ SWIVEL_INLINE constexpr T about(const Vector<T>& axis, const Rotor<T>& q)
 }
 
 // A fixed vector, in the line's frame.
-template <class T, class Lift>
-SWIVEL_INLINE constexpr Vector<T> in_line(const SwivellingArm<T, Lift>& arm, const Vector<T>& v)
+template <class T, class Lift, class V>
+SWIVEL_INLINE constexpr Vector<T> in_line(const SwivellingArm<T, Lift>& arm, const V& v)
 {
     return vector(scalar_product(arm.normal, v), scalar_product(cross(arm.line, arm.normal), v),
                   scalar_product(arm.line, v));
@@ -164,8 +164,8 @@ struct TurningMatrix {
     }
 };
 template <class T, class Lift, class Turning>
-SWIVEL_INLINE constexpr auto turning_matrix(const SwivellingArm<T, Lift>& arm, const Vector<T>& e1, const Vector<T>& e2,
-                                            const Vector<T>& e3, const Turning& turning)
+SWIVEL_INLINE constexpr auto turning_matrix(const SwivellingArm<T, Lift>& arm, const auto& e1, const auto& e2,
+                                            const auto& e3, const Turning& turning)
 {
     const TurningMatrix<T> matrix{{in_line(arm, e1), in_line(arm, e2), in_line(arm, e3)}, per_size(arm)};
     const auto column1 = sandwich(turning, unit<T, kE1>());
@@ -179,8 +179,7 @@ SWIVEL_INLINE constexpr auto turning_matrix(const SwivellingArm<T, Lift>& arm, c
 template <class T, class Lift>
 SWIVEL_INLINE constexpr EulerCurves<T> shoulder_box_curves(const SwivellingArm<T, Lift>& arm, const EulerOrder& order)
 {
-    const Vector<T> e1 = vector(T(1), T(0), T(0)), e2 = vector(T(0), T(1), T(0)), e3 = vector(T(0), T(0), T(1));
-    return euler_curves<T>(order, turning_matrix(arm, e1, e2, e3, arm.to_arm));
+    return euler_curves<T>(order, turning_matrix(arm, unit<T, kE1>(), unit<T, kE2>(), unit<T, kE3>(), arm.to_arm));
 }
 // Its matrix has the forearm's axes in its rows, so what moves belongs to the row.
 template <class T, class Lift>

@@ -10,6 +10,9 @@
 // the direction e3. A wish that does not say where the elbow goes becomes the first normal that does: the previous one,
 // the incoming pose's, the rest hinge e1, or e2. Source of the steps: D. Hildenbrand, Inverse Kinematics of a Virtual
 // Character (TU Darmstadt, 2019).
+//
+// Kernels run these parts as stages (simd/stages.h). Here they are one call, for the lecture and for tests, which
+// compare the two.
 #pragma once
 
 #include "core/aim.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The stages that choose the swivel, as core/choose_swivel.h says. A slice takes as long as its slowest lane, and a
-// search takes much longer than the look at the wish. So lanes that need one are gathered from the whole strip into
-// slices of their own, and the swivels that are found go back to their rows.
+// search takes much longer than the look at the wish. So lanes that need a long one are gathered from the whole strip
+// into slices of their own, and the swivels that are found go back to their rows.
 #pragma once
 
 #include <bit>
@@ -85,6 +85,8 @@ struct GatheredLimits {
     const LimitList& list;
     alignas(64) float rows[(3 * kMostLines + 27 * Boxes) * lanes];
 
+    GatheredLimits(const Strip& of, const LimitList& limits) : strip(of), list(limits) {}
+
     SWIVEL_INLINE std::uint32_t line_rows() const { return 3 * static_cast<std::uint32_t>(list.line_count); }
     SWIVEL_INLINE std::uint32_t box_rows() const { return 15 * static_cast<std::uint32_t>(list.box_count); }
     SWIVEL_INLINE void gather(std::uint32_t to, std::uint32_t lane)
@@ -122,7 +124,7 @@ SWIVEL_INLINE void search(const Strip& strip, const LimitList& list, const LaneL
                           const Find& find)
 {
     constexpr std::uint32_t lanes = lane_count<T>;
-    GatheredLimits<T, Boxes> gathered{strip, list, {}};
+    GatheredLimits<T, Boxes> gathered(strip, list);
     for (std::uint32_t first = 0; first < of.count; first += lanes) {
         const std::uint32_t count = of.count - first < lanes ? of.count - first : lanes;
         for (std::uint32_t n = 0; n < lanes; ++n) gathered.gather(n, of.lane[first + (n < count ? n : 0)]);
@@ -172,14 +174,14 @@ SWIVEL_FLATTEN [[gnu::noinline]] void choose(Strip& strip)
         const Limits<T, Boxes> limits = load_limits<Boxes>(s, line_count, list);
         const Turned<T> wish{T(1), T(0)};
         Bits<T> flags = s.get_flags();
-        T most_broken = T(2);
-        const auto look = [&](const T& left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
-            flags = flags | bits_where(left < T(kNoRoom), flag);
-            most_broken = lo(left, most_broken);
+        T least_room = T(2);
+        const auto look = [&](const T& room_left, std::uint32_t flag) SWIVEL_INLINE_LAMBDA {
+            flags = flags | bits_where(room_left < T(kNoRoom), flag);
+            least_room = lo(room_left, least_room);
         };
         for (int n = 0; n < line_count; ++n) look(limits.line[n].at(wish), list.line_flag[n]);
         for (int n = 0; n < limits.box_count; ++n) look(room(limits.box[n], wish), list.box_flag[n]);
-        const Mask<T> granted = most_broken >= T(kNoRoom);
+        const Mask<T> granted = least_room >= T(kNoRoom);
         const std::uint32_t forbidden = s.good() & lane_bits(!granted), first = s.block * kLanes + s.lane;
         Turned<T> swivel = wish;
         if (forbidden != 0) {

@@ -9,11 +9,11 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-// stage<Stage>::slice(s) takes a slice one stage further.
+// StageBody<stage>::slice(s) takes a slice one stage further.
 template <Stage stage>
 struct StageBody;
 
-// What a group's features make the formula use.
+// What a group's features make the formula use, but for limits of the swivel, which have stages of their own.
 template <class S>
 SWIVEL_INLINE LimbUse use_of(const S& s)
 {
@@ -96,15 +96,15 @@ struct StageBody<Stage::incoming> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         const Binding& bind = s.strip.bind;
-        take(s, SWIVEL_INCOMING_SHOULDER, kIncomingRow, bind.parent_from_arm, bind.upper_from_arm);
-        take(s, SWIVEL_INCOMING_ELBOW, kIncomingRow + 4, bind.elbow_parent_from_arm, bind.fore_from_arm);
+        load(s, SWIVEL_INCOMING_SHOULDER, kIncomingRow, bind.parent_from_arm, bind.upper_from_arm);
+        load(s, SWIVEL_INCOMING_ELBOW, kIncomingRow + 4, bind.elbow_parent_from_arm, bind.fore_from_arm);
         if (s.has(SWIVEL_WITH_HAND))
-            take(s, SWIVEL_INCOMING_WRIST, kIncomingRow + 8, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
+            load(s, SWIVEL_INCOMING_WRIST, kIncomingRow + 8, bind.wrist_parent_from_arm, ~bind.hand_from_arm);
     }
 
 private:
     template <class S>
-    SWIVEL_INLINE static void take(const S& s, swivel_field field, std::uint32_t row, const Rotor<float>& from,
+    SWIVEL_INLINE static void load(const S& s, swivel_field field, std::uint32_t row, const Rotor<float>& from,
                                    const Rotor<float>& to)
     {
         using T = typename S::T;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The functions that a build for one instruction set gives: one for each set of features. Nothing here knows lanes.
+// The functions that a build for one instruction set gives. Of plain arms it is one for each set of features, of whole
+// limbs one that takes a list of stages. Nothing here knows lanes.
 #pragma once
 
 #include <cstddef>

@@ -66,6 +66,7 @@ void solve(const SolveRun& run)
                                 lanes = chosen_lanes(run, limb, kLanes) & exist;
             if (lanes != 0) add_block(strip, static_cast<std::uint32_t>(limb / kLanes), lanes);
         }
+        if (strip.block_count == 0) return;
         for (std::uint32_t n = 0; n < run.stages->count; ++n) kFunctions[run.stages->function[n]](strip);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The stages of the joint limits, one for each. It writes what its limit says of the swivel: a line, or a box's curves.
+// The stages of the joint limits, one for each. A stage writes what its limit says of the swivel: a line, or a box's
+// curves.
 #pragma once
 
 #include "core/joint_limits.h"

@@ -35,7 +35,6 @@ struct Rows {
     float* results;
     std::uint32_t chosen;  // bits of the lanes whose results are stored: see chosen_lanes()
 
-    SWIVEL_INLINE bool has(swivel_features features) const { return (features_of<Features>(run) & features) != 0; }
     SWIVEL_INLINE std::uint32_t row(swivel_field field, int component) const
     {
         const std::uint32_t first =

@@ -48,8 +48,8 @@ struct StripSlice {
     }
     static constexpr bool is(swivel_features feature) { return (Has & feature) != 0; }
 
-    SWIVEL_INLINE T get(std::uint32_t row) const { return load_lanes<T>(place(row)); }
-    SWIVEL_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(place(kFlagsRow)); }
+    SWIVEL_INLINE T get(std::uint32_t row) const { return load_lanes<T>(address_of(row)); }
+    SWIVEL_INLINE Bits<T> get_flags() const { return load_lane_bits<T>(address_of(kFlagsRow)); }
     SWIVEL_INLINE Vector<T> get_vector(std::uint32_t row) const { return vector(get(row), get(row + 1), get(row + 2)); }
     SWIVEL_INLINE Rotor<T> get_rotor(std::uint32_t row) const
     {
@@ -59,7 +59,7 @@ struct StripSlice {
     template <class Value>
     SWIVEL_INLINE void set(std::uint32_t row, const Value& value) const
     {
-        store_lanes(place(row), value);
+        store_lanes(address_of(row), value);
     }
     SWIVEL_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
     {
@@ -94,7 +94,7 @@ struct StripSlice {
     }
 
 private:
-    SWIVEL_INLINE auto place(std::uint32_t row) const
+    SWIVEL_INLINE auto address_of(std::uint32_t row) const
     {
         return [at = rows + row * kLanes](std::size_t n) SWIVEL_INLINE_LAMBDA { return at + n; };
     }

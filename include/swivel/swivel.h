@@ -32,7 +32,7 @@
 //
 // THREADS. Different threads may use different crowds at once. Use one crowd on one thread at a time, with two
 // exceptions. Calls that take it const may run together while nothing changes it. Jobs on_this_thread may run together
-// on blocks that do not overlap.
+// on blocks that do not overlap, each in a workspace of its own (swivel_workspace_bytes()).
 //
 // FLOATING POINT. No call depends on the caller's rounding, flushing of denormals or traps. Each computes, judges and
 // writes its line in the usual environment, and restores the caller's with its sticky flags. Callbacks run in the
@@ -673,10 +673,10 @@ static inline swivel_job swivel_default_job(void)
     return job;
 }
 
-// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in, up to 64 KiB. 0 if no group has
-// features but WORLD, JOINTS, WITH_HAND and POLE_DIRECTION. A call of swivel_solve() works in job.workspace, or in one
-// of the crowd's workspaces that no other call is using. So the crowd needs as many as jobs run on it together, or else
-// these jobs bring theirs. oneTBB's threads have their own. Any thread; 0 for a null crowd.
+// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in, up to 64 KiB. 0 for a crowd
+// whose groups have no features beyond WORLD, JOINTS, WITH_HAND and POLE_DIRECTION. A call of swivel_solve() works in
+// job.workspace, or in one of the crowd's workspaces that no other call is using. So the crowd needs as many as jobs
+// run on it together, or else these jobs bring theirs. oneTBB's threads have their own. Any thread; 0 for a null crowd.
 SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
 
 // Solves limbs; job may be null, for every limb from and to rows. It fails for a workspace that is not aligned to 64,
