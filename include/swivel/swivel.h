@@ -45,8 +45,9 @@
 // accepts structures of its own header and of older ones, which are shorter. In an array, all have the size of the
 // first.
 //
-// CHECKED BUILDS. Debug builds, and those with SWIVEL_CHECK_USE, refuse more, as far as they can see it: a crowd that
-// is destroyed, a crowd that two threads use against the rules, and frames whose results overlap other limbs' inputs.
+// CHECKED BUILDS. Debug builds, and those with SWIVEL_CHECK_USE, refuse more, as far as they can see it. They refuse a
+// crowd that is destroyed, and one that two threads use against the rules. They refuse frames whose results overlap
+// other limbs' inputs.
 //
 // Read next: swivel_field for every value's meaning, swivel_bind() for skeletons, and swivel_solve(). The folder docs/
 // has guides with pictures; docs/speed.md says what each feature costs.
