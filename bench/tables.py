@@ -77,10 +77,10 @@ class Result:
         self.isas = context.get("isas", "").split()
         self.best = self.isas[0] if self.isas else ""
         self.levels = {key.removeprefix("level_of/"): isa for key, isa in context.items() if key.startswith("level_of/")}
-        for isa in self.isas:  # the least time of an arm of P that divider and arithmetic allow
-            parts = [self.ns(f"bound/{isa}/{part}") for part in ("divider", "arithmetic")]
-            if all(parts):
-                self.times[f"bound/{isa}"] = max(parts)
+        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production") for isa in self.isas):
+            parts = [self.ns(f"{bound}/{part}") for part in ("divider", "arithmetic")]
+            if all(parts):  # the least time that divider and arithmetic allow
+                self.times[bound] = max(parts)
 
     def ns(self, name):
         return self.times.get(name)
@@ -250,6 +250,27 @@ def features(result):
     return Table("Features: nanoseconds an arm, and beside a plain arm", ["features", "takes", "ratio"], sorted(rows, key=lambda r: float(r[2])))
 
 
+def production(result):
+    """The production limb: what each feature adds, the bound of the ports, and the steps of a whole frame."""
+    rows = []
+    for isa in result.isas:
+        before = 0
+        for name in sorted(each for each in result.times if each.startswith(f"production/{isa}/") and each.split("/")[2][0].isdigit()):
+            ns = result.ns(name)
+            feature = name.split("/")[2].split("_", 1)[1].replace("_", " ")
+            rows.append([f"in cache, {ISAS[isa]}", ("with " if before else "") + feature, number(ns), f"{ns - before:+.1f}" if before else "–"])
+            before = ns
+        bound, frame = result.ns(f"bound_production/{isa}"), result.ns(f"production/{isa}/in_one")
+        if before and bound:
+            rows.append([f"in cache, {ISAS[isa]}", "bound of the ports", number(bound), f"{before / bound:.2f} times the bound"])
+        if frame:
+            rows.append([f"16,384 limbs, {ISAS[isa]}", "whole frame in one call", number(frame), "–"])
+    for step, text in (("write", "its write alone"), ("solve", "its solve alone"), ("read", "its read alone"), ("copy", "a copy of its structures")):
+        if ns := result.ns(f"production/{result.best}/{step}"):
+            rows.append([f"16,384 limbs, {ISAS[result.best]}", text, number(ns), "–"])
+    return Table("The production limb: nanoseconds a limb", ["work", "", "takes", "more than the line above"], rows)
+
+
 def threads(result):
     """How many times as fast several threads are as one."""
     rows = []
@@ -282,7 +303,7 @@ def summary(result):
 
 
 TABLES = {"rivals": rivals, "limits": limits, "itself": itself, "calls": calls, "held": held, "memory": memory, "features": features,
-          "threads": threads, "summary": summary}
+          "production": production, "threads": threads, "summary": summary}
 
 
 def arm(result):

@@ -113,8 +113,9 @@ void add_threads(Suite& suite)
         add_family(suite, "threads", arms, arm_count,
                    [&suite, arm_count](int threads) { return solve_on(threads, suite.crowds.get(0, arm_count), {}); });
         const auto frame = std::make_shared<WholeFrame>(arm_count / kArms);
-        add_family(suite, "frame_threads", arms, arm_count,
-                   [frame](int threads) { return solve_on(threads, frame->crowd(), frame->frames()); });
+        add_family(suite, "frame_threads", arms, arm_count, [frame](int threads) {
+            return solve_on(threads, frame->swivel().crowd(), frame->swivel().frames());
+        });
         const Level* const level = level_for(suite.best_isa());
         if (!level || arm_count < 16384) continue;
         add_family(suite, "bare_threads", arms, arm_count,

@@ -32,13 +32,28 @@ Rig rig(float side)
     return rig;
 }
 
-swivel::Crowd make_crowd(std::size_t character_count)
+using Poses = std::vector<CharacterPose>;
+using Goals = std::vector<CharacterGoal>;
+swivel::Frame frame(const Poses& world, const Goals& goals, Poses& local, std::size_t side)
 {
-    const auto count = static_cast<std::uint32_t>(character_count);
-    constexpr swivel_features features = SWIVEL_WORLD | SWIVEL_JOINTS;
-    swivel::Crowd crowd({swivel::group(count, binding(1), features), swivel::group(count, binding(-1), features)});
+    constexpr std::size_t pose = sizeof(CharacterPose), goal = sizeof(CharacterGoal);
+    swivel::Frame frame;
+    frame.in(SWIVEL_TARGET, {goals[0].arm[side].wrist, goal})
+        .in(SWIVEL_POLE, {goals[0].arm[side].pole, goal})
+        .in(SWIVEL_SHOULDER_POSITION, {world[0].arm[side].shoulder.position, pose})
+        .in(SWIVEL_PARENT_ROTATION, {world[0].chest.rotation, pose})
+        .in(SWIVEL_PARENT_SCALE, {world[0].chest.scale, pose})
+        .out(SWIVEL_SHOULDER, {local[0].arm[side].shoulder.rotation, pose})
+        .out(SWIVEL_ELBOW, {local[0].arm[side].elbow.rotation, pose});
+    return frame;
+}
+
+FramedCrowd framed(const Poses& world, const Goals& goals, Poses& local)
+{
+    const auto count = static_cast<std::uint32_t>(world.size());
+    swivel::Crowd crowd({swivel::group(count, binding(1), kResident), swivel::group(count, binding(-1), kResident)});
     for (std::uint32_t side = 0; side < kArms; ++side) crowd.write_all(SWIVEL_LENGTHS, side, std::array{kUpper, kFore});
-    return crowd;
+    return {std::move(crowd), {frame(world, goals, local, 0), frame(world, goals, local, 1)}};
 }
 
 void store(const float (&v)[3], float (&to)[4]) { std::copy_n(v, 3, to); }
@@ -50,7 +65,7 @@ WholeFrame::WholeFrame(std::size_t character_count)
       local_(character_count),
       goals_(character_count),
       rigs_{rig(1), rig(-1)},
-      crowd_(make_crowd(character_count))
+      swivel_(framed(world_, goals_, local_))
 {
     const std::vector<Limb> limbs = random_limbs(arm_count());
     for (std::size_t n = 0; n < character_count; ++n) {
@@ -74,37 +89,6 @@ WholeFrame::WholeFrame(std::size_t character_count)
             store(pole, goals_[n].arm[side].pole);
         }
     }
-    constexpr std::size_t pose = sizeof(CharacterPose), goal = sizeof(CharacterGoal);
-    for (std::size_t side = 0; side < kArms; ++side) {
-        fields_[side] = {{{SWIVEL_TARGET, goals_[0].arm[side].wrist, goal},
-                          {SWIVEL_POLE, goals_[0].arm[side].pole, goal},
-                          {SWIVEL_SHOULDER_POSITION, world_[0].arm[side].shoulder.position, pose},
-                          {SWIVEL_PARENT_ROTATION, world_[0].chest.rotation, pose},
-                          {SWIVEL_PARENT_SCALE, world_[0].chest.scale, pose},
-                          {SWIVEL_SHOULDER, local_[0].arm[side].shoulder.rotation, pose},
-                          {SWIVEL_ELBOW, local_[0].arm[side].elbow.rotation, pose}}};
-        frames_[side] = swivel_default_frame();
-        frames_[side].fields = fields_[side].data();
-        frames_[side].field_count = static_cast<std::uint32_t>(fields_[side].size());
-    }
-}
-
-void WholeFrame::write()
-{
-    const auto count = static_cast<std::uint32_t>(world_.size());
-    for (std::uint32_t side = 0; side < kArms; ++side)
-        for (const auto& [field, data, stride] : fields_[side])
-            if (field < SWIVEL_INPUT_END)
-                swivel::check(swivel_write(crowd_.get(), field, side, 0, count, {data, stride}));
-}
-
-void WholeFrame::read()
-{
-    const auto count = static_cast<std::uint32_t>(world_.size());
-    for (std::uint32_t side = 0; side < kArms; ++side)
-        for (const auto& [field, data, stride] : fields_[side])
-            if (field >= SWIVEL_SHOULDER)
-                swivel::check(swivel_read(crowd_.get(), field, side, 0, count, {data, stride}));
 }
 
 double WholeFrame::worst_error() const

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd's frame, made up, and swivel on it: in three steps (inputs into rows, solve, results out of rows) or in one.
+// The frame of a crowd of characters, made up, and swivel on it.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "bench/rivals/framed_crowd.h"
 #include "bench/rivals/frames.h"
-#include "swivel/swivel.hpp"
 
 namespace bench {
 
@@ -19,21 +19,7 @@ public:
 
     std::size_t arm_count() const { return kArms * world_.size(); }
     FrameView view() { return {world_.data(), goals_.data(), local_.data(), rigs_.data(), world_.size()}; }
-    swivel::Crowd& crowd() { return crowd_; }
-    const std::array<swivel_frame, kArms>& frames() const { return frames_; }
-
-    // On this thread:
-    void write();  // positions of wrists and poles, parents' frames; lengths are in the rows since the beginning
-    void solve()
-    {
-        crowd_.solve({.blocks = swivel_blocks{0, swivel_block_count(crowd_.get())}, .on_this_thread = true});
-    }
-    void read();  // rotations of shoulders and elbows
-    void solve_in_one()
-    {
-        crowd_.solve(
-            {.blocks = swivel_blocks{0, swivel_block_count(crowd_.get())}, .frames = frames_, .on_this_thread = true});
-    }
+    FramedCrowd& swivel() { return swivel_; }
 
     // By forward kinematics from the pose buffer: the worst error of the wrists well within reach, in arm lengths;
     // infinite for a NaN.
@@ -45,9 +31,7 @@ private:
     std::vector<CharacterPose> world_, local_;
     std::vector<CharacterGoal> goals_;
     std::array<Rig, kArms> rigs_;
-    std::array<std::array<swivel_frame_field, 7>, kArms> fields_;
-    std::array<swivel_frame, kArms> frames_;
-    swivel::Crowd crowd_;
+    FramedCrowd swivel_;
 };
 
 }  // namespace bench

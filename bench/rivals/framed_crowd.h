@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// A crowd and the engine's structures that it reads and writes, one frame a group: in three steps (inputs into rows,
+// solve, results out of rows) or in one. All of it on this thread.
+#pragma once
+
+#include <vector>
+
+#include "swivel/swivel.hpp"
+
+namespace bench {
+
+class FramedCrowd {
+public:
+    FramedCrowd(swivel::Crowd crowd, std::vector<swivel::Frame> views)
+        : crowd_(std::move(crowd)), views_(std::move(views)), frames_(views_.begin(), views_.end())
+    {
+    }
+
+    swivel::Crowd& crowd() { return crowd_; }
+    std::span<const swivel_frame> frames() const { return frames_; }
+
+    void write()
+    {
+        for_each_field([&](std::uint32_t group, std::uint32_t count, const swivel_frame_field& f) {
+            if (f.field < SWIVEL_INPUT_END)
+                swivel::check(swivel_write(crowd_.get(), f.field, group, 0, count, {f.data, f.stride}));
+        });
+    }
+    void solve() { crowd_.solve({.blocks = all_blocks(), .on_this_thread = true}); }
+    void read()
+    {
+        for_each_field([&](std::uint32_t group, std::uint32_t count, const swivel_frame_field& f) {
+            if (f.field > SWIVEL_INPUT_END)
+                swivel::check(swivel_read(crowd_.get(), f.field, group, 0, count, {f.data, f.stride}));
+        });
+    }
+    void solve_in_one() { crowd_.solve({.blocks = all_blocks(), .frames = frames_, .on_this_thread = true}); }
+
+private:
+    swivel_blocks all_blocks() const { return {0, swivel_block_count(crowd_.get())}; }
+    template <class Take>
+    void for_each_field(const Take& take) const
+    {
+        for (std::uint32_t group = 0; group < frames_.size(); ++group)
+            for (std::uint32_t n = 0; n < frames_[group].field_count; ++n)
+                take(group, swivel_group_limb_count(crowd_.get(), group), frames_[group].fields[n]);
+    }
+
+    swivel::Crowd crowd_;
+    std::vector<swivel::Frame> views_;
+    std::vector<swivel_frame> frames_;  // of the views
+};
+
+}  // namespace bench
