@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a solve corrects the incoming pose. The wrist goes to its target wherever that is, and an untouched goal
+// gives back the incoming rotations, whatever the rig's joints are like. All is checked by forward kinematics of
+// Eigen's, in double.
+#include "core/correction.h"
+
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/formula_limb.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+// An incoming limb: bones of joints whose rotations are any.
+struct Posed {
+    Vector3d upper, fore, hinge;
+    Quaterniond shoulder, elbow;  // in the same space
+    double bend_sine;
+
+    double size() const { return upper.norm() + fore.norm(); }
+};
+Posed random_posed(Random& random, double bend)
+{
+    const Vector3d line = random.direction(), axis = random.across(line);
+    Posed in;
+    in.upper = random.between(0.1, 1) * line;
+    in.fore = random.between(0.1, 1) * (Eigen::AngleAxisd(bend, axis) * line);
+    in.shoulder = random.rotation(), in.elbow = random.rotation();
+    in.hinge = random.across(in.upper);
+    in.bend_sine = std::fabs(std::sin(bend));
+    return in;
+}
+template <class T>
+IncomingBones<T> posed_bones(const Posed& in)
+{
+    return {mv<T>(in.upper), mv<T>(in.fore), mv<T>(in.hinge)};
+}
+
+struct CorrectedLimb {
+    Quaterniond shoulder, elbow;
+    Vector3d wrist;  // where the bones then end
+};
+// Solves for a target with that normal, and corrects the rotations.
+template <class T>
+CorrectedLimb correct(const Posed& in, const Vector3d& target, const Vector<T>& normal)
+{
+    const IncomingBones<T> bones = posed_bones<T>(in);
+    LimbUse use;
+    use.wish = Wish::normal;
+    LimbGoal<T> goal = limb_goal<T>(Arm{target, Vector3d::UnitX(), 0, 0});
+    goal.arm.upper = sqrt(len2(bones.upper)), goal.arm.fore = sqrt(len2(bones.fore));
+    goal.arm.pole = normal;
+    const ArmPose<T> pose = solve_limb<false>(use, goal, Mask<T>(true)).arm;
+    const BoneFrames<T> was = bone_frames(bones, normal);
+    CorrectedLimb out;
+    out.shoulder = eigen(corrected(pose.shoulder, was.upper, mv<T>(in.shoulder))).normalized();
+    out.elbow = eigen(corrected(Rotor<T>(pose.shoulder * elbow_rotor(pose)), was.fore, mv<T>(in.elbow))).normalized();
+    out.wrist = out.shoulder * (in.shoulder.inverse() * in.upper) + out.elbow * (in.elbow.inverse() * in.fore);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("untouched goals give back the incoming rotations")
+{
+    rc::prop("as exactly as the bend is known", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < 50; ++n) {
+            const Posed in = random_posed(random, (n % 2 ? 1 : -1) * random.spread(1e-3, 3.1));
+            const Vector<float> normal = own_normal(posed_bones<float>(in));
+            const CorrectedLimb got = correct<float>(in, in.upper + in.fore, normal);
+            const double known =
+                2e-6 + 4e-7 * in.size() * in.size() / (in.upper.norm() * in.fore.norm() * in.bend_sine);
+            RC_ASSERT((got.wrist - in.upper - in.fore).norm() <= 2e-6 * in.size());
+            RC_ASSERT(got.shoulder.angularDistance(in.shoulder) <= known);
+            RC_ASSERT(got.elbow.angularDistance(in.elbow) <= known);
+        }
+    });
+}
+
+TEST_CASE(
+    "the wrist goes to any target in reach, with either normal, straight bones and bones without length among them")
+{
+    rc::prop("the bones end on it", [](std::uint64_t seed) {
+        Random random{seed};
+        for (int n = 0; n < 50; ++n) {
+            Posed in = random_posed(random, n % 5 ? random.between(-3.1, 3.1) : 0);
+            if (n % 7 == 1) in.fore.setZero();
+            if (n % 7 == 2) in.upper.setZero();
+            const double near = std::fabs(in.upper.norm() - in.fore.norm());
+            const Vector3d target = (near + random.between(0.02, 0.98) * (in.size() - near)) * random.direction();
+            for (const bool is_steady : {false, true}) {
+                const IncomingBones<float> bones = posed_bones<float>(in);
+                const CorrectedLimb got = correct(in, target, is_steady ? steady_normal(bones) : own_normal(bones));
+                RC_ASSERT((got.wrist - target).norm() <= 2e-6 * in.size());
+            }
+        }
+    });
+}
+
+TEST_CASE("the steady normal is the hinge of straight bones, their own of bent ones, and turns slowly between")
+{
+    Random random{3};
+    for (int n = 0; n < 2000; ++n) {
+        const Posed straight = random_posed(random, 0);
+        Vector3d before = straight.hinge;
+        const Vector3d axis = random.across(straight.upper);
+        const double side = axis.dot(straight.hinge) < 0 ? -1 : 1;
+        for (int step = 0; step <= 300; ++step) {
+            Posed bent = straight;
+            const double sine = 0.001 * step;
+            bent.fore = Eigen::AngleAxisd(-std::asin(sine), axis) * straight.fore;
+            const Vector<double> steady = steady_normal(posed_bones<double>(bent));
+            const Vector3d normal = Vector3d(steady.at<kE1>(), steady.at<kE2>(), steady.at<kE3>()).normalized();
+            if (sine < 0.05) REQUIRE((normal - straight.hinge).norm() <= 1e-12);
+            if (sine > 0.17) REQUIRE((normal - side * axis).norm() <= 1e-9);
+            // At most a right angle on the way. The steepest place of the blend is 1.5 times its mean, and a chord of
+            // its length 1 is passed at distance sqrt(1/2).
+            REQUIRE((normal - before).norm() <= 0.001 / 0.12 * 1.5 * 2 + 1e-9);
+            before = normal;
+        }
+    }
+}
