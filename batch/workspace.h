@@ -44,10 +44,14 @@ private:
             strip.rows = crowd_.workspaces + free * std::size_t{strip.block_count} * kStripBlockFloats;
             return;
         }
-        status = fail(
-            SWIVEL_INVALID_ARGUMENT,
-            "other calls use this crowd's workspaces, of which it has %u; create it with more, or give job.workspace",
-            crowd_.workspace_count);
+        const std::uint32_t count = crowd_.workspace_count;
+        status = count == 0
+                     ? fail(SWIVEL_INVALID_ARGUMENT,
+                            "this crowd has no workspace; create it with some (workspace_count), or give job.workspace")
+                     : fail(SWIVEL_INVALID_ARGUMENT,
+                            "other calls use all workspaces of this crowd, %u; create it with more (workspace_count), "
+                            "or give job.workspace",
+                            count);
     }
 
     swivel_crowd& crowd_;

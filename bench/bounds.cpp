@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The bound of the ports, measured like everything else: as many roots and divisions as an arm of P takes, or a
-// production limb, and as many multiplications and additions, none of which waits for another. The larger of both times
-// is the bound.
+// The bound of the ports, measured like everything else, for an arm of P and for a production limb. One loop has its
+// roots and divisions, another its multiplications and additions. No operation waits for another. The longer time is
+// the bound.
 #include "bench/rivals/probe.h"
 #include "bench/suite.h"
 

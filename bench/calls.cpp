@@ -42,7 +42,7 @@ void add_calls(Suite& suite)
                  [crowd] { swivel::check(swivel_solve(crowd->get(), nullptr)); });
         if (arm_count < 2 * kArms) continue;  // frames are of whole characters
         const auto frame = std::make_shared<WholeFrame>(arm_count / kArms);
-        add_call("calls/frame/", arm_count, suite.best_isa(), [frame] { frame->swivel().solve_in_one(); });
+        add_call("calls/frame/", arm_count, suite.best_isa(), [frame] { frame->framed().solve_in_one(); });
     }
 }
 

@@ -34,8 +34,8 @@ void add_frames(Suite& suite)
         };
         add(name, frame->arm_count(), Clock::cpu, prepare, std::move(notes));
     };
-    const Work in_one = [frame] { frame->swivel().solve_in_one(); };
-    const Work apart = [frame] { frame->swivel().write(), frame->swivel().solve(), frame->swivel().read(); };
+    const Work in_one = [frame] { frame->framed().solve_in_one(); };
+    const Work apart = [frame] { frame->framed().write(), frame->framed().solve(), frame->framed().read(); };
     for (const std::string& isa : suite.isas) {
         swivel::check(swivel_use_isa(isa.c_str()));
         timed("frame/" + isa + "/in_one", isa, in_one, checked("frame/" + isa, *frame, in_one));
@@ -43,9 +43,9 @@ void add_frames(Suite& suite)
     const std::string best = suite.best_isa();
     swivel::check(swivel_use_isa(best.c_str()));
     timed("frame/" + best + "/apart", best, apart, checked("frame/" + best + "/apart", *frame, apart));
-    timed("frame/" + best + "/write", best, [frame] { frame->swivel().write(); });
-    timed("frame/" + best + "/solve", best, [frame] { frame->swivel().solve(); });
-    timed("frame/" + best + "/read", best, [frame] { frame->swivel().read(); });
+    timed("frame/" + best + "/write", best, [frame] { frame->framed().write(); });
+    timed("frame/" + best + "/solve", best, [frame] { frame->framed().solve(); });
+    timed("frame/" + best + "/read", best, [frame] { frame->framed().read(); });
     const auto ozz = std::make_shared<OzzFrame>(frame->view());
     for (const Level* level : runnable_levels()) {
         const std::string name = std::string("/") + level->name;

@@ -4,6 +4,7 @@
 // these structures. What each feature adds is measured in cache, from a limb with a flexion limit up to the production
 // limb.
 #include <algorithm>
+#include <stdexcept>
 
 #include "bench/rivals/production_limb.h"
 #include "bench/shares.h"
@@ -16,7 +17,7 @@ constexpr std::size_t kLimbs = 16384;
 
 struct Production {
     std::vector<ProductionLimb> limbs = std::vector<ProductionLimb>(kLimbs), copies = limbs;
-    FramedCrowd swivel = production_crowd(limbs);
+    FramedCrowd framed = production_crowd(limbs);
 };
 
 void add_frame(const Suite& suite)
@@ -28,12 +29,12 @@ void add_frame(const Suite& suite)
             "production/" + isa + "/" + step, kLimbs, Clock::cpu,
             [=]() -> Work {
                 swivel::check(swivel_use_isa(isa.c_str()));
-                return [all, work] { (all->swivel.*work)(); };
+                return [all, work] { (all->framed.*work)(); };
             },
             std::move(notes));
     };
-    solve_all(all->swivel.crowd(), suite.best_isa());
-    const Notes shares = shares_of(all->swivel.crowd());
+    solve_all(all->framed.crowd(), suite.best_isa());
+    const Notes shares = shares_of(all->framed.crowd());
     for (const std::string& isa : suite.isas) timed(isa, "in_one", &FramedCrowd::solve_in_one, shares);
     timed(suite.best_isa(), "write", &FramedCrowd::write);
     timed(suite.best_isa(), "solve", &FramedCrowd::solve);
@@ -61,6 +62,7 @@ void add_production(Suite& suite)
         for (const std::string& isa : suite.isas)
             add_solve(suite, "production/" + isa + "/" + name, isa, features, arms_within(1, features));
     }
+    if (features != kProduction) throw std::logic_error("the steps do not end at the production limb");
 }
 
 }  // namespace bench

@@ -254,21 +254,22 @@ def production(result):
     """The production limb: what each feature adds, the bound of the ports, and the steps of a whole frame."""
     rows = []
     for isa in result.isas:
-        before = 0
-        for name in sorted(each for each in result.times if each.startswith(f"production/{isa}/") and each.split("/")[2][0].isdigit()):
-            ns = result.ns(name)
-            feature = name.split("/")[2].split("_", 1)[1].replace("_", " ")
-            rows.append([f"in cache, {ISAS[isa]}", ("with " if before else "") + feature, number(ns), f"{ns - before:+.1f}" if before else "–"])
-            before = ns
-        bound, frame = result.ns(f"bound_production/{isa}"), result.ns(f"production/{isa}/in_one")
-        if before and bound:
-            rows.append([f"in cache, {ISAS[isa]}", "bound of the ports", number(bound), f"{before / bound:.2f} times the bound"])
-        if frame:
-            rows.append([f"16,384 limbs, {ISAS[isa]}", "whole frame in one call", number(frame), "–"])
+        steps = [name for name in result.times if name.startswith(f"production/{isa}/") and name.split("/")[2][0].isdigit()]
+        last = None
+        for name in sorted(steps, key=lambda each: int(each.split("/")[2].split("_")[0])):
+            ns, feature = result.ns(name), name.split("/")[2].split("_", 1)[1].replace("_", " ")
+            rows.append([f"in cache, {ISAS[isa]}", *((feature, number(ns), "–") if last is None
+                                                     else (f"with {feature}", number(ns), f"{ns - last:+.1f} to the line above"))])
+            last = ns
+        if last and (bound := result.ns(f"bound_production/{isa}")):
+            rows.append([f"in cache, {ISAS[isa]}", "bound of the ports", number(bound), f"the limb takes {last / bound:.2f} times as long"])
+        if ns := result.ns(f"production/{isa}/in_one"):
+            rows.append([f"16,384 limbs, {ISAS[isa]}", "whole frame in one call", number(ns),
+                         shares_text(result, f"production/{isa}/in_one").removeprefix(", ") or "–"])
     for step, text in (("write", "its write alone"), ("solve", "its solve alone"), ("read", "its read alone"), ("copy", "a copy of its structures")):
         if ns := result.ns(f"production/{result.best}/{step}"):
             rows.append([f"16,384 limbs, {ISAS[result.best]}", text, number(ns), "–"])
-    return Table("The production limb: nanoseconds a limb", ["work", "", "takes", "more than the line above"], rows)
+    return Table("The production limb: nanoseconds a limb", ["work", "", "takes", "beside"], rows)
 
 
 def threads(result):

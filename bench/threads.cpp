@@ -114,7 +114,7 @@ void add_threads(Suite& suite)
                    [&suite, arm_count](int threads) { return solve_on(threads, suite.crowds.get(0, arm_count), {}); });
         const auto frame = std::make_shared<WholeFrame>(arm_count / kArms);
         add_family(suite, "frame_threads", arms, arm_count, [frame](int threads) {
-            return solve_on(threads, frame->swivel().crowd(), frame->swivel().frames());
+            return solve_on(threads, frame->framed().crowd(), frame->framed().frames());
         });
         const Level* const level = level_for(suite.best_isa());
         if (!level || arm_count < 16384) continue;

@@ -67,8 +67,9 @@ inline constexpr double kTie = 1e-6;
 // are equal. Of equal peaks the one nearest to the wish is taken, then the first. Each is compared with the best so
 // far: of three peaks, where each is equal to the next one only, the order decides.
 //
-// A box has 16 peaks and 41 pairs of lines. 37 of the pairs can win: with 1.8 million random boxes each did in one case
-// of 250 or more. The other four are both ends of one range, and matter only where that range has no width.
+// A box has 16 peaks and 41 pairs of lines. Nearly all are needed: in 1.8 million random cases that one box forbids,
+// each of 37 pairs won at least 7,834 times. The other four are the two ends of one range. They matter only where that
+// range has no width.
 template <class T, int Boxes>
 SWIVEL_INLINE constexpr FoundSwivel<T> least_violation(const Limits<T, Boxes>& limits)
 {

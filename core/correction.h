@@ -5,8 +5,8 @@
 // incoming frame to the solved one. So the bones go where the solver puts them, and a joint keeps whatever the solver
 // does not know: the roll of a forearm, an elbow that is no pure hinge. An untouched goal gives back the incoming pose.
 //
-// All of it is in one space, any, and bones may have any length. A bone without a length lies along the other one, as
-// the solver has it.
+// All of it is in one space, whichever the caller takes. Bones may have any length. A bone without a length lies along
+// the other one, as the solver has it.
 #pragma once
 
 #include "core/frame_rotor.h"
@@ -17,14 +17,15 @@ namespace swivel::inline SWIVEL_ISA {
 template <class T>
 struct IncomingBones {
     Vector<T> upper, fore;  // from shoulder to elbow and from there to the wrist
-    Vector<T> hinge;        // of the elbow, unit: a turn about its opposite bends the limb
+    Vector<T> hinge;        // of the elbow, unit and along neither bone: a turn about its opposite bends the limb
 };
 
-// The sines of the bend below which it is noise, and above which the bones tell their plane.
+// The sines of the bend below which it is noise, and above which the bones tell their plane: about 3 and 10 degrees.
+// Knees and elbows that clips hold straight bend by up to some 3 degrees, to any side.
 inline constexpr double kBendUnknown = 0.05, kBendKnown = 0.17;
 
-// The normal of the plane that the bones lie in; of straight bones the hinge. It flips with a bend that changes sides,
-// so it serves where frames before and after take the same one: where the elbow stays as it comes.
+// The normal of the plane that the bones lie in; of straight bones the hinge. It flips with a bend that changes
+// sides, so use it only where the same normal serves before and after: where the elbow stays as it comes.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> own_normal(const IncomingBones<T>& bones)
 {
@@ -34,7 +35,8 @@ SWIVEL_INLINE constexpr Vector<T> own_normal(const IncomingBones<T>& bones)
     return select(straight, bones.hinge, (T(1) / sqrt(select(straight, T(1), normal2))) * normal);
 }
 // A normal that no small change of the bones turns far: the hinge while the bend is noise, then the bones' own normal
-// on the hinge's side, and between both a smooth blend. A bend against the hinge comes out as one with it.
+// on the hinge's side, and between both a smooth blend. It has any length. A bend against the hinge comes out as one
+// with it.
 template <class T>
 SWIVEL_INLINE constexpr Vector<T> steady_normal(const IncomingBones<T>& bones)
 {
@@ -64,9 +66,9 @@ template <class T>
 SWIVEL_INLINE constexpr BoneFrames<T> bone_frames(const IncomingBones<T>& bones, const Vector<T>& normal)
 {
     const Mask<T> no_upper = len2(bones.upper) < T(kTiny2), no_fore = len2(bones.fore) < T(kTiny2);
-    const Vector<T> any = select(no_upper & no_fore, vector(T(0), T(0), T(1)), bones.upper);
-    return {bone_frame(select(no_upper & !no_fore, bones.fore, any), normal),
-            bone_frame(select(no_fore, any, bones.fore), normal)};
+    const Vector<T> upper = select(no_upper & no_fore, vector(T(0), T(0), T(1)), bones.upper);
+    return {bone_frame(select(no_upper & !no_fore, bones.fore, upper), normal),
+            bone_frame(select(no_fore, upper, bones.fore), normal)};
 }
 
 // What an incoming rotation becomes.

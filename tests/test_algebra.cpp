@@ -24,8 +24,6 @@ constexpr double kTolerance = 1e-12;  // a few products of numbers of size 1; la
 constexpr int kRounds = 200;
 
 constexpr auto e1 = unit<double, kE1>();
-constexpr auto e2 = unit<double, kE2>();
-constexpr auto e3 = unit<double, kE3>();
 constexpr auto e0 = unit<double, kE0>();
 constexpr auto einf = unit<double, kEinf>();
 constexpr auto i = unit<double, kI>();

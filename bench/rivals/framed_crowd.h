@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // A crowd and the engine's structures that it reads and writes, one frame a group: in three steps (inputs into rows,
-// solve, results out of rows) or in one. All of it on this thread.
+// solve, results out of rows) or in one. All of it runs on this thread.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "swivel/swivel.hpp"
@@ -48,8 +51,8 @@ private:
     }
 
     swivel::Crowd crowd_;
-    std::vector<swivel::Frame> views_;
-    std::vector<swivel_frame> frames_;  // of the views
+    std::vector<swivel::Frame> views_;  // what frames_ views
+    std::vector<swivel_frame> frames_;
 };
 
 }  // namespace bench

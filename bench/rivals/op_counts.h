@@ -20,8 +20,8 @@ struct OpCounts {
 
 // Operations of problem P, as kernels do it, on an ordinary arm: solve_arm() and the choice of the quaternion's sign.
 OpCounts count_ops();
-// Those of a production limb (production_limb.h): the formulas of its features, the parent's frame and the skeleton's
-// joints. Its inputs are checked once, and the swivel that it wishes for is allowed.
+// Those of a production limb (production_limb.h) whose wish its limits allow: the formulas of its features, the
+// parent's frame and the skeleton's joints. Checks of the inputs as they are given do not count.
 OpCounts count_production_ops();
 
 // The least nanoseconds an arm for a kernel with these operations. The divider works on one root or division at a time.

@@ -48,7 +48,7 @@ swivel::Frame frame(const Poses& world, const Goals& goals, Poses& local, std::s
     return frame;
 }
 
-FramedCrowd framed(const Poses& world, const Goals& goals, Poses& local)
+FramedCrowd make_framed(const Poses& world, const Goals& goals, Poses& local)
 {
     const auto count = static_cast<std::uint32_t>(world.size());
     swivel::Crowd crowd({swivel::group(count, binding(1), kResident), swivel::group(count, binding(-1), kResident)});
@@ -65,7 +65,7 @@ WholeFrame::WholeFrame(std::size_t character_count)
       local_(character_count),
       goals_(character_count),
       rigs_{rig(1), rig(-1)},
-      swivel_(framed(world_, goals_, local_))
+      framed_(make_framed(world_, goals_, local_))
 {
     const std::vector<Limb> limbs = random_limbs(arm_count());
     for (std::size_t n = 0; n < character_count; ++n) {

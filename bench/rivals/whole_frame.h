@@ -19,7 +19,7 @@ public:
 
     std::size_t arm_count() const { return kArms * world_.size(); }
     FrameView view() { return {world_.data(), goals_.data(), local_.data(), rigs_.data(), world_.size()}; }
-    FramedCrowd& swivel() { return swivel_; }
+    FramedCrowd& framed() { return framed_; }
 
     // By forward kinematics from the pose buffer: the worst error of the wrists well within reach, in arm lengths;
     // infinite for a NaN.
@@ -31,7 +31,7 @@ private:
     std::vector<CharacterPose> world_, local_;
     std::vector<CharacterGoal> goals_;
     std::array<Rig, kArms> rigs_;
-    FramedCrowd swivel_;
+    FramedCrowd framed_;
 };
 
 }  // namespace bench

@@ -63,7 +63,14 @@ TEST_CASE("docs: frames in place")
 
 TEST_CASE("docs: own threads")
 {
-    swivel::Crowd crowd({swivel::group(200)});
+    // [workspaces]
+    const swivel_group_def arms = swivel::group(200, SWIVEL_WITH_FLEXION_LIMIT);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = &arms;
+    def.group_count = 1;
+    def.workspace_count = 2;  // as many as jobs that run together
+    swivel::Crowd crowd(def);
+    // [end]
     crowd.write_all(SWIVEL_LENGTHS, 0, Float2{1, 1});
     crowd.write_all(SWIVEL_TARGET, 0, Float3{0.5f, 0.5f, 1});
     crowd.write_all(SWIVEL_POLE, 0, Float3{0, -1, 0});

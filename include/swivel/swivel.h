@@ -661,7 +661,8 @@ typedef struct swivel_job {
     // Unless null, becomes how many limbs were solved.
     uint32_t* solved_count;
 
-    // swivel_workspace_bytes() of memory for this call alone, aligned to 64. Null: one of the crowd's workspaces.
+    // swivel_workspace_bytes() of memory for this call alone, aligned to 64. Null: one of the crowd's workspaces. Two
+    // calls that share one spoil each other's results, which no build can see.
     void* workspace;
 } swivel_job;
 
@@ -674,14 +675,16 @@ static inline swivel_job swivel_default_job(void)
     return job;
 }
 
-// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in, up to 64 KiB. 0 for a crowd
-// whose groups have no features beyond WORLD, JOINTS, WITH_HAND and POLE_DIRECTION. A call of swivel_solve() works in
-// job.workspace, or in one of the crowd's workspaces that no other call is using. So the crowd needs as many as jobs
-// run on it together, or else these jobs bring theirs. oneTBB's threads have their own. Any thread; 0 for a null crowd.
+// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in, up to 64 KiB. They are a
+// multiple of 64, and the same for every instruction set. 0 for a crowd whose groups have no features beyond WORLD,
+// JOINTS, WITH_HAND and POLE_DIRECTION. Of other crowds every call of swivel_solve() works in one: job.workspace, or
+// one of the crowd's that no other call is using. So the crowd needs as many as calls run on it together, or these jobs
+// bring theirs. A call with oneTBB needs one, too; its threads beside the caller's have their own. What a workspace
+// holds before and after a call means nothing. Any thread; 0 for a null crowd.
 SWIVEL_API size_t swivel_workspace_bytes(const swivel_crowd* crowd);
 
-// Solves limbs; job may be null, for every limb from and to rows. It fails for a workspace that is not aligned to 64,
-// and if the crowd has none that is free.
+// Solves limbs; job may be null, for every limb from and to rows. It fails with SWIVEL_INVALID_ARGUMENT for a workspace
+// that is not aligned to 64, and if the crowd has none that is free: then more of them help, or a later call.
 //
 // With frames, one pass replaces swivel_write() of every input given, the solve, and swivel_read() of every result
 // given. The bits are the same. It takes a run of blocks of each group in turn, so limbs of one character use shared
