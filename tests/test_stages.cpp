@@ -4,6 +4,7 @@
 // limbs are in their own frame, so nothing but the formula lies between inputs and results. The tests crowd_world and
 // crowd_skeleton judge parents and joints.
 #include "core/limb.h"
+#include "tests/test_arm.h"
 #include "tests/test_crowd.h"
 #include "tools/corpus/corpus.h"
 
