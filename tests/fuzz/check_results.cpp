@@ -154,12 +154,14 @@ void check_others(const Session& session, const std::vector<bool>& chosen)
 {
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
         const std::size_t limb_count = swivel_group_limb_count(session.crowd, group);
-        const auto is_chosen = chosen.begin() + swivel_group_first_limb(session.crowd, group);
+        const std::size_t first_limb = swivel_group_first_limb(session.crowd, group);
+        const auto is_chosen = [&](std::size_t limb) -> bool { return chosen[first_limb + limb]; };
         for (std::size_t first = 0; first < limb_count; first += SWIVEL_LANES) {
             const std::size_t end = std::min(first + SWIVEL_LANES, limb_count);
-            const bool is_untouched = std::find(is_chosen + first, is_chosen + end, true) == is_chosen + end;
+            bool is_untouched = true;
+            for (std::size_t limb = first; limb < end; ++limb) is_untouched = is_untouched && !is_chosen(limb);
             for (std::size_t lane = first; lane < first + SWIVEL_LANES; ++lane) {
-                if (!is_untouched && (lane >= end || is_chosen[lane])) continue;
+                if (!is_untouched && (lane >= end || is_chosen(lane))) continue;
                 for (const Rows& rows : {inputs_of(session.crowd, group), results_of(session.crowd, group)})
                     for (std::size_t row = 0; row < rows.row_count; ++row)
                         SWIVEL_REQUIRE(std::memcmp(rows.at(lane, row), before(session, rows.at(lane, row)),
