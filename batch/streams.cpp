@@ -153,6 +153,7 @@ void copy(const Stream* stream, const Stream* end, std::size_t first, std::size_
 
 void copy_in(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_in values)
 {
+    if (limb_count == 0) return;  // there may be no values
     Stream all[kMostFieldStreams];
     copy(all, streams_in(rows, first, values, all), first, limb_count);
 }
@@ -166,6 +167,7 @@ void copy_doubles_in(const FieldRows& rows, std::size_t first, std::size_t limb_
 
 void copy_out(const FieldRows& rows, std::size_t first, std::size_t limb_count, swivel_out values)
 {
+    if (limb_count == 0) return;  // there may be no values
     Stream all[kMostFieldStreams];
     copy(all, streams_out(rows, first, values, all), first, limb_count);
 }

@@ -164,6 +164,8 @@ TEST_CASE("wrong arguments are refused and change nothing")
     CHECK(solve_blocks(c, 3, 0) == SWIVEL_OK);
     CHECK(swivel_write(c, SWIVEL_TARGET, 0, 20, 0, {nullptr, 12}) == SWIVEL_OK);  // no limbs need no data
     CHECK(swivel_read(c, SWIVEL_SHOULDER, 0, 0, 0, {nullptr, 16}) == SWIVEL_OK);
+    const Crowd boxes({group(1, SWIVEL_WITH_SHOULDER_BOX)});
+    CHECK(swivel_write(boxes.get(), SWIVEL_SHOULDER_BOX, 0, 0, 0, {nullptr, 48}) == SWIVEL_OK);
     CHECK(swivel_forward(c, 0, 0, 0, {nullptr, 24}, {}, {}) == SWIVEL_OK);
 
     const swivel_out none{}, three{out3, 24};
