@@ -31,6 +31,13 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
+// Bodies' limbs have no rows of what their pose gives.
+swivel_status check_free(const swivel_crowd& crowd, std::uint32_t group, const char* call)
+{
+    if (crowd.joint_count == 0) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is of bodies; it takes free limbs", call, group);
+}
+
 std::uint32_t flags_of(const Group& group, std::size_t limb)
 {
     const std::size_t at = row_offset(limb, group.result_row_count, field_first_row(group.features, SWIVEL_FLAGS));
@@ -60,6 +67,7 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_free(*crowd, group, "swivel_explain"); status != SWIVEL_OK) return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     explain(crowd->groups[group], limb, {text, size});
     return SWIVEL_OK;
@@ -83,6 +91,8 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_free(*crowd, group, "swivel_allowed_arcs"); status != SWIVEL_OK)
+        return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
     *arc_count = allowed_arcs(find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
@@ -121,6 +131,7 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_free(*crowd, group, "swivel_forward"); status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
                     group);
@@ -147,6 +158,7 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_free(*crowd, group, "swivel_residuals"); status != SWIVEL_OK) return status;
     if (const swivel_status status =
             check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
         status != SWIVEL_OK)

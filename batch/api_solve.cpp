@@ -8,6 +8,7 @@
 #include "batch/check.h"
 #include "batch/frame.h"
 #include "batch/lane_mask.h"
+#include "batch/pose.h"
 #include "batch/sized.h"
 #include "batch/solve.h"
 #include "batch/status.h"
@@ -32,9 +33,9 @@ swivel_status check_priorities(const swivel_crowd& crowd, const swivel_in* prior
 {
     if (!priorities)
         return fail(SWIVEL_INVALID_ARGUMENT, "priorities are missing; give one for each of this crowd's %u groups",
-                    crowd.group_count);
+                    lane_group_count(crowd));
     swivel_status status = SWIVEL_OK;
-    for (std::uint32_t g = 0; g < crowd.group_count && status == SWIVEL_OK; ++g)
+    for (std::uint32_t g = 0; g < lane_group_count(crowd) && status == SWIVEL_OK; ++g)
         status = check_stride(g, "priority", crowd.groups[g].limb_count, priorities[g].data, priorities[g].stride,
                               sizeof(float), true);
     return status;
@@ -50,8 +51,13 @@ swivel_status check_groups(const swivel_crowd& crowd, const swivel_job& job)
     return SWIVEL_OK;
 }
 
-swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, const swivel_frame& frame)
+swivel_status check_frame(const swivel_crowd& crowd, std::uint32_t g, swivel_frame frame, const swivel_pose* pose)
 {
+    const swivel_in origin = pose ? origin_of(full_pose(pose)) : frame.origin;
+    if (frame.origin.data && (frame.origin.data != origin.data || frame.origin.stride != origin.stride))
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "frame of group %u: a body's origin is its root in doubles; give that, or leave origin out", g);
+    frame.origin = origin;
     if (!frame.fields && frame.field_count > 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "frame of group %u: its %u fields are null", g, frame.field_count);
     swivel_status status = check_reserved("frame", frame);
@@ -82,7 +88,7 @@ swivel_status check_frames(const swivel_crowd& crowd, const swivel_job& job, swi
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
         if (status == SWIVEL_OK) status = check_element("frame", job.frames, n);
         const auto g = static_cast<std::uint32_t>(&group - crowd.groups);
-        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(job.frames, n));
+        if (status == SWIVEL_OK) status = check_frame(crowd, g, frame_at(job.frames, n), job.pose);
     });
     if (kChecksUse && status == SWIVEL_OK) status = check_overlap(crowd, job, blocks);
     return status;
@@ -150,7 +156,8 @@ swivel_status mark(const swivel_crowd& crowd, const std::uint32_t* limbs, std::u
 std::uint32_t count_limbs(const Work& work)
 {
     std::uint32_t limb_count = 0;
-    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t n) {
+        if (work.pose && n > 0) return;  // the same bodies
         const std::uint32_t last = part.first + part.count - 1;
         if (!work.mask) {
             limb_count += (part.count - 1) * SWIVEL_LANES + limb_count_of(group, last);
@@ -181,6 +188,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     const swivel_blocks blocks = job.blocks ? *job.blocks : swivel_blocks{0, crowd->block_count};
     if (status == SWIVEL_OK) status = check_groups(*crowd, job);
     if (status == SWIVEL_OK) status = check_choice(*crowd, job);
+    if (status == SWIVEL_OK) status = check_pose(*crowd, job.pose);
     if (status == SWIVEL_OK && job.frames) status = check_frames(*crowd, job, blocks);
     if (status != SWIVEL_OK) return status;
     const Isa* const isa = usable_isa(status);
@@ -198,7 +206,8 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
                     job.limbs || job.priorities ? crowd->chosen : job.mask,
                     job.frames,
                     is_from_memory(*crowd, block_count_of(*crowd, job.groups, blocks)),
-                    workspace.strip};
+                    workspace.strip,
+                    job.pose};
     if (job.on_this_thread)
         solve_here(work);
     else
@@ -209,7 +218,10 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     return SWIVEL_OK;
 }
 
-size_t swivel_workspace_bytes(const swivel_crowd* crowd) { return crowd ? workspace_bytes(crowd->strip_blocks) : 0; }
+size_t swivel_workspace_bytes(const swivel_crowd* crowd)
+{
+    return crowd ? workspace_floats(crowd->strip_blocks, crowd->joint_count) * sizeof(float) : 0;
+}
 
 swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,
                             uint32_t* mask, uint32_t word_count, uint32_t* chosen_count)

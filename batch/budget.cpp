@@ -82,12 +82,12 @@ std::uint32_t choose(const swivel_crowd& crowd, const swivel_in* priorities, flo
     const FloatEnv env;
     if (!urgency) std::fill_n(urgency = crowd.urgency, crowd.block_count, 0.0f);
     std::uint32_t wanted = 0, limb_count = 0;
-    for (std::uint32_t g = 0; g < crowd.group_count; ++g)
+    for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g)
         wanted += add_urgency(urgency + crowd.groups[g].first_block, crowd.groups[g], priorities[g]);
     std::fill_n(words, mask_word_count(crowd.block_count), 0u);
     if (most_blocks == 0) return 0;
     Threshold least = wanted > most_blocks ? find_threshold(urgency, crowd.block_count, most_blocks) : Threshold{0, 0};
-    for (std::uint32_t g = 0; g < crowd.group_count; ++g) {
+    for (std::uint32_t g = 0; g < lane_group_count(crowd); ++g) {
         const Group& group = crowd.groups[g];
         for (std::uint32_t n = 0, block = group.first_block; n < group.block_count; ++n, ++block) {
             const std::uint32_t key = key_of(urgency[block]);

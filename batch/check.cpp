@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "batch/body_plan.h"
 #include "batch/rig.h"
 #include "batch/sized.h"
 #include "batch/status.h"
@@ -97,6 +98,11 @@ swivel_status check(const swivel_crowd_def* given)
     if (def.workspace_count > kMostWorkspaces)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u workspaces, %u are the most; let jobs bring others",
                     def.workspace_count, kMostWorkspaces);
+    if (const swivel_status status = check_reserved("crowd def", def); status != SWIVEL_OK) return status;
+    if (!def.skeleton && def.body_count > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u bodies, but no skeleton; give it", def.body_count);
+    if (def.skeleton && def.body_count == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has a skeleton, but no bodies; give at least one");
     if (def.group_count == 0 || !def.groups)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has no groups; give at least one");
     if (!def.allocate != !def.release)
@@ -108,11 +114,16 @@ swivel_status check(const swivel_crowd_def* given)
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         if (const swivel_status status = check_element("group def", def.groups, g); status != SWIVEL_OK) return status;
         const swivel_group_def group = group_at(def, g);
+        if (!def.skeleton && (group.features & SWIVEL_BODY || group.joints))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is of bodies, but the crowd def has no skeleton; give it",
+                        g);
         if (const swivel_status status = check_group(g, group); status != SWIVEL_OK) return status;
         limb_count += std::uint64_t{group.limb_count} + SWIVEL_LANES;
     }
     if (limb_count > kMostLimbs)
         return fail(SWIVEL_INVALID_ARGUMENT, "more than 2^31 limbs, padding included; use several crowds");
+    if (def.skeleton)
+        if (const swivel_status status = check_bodies(def); status != SWIVEL_OK) return status;
     if (const std::uint64_t bytes = crowd_bytes(def); bytes > std::uint64_t{PTRDIFF_MAX})  // where pointers are short
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a crowd of %llu bytes is beyond what a pointer reaches; use several crowds",

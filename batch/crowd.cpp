@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "batch/body_plan.h"
 #include "batch/sized.h"
 #include "batch/solve.h"
 #include "batch/streams.h"
@@ -29,9 +30,17 @@ std::uint64_t row_bytes(const swivel_group_def& group)
     return aligned(std::uint64_t{blocks_in(group)} * block_bytes(group.features));
 }
 
+// Blocks of bodies that are worked in at once: about as many as fit a level 2 cache of 256 KiB with their poses.
+std::uint32_t run_blocks(std::uint32_t joint_count)
+{
+    constexpr std::size_t kRunBytes = 128 * 1024;
+    const std::size_t blocks = kRunBytes / (body_block_floats(joint_count) * sizeof(float));
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(blocks, 1, kStripBlocks));
+}
+
 struct Layout {
-    std::uint32_t block_count = 0, strip_blocks = 0;
-    std::uint64_t groups, chosen, urgency, done, workspaces, rows,
+    std::uint32_t block_count = 0, strip_blocks = 0, joint_count = 0;
+    std::uint64_t groups, joints, chosen, urgency, done, workspaces, rows,
         end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def)
@@ -39,17 +48,22 @@ struct Layout {
         std::uint64_t bytes = 0;
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
             const swivel_group_def group = group_at(def, g);
-            block_count += blocks_in(group);
+            block_count = def.skeleton ? blocks_in(group) : block_count + blocks_in(group);
             bytes += row_bytes(group);
             if (group.features & kLimbFeatures)
                 strip_blocks = std::max(strip_blocks, std::min(blocks_in(group), kStripBlocks));
         }
+        if (def.skeleton) {
+            joint_count = needed_joint_count(def);
+            strip_blocks = std::min(strip_blocks, run_blocks(joint_count));
+        }
         groups = aligned(sizeof(swivel_crowd));
-        chosen = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
+        joints = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
+        chosen = joints + aligned(std::uint64_t{joint_count} * sizeof(BodyJoint));
         urgency = chosen + aligned(std::uint64_t{mask_word_count(block_count)} * sizeof(std::uint32_t));
         done = urgency + aligned(std::uint64_t{block_count} * sizeof(float));
         workspaces = done + aligned(block_count);
-        rows = workspaces + def.workspace_count * workspace_bytes(strip_blocks);
+        rows = workspaces + def.workspace_count * workspace_floats(strip_blocks, joint_count) * sizeof(float);
         end = rows + bytes;
     }
 };
@@ -72,7 +86,9 @@ void unknown_inputs(const Group& group)
     float unknown[kMostComponents];
     std::fill_n(unknown, kMostComponents, kUnknown);
     for (const FieldRow& row : kFields) {
-        if (row.starts != Start::unknown || field_row_count(group.features, row.field) == 0) continue;
+        const bool is_unknown =
+            row.starts == Start::unknown || (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY));
+        if (!is_unknown || field_row_count(group.features, row.field) == 0) continue;
         const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
         copy_in(rows_of(group, row.field), 0, group.limb_count, {is_bound ? group.binding.lengths : unknown, 0});
     }
@@ -110,8 +126,19 @@ void rest(Group& group)
     spread(group.results, group.result_row_count, group.block_count);
 }
 
-// Makes a group whose rows begin at `rows`.
-void place_group(const swivel_group_def& def, std::uint32_t first_block, char* rows, Group& group)
+// Puts all limbs of a group of bodies into the arm frame's rest pose, without flags.
+void rest_in_arm_frame(const Group& group)
+{
+    for (std::size_t f = kInputCount; f < kFieldCount; ++f)
+        for (std::uint32_t c = 0; c < field_row_count(group.features, kFields[f].field); ++c)
+            std::fill_n(group.results + (group.first_row[f] + c) * SWIVEL_LANES, std::size_t{SWIVEL_LANES},
+                        kFields[f].start[c]);
+    spread(group.results, group.result_row_count, group.block_count);
+}
+
+// Makes a group whose rows begin at `rows`. crowd: of bodies, their joints.
+void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def, const swivel_crowd& crowd,
+                 std::uint32_t first_block, char* rows, Group& group)
 {
     group.first_block = first_block;
     group.block_count = blocks_in(def);
@@ -127,17 +154,31 @@ void place_group(const swivel_group_def& def, std::uint32_t first_block, char* r
         group.first_row[f] = static_cast<std::uint16_t>(field_first_row(def.features, kFields[f].field));
     group.input = reinterpret_cast<float*>(rows);
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
-    group.binding = element(&def.binding, 0, swivel_default_binding());
+    if (crowd_def.skeleton) {
+        group.binding = body_binding(crowd_def, def);
+        group.limb = body_limb(crowd_def, def, crowd.joints, crowd.joint_count);
+        group.body_block_floats = body_block_floats(crowd.joint_count);
+    } else {
+        group.binding = element(&def.binding, 0, swivel_default_binding());
+    }
     fill_inputs(group);
     unknown_inputs(group);
-    rest(group);
+    if (crowd_def.skeleton)
+        rest_in_arm_frame(group);
+    else
+        rest(group);
 }
 
 }  // namespace
 
 swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
 {
-    return element(def.groups, g, swivel_default_group_def(0));
+    swivel_group_def group = element(def.groups, g, swivel_default_group_def(0));
+    if (def.skeleton) {
+        group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
+        if (group.limb_count == 0) group.limb_count = def.body_count;
+    }
+    return group;
 }
 
 std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end; }
@@ -161,12 +202,18 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     crowd->strip_blocks = layout.strip_blocks;
     crowd->workspace_count = def.workspace_count;
     crowd->workspaces = reinterpret_cast<float*>(base + layout.workspaces);
+    crowd->joint_count = layout.joint_count;
+    if (def.skeleton) {
+        auto* const joints = reinterpret_cast<BodyJoint*>(base + layout.joints);
+        plan_joints(def, joints);
+        crowd->joints = joints;
+    }
     char* rows = base + layout.rows;
     std::uint32_t first_block = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
-        place_group(of, first_block, rows, *new (crowd->groups + g) Group{});
-        first_block += blocks_in(of);
+        place_group(def, of, *crowd, first_block, rows, *new (crowd->groups + g) Group{});
+        if (!def.skeleton) first_block += blocks_in(of);
         rows += row_bytes(of);
     }
     return crowd;

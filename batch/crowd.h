@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "include/swivel/swivel.h"
+#include "simd/body_rows.h"
 #include "simd/kernels.h"
 #include "simd/rows.h"
 #include "simd/strip_rows.h"
@@ -25,6 +26,8 @@ struct Group {
     float *input, *results;                // rows
     swivel_binding binding;
     StageList stages;
+    BodyLimb limb;                  // of bodies, as is the next
+    std::size_t body_block_floats;  // of a workspace
 };
 
 }  // namespace swivel
@@ -47,6 +50,8 @@ struct swivel_crowd {
     std::uint32_t strip_blocks;              // of a workspace; 0: it has no whole limbs
     std::uint32_t workspace_count;
     float* workspaces;
+    const swivel::BodyJoint* joints;  // of bodies: those that some group needs
+    std::uint32_t joint_count;        // 0: free limbs
     std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
 };
 
@@ -56,9 +61,21 @@ namespace swivel {
 inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POLE_DIRECTION);
 
 inline constexpr std::uint32_t kMostWorkspaces = 64;  // of a crowd
-inline std::size_t workspace_bytes(std::uint32_t strip_blocks)
+// A workspace: a strip of so many blocks, and the same blocks of bodies, if joints are needed.
+inline std::size_t workspace_floats(std::uint32_t strip_blocks, std::uint32_t joint_count)
 {
-    return strip_blocks * kStripBlockFloats * sizeof(float);
+    return strip_blocks * (kStripBlockFloats + (joint_count > 0 ? body_block_floats(joint_count) : 0));
+}
+inline StripMemory strip_memory(float* workspace, std::uint32_t strip_blocks, std::uint32_t joint_count)
+{
+    return {workspace, strip_blocks,
+            joint_count > 0 && workspace ? workspace + strip_blocks * kStripBlockFloats : nullptr};
+}
+
+// The groups that have lanes of their own: in a crowd of bodies the first one's are those of all.
+inline std::uint32_t lane_group_count(const swivel_crowd& crowd)
+{
+    return crowd.joint_count > 0 ? 1 : crowd.group_count;
 }
 
 // Words of one bit for each lane; and of one for each group.

@@ -44,7 +44,8 @@ std::uint32_t busy_block_count(const Work& work)
 {
     if (!work.mask) return block_count_of(work.crowd, work.groups, work.blocks);
     std::uint32_t busy = 0;
-    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {
+    for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t n) {
+        if (work.pose && n > 0) return;  // the same blocks
         const std::uint32_t block = group.first_block + part.first;
         const std::uint32_t *const first = work.mask + block / 2, *const end =
                                                                       work.mask + (block + part.count - 1) / 2 + 1;
@@ -63,7 +64,11 @@ struct Parts {
     const std::thread::id caller = std::this_thread::get_id();
 
     explicit Parts(const Work& todo)
-        : work(todo), count(todo.frames ? round_count(todo) : todo.blocks.count), done(todo.crowd.done)
+        : work(todo),
+          count(todo.pose     ? run_count(todo)
+                : todo.frames ? round_count(todo)
+                              : todo.blocks.count),
+          done(todo.crowd.done)
     {
         std::fill_n(done, count, std::uint8_t{0});
     }
@@ -72,14 +77,29 @@ struct Parts {
     {
         if (std::this_thread::get_id() == caller || work.strip.block_count == 0)
             solve_in(work.strip, first, end);
-        else
+        else if (!work.pose)
             solve_on_stack(first, end);
+        else if (!solve_on_heap(first, end))
+            return;
         std::fill(done + first, done + end, std::uint8_t{1});
+    }
+    // A workspace with bodies may be too large for a stack. Where there is no memory, the parts are left.
+    bool solve_on_heap(std::uint32_t first, std::uint32_t end) const
+    {
+        constexpr std::align_val_t alignment{64};
+        const std::uint32_t blocks = work.crowd.strip_blocks, joints = work.crowd.joint_count;
+        void* const workspace =
+            ::operator new(workspace_floats(blocks, joints) * sizeof(float), alignment, std::nothrow);
+        if (!workspace) return false;
+        solve_in(strip_memory(static_cast<float*>(workspace), blocks, joints), first, end);
+        ::operator delete(workspace, alignment);
+        return true;
     }
     void solve_in(StripMemory strip, std::uint32_t first, std::uint32_t end) const
     {
         Work part = work;
         part.strip = strip;
+        if (work.pose) return solve_runs(part, first, end);
         if (work.frames) return solve_rounds(part, first, end);
         part.blocks = {work.blocks.first + first, end - first};
         solve_here(part);
@@ -178,7 +198,8 @@ void solve_in_chunks(const Work& work)
         const FloatEnv env;  // oneTBB sets the caller's control word anew, and clears its flags
         const Parts parts(work);
         const auto grain = static_cast<std::uint32_t>(std::uint64_t{chunk} * parts.count / work.blocks.count);
-        if (!try_on_threads(parts, std::max(1u, grain))) parts.solve_rest();
+        try_on_threads(parts, std::max(1u, grain));
+        parts.solve_rest();
         return;
     }
 #endif

@@ -40,10 +40,14 @@ Value value_of(const swivel_in& values, std::uint32_t joint)
     std::memcpy(&value, static_cast<const char*>(values.data) + std::size_t{joint} * values.stride, sizeof value);
     return value;
 }
+}  // namespace
+
 std::int32_t parent_of(const swivel_skeleton& skeleton, std::uint32_t joint)
 {
     return value_of<std::int32_t>(skeleton.parents, joint);
 }
+
+namespace {
 
 swivel_status check_values(const char* name, const swivel_in& values, std::size_t bytes)
 {
@@ -131,13 +135,16 @@ swivel_status read_place(const swivel_skeleton& skeleton, std::uint32_t joint, V
                 "swivel_bind_joints: joint %u's translation is not finite or longer than 1e15; give 3 floats", joint);
 }
 
-// A joint alone: relative to its parent.
+}  // namespace
+
 swivel_status read_joint(const swivel_skeleton& skeleton, std::uint32_t joint, RestJoint& rest)
 {
     rest = {};
     const swivel_status status = read_rotation(skeleton, joint, rest.rotation);
     return status == SWIVEL_OK ? read_place(skeleton, joint, rest.place) : status;
 }
+
+namespace {
 
 // A part below another, and what rests rigid between them: none of those that turn.
 swivel_status rest_below(const swivel_skeleton& skeleton, const Part& part, const Part& above,

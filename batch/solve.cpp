@@ -37,7 +37,9 @@ SolveRun run_of(const Group& group, GroupBlocks blocks, StripMemory strip, bool 
             std::size_t{group.first_block} * SWIVEL_LANES + limb,
             group.limb_count - limb,
             &group.stages,
-            strip};
+            strip,
+            &group.limb,
+            group.body_block_floats};
 }
 
 }  // namespace
@@ -93,6 +95,7 @@ std::uint32_t allowed_arcs(const Kernels& scalar, const Group& group, std::uint3
 
 void solve_here(const Work& work)
 {
+    if (work.pose) return solve_runs(work, 0, run_count(work));
     if (work.frames) return solve_rounds(work, 0, ~0u);
     const FloatEnv env;
     for_each_group(work.crowd, work.groups, work.blocks, [&](const Group& group, GroupBlocks part, std::uint32_t) {

@@ -40,6 +40,7 @@ struct Work {
     const swivel_frame* frames;   // of each group that is named; null: values are in rows
     bool from_memory;             // the job's rows do not fit the caches
     StripMemory strip;            // of a workspace
+    const swivel_pose* pose;      // of bodies; null: free limbs
 };
 inline bool is_named(const std::uint32_t* groups, std::uint32_t g) { return !groups || groups[g / 32] >> g % 32 & 1; }
 
@@ -59,9 +60,10 @@ void for_each_group(const swivel_crowd& crowd, const std::uint32_t* groups, swiv
     }
 }
 
-// Blocks of the named groups in a range.
+// Blocks of the named groups in a range; of bodies, the range's.
 inline std::uint32_t block_count_of(const swivel_crowd& crowd, const std::uint32_t* groups, swivel_blocks blocks)
 {
+    if (crowd.joint_count > 0) return blocks.count;
     std::uint32_t count = 0;
     for_each_group(crowd, groups, blocks, [&](const Group&, GroupBlocks part, std::uint32_t) { count += part.count; });
     return count;
@@ -72,6 +74,11 @@ bool is_from_memory(const swivel_crowd& crowd, std::uint32_t block_count);
 // blocks of each group. These solve rounds first ... end - 1 of a job's blocks on this thread, and count all rounds.
 void solve_rounds(const Work& work, std::uint32_t first, std::uint32_t end);
 std::uint32_t round_count(const Work& work);
+
+// Bodies go in runs of as many blocks as a workspace has. These solve runs first ... end - 1 of a job's blocks on this
+// thread, and count all runs.
+void solve_runs(const Work& work, std::uint32_t first, std::uint32_t end);
+std::uint32_t run_count(const Work& work);
 
 // Solves a job on this thread; or in chunks in the caller's oneTBB arena, if there are enough.
 void solve_here(const Work& work);

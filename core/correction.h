@@ -15,40 +15,50 @@
 namespace swivel::inline SWIVEL_ISA {
 
 template <class T>
-struct IncomingBones {
-    Vector<T> upper, fore;  // from shoulder to elbow and from there to the wrist
-    Vector<T> hinge;        // of the elbow, unit and along neither bone: a turn about its opposite bends the limb
+struct BoneLines {
+    Vector<T> upper, fore;  // unit: from shoulder to elbow and from there to the wrist
+    T upper_length, fore_length;
 };
+template <class T>
+SWIVEL_INLINE constexpr BoneLines<T> bone_lines(const Vector<T>& upper, const Vector<T>& fore)
+{
+    const T upper2 = len2(upper), fore2 = len2(fore);
+    const Mask<T> no_upper = upper2 < T(kTiny2), no_fore = fore2 < T(kTiny2);
+    const T upper_length = sqrt(upper2), fore_length = sqrt(fore2);
+    const Vector<T> e3 = vector(T(0), T(0), T(1));
+    const Vector<T> upper_line = select(no_upper, e3, (T(1) / select(no_upper, T(1), upper_length)) * upper),
+                    fore_line = select(no_fore, upper_line, (T(1) / select(no_fore, T(1), fore_length)) * fore);
+    return {select(no_upper, fore_line, upper_line), fore_line, upper_length, fore_length};
+}
 
+// Normals of the plane that the bones lie in.
+template <class T>
+struct BendNormals {
+    // Their own; of straight bones the hinge. It flips with a bend that changes sides. So use it only where the same
+    // normal serves before and after: where the elbow stays as it comes.
+    Vector<T> own;
+    // One that no small change of the bones turns far: the hinge while the bend is noise, then the bones' own normal on
+    // the hinge's side, and between both a smooth blend. It has any length. A bend against the hinge comes out as one
+    // with it.
+    Vector<T> steady;
+    T sine;  // of the bend
+};
 // The sines of the bend below which it is noise, and above which the bones tell their plane: about 3 and 10 degrees.
 // Knees and elbows that clips hold straight bend by up to some 3 degrees, to any side.
 inline constexpr double kBendUnknown = 0.05, kBendKnown = 0.17;
-
-// The normal of the plane that the bones lie in; of straight bones the hinge. It flips with a bend that changes
-// sides, so use it only where the same normal serves before and after: where the elbow stays as it comes.
+// hinge: of the elbow, unit and along neither bone. A turn about its opposite bends the limb.
 template <class T>
-SWIVEL_INLINE constexpr Vector<T> own_normal(const IncomingBones<T>& bones)
+SWIVEL_INLINE constexpr BendNormals<T> bend_normals(const BoneLines<T>& bones, const Vector<T>& hinge)
 {
-    const Vector<T> normal = cross(scaled(bones.fore), scaled(bones.upper));
-    const T normal2 = len2(normal);
-    const Mask<T> straight = normal2 < T(kTiny2);
-    return select(straight, bones.hinge, (T(1) / sqrt(select(straight, T(1), normal2))) * normal);
-}
-// A normal that no small change of the bones turns far: the hinge while the bend is noise, then the bones' own normal
-// on the hinge's side, and between both a smooth blend. It has any length. A bend against the hinge comes out as one
-// with it.
-template <class T>
-SWIVEL_INLINE constexpr Vector<T> steady_normal(const IncomingBones<T>& bones)
-{
-    const Vector<T> upper = scaled(bones.upper), fore = scaled(bones.fore), normal = cross(fore, upper);
-    const T size2 = len2(upper) * len2(fore), normal2 = len2(normal);
-    const Mask<T> unknown = normal2 <= T(kBendUnknown * kBendUnknown) * size2;
-    const T per_length = T(1) / sqrt(select(unknown, T(1), normal2));
-    const T sine = per_length * normal2 / sqrt(select(unknown, T(1), size2));
-    const T share = lo((sine - T(kBendUnknown)) * T(1 / (kBendKnown - kBendUnknown)), T(1));
+    const Vector<T> normal = cross(bones.fore, bones.upper);
+    const T sine2 = len2(normal);
+    const Mask<T> straight = sine2 < T(kTiny2);
+    const T per_sine = T(1) / sqrt(select(straight, T(1), sine2)), sine = per_sine * sine2;
+    const Vector<T> own = select(straight, hinge, per_sine * normal);
+    const T share = lo(hi((sine - T(kBendUnknown)) * T(1 / (kBendKnown - kBendUnknown)), T(0)), T(1));
     const T weight = share * share * (T(3) - T(2) * share);
-    const Vector<T> own = flip_sign(per_length, scalar_product(normal, bones.hinge)) * normal;
-    return select(unknown, bones.hinge, bones.hinge + weight * (own - bones.hinge));
+    const T side = copysign(T(1), scalar_product(own, hinge));
+    return {own, hinge + weight * (side * own - hinge), sine};
 }
 
 // The frames of both bones.
@@ -57,18 +67,23 @@ struct BoneFrames {
     Rotor<T> upper, fore;
 };
 template <class T>
-SWIVEL_INLINE constexpr Rotor<T> bone_frame(const Vector<T>& bone, const Vector<T>& normal)
+SWIVEL_INLINE constexpr Rotor<T> bone_frame(const Vector<T>& line, const Vector<T>& normal)
 {
-    const Vector<T> line = normalise(bone);
-    return frame_rotor(line, across(across(normal, line), line));
+    return unit_frame(line, T(1), T(1), across(across(normal, line), line));
 }
 template <class T>
-SWIVEL_INLINE constexpr BoneFrames<T> bone_frames(const IncomingBones<T>& bones, const Vector<T>& normal)
+SWIVEL_INLINE constexpr BoneFrames<T> bone_frames(const BoneLines<T>& bones, const Vector<T>& normal)
 {
-    const Mask<T> no_upper = len2(bones.upper) < T(kTiny2), no_fore = len2(bones.fore) < T(kTiny2);
-    const Vector<T> upper = select(no_upper & no_fore, vector(T(0), T(0), T(1)), bones.upper);
-    return {bone_frame(select(no_upper & !no_fore, bones.fore, upper), normal),
-            bone_frame(select(no_fore, upper, bones.fore), normal)};
+    return {bone_frame(bones.upper, normal), bone_frame(bones.fore, normal)};
+}
+// The elbow's hinge between frames that lie across the bones' own normal, by halves of the bend's cosine and sine.
+template <class T>
+SWIVEL_INLINE constexpr Hinge<T> own_hinge(const BoneLines<T>& bones, const T& sine)
+{
+    const T cosine = scalar_product(bones.upper, bones.fore), root = sqrt(T(2) * (T(1) + abs(cosine)));
+    const T large = T(0.5) * root, small = sine / root;
+    const Mask<T> obtuse = cosine < T(0);
+    return hinge(select(obtuse, small, large), -select(obtuse, large, small));
 }
 
 // What an incoming rotation becomes.

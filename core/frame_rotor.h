@@ -84,15 +84,22 @@ SWIVEL_INLINE constexpr Rotor<T> lifted(const Vector<T>& line, const Vector<T>& 
     return normalise(frame_along(line, normal) * lift);
 }
 
-// The rotor of unit length that carries e3 to the line and e1 to a normal orthogonal to it, both of any length.
+// The rotor of unit length that carries e3 to the line and e1 to a normal orthogonal to it, both of any length. length:
+// of the line. per_length2: about 1 / length^2.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> unit_frame(const Vector<T>& line, const T& length, const T& per_length2,
+                                            const Vector<T>& normal)
+{
+    const FrameStart<T> start = frame_start(line, length);
+    const FrameRotor<T> frame = frame_from_start(line, start, per_length2, normal, sqrt(len2(normal)));
+    const T half2 = start.middle_half2() * frame.twist_len2;
+    return from_e3(start, (T(1) / sqrt(half2 + half2)) * frame.from_start);
+}
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> frame_rotor(const Vector<T>& line, const Vector<T>& normal)
 {
     const T length2 = len2(line);
-    const FrameStart<T> start = frame_start(line, sqrt(length2));
-    const FrameRotor<T> frame = frame_from_start(line, start, per_power_of_two(length2), normal, sqrt(len2(normal)));
-    const T half2 = start.middle_half2() * frame.twist_len2;
-    return from_e3(start, (T(1) / sqrt(half2 + half2)) * frame.from_start);
+    return unit_frame(line, sqrt(length2), per_power_of_two(length2), normal);
 }
 
 }  // namespace swivel::inline SWIVEL_ISA

@@ -40,8 +40,8 @@ SWIVEL_INLINE Laid<typename S::T> lay_bones(const S& s, const BonesOf& bones_of)
 template <class S>
 SWIVEL_INLINE void load_lengths(const S& s, ArmGoal<typename S::T>& arm)
 {
-    arm.upper = s.io.load(SWIVEL_LENGTHS, 0);
-    arm.fore = s.io.load(SWIVEL_LENGTHS, 1);
+    arm.upper = length(s, 0);
+    arm.fore = length(s, 1);
     s.require(is_length(arm.upper) & is_length(arm.fore));
 }
 

@@ -7,26 +7,31 @@
 
 namespace swivel {
 
-// Two tables for each instruction set, in its namespace.
+// Three tables for each instruction set, in its namespace.
 inline namespace scalar {
 extern const ArmKernels arm_kernels;
 extern const LimbKernels limb_kernels;
+extern const BodyKernels body_kernels;
 }
 inline namespace sse2 {
 extern const ArmKernels arm_kernels;
 extern const LimbKernels limb_kernels;
+extern const BodyKernels body_kernels;
 }
 inline namespace avx2 {
 extern const ArmKernels arm_kernels;
 extern const LimbKernels limb_kernels;
+extern const BodyKernels body_kernels;
 }
 inline namespace avx512 {
 extern const ArmKernels arm_kernels;
 extern const LimbKernels limb_kernels;
+extern const BodyKernels body_kernels;
 }
 inline namespace neon64 {
 extern const ArmKernels arm_kernels;
 extern const LimbKernels limb_kernels;
+extern const BodyKernels body_kernels;
 }
 
 namespace {
@@ -41,18 +46,20 @@ const Isa isas[] = {
                 __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
                 __builtin_cpu_supports("avx512vl");
      },
-     {avx512::arm_kernels, avx512::limb_kernels}},
+     {avx512::arm_kernels, avx512::limb_kernels, avx512::body_kernels}},
 #endif
 #ifdef SWIVEL_HAS_avx2
-    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, {avx2::arm_kernels, avx2::limb_kernels}},
+    {"avx2",
+     [] { return __builtin_cpu_supports("avx2") != 0; },
+     {avx2::arm_kernels, avx2::limb_kernels, avx2::body_kernels}},
 #endif
 #ifdef SWIVEL_HAS_sse2
-    {"sse2", always, {sse2::arm_kernels, sse2::limb_kernels}},
+    {"sse2", always, {sse2::arm_kernels, sse2::limb_kernels, sse2::body_kernels}},
 #endif
 #ifdef SWIVEL_HAS_neon64
-    {"neon64", always, {neon64::arm_kernels, neon64::limb_kernels}},
+    {"neon64", always, {neon64::arm_kernels, neon64::limb_kernels, neon64::body_kernels}},
 #endif
-    {"scalar", always, {scalar::arm_kernels, scalar::limb_kernels}},
+    {"scalar", always, {scalar::arm_kernels, scalar::limb_kernels, scalar::body_kernels}},
 };
 
 std::atomic<const Isa*> chosen{nullptr};

@@ -45,6 +45,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_WRIST_BOX, "WITH_WRIST_BOX", SWIVEL_WITH_HAND},
     {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits},
     {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
+    {SWIVEL_BODY, "BODY", SWIVEL_WORLD | SWIVEL_WITH_INCOMING, SWIVEL_JOINTS | kTwistBones | SWIVEL_WITH_CLAVICLE},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -81,8 +82,9 @@ struct FieldRow {
     std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    const char* range = "";             // what a value must be to be in its range
-    float start[kMostComponents] = {};  // what padding starts with, and limbs unless unknown
+    const char* range = "";  // what a value must be to be in its range
+    float start[kMostComponents] =
+        {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
     Place place = Place::no;
     UnitParts unit = {};
@@ -106,6 +108,12 @@ constexpr FieldRow input(swivel_field field, const char* name, swivel_features n
     for (std::size_t n = 0; n < count; ++n) row.start[n] = start[n];
     return row;
 }
+// One that a body's pose gives where there is one.
+constexpr FieldRow unless_posed(FieldRow row)
+{
+    row.excludes |= SWIVEL_BODY;
+    return row;
+}
 constexpr float kIdentity[] = {0, 0, 0, 1}, kAnyCone[] = {0, 0, 1, -1};
 constexpr float kAnyRange[] = {1, 0, -1, 0};  // its middle 0, half its width pi
 constexpr float kAnyRanges[] = {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0};
@@ -113,15 +121,16 @@ constexpr FieldRow kFields[] = {
     place(SWIVEL_TARGET, "target", 0, 0, {0, 0, 2}, Start::unknown),
     place(SWIVEL_POLE, "pole", 0, SWIVEL_POLE_INCOMING, {0, -1, 0}, Start::neutral),
     input(SWIVEL_LENGTHS, "lengths", 0, "0 or 1e-15 to 1e15 each", {1, 1}, {}, Start::unknown),
-    place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, 0, {0, 0, 0}, Start::unknown),
-    input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion, kIdentity),
-    input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, "1e-15 to 1e15", {1}),
+    place(SWIVEL_SHOULDER_POSITION, "shoulder_position", SWIVEL_WORLD, SWIVEL_BODY, {0, 0, 0}, Start::unknown),
+    unless_posed(input(SWIVEL_PARENT_ROTATION, "parent_rotation", SWIVEL_WORLD, kQuaternion, kIdentity)),
+    unless_posed(input(SWIVEL_PARENT_SCALE, "parent_scale", SWIVEL_WORLD, "1e-15 to 1e15", {1})),
     input(SWIVEL_HAND, "hand", SWIVEL_WITH_HAND, kQuaternion, kIdentity),
     input(SWIVEL_EFFECTOR, "effector", SWIVEL_WITH_EFFECTOR, kPlace, {0, 0, 0}),
     input(SWIVEL_ANGLE, "angle", SWIVEL_WITH_ANGLE, "cos and sin, 1e-9 to 1e9 long; swivel_turn() makes them", {1, 0}),
-    input(SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity),
-    input(SWIVEL_INCOMING_ELBOW, "incoming_elbow", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity),
-    input(SWIVEL_INCOMING_WRIST, "incoming_wrist", SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, kQuaternion, kIdentity),
+    unless_posed(input(SWIVEL_INCOMING_SHOULDER, "incoming_shoulder", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
+    unless_posed(input(SWIVEL_INCOMING_ELBOW, "incoming_elbow", SWIVEL_WITH_INCOMING, kQuaternion, kIdentity)),
+    unless_posed(input(SWIVEL_INCOMING_WRIST, "incoming_wrist", SWIVEL_WITH_INCOMING | SWIVEL_WITH_HAND, kQuaternion,
+                       kIdentity)),
     input(SWIVEL_WEIGHTS, "weights", SWIVEL_WITH_WEIGHTS, "0 to 1 each", {1, 1, 1}),
     input(SWIVEL_REACH, "reach", SWIVEL_WITH_REACH, "0 to 1 each, the stretch 1 to 1000", {0, 0, 1, 0}),
     input(SWIVEL_MOST_SWIVEL, "most_swivel", SWIVEL_WITH_MOST_SWIVEL,
@@ -140,14 +149,14 @@ constexpr FieldRow kFields[] = {
           {3, 1}),
     input(SWIVEL_CLAVICLE, "clavicle", SWIVEL_WITH_CLAVICLE, "a place no further than 1e15 and a share of 0 to 1",
           {0, 0, 0, 0}),
-    {SWIVEL_SHOULDER, "shoulder", 4, kResult},
-    {SWIVEL_ELBOW, "elbow", 2, kResult},
-    {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND},
+    {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, "", {0, 0, 0, 1}},
+    {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, "", {1, 0}},
+    {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, "", {0, 0, 0, 1}},
     {SWIVEL_FLAGS, "flags", 1, kResult},
-    {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH},
+    {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH, 0, "", {1}},
     {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MOST_SWIVEL},
     {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES},
-    {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE},
+    {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 

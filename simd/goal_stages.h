@@ -35,11 +35,33 @@ SWIVEL_INLINE bool pole_is_point(const S& s)
 {
     return !s.has(SWIVEL_POLE_DIRECTION) && !s.has(SWIVEL_POLE_NORMAL) && !s.has(SWIVEL_POLE_INCOMING);
 }
+// Whether its joints have frames of their own.
+template <class S>
+SWIVEL_INLINE bool is_bound(const S& s)
+{
+    return s.has(SWIVEL_JOINTS) || s.has(SWIVEL_BODY);
+}
+// The parent's frame: a body's, or the one that the caller gave.
+template <class S>
+SWIVEL_INLINE ParentFrame<typename S::T> parent_frame(const S& s)
+{
+    if (!s.has(SWIVEL_BODY)) return s.io.load_parent();
+    const BodyLimb& limb = *s.strip.run.limb;
+    return {s.joint_vector(limb.shoulder, kPlaceRow), s.joint_rotor(limb.parent, kTurnRow),
+            s.joint(limb.parent, kScaleRow)};
+}
+// A bone's length.
+template <class S>
+SWIVEL_INLINE typename S::T length(const S& s, int bone)
+{
+    return s.has(SWIVEL_BODY) ? s.body_row(kLengthsRow + static_cast<std::uint32_t>(bone))
+                              : s.io.load(SWIVEL_LENGTHS, bone);
+}
 // A vector of the hand joint's own frame.
 template <class S>
 SWIVEL_INLINE Vector<typename S::T> in_hand(const S& s, const Vector<typename S::T>& v)
 {
-    return s.has(SWIVEL_JOINTS) ? sandwich(broadcast<typename S::T>(s.strip.bind.hand_from_arm), v) : v;
+    return is_bound(s) ? sandwich(broadcast<typename S::T>(s.strip.bind.hand_from_arm), v) : v;
 }
 
 template <>
@@ -48,13 +70,19 @@ struct StageBody<Stage::see> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
-        const Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
-        const ParentFrame<T> parent = s.io.load_parent();
+        Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
+        Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
+        if constexpr (S::is(SWIVEL_BODY)) {  // places are from the root's
+            const Vector<T> root = s.body_vector(kRootRow);
+            target = target - root;
+            if (pole_is_point(s)) pole = pole - root;
+        }
+        const ParentFrame<T> parent = parent_frame(s);
         s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
         // The arm frame goes with the parent.
         Rotor<T> rotation = parent.rotation;
-        if constexpr (S::is(SWIVEL_JOINTS)) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+        if constexpr (S::is(SWIVEL_JOINTS) || S::is(SWIVEL_BODY))
+            rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
         const SeenGoal<T> seen =
             seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
         const T shrink = T(1) / seen.size;
@@ -133,9 +161,11 @@ struct StageBody<Stage::goal> {
         if constexpr (hands) {
             goal.hand = seen ? s.get_rotor(kHandRow) : s.io.load_rotor(SWIVEL_HAND);
             if (!seen) valid = valid & is_orientation(goal.hand);
-            if (s.has(SWIVEL_JOINTS))
-                goal.hand = (use.aim ? ~broadcast<T>(bind.wrist_parent_from_arm) * goal.hand : goal.hand) *
-                            ~broadcast<T>(bind.hand_from_arm);
+            if (is_bound(s)) {
+                const Rotor<T> wrist_parent = s.has(SWIVEL_BODY) ? s.body_rotor(s.strip.run.limb->wrist_parent_row())
+                                                                 : broadcast<T>(bind.wrist_parent_from_arm);
+                goal.hand = (use.aim ? ~wrist_parent * goal.hand : goal.hand) * ~broadcast<T>(bind.hand_from_arm);
+            }
             valid = valid & is_product(goal.hand);
         }
         if (use.effector && !use.aim) {
@@ -143,8 +173,8 @@ struct StageBody<Stage::goal> {
             valid = valid & (len2(goal.effector) <= T(kHuge2));
         }
         if constexpr (weighs) {
-            goal.arm.upper = s.io.load(SWIVEL_LENGTHS, 0);
-            goal.arm.fore = s.io.load(SWIVEL_LENGTHS, 1);
+            goal.arm.upper = length(s, 0);
+            goal.arm.fore = length(s, 1);
             goal.incoming = {s.get_rotor(kIncomingRow), s.get_rotor(kIncomingRow + 4),
                              hands ? s.get_rotor(kIncomingRow + 8) : one<T>()};
             goal.weights = {s.io.load(SWIVEL_WEIGHTS, 0), s.io.load(SWIVEL_WEIGHTS, 1), s.io.load(SWIVEL_WEIGHTS, 2)};

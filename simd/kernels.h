@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/body_rows.h"
 #include "simd/fields.h"
 #include "simd/stages.h"
 
@@ -16,6 +17,8 @@ namespace swivel {
 struct StripMemory {
     float* rows;
     std::uint32_t block_count;
+    float* bodies = nullptr;  // as many blocks of bodies (body_rows.h), from poses of this form
+    swivel_pose_form form = SWIVEL_ROTATIONS;
 };
 
 // A run of blocks that share their features and binding.
@@ -30,11 +33,13 @@ struct SolveRun {
     const std::uint16_t* first_row;             // of each field, among input or result rows
     bool from_memory;                           // the job's rows do not fit the caches
     bool keeps;                                 // of limbs with bad input only the flags are written
-    const std::uint32_t* mask;  // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
-    std::size_t first_lane;     // of the run, in the mask
-    std::size_t padding;        // the first lane of the run that is padding, which no mask chooses
-    const StageList* stages;    // of whole limbs
-    StripMemory strip;          // the same
+    const std::uint32_t* mask;      // the crowd's chosen lanes, a bit for each; null: all. Others keep their results
+    std::size_t first_lane;         // of the run, in the mask
+    std::size_t padding;            // the first lane of the run that is padding, which no mask chooses
+    const StageList* stages;        // of whole limbs
+    StripMemory strip;              // the same
+    const BodyLimb* limb;           // of a group of bodies, as is the next
+    std::size_t body_block_floats;  // from block to block of the strip memory's bodies
 };
 
 // Bits of the lanes of a slice that are chosen. limb: the slice's first, in the run. All bits are set if there is no
@@ -87,9 +92,16 @@ struct LimbKernels {
     std::uint32_t (*allowed_arcs)(const SolveRun& run, std::size_t limb, ArcEnds (&arcs)[kMostArcs]);
 };
 
+// Of bodies: simd/body_kernels.cpp.
+struct BodyKernels {
+    // Fills in the rows of all joints of a block from what the pose says of each.
+    void (*forward)(const BodyPlan& plan, const BodyBlock& block);
+};
+
 struct Kernels {
     const ArmKernels& arms;
     const LimbKernels& limbs;
+    const BodyKernels& bodies;
 };
 
 }  // namespace swivel

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/allowed_arcs.h"
+#include "simd/body_stages.h"
 #include "simd/choose_stages.h"
 #include "simd/store_stages.h"
 

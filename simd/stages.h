@@ -19,6 +19,7 @@ enum class Stage : std::uint8_t {
     see,       // the goal, as the parent sees it
     clavicle,  // turned by its share, and the goal turned back
     incoming,  // the incoming pose, in the arm frame
+    posed,     // the same of a body's limb, with its bones and how its joints lie to them
     goal,      // the hand's orientation and the wrist's place
     place,
     bones,  // the line to the wrist, the flexion and the lift
@@ -34,6 +35,7 @@ enum class Stage : std::uint8_t {
     choose,         // the swivel that the lines allow
     choose_in_box,  // the same, with boxes
     store,          // lifts the arm, and stores the results
+    correct,        // a body's joints
     twist_bones,
     count
 };
@@ -43,6 +45,10 @@ inline constexpr swivel_features kLineFeatures = SWIVEL_WITH_SHOULDER_CONE | SWI
                                                  SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                                  SWIVEL_WITH_HAND_TWIST;
 inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
+
+// What moves a limb even where its weights ask for nothing.
+inline constexpr swivel_features kBoundingFeatures =
+    kLineFeatures | kBoxFeatures | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL;
 
 struct StageRow {
     Stage stage;
@@ -54,9 +60,10 @@ inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWI
                                  kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL,
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
-    {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, 0},
+    {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_BODY, SWIVEL_WORLD, 0},
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
-    {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, 0},
+    {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, SWIVEL_BODY},
+    {Stage::posed, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_BODY, 0},
     {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
     {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},
     {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM},
@@ -72,6 +79,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::choose, 0, kLineFeatures, kBoxFeatures},
     {Stage::choose_in_box, 0, kBoxFeatures, 0},
     {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM, 0, 0},
+    {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }

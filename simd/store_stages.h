@@ -34,7 +34,7 @@ struct Results {
                                    const Rotor<T>& rest) const
     {
         const Rotor<T> safe = select(valid, q, hemisphere(rest));
-        if (!s.has(SWIVEL_WITH_INCOMING)) return out.store_rotor(field, hemisphere(safe));
+        if (!s.has(SWIVEL_WITH_INCOMING) || s.has(SWIVEL_BODY)) return out.store_rotor(field, hemisphere(safe));
         const T side = scalar_product(~out.load_rotor(incoming), safe);
         out.store_rotor(field, with_sign_of(select(valid, side, T(1)), safe));
     }

@@ -39,6 +39,7 @@ struct StripSlice {
     Strip& strip;
     Rows<T, kTold> io;  // the group's own rows
     float* rows;        // the strip's
+    float* body;        // the body's
     std::uint32_t block, lane;
 
     // Whether the group has a feature; and the same of one that the stage knows, as a constant.
@@ -74,6 +75,37 @@ struct StripSlice {
         set(row + 2, q.template at<kK>());
         set(row + 3, q.template at<kScalar>());
     }
+    // Rows of the body: of its limb on the way, and of its joints.
+    SWIVEL_INLINE T body_row(std::uint32_t row) const { return load_lanes<T>(at(body, row)); }
+    SWIVEL_INLINE Rotor<T> body_rotor(std::uint32_t row) const
+    {
+        return rotor(body_row(row), body_row(row + 1), body_row(row + 2), body_row(row + 3));
+    }
+    SWIVEL_INLINE Vector<T> body_vector(std::uint32_t row) const
+    {
+        return vector(body_row(row), body_row(row + 1), body_row(row + 2));
+    }
+    SWIVEL_INLINE void set_body(std::uint32_t row, const T& value) const { store_lanes(at(body, row), value); }
+    SWIVEL_INLINE void set_body_rotor(std::uint32_t row, const Rotor<T>& q) const
+    {
+        set_body(row, q.template at<kI>());
+        set_body(row + 1, q.template at<kJ>());
+        set_body(row + 2, q.template at<kK>());
+        set_body(row + 3, q.template at<kScalar>());
+    }
+    SWIVEL_INLINE T joint(std::uint32_t joint, std::uint32_t row) const { return body_row(joint_row(joint) + row); }
+    SWIVEL_INLINE Rotor<T> joint_rotor(std::uint32_t joint, std::uint32_t row) const
+    {
+        return body_rotor(joint_row(joint) + row);
+    }
+    SWIVEL_INLINE Vector<T> joint_vector(std::uint32_t joint, std::uint32_t row) const
+    {
+        return body_vector(joint_row(joint) + row);
+    }
+    SWIVEL_INLINE void set_joint_rotor(std::uint32_t joint, std::uint32_t row, const Rotor<T>& q) const
+    {
+        set_body_rotor(joint_row(joint) + row, q);
+    }
     // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
     SWIVEL_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
     {
@@ -94,10 +126,11 @@ struct StripSlice {
     }
 
 private:
-    SWIVEL_INLINE auto address_of(std::uint32_t row) const
+    SWIVEL_INLINE static auto at(float* first, std::uint32_t row)
     {
-        return [at = rows + row * kLanes](std::size_t n) SWIVEL_INLINE_LAMBDA { return at + n; };
+        return [from = first + row * kLanes](std::size_t n) SWIVEL_INLINE_LAMBDA { return from + n; };
     }
+    SWIVEL_INLINE auto address_of(std::uint32_t row) const { return at(rows, row); }
 };
 
 // Calls take(slice) for each slice of a strip that has chosen lanes.
@@ -111,9 +144,10 @@ SWIVEL_INLINE void for_each_slice(Strip& strip, const Take& take)
         const float* const input = run.input + row_offset(limb, run.input_row_count, 0);
         float* const results = run.results + row_offset(limb, run.result_row_count, 0);
         float* const rows = strip.lane(n * kLanes);
+        float* const body = run.strip.bodies ? run.strip.bodies + strip.block[n] * run.body_block_floats : nullptr;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const StripSlice<T, Knows, Has> slice{
-                strip, {run, input + lane, results + lane, kEveryLane}, rows + lane, n, lane};
+                strip, {run, input + lane, results + lane, kEveryLane}, rows + lane, body + lane, n, lane};
             if (lanes == kLanes || slice.chosen() != 0) take(slice);
         }
     }

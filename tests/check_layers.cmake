@@ -97,26 +97,28 @@ may_include(core "core/reference[.]cpp$" "<cmath>|\"core/(dense|reference)[.]h\"
 may_include(core "" "${standard}|\"core/[a-z_]+[.]h\"|${public}")
 must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/arm[.]h$" "formulas know no crowd; arm.h knows the bits of flags")
 
-# ---- simd: the two files of kernels and their headers see formulas and lanes; the rest sees neither
+# ---- simd: the files of kernels and their headers see formulas and lanes; the rest sees neither
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
 may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|slice|strip_rows)[.]h\"")
-may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(choose|store)_stages[.]h\"")
+may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(body|choose|store)_stages[.]h\"")
+may_include(simd "simd/body_kernels[.]cpp$" "${standard}|\"core/(joint|matrix)_frame[.]h\"|\"simd/(kernels|lanes|values)[.]h\"")
 may_include(simd "simd/[a-z]+_stages[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|goal|limit)_stages|strip)[.]h\"")
 may_include(simd "simd/strip[.]h$" "${standard}|\"simd/(slice|stages|strip_rows)[.]h\"")
-may_include(simd "simd/(stages|strip_rows)[.]h$" "${standard}|\"simd/(fields|rows)[.]h\"")
+may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"simd/(fields|rows)[.]h\"")
+may_include(simd "simd/values[.]h$" "${standard}|\"simd/lanes[.]h\"")
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
 may_include(simd "simd/slice[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/pack[.]h$" "${standard}|\"core/pack[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
 may_include(simd "simd/fields[.]h$" "${standard}|${public}")
-may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$" "${standard}|\"simd/(dispatch|fields|kernels|stages)[.]h\"|\"core/isa[.]h\"")
+may_include(simd "simd/(dispatch[.](h|cpp)|kernels[.]h|rows[.]h)$" "${standard}|\"simd/(body_rows|dispatch|fields|kernels|stages)[.]h\"|\"core/isa[.]h\"")
 may_include(simd "simd/float_env[.]h$" "${standard}|<xmmintrin[.]h>")
 may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\"simd/fields[.]h\"")
 
 # ---- batch: never lanes; the files of one line below know core, and the others do not
-set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
-may_include(batch "batch/(api|api_solve|api_pose|sized|crowd|describe|digest|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
+set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
+may_include(batch "batch/(api|api_solve|api_pose|bodies|pose|share|sized|crowd|describe|digest|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(rig|skeleton|angles|budget|check|explain|forward|joint_angles|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(rig|skeleton|body_plan|angles|budget|check|explain|forward|joint_angles|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- lecture: formulas in double and the oracle; it needs no crowd

@@ -36,9 +36,14 @@ Posed random_posed(Random& random, double bend)
     return in;
 }
 template <class T>
-IncomingBones<T> posed_bones(const Posed& in)
+BoneLines<T> posed_bones(const Posed& in)
 {
-    return {mv<T>(in.upper), mv<T>(in.fore), mv<T>(in.hinge)};
+    return bone_lines(mv<T>(in.upper), mv<T>(in.fore));
+}
+template <class T>
+BendNormals<T> posed_normals(const Posed& in)
+{
+    return bend_normals(posed_bones<T>(in), mv<T>(in.hinge));
 }
 
 struct CorrectedLimb {
@@ -49,11 +54,11 @@ struct CorrectedLimb {
 template <class T>
 CorrectedLimb correct(const Posed& in, const Vector3d& target, const Vector<T>& normal)
 {
-    const IncomingBones<T> bones = posed_bones<T>(in);
+    const BoneLines<T> bones = posed_bones<T>(in);
     LimbUse use;
     use.wish = Wish::normal;
     LimbGoal<T> goal = limb_goal<T>(Arm{target, Vector3d::UnitX(), 0, 0});
-    goal.arm.upper = sqrt(len2(bones.upper)), goal.arm.fore = sqrt(len2(bones.fore));
+    goal.arm.upper = bones.upper_length, goal.arm.fore = bones.fore_length;
     goal.arm.pole = normal;
     const ArmPose<T> pose = solve_limb<false>(use, goal, Mask<T>(true)).arm;
     const BoneFrames<T> was = bone_frames(bones, normal);
@@ -72,7 +77,7 @@ TEST_CASE("untouched goals give back the incoming rotations")
         Random random{seed};
         for (int n = 0; n < 50; ++n) {
             const Posed in = random_posed(random, (n % 2 ? 1 : -1) * random.spread(1e-3, 3.1));
-            const Vector<float> normal = own_normal(posed_bones<float>(in));
+            const Vector<float> normal = posed_normals<float>(in).own;
             const CorrectedLimb got = correct<float>(in, in.upper + in.fore, normal);
             const double known =
                 2e-6 + 4e-7 * in.size() * in.size() / (in.upper.norm() * in.fore.norm() * in.bend_sine);
@@ -95,8 +100,8 @@ TEST_CASE(
             const double near = std::fabs(in.upper.norm() - in.fore.norm());
             const Vector3d target = (near + random.between(0.02, 0.98) * (in.size() - near)) * random.direction();
             for (const bool is_steady : {false, true}) {
-                const IncomingBones<float> bones = posed_bones<float>(in);
-                const CorrectedLimb got = correct(in, target, is_steady ? steady_normal(bones) : own_normal(bones));
+                const BendNormals<float> normals = posed_normals<float>(in);
+                const CorrectedLimb got = correct(in, target, is_steady ? normals.steady : normals.own);
                 RC_ASSERT((got.wrist - target).norm() <= 2e-6 * in.size());
             }
         }
@@ -115,7 +120,7 @@ TEST_CASE("the steady normal is the hinge of straight bones, their own of bent o
             Posed bent = straight;
             const double sine = 0.001 * step;
             bent.fore = Eigen::AngleAxisd(-std::asin(sine), axis) * straight.fore;
-            const Vector<double> steady = steady_normal(posed_bones<double>(bent));
+            const Vector<double> steady = posed_normals<double>(bent).steady;
             const Vector3d normal = Vector3d(steady.at<kE1>(), steady.at<kE2>(), steady.at<kE3>()).normalized();
             if (sine < 0.05) REQUIRE((normal - straight.hinge).norm() <= 1e-12);
             if (sine > 0.17) REQUIRE((normal - side * axis).norm() <= 1e-9);

@@ -144,6 +144,7 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_WRIST_BOX (UINT64_C(1) << 20)
 #define SWIVEL_WITH_AIM (UINT64_C(1) << 21)          // the flexion is given, and the hand points at the target
 #define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)     // the shoulder's parent joint shares the reach
+#define SWIVEL_BODY (UINT64_C(1) << 23)              // limb i is body i's: a crowd with a skeleton sets it, no def does
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
@@ -324,6 +325,16 @@ SWIVEL_API uint32_t swivel_component_count(swivel_field field, swivel_features f
 // The name of the lowest bit of a flag word, such as "REACHED"; null for a bit that is none. Any thread.
 SWIVEL_API const char* swivel_flag_name(uint32_t flags);
 
+typedef struct swivel_in {
+    const void* data;  // null only for zero limbs
+    size_t stride;     // bytes from one limb's value to the next; 0: one value for all limbs. Any alignment.
+} swivel_in;
+
+typedef struct swivel_out {
+    void* data;     // null only for zero limbs
+    size_t stride;  // bytes; at least the value's size. Any alignment.
+} swivel_out;
+
 // Maps the arm frame to a skeleton's joints. It holds unit quaternions (x, y, z, w), the rest pose and the bone
 // lengths. Made by swivel_bind() or swivel_bind_joints().
 typedef struct swivel_binding {
@@ -372,111 +383,6 @@ static inline swivel_chain swivel_default_chain(void)
     return chain;
 }
 
-// Intrinsic Euler angles: SWIVEL_XYZ means R = Rx Ry Rz.
-typedef enum swivel_euler_order {
-    SWIVEL_XYZ,
-    SWIVEL_XZY,
-    SWIVEL_YZX,
-    SWIVEL_YXZ,
-    SWIVEL_ZXY,
-    SWIVEL_ZYX,
-} swivel_euler_order;
-
-// What a limb with bad input gets, besides SWIVEL_BAD_INPUT.
-typedef enum swivel_on_bad_input {
-    SWIVEL_REST_POSE,  // its rest pose; what it carries from solve to solve is cleared
-    // Its results stay as they are, and so do its values in frames: only its flags are written. What it carries stays.
-    SWIVEL_KEEP_POSE,
-} swivel_on_bad_input;
-
-// Limbs that share features and a binding, such as the left arms of one skeleton.
-typedef struct swivel_group_def {
-    size_t size;               // sizeof(swivel_group_def), set by swivel_default_group_def()
-    swivel_features features;  // 0: all is in the arm frame
-    uint32_t limb_count;       // 1 or more
-    swivel_on_bad_input on_bad_input;
-    swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
-    swivel_binding binding;  // with SWIVEL_JOINTS every limb uses it, and starts with its lengths; ignored without
-} swivel_group_def;
-
-// Plain limbs in the arm frame.
-static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
-{
-    swivel_group_def group;
-    memset(&group, 0, sizeof group);
-    group.size = sizeof group;
-    group.limb_count = limb_count;
-    group.binding = swivel_default_binding();
-    return group;
-}
-
-typedef struct swivel_crowd_def {
-    size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
-    uint32_t group_count;            // 1 or more
-    uint32_t workspace_count;        // how many workspaces it has, 0 to 64: see swivel_workspace_bytes()
-    const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
-    // Memory comes from the first of these that is set. 1: memory, the caller's own, aligned to 64 bytes and
-    // swivel_crowd_bytes() long, which the caller frees after destroy. 2: allocate, whose results are aligned to 64
-    // bytes. 3: the C library.
-    void* memory;
-    size_t memory_bytes;
-    void* (*allocate)(size_t bytes, size_t alignment, void* user);
-    void (*release)(void* memory, size_t bytes, void* user);
-    void* user;
-} swivel_crowd_def;
-
-typedef struct swivel_crowd swivel_crowd;
-
-typedef struct swivel_in {
-    const void* data;  // null only for zero limbs
-    size_t stride;     // bytes from one limb's value to the next; 0: one value for all limbs. Any alignment.
-} swivel_in;
-
-typedef struct swivel_out {
-    void* data;     // null only for zero limbs
-    size_t stride;  // bytes; at least the value's size. Any alignment.
-} swivel_out;
-
-// A group's memory. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes,
-// aligned to 64. Row r of limb i of the group is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows lie
-// in the order of swivel_field. Fields that the group lacks have no rows. Lanes past the group's end are padding.
-typedef struct swivel_rows {
-    float* base;           // borrowed from the crowd, valid until it is destroyed
-    uint32_t block_count;  // of the group
-    uint32_t row_count;
-} swivel_rows;
-
-// The version the library was built as: compare with SWIVEL_VERSION. Any thread.
-SWIVEL_API uint32_t swivel_version(void);
-// What a status means, in a few words. Any thread.
-SWIVEL_API const char* swivel_status_text(swivel_status status);
-// One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
-SWIVEL_API const char* swivel_last_error(void);
-
-// One group must still be given; one workspace; the C library's memory.
-static inline swivel_crowd_def swivel_default_crowd_def(void)
-{
-    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 1, NULL, NULL, 0, NULL, NULL, NULL};
-    return def;
-}
-// Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
-SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
-// Makes a crowd. It allocates memory once. Later calls allocate nothing, but oneTBB may inside solves that use it. On
-// failure *crowd is null. What has no sensible default starts as NaN: a limb that never gets it is SWIVEL_BAD_INPUT.
-// These are targets, shoulder positions, and bone lengths where no binding has them. Poles start as (0, -1, 0), parent
-// and hand as the identity. All else starts neutral: no turn, weights 1, every limit wide open. Results start as the
-// rest pose, without flags.
-SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
-// Frees what create allocated. Null is allowed. A checked build leaves a crowd that another thread uses as it is, and
-// swivel_last_error() says so.
-SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
-
-// The alignments of a limb from its rest pose, and its two bone lengths. Start binding from swivel_default_binding():
-// its size says how much is written. Any thread; no allocation. It fails for a zero or non-finite quaternion, a bone of
-// no length, and a binding without its size. It fails for a bend parallel to the upper arm, and for one that turns the
-// forearm about itself. Without a bend it fails for a rest pose bent by 10 degrees or less.
-SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
-
 // A skeleton at rest. Joints are named by index, in any order; every stride is at least a value's size.
 typedef struct swivel_skeleton {
     size_t size;             // sizeof(swivel_skeleton), set by swivel_default_skeleton()
@@ -518,6 +424,116 @@ static inline swivel_limb_joints swivel_default_limb_joints(uint32_t shoulder, u
     joints.wrist = wrist;
     return joints;
 }
+
+// Intrinsic Euler angles: SWIVEL_XYZ means R = Rx Ry Rz.
+typedef enum swivel_euler_order {
+    SWIVEL_XYZ,
+    SWIVEL_XZY,
+    SWIVEL_YZX,
+    SWIVEL_YXZ,
+    SWIVEL_ZXY,
+    SWIVEL_ZYX,
+} swivel_euler_order;
+
+// What a limb with bad input gets, besides SWIVEL_BAD_INPUT.
+typedef enum swivel_on_bad_input {
+    SWIVEL_REST_POSE,  // its rest pose; what it carries from solve to solve is cleared
+    // Its results stay as they are, and so do its values in frames: only its flags are written. What it carries stays.
+    SWIVEL_KEEP_POSE,
+} swivel_on_bad_input;
+
+// Limbs that share features and a binding, such as the left arms of one skeleton.
+typedef struct swivel_group_def {
+    size_t size;               // sizeof(swivel_group_def), set by swivel_default_group_def()
+    swivel_features features;  // 0: all is in the arm frame
+    uint32_t limb_count;       // 1 or more; in a crowd of bodies 0 or its body_count
+    swivel_on_bad_input on_bad_input;
+    swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
+    swivel_binding binding;  // with SWIVEL_JOINTS every limb uses it, and starts with its lengths; ignored without
+    const swivel_limb_joints* joints;  // of bodies: which joints the limb has. Null in crowds of free limbs; copied
+} swivel_group_def;
+
+// Plain limbs in the arm frame.
+static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
+{
+    swivel_group_def group;
+    memset(&group, 0, sizeof group);
+    group.size = sizeof group;
+    group.limb_count = limb_count;
+    group.binding = swivel_default_binding();
+    return group;
+}
+
+// The limb of each body that has these joints. With bad input it keeps its incoming pose.
+static inline swivel_group_def swivel_default_body_group_def(const swivel_limb_joints* joints)
+{
+    swivel_group_def group = swivel_default_group_def(0);
+    group.joints = joints;
+    group.on_bad_input = SWIVEL_KEEP_POSE;
+    return group;
+}
+
+typedef struct swivel_crowd_def {
+    size_t size;                     // sizeof(swivel_crowd_def), set by swivel_default_crowd_def()
+    uint32_t group_count;            // 1 or more
+    uint32_t workspace_count;        // how many workspaces it has, 0 to 64: see swivel_workspace_bytes()
+    const swivel_group_def* groups;  // group_count of them, as far apart as the first one's size; copied
+    // Memory comes from the first of these that is set. 1: memory, the caller's own, aligned to 64 bytes and
+    // swivel_crowd_bytes() long, which the caller frees after destroy. 2: allocate, whose results are aligned to 64
+    // bytes. 3: the C library.
+    void* memory;
+    size_t memory_bytes;
+    void* (*allocate)(size_t bytes, size_t alignment, void* user);
+    void (*release)(void* memory, size_t bytes, void* user);
+    void* user;
+    // Null: free limbs. Otherwise a crowd of bodies, which all have this skeleton; it is copied. Every group then names
+    // joints and has a limb of each body: see swivel_pose.
+    const swivel_skeleton* skeleton;
+    uint32_t body_count;  // with a skeleton 1 or more, else 0
+    uint32_t reserved;    // 0
+} swivel_crowd_def;
+
+typedef struct swivel_crowd swivel_crowd;
+
+// A group's memory. One lane is one limb. A block is 16 limbs, a row is one component of a block: 16 floats, 64 bytes,
+// aligned to 64. Row r of limb i of the group is base[((i / 16) * row_count + r) * 16 + i % 16], on every CPU. Rows lie
+// in the order of swivel_field. Fields that the group lacks have no rows. Lanes past the group's end are padding.
+typedef struct swivel_rows {
+    float* base;           // borrowed from the crowd, valid until it is destroyed
+    uint32_t block_count;  // of the group
+    uint32_t row_count;
+} swivel_rows;
+
+// The version the library was built as: compare with SWIVEL_VERSION. Any thread.
+SWIVEL_API uint32_t swivel_version(void);
+// What a status means, in a few words. Any thread.
+SWIVEL_API const char* swivel_status_text(swivel_status status);
+// One line on the calling thread's last failed call: what, where, what to do. Empty before any failure.
+SWIVEL_API const char* swivel_last_error(void);
+
+// One group must still be given; one workspace; the C library's memory.
+static inline swivel_crowd_def swivel_default_crowd_def(void)
+{
+    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 1, NULL, NULL, 0, NULL, NULL, NULL, NULL, 0, 0};
+    return def;
+}
+// Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
+SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
+// Makes a crowd. It allocates memory once. Later calls allocate nothing, but oneTBB may inside solves that use it. On
+// failure *crowd is null. What has no sensible default starts as NaN: a limb that never gets it is SWIVEL_BAD_INPUT.
+// These are targets, shoulder positions, and bone lengths where no binding has them. Poles start as (0, -1, 0), parent
+// and hand as the identity. All else starts neutral: no turn, weights 1, every limit wide open. Results start as the
+// rest pose, without flags.
+SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
+// Frees what create allocated. Null is allowed. A checked build leaves a crowd that another thread uses as it is, and
+// swivel_last_error() says so.
+SWIVEL_API void swivel_crowd_destroy(swivel_crowd* crowd);
+
+// The alignments of a limb from its rest pose, and its two bone lengths. Start binding from swivel_default_binding():
+// its size says how much is written. Any thread; no allocation. It fails for a zero or non-finite quaternion, a bone of
+// no length, and a binding without its size. It fails for a bend parallel to the upper arm, and for one that turns the
+// forearm about itself. Without a bend it fails for a rest pose bent by 10 degrees or less.
+SWIVEL_API swivel_status swivel_bind(const swivel_chain* chain, swivel_binding* binding);
 
 // swivel_bind() of a limb in a skeleton. Local rotations are relative to the joint's own parent, as the skeleton has
 // them. It reads the joints from wrist and twist bones up to the shoulder, and parents up to the root. Other joints are
@@ -603,6 +619,49 @@ static inline swivel_frame swivel_default_frame(void)
     return frame;
 }
 
+// What a pose's rotations are.
+typedef enum swivel_pose_form {
+    SWIVEL_ROTATIONS,        // x, y, z, w; translations and scales lie apart
+    SWIVEL_MATRIX_ROWS,      // 3 x 4 or 4 x 4 floats, row after row; a fourth row is not touched
+    SWIVEL_MATRIX_COLUMNS,   // 4 x 4 floats, column after column; the last row is not touched
+    SWIVEL_MATRIX_COLUMNS3,  // 3 x 4 floats, column after column
+} swivel_pose_form;
+
+// Values of joints in the caller's own array. That of joint j of body i is at data + i * body_stride + o, where o is
+// offsets[j], or j * joint_stride where offsets is null. Strides and offsets are in bytes; any alignment.
+typedef struct swivel_joint_values {
+    void* data;                        // null: none
+    size_t body_stride, joint_stride;  // inputs: 0 is one value for all
+    const size_t* offsets;             // one for each joint of the skeleton
+} swivel_joint_values;
+
+// The bodies' poses, as an engine keeps them.
+typedef struct swivel_pose {
+    size_t size;  // sizeof(swivel_pose), set by swivel_default_pose()
+    swivel_pose_form form;
+    // Not 0: root positions are doubles, and so are the positions in the job's frames. The root is subtracted in
+    // double. Positions in rows are then relative to the root.
+    uint32_t root_is_double;
+    swivel_joint_values rotations;     // or matrices, as form says; must be given
+    swivel_joint_values translations;  // 3 floats: the joint's place in its parent's frame; none: as the skeleton rests
+    swivel_joint_values scales;        // 3 floats; none: 1
+    // Where the joints that are solved go, in the same form; none: back to rotations.
+    swivel_joint_values results;
+    // Of each body, which the joints with parent -1 hang below. Null data: at the origin, not turned, scale 1.
+    swivel_in root_position;  // 3 floats in the world, or doubles
+    swivel_in root_rotation;  // x, y, z, w
+    swivel_in root_scale;     // 1 float
+} swivel_pose;
+
+// Rotations must still be given.
+static inline swivel_pose swivel_default_pose(void)
+{
+    swivel_pose pose;
+    memset(&pose, 0, sizeof pose);
+    pose.size = sizeof pose;
+    return pose;
+}
+
 // Some of a crowd's blocks.
 typedef struct swivel_blocks {
     uint32_t first, count;
@@ -664,6 +723,9 @@ typedef struct swivel_job {
     // swivel_workspace_bytes() of memory for this call alone, aligned to 64. Null: one of the crowd's workspaces. Two
     // calls that share one spoil each other's results, which no build can see.
     void* workspace;
+
+    // Of bodies: where their poses are. Null in crowds of free limbs.
+    const swivel_pose* pose;
 } swivel_job;
 
 // Every limb, from and to rows.

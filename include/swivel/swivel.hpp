@@ -77,6 +77,15 @@ inline swivel_group_def group(std::uint32_t limb_count, const swivel_binding& bi
     return made;
 }
 
+// The limb of each body that has these joints, which must live until the crowd is made.
+inline swivel_group_def body_group(const swivel_limb_joints& joints, swivel_features features = 0)
+{
+    swivel_group_def made = swivel_default_body_group_def(&joints);
+    made.features = features;
+    return made;
+}
+swivel_group_def body_group(const swivel_limb_joints&& joints, swivel_features features = 0) = delete;
+
 // A limb's alignments and bone lengths from its rest pose: swivel_bind(), swivel_bind_joints().
 inline swivel_binding bind(const swivel_chain& chain)
 {
@@ -330,7 +339,8 @@ struct Job {
     std::uint32_t most_blocks = 0;             // with priorities
     Given<swivel_frame> frames = everything;   // one for each group that is named, such as a Frame with a name
     bool on_this_thread = false;
-    void* workspace = nullptr;  // memory for this call alone; null: one of the crowd's workspaces
+    void* workspace = nullptr;          // memory for this call alone; null: one of the crowd's workspaces
+    const swivel_pose* pose = nullptr;  // of bodies; null in a crowd of free limbs
 };
 
 // Owns one crowd; moves, does not copy. Ranges passed in or out hold one value for each limb of the group; or, with
@@ -352,6 +362,16 @@ public:
     Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
     explicit Crowd(const swivel_group_def& group) : Crowd(std::span(&group, 1)) {}
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
+    // Bodies of one skeleton, with a group for each limb.
+    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const swivel_group_def> groups)
+    {
+        swivel_crowd_def def = swivel_default_crowd_def();
+        def.skeleton = &skeleton;
+        def.body_count = body_count;
+        def.group_count = static_cast<std::uint32_t>(groups.size());
+        def.groups = groups.data();
+        check(swivel_crowd_create(&def, &crowd_));
+    }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
     Crowd& operator=(Crowd&& other) noexcept
     {
@@ -422,6 +442,7 @@ public:
         }
         job.on_this_thread = wanted.on_this_thread;
         job.workspace = wanted.workspace;
+        job.pose = wanted.pose;
         std::uint32_t solved = 0;
         job.solved_count = &solved;
         check(swivel_solve(crowd_, &job));

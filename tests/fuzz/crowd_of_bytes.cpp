@@ -153,7 +153,7 @@ swivel_features features_of(Bytes& bytes)
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
         const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
         const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
-        if (!(wanted & all) || (excluded & all) || (features & info.excludes)) continue;
+        if (info.feature == SWIVEL_BODY || !(wanted & all) || (excluded & all) || (features & info.excludes)) continue;
         features |= (wanted & all) | info.needs;
         excluded |= info.excludes;
     }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+//
+// Bodies, run after run. A run is some blocks of bodies. Their poses are copied into a workspace, forward kinematics
+// finds their limbs, every group's limbs are solved, and the joints go back, while all of it is in a near cache.
+#include <algorithm>
+
+#include "batch/pose.h"
+#include "batch/share.h"
+#include "simd/float_env.h"
+
+namespace swivel {
+
+namespace {
+
+// One job's way through runs.
+struct Runs {
+    const Work& work;
+    const swivel_pose pose = full_pose(work.pose);
+    const StripMemory strip{work.strip.rows, work.strip.block_count, work.strip.bodies, pose.form};
+    const std::size_t block_floats = body_block_floats(work.crowd.joint_count);
+
+    // Calls take(block) for the blocks of a run that have chosen bodies.
+    template <class Take>
+    void for_each_block(GroupBlocks run, const Take& take) const
+    {
+        const Group& any = work.crowd.groups[0];
+        for (std::uint32_t n = 0; n < run.count; ++n) {
+            const std::uint32_t block = run.first + n;
+            const LaneMask lanes = work.mask ? chosen_limbs(any, block, work.mask) : lanes_of_limbs(any, block);
+            if (lanes != 0) take(BodyBlock{strip.bodies + n * block_floats, block * SWIVEL_LANES, lanes});
+        }
+    }
+    void solve(GroupBlocks run) const
+    {
+        const swivel_crowd& crowd = work.crowd;
+        const BodyPlan plan{crowd.joints, crowd.joint_count, &pose};
+        for_each_block(run, [&](const BodyBlock& block) { work.kernels.bodies.forward(plan, block); });
+        for_each_group(crowd, work.groups, {run.first, run.count},
+                       [&](const Group& group, GroupBlocks, std::uint32_t n) {
+                           solve_limbs(group, run, n);
+                           for_each_block(run, [&](const BodyBlock& block) { pose_out(pose, crowd, group, block); });
+                       });
+    }
+
+private:
+    void solve_limbs(const Group& group, GroupBlocks run, std::uint32_t n) const
+    {
+        if (!work.frames) return solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
+        swivel_frame frame = frame_at(work.frames, n);
+        frame.origin = origin_of(pose);
+        Stream streams[kMostStreams];
+        Share share;
+        share.set({&group, run, frame}, run.count, streams);
+        share.copy_in(work.mask, run);
+        solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
+        share.copy_out(work.mask, run);
+    }
+};
+
+}  // namespace
+
+std::uint32_t run_count(const Work& work)
+{
+    return (work.blocks.count + work.crowd.strip_blocks - 1) / work.crowd.strip_blocks;
+}
+
+void solve_runs(const Work& work, std::uint32_t first, std::uint32_t end)
+{
+    const FloatEnv env;
+    const Runs runs{work};
+    const std::uint32_t blocks = work.crowd.strip_blocks;
+    for (std::uint32_t run = first; run < end; ++run)
+        runs.solve({work.blocks.first + run * blocks, std::min(blocks, work.blocks.count - run * blocks)});
+}
+
+}  // namespace swivel

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+//
+// Forward kinematics: a joint's frame from its parent's, and from what the joint's own rotation, translation and scale
+// say. Frames are in one space, whichever the first parent is in.
+#pragma once
+
+#include "core/arm.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+struct JointFrame {
+    Rotor<T> rotation;  // unit
+    Vector<T> place;
+    T scale;  // uniform
+};
+
+// A rotation made unit. Most are unit but for rounding. For these one step of Newton's method on
+// 1 / sqrt(length^2) does: it leaves 3/8 of the squared error, less than rounding. Others take the root and the
+// quotient. Zero and what is not finite becomes NaN.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> unit_rotation(const Rotor<T>& q)
+{
+    const T length2 = len2(q);
+    const Mask<T> off = !is_within(length2, 1 - 1e-4, 1 + 1e-4);
+    const Rotor<T> unit = (T(1.5) - T(0.5) * length2) * q;
+    return any(off) ? select(off, normalise(q), unit) : unit;
+}
+
+// A vector turned by a rotor of unit length: v + 2 w (u x v) + 2 u x (u x v), where w is the scalar and u the axis.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> turned(const Rotor<T>& q, const Vector<T>& v)
+{
+    const Vector<T> u = vector(q.template at<kI>(), q.template at<kJ>(), q.template at<kK>());
+    const Vector<T> once = cross(u, v), twice = once + once;
+    return v + q.template at<kScalar>() * twice + cross(u, twice);
+}
+
+// local: of any length but zero. Made unit in the product, what rounding leaves does not grow along a chain of joints.
+// translation: in the parent's frame. scale: the joint's own.
+template <class T>
+SWIVEL_INLINE constexpr JointFrame<T> joint_frame(const JointFrame<T>& parent, const Rotor<T>& local,
+                                                  const Vector<T>& translation, const T& scale)
+{
+    return {unit_rotation(parent.rotation * local), parent.place + turned(parent.rotation, parent.scale * translation),
+            parent.scale * scale};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+//
+// A limb as a body's pose has it, seen by the arm's formulas: its bones, and how the frames that the formulas would
+// give them lie to its joints. These take the place of a binding's constants. So what the formulas solve goes back to
+// joints as a correction of the incoming pose (correction.h).
+#pragma once
+
+#include "core/correction.h"
+#include "core/joint_frame.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// Which of a limb's normals its incoming frames take.
+enum class BendNormal { own, steady, either };
+
+// What of a limb's joints its bones need, in one space.
+template <class T>
+struct PosedLimb {
+    Rotor<T> parent, shoulder;
+    Vector<T> shoulder_place, elbow_place, wrist_place;
+};
+
+template <class T>
+struct SeenLimb {
+    BoneLines<T> bones;    // in the arm frame
+    BoneFrames<T> model;   // the same
+    BoneFrames<T> frames;  // in the space of the joints
+};
+
+// The hinge, or another axis where that lies along the bone.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> hinge_across(const Vector<T>& hinge, const Vector<T>& bone)
+{
+    const Mask<T> off = len2(across(hinge, bone)) > T(kPoleOff * kPoleOff);
+    const Mask<T> is_e1 = abs(hinge.template at<kE1>()) > T(0.8);
+    return select(off, hinge, select(is_e1, vector(T(0), T(1), T(0)), vector(T(1), T(0), T(0))));
+}
+
+// parent_from_arm: as in a binding. hinge: in the shoulder joint's frame. stays: of BendNormal::either, where the own
+// normal serves.
+template <BendNormal which, class T>
+SWIVEL_INLINE constexpr SeenLimb<T> seen_limb(const PosedLimb<T>& posed, const Rotor<T>& parent_from_arm,
+                                              const Vector<T>& hinge, const Mask<T>& stays)
+{
+    const Rotor<T> arm = posed.parent * parent_from_arm;  // the arm frame
+    const Turn<T> back = turn_by(~arm);
+    const BoneLines<T> bones =
+        bone_lines(back(posed.elbow_place - posed.shoulder_place), back(posed.wrist_place - posed.elbow_place));
+    const BendNormals<T> normals = bend_normals(bones, hinge_across(back(turned(posed.shoulder, hinge)), bones.upper));
+    if constexpr (which == BendNormal::own) {
+        const Rotor<T> upper = bone_frame(bones.upper, normals.own), frame = arm * upper;
+        const Hinge<T> elbow = own_hinge(bones, normals.sine);
+        return {bones, {upper, upper * elbow}, {frame, frame * elbow}};
+    } else {
+        const BoneFrames<T> model = bone_frames(
+            bones, which == BendNormal::steady ? normals.steady : select(stays, normals.own, normals.steady));
+        return {bones, model, {arm * model.upper, arm * model.fore}};
+    }
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

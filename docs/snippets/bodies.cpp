@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "check.h"
+
+namespace {
+
+// hips, upper leg, lower leg, foot; chest, upper arm, forearm, hand
+enum Joint { kHips, kThigh, kShin, kFoot, kChest, kUpperArm, kForearm, kHand, kJoints };
+const std::array<std::int32_t, kJoints> kParents = {-1, 0, 1, 2, 0, 4, 5, 6};
+const std::array<Float3, kJoints> kOffsets = {{{0, 1, 0},
+                                               {-0.1f, 0, 0},
+                                               {0, -0.45f, 0},
+                                               {0, -0.45f, 0},
+                                               {0, 0.4f, 0},
+                                               {-0.2f, 0.1f, 0},
+                                               {-0.3f, 0, 0},
+                                               {-0.26f, 0, 0}}};
+
+// [character]
+struct Character {
+    Float3 place;  // of the root, in the world
+    Float4 rotation;
+    std::array<Float4, kJoints> pose;  // local rotations, as the animation leaves them
+    Float3 hand_target, foot_target;
+};
+// [end]
+
+// Where a joint is in the world: the skeleton's own forward kinematics.
+Eigen::Vector3d place_of(const Character& character, int joint)
+{
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (; joint >= 0; joint = kParents[static_cast<std::size_t>(joint)]) {
+        const auto n = static_cast<std::size_t>(joint);
+        at = vec(kOffsets[n]) + quat(character.pose[n]) * at;
+    }
+    return vec(character.place) + quat(character.rotation) * at;
+}
+
+}  // namespace
+
+TEST_CASE("docs: bodies")
+{
+    Character stands{
+        {2, 0, 3}, {0, 0, 0, 1}, {}, {1.6f, 1.3f, 3.3f}, {1.9f, 0.2f, 3.2f}};
+    stands.pose.fill({0, 0, 0, 1});
+    std::vector<Character> characters(40, stands);
+    characters[7].hand_target[0] = std::nanf("");
+    const Character before = characters[7];
+    // [crowd]
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = swivel::stream(kParents);
+    skeleton.translations = swivel::stream(kOffsets);
+    skeleton.joint_count = kJoints;
+    swivel_limb_joints arm = swivel_default_limb_joints(kUpperArm, kForearm, kHand),
+                       leg = swivel_default_limb_joints(kThigh, kShin, kFoot);
+    arm.bend[2] = 1;   // where flexion carries the forearm, in the upper arm's frame
+    leg.bend[2] = -1;  // and the shin: backwards
+    const std::array groups = {swivel::body_group(arm, SWIVEL_POLE_INCOMING),
+                               swivel::body_group(leg, SWIVEL_POLE_INCOMING)};
+    swivel::Crowd crowd(skeleton, 40, groups);
+    // [frame]
+    swivel_pose pose = swivel_default_pose();
+    pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),
+                      nullptr};
+    pose.root_position = swivel::stream(characters, &Character::place);
+    pose.root_rotation = swivel::stream(characters, &Character::rotation);
+    swivel::Frame arms, legs;
+    arms.in(SWIVEL_TARGET, swivel::stream(characters, &Character::hand_target));
+    legs.in(SWIVEL_TARGET, swivel::stream(characters, &Character::foot_target));
+    crowd.solve({.frames = {arms, legs}, .pose = &pose});
+    // [end]
+    for (const Character& character : characters) {
+        if (&character == &characters[7]) continue;
+        CHECK((place_of(character, kHand) - vec(character.hand_target)).norm() < 2e-6);
+        CHECK((place_of(character, kFoot) - vec(character.foot_target)).norm() < 2e-6);
+    }
+    CHECK(characters[7].pose[kUpperArm] == before.pose[kUpperArm]);
+    CHECK((place_of(characters[7], kFoot) - vec(before.foot_target)).norm() < 2e-6);
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of a body's limb: they bring the posed limb into the arm frame, and take what was solved back to its
+// joints.
+#pragma once
+
+#include "core/posed_limb.h"
+#include "simd/goal_stages.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <>
+struct StageBody<Stage::posed> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        constexpr bool weighs = S::is(SWIVEL_WITH_WEIGHTS);
+        constexpr BendNormal which = S::is(SWIVEL_POLE_INCOMING) ? BendNormal::own
+                                     : weighs                    ? BendNormal::either
+                                                                 : BendNormal::steady;
+        const BodyLimb& limb = *s.strip.run.limb;
+        const Rotor<T> wrist = s.joint_rotor(limb.wrist, kTurnRow);
+        const PosedLimb<T> posed{s.joint_rotor(limb.parent, kTurnRow), s.joint_rotor(limb.shoulder, kTurnRow),
+                                 s.joint_vector(limb.shoulder, kPlaceRow), s.joint_vector(limb.elbow, kPlaceRow),
+                                 s.joint_vector(limb.wrist, kPlaceRow)};
+        // What is bad in a joint shows in all below it.
+        s.require(is_within(len2(wrist), 0.99, 1.01) & (len2(posed.wrist_place) <= T(kHuge2)));
+        Mask<T> stays = T(0) == T(1);
+        if constexpr (which == BendNormal::either) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
+        const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
+                                                  vector(T(limb.hinge[0]), T(limb.hinge[1]), T(limb.hinge[2])), stays);
+        s.set_rotor(kIncomingRow, seen.model.upper);
+        if (weighs || s.has(kTwistBones)) {
+            s.set_rotor(kIncomingRow + 4, ~seen.model.upper * seen.model.fore);
+            s.set_rotor(kIncomingRow + 8, ~seen.frames.fore * wrist * ~broadcast<T>(s.strip.bind.hand_from_arm));
+        }
+        // Lengths that were never written are NaN.
+        const T per_scale = T(1) / s.joint(limb.parent, kScaleRow);
+        const auto length = [&](int n, const T& posed_length) SWIVEL_INLINE_LAMBDA {
+            const T given = s.io.load(SWIVEL_LENGTHS, n);
+            return select(given == given, given, per_scale * posed_length);
+        };
+        s.set_body(kLengthsRow, length(0, seen.bones.upper_length));
+        s.set_body(kLengthsRow + 1, length(1, seen.bones.fore_length));
+        const auto set_from_arm =
+            [&](std::uint32_t row, std::uint32_t joint, const Rotor<T>& frame)
+                SWIVEL_INLINE_LAMBDA { s.set_body_rotor(row, ~s.joint_rotor(joint, kTurnRow) * frame); };
+        s.set_body_rotor(kUpperFromArmRow, ~posed.shoulder * seen.frames.upper);
+        set_from_arm(kForeFromArmRow, limb.elbow, seen.frames.fore);
+        if (limb.elbow_parent != limb.shoulder)
+            set_from_arm(kElbowParentFromArmRow, limb.elbow_parent, seen.frames.upper);
+        if (limb.wrist_parent != limb.elbow) set_from_arm(kWristParentFromArmRow, limb.wrist_parent, seen.frames.fore);
+    }
+};
+
+// The rotations of the joints, in place of the incoming ones.
+template <>
+struct StageBody<Stage::correct> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Binding& bind = s.strip.bind;
+        const swivel_binding& b = *s.strip.run.binding;
+        const BodyLimb& limb = *s.strip.run.limb;
+        const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid);
+        const auto store = [&](std::uint32_t joint, const Rotor<T>& solved,
+                               const float(&rest)[4]) SWIVEL_INLINE_LAMBDA {
+            const Rotor<T> was = s.joint_rotor(joint, kLocalRow), q = select(valid, solved, broadcast<T>(rest));
+            const T side = select(valid, scalar_product(~was, q), T(1));
+            if (s.strip.run.strip.form != SWIVEL_ROTATIONS)
+                turn_axes(s, joint, select(valid, q * ~was, q), valid, kept);
+            s.set_joint_rotor(joint, kLocalRow, select(kept, was, with_sign_of(side, q)));
+        };
+        const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
+        const Rotor<T> shoulder = rotor(s.io.load_result(SWIVEL_SHOULDER, 0), s.io.load_result(SWIVEL_SHOULDER, 1),
+                                        s.io.load_result(SWIVEL_SHOULDER, 2), s.io.load_result(SWIVEL_SHOULDER, 3));
+        store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body_rotor(kUpperFromArmRow),
+              b.shoulder_rest);
+        store(limb.elbow, s.body_rotor(limb.elbow_parent_row()) * elbow * ~s.body_rotor(kForeFromArmRow), b.elbow_rest);
+        if constexpr (S::is(SWIVEL_WITH_HAND))
+            store(limb.wrist,
+                  s.body_rotor(limb.wrist_parent_row()) * s.get_rotor(kTwistRow) * broadcast<T>(bind.hand_from_arm),
+                  b.wrist_rest);
+    }
+
+private:
+    // Turns the axes of a joint's matrix; those of bad input from the axes of no rotation.
+    template <class S>
+    SWIVEL_INLINE static void turn_axes(const S& s, std::uint32_t joint, const Rotor<typename S::T>& turn,
+                                        const Mask<typename S::T>& valid, const Mask<typename S::T>& kept)
+    {
+        using T = typename S::T;
+        const bool by_rows = s.strip.run.strip.form == SWIVEL_MATRIX_ROWS;
+        const std::uint32_t first = joint_row(joint) + kAxesRow;
+        for (std::uint32_t n = 0; n < 3; ++n) {
+            const auto row = [&](std::uint32_t c)
+                                 SWIVEL_INLINE_LAMBDA { return first + (by_rows ? 3 * c + n : 3 * n + c); };
+            const Vector<T> was = vector(s.body_row(row(0)), s.body_row(row(1)), s.body_row(row(2)));
+            const Vector<T> none = vector(T(n == 0), T(n == 1), T(n == 2));
+            const Vector<T> is = select(kept, was, turned(turn, select(valid, was, none)));
+            s.set_body(row(0), is.template at<kE1>());
+            s.set_body(row(1), is.template at<kE2>());
+            s.set_body(row(2), is.template at<kE3>());
+        }
+    }
+    // The lanes whose joints stay as they come: of bad input in groups that keep it, and where no weight asks for more.
+    template <class S>
+    SWIVEL_INLINE static Mask<typename S::T> kept_lanes(const S& s, const Mask<typename S::T>& valid)
+    {
+        using T = typename S::T;
+        Mask<T> kept = s.strip.run.keeps ? !valid : T(0) == T(1);
+        if (s.has(SWIVEL_WITH_WEIGHTS) && !(s.strip.run.features & kBoundingFeatures)) {
+            const T none = T(0);
+            kept = kept | (valid & (s.io.load(SWIVEL_WEIGHTS, 0) == none) & (s.io.load(SWIVEL_WEIGHTS, 1) == none) &
+                           (s.io.load(SWIVEL_WEIGHTS, 2) == none));
+        }
+        return kept;
+    }
+};
+
+}  // namespace swivel::inline SWIVEL_ISA

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "tests/random_bodies.h"
+
+#include <algorithm>
+
+namespace swivel::test {
+
+swivel_skeleton BodySkeleton::view() const
+{
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = {parents.data(), sizeof parents[0]};
+    skeleton.rotations = {rotations.data(), sizeof rotations[0]};
+    skeleton.translations = {translations.data(), sizeof translations[0]};
+    skeleton.joint_count = size();
+    return skeleton;
+}
+
+swivel_limb_joints BodySkeleton::joints(std::size_t limb) const
+{
+    const BodyLimbJoints& of = limbs[limb];
+    swivel_limb_joints joints = swivel_default_limb_joints(of.shoulder, of.elbow, of.wrist);
+    std::ranges::copy(of.bend, joints.bend);
+    return joints;
+}
+
+bool BodySkeleton::is_above(std::uint32_t joint, std::uint32_t below) const
+{
+    for (auto at = static_cast<std::int32_t>(below); at >= 0; at = parents[static_cast<std::size_t>(at)])
+        if (static_cast<std::uint32_t>(at) == joint) return true;
+    return false;
+}
+
+BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish)
+{
+    BodySkeleton s;
+    const auto add = [&](std::int32_t parent) {
+        s.parents.push_back(parent);
+        s.rotations.push_back(floats(random.rotation()));
+        s.translations.push_back(floats(Vector3d(random.between(0.05, 0.3) * random.direction())));
+        return static_cast<std::int32_t>(s.size() - 1);
+    };
+    for (std::uint32_t n = 0; n < wish.trunk; ++n)
+        add(n == 0 ? -1 : static_cast<std::int32_t>(wish.is_chain ? n - 1 : random.below(n)));
+    for (std::uint32_t limb = 0; limb < wish.limbs; ++limb) {
+        const auto below = [&](std::int32_t joint) {
+            for (std::uint32_t n = random.below(wish.between + 1); n > 0; --n) joint = add(joint);
+            return add(joint);
+        };
+        BodyLimbJoints joints{};
+        const std::int32_t shoulder = add(wish.trunk == 0 ? -1
+                                          : wish.is_chain ? static_cast<std::int32_t>(wish.trunk - 1)
+                                                          : static_cast<std::int32_t>(random.below(wish.trunk)));
+        const std::int32_t elbow = below(shoulder), wrist = below(elbow);
+        joints.shoulder = static_cast<std::uint32_t>(shoulder);
+        joints.elbow = static_cast<std::uint32_t>(elbow);
+        joints.wrist = static_cast<std::uint32_t>(wrist);
+        Body rest;
+        rest.rotations = s.rotations, rest.translations = s.translations;
+        rest.scales.assign(s.size(), Float3{1, 1, 1});
+        const std::vector<JointAt> at = joints_at(s, rest);
+        const Vector3d upper = at[joints.elbow].place - at[joints.shoulder].place;
+        joints.bend = floats(Vector3d(at[joints.shoulder].rotation.conjugate() * random.across(upper)));
+        s.limbs.push_back(joints);
+    }
+    return s;
+}
+
+Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& wish)
+{
+    Body body;
+    for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
+        body.rotations.push_back(floats(random.rotation()));
+        body.translations.push_back(wish.translates ? floats(Vector3d(random.between(0.05, 0.3) * random.direction()))
+                                                    : skeleton.translations[n]);
+        const auto scale = static_cast<float>(wish.scales && random.below(4) == 0 ? random.between(0.8, 1.25) : 1);
+        body.scales.push_back({scale, scale, scale});
+    }
+    if (wish.roots) {
+        body.root_position = floats(Vector3d(random.between(0, 3) * random.direction()));
+        body.root_rotation = floats(random.rotation());
+        body.root_scale = static_cast<float>(random.spread(0.1, 10));
+    }
+    for (const BodyLimbJoints& limb : skeleton.limbs) {
+        const std::vector<JointAt> at = joints_at(skeleton, body);
+        const Vector3d upper = at[limb.elbow].place - at[limb.shoulder].place,
+                       fore = at[limb.wrist].place - at[limb.elbow].place, axis = random.across(upper);
+        // What turns the forearm to where it is bent by just that angle.
+        const Vector3d wanted = Eigen::AngleAxisd(random.spread(1e-2, wish.most_bend), axis) * upper;
+        const Quaterniond turn = Quaterniond::FromTwoVectors(fore, wanted);
+        const auto parent = skeleton.parents[limb.elbow];
+        const Quaterniond above = at[static_cast<std::size_t>(parent)].rotation;
+        body.rotations[limb.elbow] =
+            floats(Quaterniond(above.conjugate() * turn * at[limb.elbow].rotation).normalized());
+    }
+    return body;
+}
+
+std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body)
+{
+    std::vector<JointAt> at(skeleton.size());
+    const JointAt root{quat(body.root_rotation).normalized(), Vector3d::Zero(), body.root_scale};
+    std::vector<bool> is_known(skeleton.size());
+    for (std::size_t known = 0; known < skeleton.size();)
+        for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
+            const std::int32_t parent = skeleton.parents[n];
+            if (is_known[n] || (parent >= 0 && !is_known[static_cast<std::size_t>(parent)])) continue;
+            const JointAt& above = parent < 0 ? root : at[static_cast<std::size_t>(parent)];
+            const double scale = Vector3d(vec(body.scales[n])).mean();
+            at[n] = {above.rotation * quat(body.rotations[n]).normalized(),
+                     above.place + above.scale * (above.rotation * vec(body.translations[n])), above.scale * scale};
+            is_known[n] = true;
+            ++known;
+        }
+    return at;
+}
+
+double way_to(const BodySkeleton& skeleton, const std::vector<JointAt>& at, std::uint32_t joint)
+{
+    double way = 0;
+    for (auto n = static_cast<std::int32_t>(joint); n >= 0;) {
+        const std::int32_t parent = skeleton.parents[static_cast<std::size_t>(n)];
+        const Vector3d from = parent < 0 ? Vector3d::Zero() : at[static_cast<std::size_t>(parent)].place;
+        way += (at[static_cast<std::size_t>(n)].place - from).norm();
+        n = parent;
+    }
+    return way;
+}
+
+}  // namespace swivel::test

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a pose goes in and a pose comes out. An untouched goal gives back the incoming pose, and any goal in
+// reach is met, whatever the skeleton is, joints in between and scales among it, in all forms of poses. All is checked
+// by forward kinematics of Eigen's, in double.
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/body_crowd.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+// A limb as it comes.
+struct LimbAt {
+    double upper, fore, sine, way;  // way: of the joints from the root, and what a float target is off
+
+    LimbAt(const BodySkeleton& skeleton, const Body& body, const std::vector<JointAt>& at, const BodyLimbJoints& limb)
+    {
+        const Vector3d first = at[limb.elbow].place - at[limb.shoulder].place,
+                       second = at[limb.wrist].place - at[limb.elbow].place;
+        upper = first.norm(), fore = second.norm();
+        sine = first.cross(second).norm() / (upper * fore);
+        way = way_to(skeleton, at, limb.wrist) + vec(body.root_position).norm() / 3;  // rounded to 1e-7 of it
+    }
+    double length() const { return upper + fore; }
+    // How far a wrist may be off; and a joint, because floats know the distance to the wrist only so well.
+    double wrist_bound() const { return 2e-6 * length() + 3e-7 * way; }
+    double joint_bound() const { return 2e-6 + (4e-7 * length() + 3e-7 * way) * length() / (upper * fore * sine); }
+};
+
+SkeletonWish random_wish(Random& random)
+{
+    const std::uint32_t most = random.below(4) ? 20 : 180;
+    return {random.below(most), 1 + random.below(5), random.below(3), random.below(4) == 0};
+}
+PoseLayout random_layout(Random& random)
+{
+    PoseLayout layout;
+    layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
+    layout.translates = layout.form != SWIVEL_ROTATIONS || random.below(2);
+    layout.scales = layout.form != SWIVEL_ROTATIONS || random.below(2);
+    layout.roots = random.below(2);
+    layout.gap = random.below(100);
+    return layout;
+}
+
+// Some bodies of one skeleton, before and after a solve.
+struct SolvedBodies {
+    BodySkeleton skeleton;
+    PoseLayout layout;
+    std::vector<Body> bodies;
+    PoseBuffer poses;
+    BodyGoals goals;
+    Crowd crowd;
+
+    template <class GoalOf>
+    SolvedBodies(Random& random, swivel_features features, const GoalOf& goal_of)
+        : skeleton(random_body_skeleton(random, random_wish(random))),
+          layout(random_layout(random)),
+          bodies(random_bodies(random)),
+          poses(layout, bodies),
+          crowd(body_crowd(skeleton, features, static_cast<std::uint32_t>(bodies.size())))
+    {
+        for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
+            goals.emplace_back();
+            for (const Body& body : bodies) goals.back().push_back(goal_of(skeleton, body, limb));
+        }
+        write_goals(crowd, goals);
+        solve_poses(crowd, poses.view());
+    }
+    // Calls take(goal, limb's joints, the limb as it came, joints as they came, joints as they are).
+    template <class Take>
+    void for_each_limb(const Take& take) const
+    {
+        for (std::size_t n = 0; n < bodies.size(); ++n) {
+            const std::vector<JointAt> was = joints_at(skeleton, bodies[n]),
+                                       is = joints_at(skeleton, poses.read(n, bodies[n]));
+            for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
+                const BodyLimbJoints& joints = skeleton.limbs[limb];
+                BodyGoal goal = goals[limb][n];
+                goal.target = floats(Vector3d(vec(goal.target) - vec(bodies[n].root_position)));
+                take(goal, joints, LimbAt(skeleton, bodies[n], was, joints), was, is);
+            }
+        }
+    }
+
+private:
+    std::vector<Body> random_bodies(Random& random)
+    {
+        std::vector<Body> made;
+        for (int n = 0; n < 20; ++n)
+            made.push_back(random_body(random, skeleton, {layout.translates, layout.scales, layout.roots}));
+        return made;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("untouched goals give back the incoming pose")
+{
+    rc::prop("as exactly as floats know it", [](std::uint64_t seed) {
+        Random random{seed};
+        const SolvedBodies solved(random, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND, own_goal);
+        solved.for_each_limb([](const BodyGoal&, const BodyLimbJoints& joints, const LimbAt& limb,
+                                const std::vector<JointAt>& was, const std::vector<JointAt>& is) {
+            RC_ASSERT((is[joints.wrist].place - was[joints.wrist].place).norm() <= limb.wrist_bound());
+            RC_ASSERT(is[joints.shoulder].rotation.angularDistance(was[joints.shoulder].rotation) <=
+                      limb.joint_bound());
+            RC_ASSERT(is[joints.elbow].rotation.angularDistance(was[joints.elbow].rotation) <= limb.joint_bound());
+            RC_ASSERT(is[joints.wrist].rotation.angularDistance(was[joints.wrist].rotation) <= 5e-6);
+        });
+    });
+}
+
+TEST_CASE("any goal in reach is met")
+{
+    rc::prop("by wrist and hand", [](std::uint64_t seed) {
+        Random random{seed};
+        const SolvedBodies solved(random, SWIVEL_WITH_HAND,
+                                  [&](const BodySkeleton& skeleton, const Body& body, std::size_t limb) {
+                                      return random_goal(random, skeleton, body, limb);
+                                  });
+        solved.for_each_limb([](const BodyGoal& goal, const BodyLimbJoints& joints, const LimbAt& limb,
+                                const std::vector<JointAt>&, const std::vector<JointAt>& is) {
+            RC_ASSERT((is[joints.wrist].place - vec(goal.target)).norm() <= limb.wrist_bound());
+            RC_ASSERT(is[joints.wrist].rotation.angularDistance(quat(goal.hand).normalized()) <= 5e-6);
+        });
+    });
+}
