@@ -98,7 +98,7 @@ swivel_status check_choice(const swivel_crowd& crowd, const swivel_job& job)
 {
     if ((job.most_blocks > 0 || job.urgency) && !job.priorities)
         return fail(SWIVEL_INVALID_ARGUMENT, "%s priorities; give one for each of this crowd's %u groups",
-                    job.urgency ? "urgency goes with" : "most_blocks goes with", crowd.group_count);
+                    job.urgency ? "urgency goes with" : "most_blocks goes with", lane_group_count(crowd));
     if ((job.mask != nullptr) + (job.limbs != nullptr) + (job.priorities != nullptr) > 1)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "a job chooses limbs by a mask, by a list or by priorities; give one of them");

@@ -33,6 +33,10 @@ struct Runs {
     void solve(GroupBlocks run) const
     {
         const swivel_crowd& crowd = work.crowd;
+        bool is_any_named = false;
+        for_each_group(crowd, work.groups, {run.first, run.count},
+                       [&](const Group&, GroupBlocks, std::uint32_t) { is_any_named = true; });
+        if (!is_any_named) return;
         const BodyPlan plan{crowd.joints, crowd.joint_count, &pose};
         for_each_block(run, [&](const BodyBlock& block) { work.kernels.bodies.forward(plan, block); });
         for_each_group(crowd, work.groups, {run.first, run.count},

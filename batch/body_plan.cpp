@@ -2,8 +2,8 @@
 #include "batch/body_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <span>
 
 #include "batch/sized.h"
 #include "batch/skeleton.h"
@@ -20,17 +20,10 @@ swivel_limb_joints joints_of(const swivel_group_def& group)
     return element(group.joints, 0, swivel_default_limb_joints(0, 0, 0));
 }
 
-// The joints that a limb turns: shoulder, elbow, wrist and twist bones.
-struct TurningJoints {
-    std::uint32_t joint[3 + SWIVEL_MOST_TWIST_BONES], count = 3;
-
-    explicit TurningJoints(const swivel_limb_joints& limb) : joint{limb.shoulder, limb.elbow, limb.wrist}
-    {
-        for (std::uint32_t n = 0; n < limb.twist_bone_count; ++n) joint[count++] = limb.twist_bones[n];
-    }
-    std::span<const std::uint32_t> all() const { return {joint, count}; }
-    bool has(std::uint32_t other) const { return std::find(joint, joint + count, other) != joint + count; }
-};
+std::array<std::uint32_t, 3> turned_joints(const swivel_limb_joints& limb)
+{
+    return {limb.shoulder, limb.elbow, limb.wrist};
+}
 
 // Whether a joint is another or above it. Both are in the skeleton, and parents lead to a root.
 bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::uint32_t below)
@@ -40,18 +33,31 @@ bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::uint32_
     return false;
 }
 
-bool is_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t joint)
+std::uint32_t wrist_of(const swivel_crowd_def& def, std::uint32_t g) { return joints_of(group_at(def, g)).wrist; }
+// Calls take(joint) for each needed joint, once: those of all limbs and what is above them.
+template <class Take>
+void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const Take& take)
 {
+    const auto is_taken = [&](std::uint32_t joint, std::uint32_t group_count) {
+        for (std::uint32_t g = 0; g < group_count; ++g)
+            if (is_above(skeleton, joint, wrist_of(def, g))) return true;
+        return false;
+    };
     for (std::uint32_t g = 0; g < def.group_count; ++g)
-        for (const std::uint32_t each : TurningJoints(joints_of(group_at(def, g))).all())
-            if (is_above(skeleton, joint, each)) return true;
-    return false;
+        for (auto at = static_cast<std::int32_t>(wrist_of(def, g)); at >= 0;
+             at = parent_of(skeleton, static_cast<std::uint32_t>(at))) {
+            const auto joint = static_cast<std::uint32_t>(at);
+            if (is_taken(joint, g)) break;
+            take(joint);
+        }
 }
 
 bool is_turned(const swivel_crowd_def& def, std::uint32_t joint)
 {
     for (std::uint32_t g = 0; g < def.group_count; ++g)
-        if (TurningJoints(joints_of(group_at(def, g))).has(joint)) return true;
+        if (const auto turned = turned_joints(joints_of(group_at(def, g)));
+            std::ranges::find(turned, joint) != turned.end())
+            return true;
     return false;
 }
 
@@ -88,11 +94,11 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
 // Limbs hang beside each other: what one turns is above no joint that another turns.
 swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
-    const TurningJoints turning(joints_of(group_at(def, g)));
+    const auto turning = turned_joints(joints_of(group_at(def, g)));
     for (std::uint32_t other = 0; other < def.group_count; ++other) {
         if (other == g) continue;
-        for (const std::uint32_t joint : TurningJoints(joints_of(group_at(def, other))).all())
-            for (const std::uint32_t above : turning.all())
+        for (const std::uint32_t joint : turned_joints(joints_of(group_at(def, other))))
+            for (const std::uint32_t above : turning)
                 if (is_above(skeleton, above, joint))
                     return fail(SWIVEL_INVALID_ARGUMENT,
                                 "group %u turns joint %u, which is %s joint %u of group %u; a body's limbs hang beside "
@@ -121,17 +127,18 @@ swivel_status check_bodies(const swivel_crowd_def& def)
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g)
         status = check_group_joints(def, skeleton, g);
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
-    RestJoint rest;
-    for (std::uint32_t joint = 0; joint < skeleton.joint_count && status == SWIVEL_OK; ++joint)
-        if (is_needed(def, skeleton, joint)) status = read_joint(skeleton, joint, rest);
+    if (status != SWIVEL_OK) return status;
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+        RestJoint rest;
+        if (status == SWIVEL_OK) status = read_joint(skeleton, joint, rest);
+    });
     return status;
 }
 
 std::uint32_t needed_joint_count(const swivel_crowd_def& def)
 {
-    const swivel_skeleton skeleton = skeleton_of(def);
     std::uint32_t count = 1;
-    for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint) count += is_needed(def, skeleton, joint);
+    for_each_needed(def, skeleton_of(def), [&](std::uint32_t) { ++count; });
     return count;
 }
 
@@ -151,18 +158,18 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
                          {number(rest.place.at<kE1>()), number(rest.place.at<kE2>()), number(rest.place.at<kE3>())}};
         ++count;
     };
-    for (std::uint32_t g = 0; g < def.group_count; ++g)
-        for (const std::uint32_t each : TurningJoints(joints_of(group_at(def, g))).all())
-            while (!is_planned(static_cast<std::int32_t>(each))) {
-                std::uint32_t joint = each;
-                while (!is_planned(parent_of(skeleton, joint)))
-                    joint = static_cast<std::uint32_t>(parent_of(skeleton, joint));
-                plan(joint);
-            }
+    for_each_needed(def, skeleton, [&](std::uint32_t each) {
+        while (!is_planned(static_cast<std::int32_t>(each))) {
+            std::uint32_t joint = each;
+            while (!is_planned(parent_of(skeleton, joint)))
+                joint = static_cast<std::uint32_t>(parent_of(skeleton, joint));
+            plan(joint);
+        }
+    });
 }
 
-BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, const BodyJoint* joints,
-                   std::uint32_t joint_count)
+BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+                   const BodyJoint* joints, std::uint32_t joint_count)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
     const swivel_limb_joints of = joints_of(group);
@@ -170,7 +177,6 @@ BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, c
         return find(joints, joint_count, static_cast<std::int32_t>(joint));
     };
     const auto parent = [&](std::uint32_t joint) { return find(joints, joint_count, parent_of(skeleton, joint)); };
-    const swivel_binding binding = body_binding(def, group);
     const float(&q)[4] = binding.upper_from_arm;
     const Vector<float> hinge = turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
     return {parent(of.shoulder),

@@ -11,13 +11,12 @@ namespace swivel {
 // What swivel_crowd_create() promises of a def with a skeleton, whose groups are otherwise right.
 swivel_status check_bodies(const swivel_crowd_def& def);
 
-// These take a def that is right. The needed joints, the root among them; all of them; and a group's limb, of joints
-// that were planned.
+// These take a def that is right. How many joints are needed, the root among them; all of them; how a group's limb lies
+// to the arm frame at rest; and which of the joints it has.
 std::uint32_t needed_joint_count(const swivel_crowd_def& def);
 void plan_joints(const swivel_crowd_def& def, BodyJoint* joints);
-BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, const BodyJoint* joints,
-                   std::uint32_t joint_count);
-// How the joints of a group's limb lie to the arm frame at rest.
 swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group);
+BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+                   const BodyJoint* joints, std::uint32_t joint_count);
 
 }  // namespace swivel

@@ -31,7 +31,7 @@ std::uint64_t row_bytes(const swivel_group_def& group)
 }
 
 // Blocks of bodies that are worked in at once: about as many as fit a level 2 cache of 256 KiB with their poses.
-std::uint32_t run_blocks(std::uint32_t joint_count)
+std::uint32_t body_run_blocks(std::uint32_t joint_count)
 {
     constexpr std::size_t kRunBytes = 128 * 1024;
     const std::size_t blocks = kRunBytes / (body_block_floats(joint_count) * sizeof(float));
@@ -55,7 +55,7 @@ struct Layout {
         }
         if (def.skeleton) {
             joint_count = needed_joint_count(def);
-            strip_blocks = std::min(strip_blocks, run_blocks(joint_count));
+            strip_blocks = std::min(strip_blocks, body_run_blocks(joint_count));
         }
         groups = aligned(sizeof(swivel_crowd));
         joints = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
@@ -136,7 +136,7 @@ void rest_in_arm_frame(const Group& group)
     spread(group.results, group.result_row_count, group.block_count);
 }
 
-// Makes a group whose rows begin at `rows`. crowd: of bodies, their joints.
+// Makes a group whose rows begin at `rows`. The crowd has its joints already.
 void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def, const swivel_crowd& crowd,
                  std::uint32_t first_block, char* rows, Group& group)
 {
@@ -156,7 +156,7 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
     if (crowd_def.skeleton) {
         group.binding = body_binding(crowd_def, def);
-        group.limb = body_limb(crowd_def, def, crowd.joints, crowd.joint_count);
+        group.limb = body_limb(crowd_def, def, group.binding, crowd.joints, crowd.joint_count);
         group.body_block_floats = body_block_floats(crowd.joint_count);
     } else {
         group.binding = element(&def.binding, 0, swivel_default_binding());

@@ -26,8 +26,8 @@ struct Group {
     float *input, *results;                // rows
     swivel_binding binding;
     StageList stages;
-    BodyLimb limb;                  // of bodies, as is the next
-    std::size_t body_block_floats;  // of a workspace
+    BodyLimb limb;                  // if it is of bodies
+    std::size_t body_block_floats;  // the same: of a block of bodies in a workspace
 };
 
 }  // namespace swivel

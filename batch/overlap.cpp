@@ -6,6 +6,7 @@
 
 #include "batch/check.h"
 #include "batch/frame.h"
+#include "batch/pose.h"
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "simd/rows.h"
@@ -42,7 +43,8 @@ template <class Take>
 void for_each_value(const swivel_crowd& crowd, const swivel_job& job, swivel_blocks blocks, const Take& take)
 {
     for_each_group(crowd, job.groups, blocks, [&](const Group& group, GroupBlocks, std::uint32_t n) {
-        const swivel_frame frame = frame_at(job.frames, n);
+        swivel_frame frame = frame_at(job.frames, n);
+        if (job.pose) frame.origin = origin_of(full_pose(job.pose));
         const auto value = [&](const void* data, std::size_t stride, std::size_t bytes, const char* name) {
             return FrameValue{static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(data)),
                               // The stride of one value alone may be anything.

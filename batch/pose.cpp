@@ -54,7 +54,7 @@ swivel_status check_values(const swivel_crowd& crowd, const char* name, const sw
     const bool may_repeat = !is_result || crowd.groups[0].limb_count == 1;
     const swivel_status status = check_stride(name, "body_stride", values.body_stride, bytes, may_repeat);
     if (status != SWIVEL_OK || values.offsets) return status;
-    return check_stride(name, "joint_stride", values.joint_stride, bytes, crowd.joint_count == 2);
+    return check_stride(name, "joint_stride", values.joint_stride, bytes, !is_result);
 }
 swivel_status check_root(const char* name, const swivel_in& values, std::size_t bytes)
 {

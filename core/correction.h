@@ -86,11 +86,4 @@ SWIVEL_INLINE constexpr Hinge<T> own_hinge(const BoneLines<T>& bones, const T& s
     return hinge(select(obtuse, small, large), -select(obtuse, large, small));
 }
 
-// What an incoming rotation becomes.
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> corrected(const Rotor<T>& solved, const Rotor<T>& was, const Rotor<T>& incoming)
-{
-    return normalise(solved * ~was * incoming);
-}
-
 }  // namespace swivel::inline SWIVEL_ISA

@@ -2,6 +2,9 @@
 //
 // Forward kinematics of bodies, compiled once for each instruction set: from the caller's poses to rows of world
 // frames.
+#include <array>
+#include <cstring>
+
 #include "core/joint_frame.h"
 #include "core/matrix_frame.h"
 #include "simd/kernels.h"

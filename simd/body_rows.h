@@ -27,10 +27,11 @@ enum PosedRow : std::uint32_t {
     kElbowParentFromArmRow = kUpperFromArmRow + 4,
     kForeFromArmRow = kElbowParentFromArmRow + 4,
     kWristParentFromArmRow = kForeFromArmRow + 4,
-    kRootRow = kWristParentFromArmRow + 4,  // the place of the root, of which positions in rows are not from it
+    kRootRow =
+        kWristParentFromArmRow + 4,  // the root's place in the world; 0 where positions in rows are from the root
     kPosedRows = kRootRow + 3
 };
-// The rows of a block: a group's, the joints'.
+// A block has the rows of the group that is being solved, then those of all joints.
 constexpr std::uint32_t joint_row(std::uint32_t joint) { return kPosedRows + joint * kJointRows; }
 constexpr std::size_t body_block_floats(std::uint32_t joint_count)
 {

@@ -25,7 +25,8 @@ struct StageBody<Stage::posed> {
                                  s.joint_vector(limb.shoulder, kPlaceRow), s.joint_vector(limb.elbow, kPlaceRow),
                                  s.joint_vector(limb.wrist, kPlaceRow)};
         // What is bad in a joint shows in all below it.
-        s.require(is_within(len2(wrist), 0.99, 1.01) & (len2(posed.wrist_place) <= T(kHuge2)));
+        s.require(is_within(len2(wrist), 0.99, 1.01) & (len2(posed.wrist_place) <= T(kHuge2)) &
+                  is_within(s.joint(limb.wrist, kScaleRow), kTiny, kHuge));
         Mask<T> stays = T(0) == T(1);
         if constexpr (which == BendNormal::either) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),

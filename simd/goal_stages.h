@@ -72,7 +72,7 @@ struct StageBody<Stage::see> {
         using T = typename S::T;
         Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
         Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
-        if constexpr (S::is(SWIVEL_BODY)) {  // places are from the root's
+        if constexpr (S::is(SWIVEL_BODY)) {  // joints' places are from the root's
             const Vector<T> root = s.body_vector(kRootRow);
             target = target - root;
             if (pole_is_point(s)) pole = pole - root;

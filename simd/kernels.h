@@ -29,7 +29,7 @@ struct SolveRun {
     std::size_t limb_count;  // padding included, but gathered limbs may end within their block
     swivel_features features;
     std::uint32_t shoulder_order, wrist_order;  // of kEulerOrders
-    const swivel_binding* binding;              // used with SWIVEL_JOINTS
+    const swivel_binding* binding;              // used with SWIVEL_JOINTS and SWIVEL_BODY
     const std::uint16_t* first_row;             // of each field, among input or result rows
     bool from_memory;                           // the job's rows do not fit the caches
     bool keeps;                                 // of limbs with bad input only the flags are written
@@ -38,8 +38,8 @@ struct SolveRun {
     std::size_t padding;            // the first lane of the run that is padding, which no mask chooses
     const StageList* stages;        // of whole limbs
     StripMemory strip;              // the same
-    const BodyLimb* limb;           // of a group of bodies, as is the next
-    std::size_t body_block_floats;  // from block to block of the strip memory's bodies
+    const BodyLimb* limb;           // if the group is of bodies
+    std::size_t body_block_floats;  // the same: from one block to the next in strip.bodies
 };
 
 // Bits of the lanes of a slice that are chosen. limb: the slice's first, in the run. All bits are set if there is no

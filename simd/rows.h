@@ -74,7 +74,12 @@ struct RowPlan {
 };
 
 // The features with the most rows that a block can have.
-inline constexpr swivel_features kEveryFeature = ~SWIVEL_POLE_INCOMING;
+inline constexpr swivel_features kEveryFeature = ~(SWIVEL_POLE_INCOMING | SWIVEL_BODY);
+static_assert([] {
+    for (const FieldRow& row : kFields)
+        if (field_row_count(kEveryFeature, row.field) == 0) return false;
+    return true;
+}());
 
 // Bytes of a row, and of a block.
 inline constexpr std::size_t kRowBytes = kLanes * sizeof(float);

@@ -39,7 +39,7 @@ struct StripSlice {
     Strip& strip;
     Rows<T, kTold> io;  // the group's own rows
     float* rows;        // the strip's
-    float* body;        // the body's
+    float* body;        // the body's; of free limbs the strip's, which no stage reads as these
     std::uint32_t block, lane;
 
     // Whether the group has a feature; and the same of one that the stage knows, as a constant.
@@ -144,7 +144,7 @@ SWIVEL_INLINE void for_each_slice(Strip& strip, const Take& take)
         const float* const input = run.input + row_offset(limb, run.input_row_count, 0);
         float* const results = run.results + row_offset(limb, run.result_row_count, 0);
         float* const rows = strip.lane(n * kLanes);
-        float* const body = run.strip.bodies ? run.strip.bodies + strip.block[n] * run.body_block_floats : nullptr;
+        float* const body = run.strip.bodies ? run.strip.bodies + strip.block[n] * run.body_block_floats : rows;
         for (std::uint32_t lane = 0; lane < kLanes; lane += lanes) {
             const StripSlice<T, Knows, Has> slice{
                 strip, {run, input + lane, results + lane, kEveryLane}, rows + lane, body + lane, n, lane};

@@ -104,6 +104,16 @@ TEST_CASE("a body's pose does not depend on its neighbours")
     Crowd crowd = stage.crowd(), moved = other.crowd();
     solve_poses(crowd, poses.view());
     solve_poses(moved, others.view());
+    // Joints that no limb turns keep their bytes, those in between among them.
+    const PoseBuffer before(layout_of(SWIVEL_ROTATIONS), stage.bodies);
+    std::vector<bool> is_turned(stage.skeleton.size());
+    for (const BodyLimbJoints& limb : stage.skeleton.limbs)
+        is_turned[limb.shoulder] = is_turned[limb.elbow] = is_turned[limb.wrist] = true;
+    for (std::size_t n = 0; n < kBodies; ++n)
+        for (std::size_t joint = 0; joint < is_turned.size(); ++joint) {
+            const std::size_t at = n * poses.body_stride + joint * 16;
+            REQUIRE((std::memcmp(&poses.bytes[at], &before.bytes[at], 16) == 0) == !is_turned[joint]);
+        }
     for (std::size_t n = 0; n < kBodies; ++n) REQUIRE(pose_bits(others, n) == pose_bits(poses, order[n]));
 }
 

@@ -121,9 +121,10 @@ TEST_CASE("a matrix that is slanted or uneven is bad input")
     PosedStage stage(2, 0);
     stage.layout.form = SWIVEL_MATRIX_COLUMNS;
     PoseBuffer poses(stage.layout, stage.bodies);
-    const std::uint32_t elbow = stage.skeleton.limbs[0].elbow;
+    const BodyLimbJoints& limb = stage.skeleton.limbs[0];
+    const std::uint32_t elbow = limb.elbow, bad = GENERATE(true, false) ? elbow : limb.wrist;
     const bool is_slanted = GENERATE(true, false);
-    float* const column = reinterpret_cast<float*>(&poses.bytes[5 * poses.body_stride + elbow * 64]);
+    float* const column = reinterpret_cast<float*>(&poses.bytes[5 * poses.body_stride + bad * 64]);
     for (int n = 0; n < 3; ++n) column[n] = is_slanted ? column[n] + 0.01f * column[4 + n] : 1.01f * column[n];
     const std::vector<unsigned char> before = poses.bytes;
     solve_poses(stage.crowd, poses.view());
@@ -207,6 +208,26 @@ TEST_CASE("crowds and poses that cannot be get a line")
         joints[1].elbow = 0, refused("group 1: swivel_bind_joints: the elbow, joint 0, is not below");
     }
     SECTION("joints of a binding") { groups[0].features = SWIVEL_JOINTS, refused("excludes SWIVEL_JOINTS"); }
+    SECTION("features that bodies do not have yet")
+    {
+        groups[0].features = SWIVEL_WITH_CLAVICLE, refused("excludes");
+        groups[0].features = SWIVEL_WITH_HAND | SWIVEL_WITH_TWIST_BONES, refused("excludes");
+    }
+    SECTION("calls that take free limbs")
+    {
+        Crowd crowd(def);
+        char text[100];
+        std::uint32_t count = 0;
+        double number = 0;
+        REQUIRE(swivel_explain(crowd.get(), 0, 0, text, sizeof text) == SWIVEL_INVALID_ARGUMENT);
+        REQUIRE(swivel_allowed_arcs(crowd.get(), 0, 0, nullptr, 0, &count) == SWIVEL_INVALID_ARGUMENT);
+        REQUIRE(swivel_residuals(crowd.get(), 0, 0, 1, {&number, 8}) == SWIVEL_INVALID_ARGUMENT);
+        REQUIRE(swivel_forward(crowd.get(), 0, 0, 0, {}, {}, {}) == SWIVEL_INVALID_ARGUMENT);
+        REQUIRE(std::string(swivel_last_error()).find("takes free limbs") != std::string::npos);
+        Crowd free({group(1)});
+        const swivel_pose pose = swivel_default_pose();
+        REQUIRE_THROWS_WITH(free.solve({.pose = &pose}), Catch::Contains("no bodies"));
+    }
     SECTION("poses")
     {
         Crowd crowd(def);

@@ -46,6 +46,13 @@ BendNormals<T> posed_normals(const Posed& in)
     return bend_normals(posed_bones<T>(in), mv<T>(in.hinge));
 }
 
+// A joint turns by what carries its incoming bone's frame to the solved one.
+template <class T>
+Quaterniond corrected(const Rotor<T>& solved, const Rotor<T>& was, const Quaterniond& incoming)
+{
+    return (eigen(Rotor<T>(solved * ~was)) * incoming).normalized();
+}
+
 struct CorrectedLimb {
     Quaterniond shoulder, elbow;
     Vector3d wrist;  // where the bones then end
@@ -63,8 +70,8 @@ CorrectedLimb correct(const Posed& in, const Vector3d& target, const Vector<T>& 
     const ArmPose<T> pose = solve_limb<false>(use, goal, Mask<T>(true)).arm;
     const BoneFrames<T> was = bone_frames(bones, normal);
     CorrectedLimb out;
-    out.shoulder = eigen(corrected(pose.shoulder, was.upper, mv<T>(in.shoulder))).normalized();
-    out.elbow = eigen(corrected(Rotor<T>(pose.shoulder * elbow_rotor(pose)), was.fore, mv<T>(in.elbow))).normalized();
+    out.shoulder = corrected<T>(pose.shoulder, was.upper, in.shoulder);
+    out.elbow = corrected<T>(pose.shoulder * elbow_rotor(pose), was.fore, in.elbow);
     out.wrist = out.shoulder * (in.shoulder.inverse() * in.upper) + out.elbow * (in.elbow.inverse() * in.fore);
     return out;
 }

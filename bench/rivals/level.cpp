@@ -38,6 +38,7 @@ const Level level{SWIVEL_LEVEL_NAME,
                    {"loop_roots", kRoots, solve_loop_roots}},
                   solve_single,
                   solve_frame,
+                  solve_bodies,
                   touch_frame,
                   kOzzFlags,
                   kSolveFrameOzz};

@@ -57,6 +57,7 @@ TEST_CASE("docs: bodies")
     const std::array groups = {swivel::body_group(arm, SWIVEL_POLE_INCOMING),
                                swivel::body_group(leg, SWIVEL_POLE_INCOMING)};
     swivel::Crowd crowd(skeleton, 40, groups);
+    // [end]
     // [frame]
     swivel_pose pose = swivel_default_pose();
     pose.rotations = {characters[0].pose.data(), sizeof(Character), sizeof(Float4),

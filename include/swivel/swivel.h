@@ -30,6 +30,9 @@
 // ERRORS. A call that fails returns a status and leaves one line in swivel_last_error(). It changes nothing else, but
 // swivel_crowd_create() sets *crowd to null.
 //
+// BODIES. A crowd with a skeleton is one of bodies. A pose goes in, a pose comes out: see swivel_pose. Limb i of every
+// group is body i's, so wherever these comments count limbs or blocks of the whole crowd, they count bodies there.
+//
 // THREADS. Different threads may use different crowds at once. Use one crowd on one thread at a time, with two
 // exceptions. Calls that take it const may run together while nothing changes it. Jobs on_this_thread may run together
 // on blocks that do not overlap, each in a workspace of its own (swivel_workspace_bytes()).
@@ -142,9 +145,9 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_FOREARM_TWIST (UINT64_C(1) << 18)
 #define SWIVEL_WITH_HAND_TWIST (UINT64_C(1) << 19)
 #define SWIVEL_WITH_WRIST_BOX (UINT64_C(1) << 20)
-#define SWIVEL_WITH_AIM (UINT64_C(1) << 21)          // the flexion is given, and the hand points at the target
-#define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)     // the shoulder's parent joint shares the reach
-#define SWIVEL_BODY (UINT64_C(1) << 23)              // limb i is body i's: a crowd with a skeleton sets it, no def does
+#define SWIVEL_WITH_AIM (UINT64_C(1) << 21)       // the flexion is given, and the hand points at the target
+#define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)  // the shoulder's parent joint shares the reach
+#define SWIVEL_BODY (UINT64_C(1) << 23)  // limb i is body i's: groups of a crowd with a skeleton have it, and its needs
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
@@ -464,7 +467,8 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
     return group;
 }
 
-// The limb of each body that has these joints. With bad input it keeps its incoming pose.
+// The limb of each body that has these joints, which must live until the crowd is made. With bad input it keeps its
+// incoming pose.
 static inline swivel_group_def swivel_default_body_group_def(const swivel_limb_joints* joints)
 {
     swivel_group_def group = swivel_default_group_def(0);
@@ -521,9 +525,9 @@ static inline swivel_crowd_def swivel_default_crowd_def(void)
 SWIVEL_API size_t swivel_crowd_bytes(const swivel_crowd_def* def);
 // Makes a crowd. It allocates memory once. Later calls allocate nothing, but oneTBB may inside solves that use it. On
 // failure *crowd is null. What has no sensible default starts as NaN: a limb that never gets it is SWIVEL_BAD_INPUT.
-// These are targets, shoulder positions, and bone lengths where no binding has them. Poles start as (0, -1, 0), parent
-// and hand as the identity. All else starts neutral: no turn, weights 1, every limit wide open. Results start as the
-// rest pose, without flags.
+// These are targets, shoulder positions, poles of bodies, and bone lengths where no binding has them. Other poles start
+// as (0, -1, 0), parent and hand as the identity. All else starts neutral: no turn, weights 1, every limit wide open.
+// Results start as the rest pose, without flags.
 SWIVEL_API swivel_status swivel_crowd_create(const swivel_crowd_def* def, swivel_crowd** crowd);
 // Frees what create allocated. Null is allowed. A checked build leaves a crowd that another thread uses as it is, and
 // swivel_last_error() says so.
@@ -631,11 +635,29 @@ typedef enum swivel_pose_form {
 // offsets[j], or j * joint_stride where offsets is null. Strides and offsets are in bytes; any alignment.
 typedef struct swivel_joint_values {
     void* data;                        // null: none
-    size_t body_stride, joint_stride;  // inputs: 0 is one value for all
+    size_t body_stride, joint_stride;  // 0 of inputs: one value for all
     const size_t* offsets;             // one for each joint of the skeleton
 } swivel_joint_values;
 
-// The bodies' poses, as an engine keeps them.
+// The bodies' poses, as an engine keeps them. A job with a pose reads what it says of the joints that some group needs:
+// limbs, joints in between, and all above. It finds by forward kinematics where the limbs are and how long their bones
+// are, solves them, and writes the rotations of shoulders, elbows and, WITH_HAND, wrists. All else is left alone.
+//
+// - Targets, poles and hands are in the world. Positions in rows are too, unless the root is in doubles.
+// - A solve corrects the incoming pose: a joint turns by what carries the incoming bone to the solved one. So it keeps
+//   what the limb's formulas do not know, such as a forearm's roll. A goal at the incoming wrist with POLE_INCOMING
+//   gives the incoming pose back. A joint is then within 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad, if the target is as exact
+//   as that: L1 and L2 are the bones, L their sum, b the bend. Where all weights are 0, and the group has no limit,
+//   soft reach or step, the incoming bits stay.
+// - Without POLE_INCOMING poles must be written. Lengths that are written count instead of the pose's. Joints in
+//   between stay as they are posed.
+// - Results in rows are the arm's: SHOULDER, ELBOW and WRIST as without JOINTS. Limits bound these, not the joints.
+// - Bad input: a rotation of no length or not finite, a place beyond 1e15, a scale that is not above 0 or not uniform
+//   within 1e-3, and a matrix that is slanted by more than 1e-3 or mirrored. They make the limbs with or below that
+//   joint SWIVEL_BAD_INPUT; in the root, all of the body. A root's place in doubles counts by the positions that it is
+//   subtracted from. A limb that keeps its pose (swivel_default_body_group_def()) then has the incoming bits. With
+//   SWIVEL_REST_POSE matrices get rotations of scale 1.
+// - Inputs are read before results are written, body by body. Results of a body must not overlap another's inputs.
 typedef struct swivel_pose {
     size_t size;  // sizeof(swivel_pose), set by swivel_default_pose()
     swivel_pose_form form;
@@ -645,7 +667,8 @@ typedef struct swivel_pose {
     swivel_joint_values rotations;     // or matrices, as form says; must be given
     swivel_joint_values translations;  // 3 floats: the joint's place in its parent's frame; none: as the skeleton rests
     swivel_joint_values scales;        // 3 floats; none: 1
-    // Where the joints that are solved go, in the same form; none: back to rotations.
+    // Where the joints that are solved go, in the same form; none: back to rotations. Of matrices only the nine numbers
+    // of rotation and scale are written.
     swivel_joint_values results;
     // Of each body, which the joints with parent -1 hang below. Null data: at the origin, not turned, scale 1.
     swivel_in root_position;  // 3 floats in the world, or doubles
@@ -717,14 +740,14 @@ typedef struct swivel_job {
     // status. If oneTBB itself failed, this process does not use it again.
     int on_this_thread;
 
-    // Unless null, becomes how many limbs were solved.
+    // Unless null, becomes how many limbs were solved; of bodies how many bodies.
     uint32_t* solved_count;
 
     // swivel_workspace_bytes() of memory for this call alone, aligned to 64. Null: one of the crowd's workspaces. Two
     // calls that share one spoil each other's results, which no build can see.
     void* workspace;
 
-    // Of bodies: where their poses are. Null in crowds of free limbs.
+    // Of bodies: where their poses are. Null in crowds of free limbs. oneTBB's threads then allocate workspaces.
     const swivel_pose* pose;
 } swivel_job;
 
@@ -737,7 +760,8 @@ static inline swivel_job swivel_default_job(void)
     return job;
 }
 
-// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in, up to 64 KiB. They are a
+// Bytes of a workspace: the memory beside its rows that a solve of this crowd works in. It has up to 64 KiB; of bodies
+// up to 192 KiB, or 1.4 KiB for each joint that is needed if that is more. They are a
 // multiple of 64, and the same for every instruction set. 0 for a crowd whose groups have no features beyond WORLD,
 // JOINTS, WITH_HAND and POLE_DIRECTION. Of other crowds every call of swivel_solve() works in one: job.workspace, or
 // one of the crowd's that no other call is using. So the crowd needs as many as calls run on it together, or these jobs
@@ -782,7 +806,8 @@ SWIVEL_API swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* job
 // unless others have 1e7 times its priority: floats then stop its urgency. Place limbs of equal importance side by
 // side. A block whose limbs all have priority 0 is not picked in this call and keeps its urgency.
 //
-// priorities has one entry for each group, in the crowd's order. An entry has one float for each limb, at any
+// priorities has one entry for each group, in the crowd's order; of bodies one alone. An entry has one float for each
+// limb, at any
 // alignment. With stride 0, one priority is for the whole group. In any unit: only ratios matter. Above 1e15, and
 // infinity, count as 1e15; below 0 and NaN as 0.
 //

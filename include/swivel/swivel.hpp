@@ -334,7 +334,7 @@ struct Job {
     Given<std::uint32_t> groups = everything;  // their numbers, which a solve allocates bits for
     Given<std::uint32_t> mask = everything;    // words of bits, (swivel_block_count() + 1) / 2 of them
     Given<std::uint32_t> limbs = everything;   // numbers of limbs in the crowd
-    Given<swivel_in> priorities = everything;  // one for each group
+    Given<swivel_in> priorities = everything;  // one for each group; of bodies one alone
     std::span<float> urgency = {};             // with priorities: one for each block, kept by the caller
     std::uint32_t most_blocks = 0;             // with priorities
     Given<swivel_frame> frames = everything;   // one for each group that is named, such as a Frame with a name
@@ -539,7 +539,8 @@ private:
     }
     const swivel_in* checked(std::span<const swivel_in> priorities) const
     {
-        check_count(priorities.size(), "priorities", swivel_group_count(crowd_), "groups");
+        const bool is_of_bodies = swivel_group_features(crowd_, 0) & SWIVEL_BODY;
+        check_count(priorities.size(), "priorities", is_of_bodies ? 1 : swivel_group_count(crowd_), "groups");
         return priorities.data();
     }
     float* checked(std::span<float> urgency) const
