@@ -56,7 +56,7 @@ bool is_turned(const swivel_crowd_def& def, std::uint32_t joint)
 {
     for (std::uint32_t g = 0; g < def.group_count; ++g)
         if (const auto turned = turned_joints(joints_of(group_at(def, g)));
-            std::ranges::find(turned, joint) != turned.end())
+            std::find(turned.begin(), turned.end(), joint) != turned.end())
             return true;
     return false;
 }

@@ -12,19 +12,19 @@ namespace bench {
 
 inline constexpr std::size_t kBodyJoints = 20, kBodyLimbs = 4;
 
+// A copy for each file, because files that are built for several CPUs share no symbol.
 // hips, two of the spine, chest, neck, head; left and right: clavicle, upper arm, forearm, hand; thigh, shin, foot
-inline constexpr std::int32_t kBodyParents[kBodyJoints] = {-1, 0,  1,  2,  3, 4,  3,  6, 7,  8,
-                                                           3,  10, 11, 12, 0, 14, 15, 0, 17, 18};
-inline constexpr float kBodyOffsets[kBodyJoints][3] = {
-    {0, 1, 0},          {0, 0.1f, 0},      {0, 0.15f, 0},      {0, 0.15f, 0},  {0, 0.2f, 0},
-    {0, 0.1f, 0},       {0.05f, 0.15f, 0}, {0.12f, 0, 0},      {0.3f, 0, 0},   {0.26f, 0, 0},
-    {-0.05f, 0.15f, 0}, {-0.12f, 0, 0},    {-0.3f, 0, 0},      {-0.26f, 0, 0}, {0.1f, -0.05f, 0},
-    {0, -0.42f, 0},     {0, -0.43f, 0},    {-0.1f, -0.05f, 0}, {0, -0.42f, 0}, {0, -0.43f, 0}};
+constexpr std::int32_t kBodyParents[kBodyJoints] = {-1, 0, 1, 2, 3, 4, 3, 6, 7, 8, 3, 10, 11, 12, 0, 14, 15, 0, 17, 18};
+constexpr float kBodyOffsets[kBodyJoints][3] = {{0, 1, 0},      {0, 0.1f, 0},       {0, 0.15f, 0},      {0, 0.15f, 0},
+                                                {0, 0.2f, 0},   {0, 0.1f, 0},       {0.05f, 0.15f, 0},  {0.12f, 0, 0},
+                                                {0.3f, 0, 0},   {0.26f, 0, 0},      {-0.05f, 0.15f, 0}, {-0.12f, 0, 0},
+                                                {-0.3f, 0, 0},  {-0.26f, 0, 0},     {0.1f, -0.05f, 0},  {0, -0.42f, 0},
+                                                {0, -0.43f, 0}, {-0.1f, -0.05f, 0}, {0, -0.42f, 0},     {0, -0.43f, 0}};
 struct BodyChain {
     std::uint32_t first, middle, last;
     float bend[3];  // where flexion carries the last bone, in the first joint's frame
 };
-inline constexpr BodyChain kBodyChains[kBodyLimbs] = {
+constexpr BodyChain kBodyChains[kBodyLimbs] = {
     {7, 8, 9, {0, 0, 1}}, {11, 12, 13, {0, 0, 1}}, {14, 15, 16, {0, 0, -1}}, {17, 18, 19, {0, 0, -1}}};
 
 struct BodyGoal {
