@@ -55,7 +55,7 @@ struct PosedStage {
 
 TEST_CASE("bad input of a joint is that of the limbs below it, which keep their pose")
 {
-    const auto number = GENERATE(0, 1, 2, 3, 4, 5, 6, 7, 8);
+    const auto number = GENERATE(0, 1, 2, 3, 4, 5, 6, 7, 8, 9);
     PosedStage stage(1, SWIVEL_WITH_HAND);
     PoseBuffer good(stage.layout, stage.bodies);
     solve_poses(stage.crowd, good.view());
@@ -77,6 +77,9 @@ TEST_CASE("bad input of a joint is that of the limbs below it, which keep their 
             break;
         case 3:
             bad.translations[limb.elbow][1] = INFINITY;
+            break;
+        case 9:
+            bad.rotations[limb.wrist][0] = kNotANumber;
             break;
         case 4:
             bad.scales[limb.elbow] = {1, 1, 1.01f};
@@ -208,6 +211,18 @@ TEST_CASE("crowds and poses that cannot be get a line")
         joints[1].elbow = 0, refused("group 1: swivel_bind_joints: the elbow, joint 0, is not below");
     }
     SECTION("joints of a binding") { groups[0].features = SWIVEL_JOINTS, refused("excludes SWIVEL_JOINTS"); }
+    SECTION("a limb below another")
+    {
+        constexpr std::array<std::int32_t, 7> parents = {-1, 0, 1, 2, 3, 4, 5};
+        constexpr std::array<Float3, 7> offsets = {
+            {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
+        swivel_skeleton chain = swivel_default_skeleton();
+        chain.parents = {parents.data(), 4}, chain.translations = {offsets.data(), 12}, chain.joint_count = 7;
+        joints[0] = swivel_default_limb_joints(1, 2, 3), joints[1] = swivel_default_limb_joints(4, 5, 6);
+        joints[0].bend[1] = joints[1].bend[1] = 1;
+        def.skeleton = &chain;
+        refused("group 0 turns joint 1, which is above joint 4 of group 1");
+    }
     SECTION("features that bodies do not have yet")
     {
         groups[0].features = SWIVEL_WITH_CLAVICLE, refused("excludes");
