@@ -12,8 +12,8 @@ namespace bench {
 
 inline constexpr std::size_t kBodyJoints = 20, kBodyLimbs = 4;
 
-// A copy for each file, because files that are built for several CPUs share no symbol.
-// hips, two of the spine, chest, neck, head; left and right: clavicle, upper arm, forearm, hand; thigh, shin, foot
+// Each file has a copy, because files that are built for several CPUs share no symbol. The trunk has hips, two joints
+// of the spine, chest, neck and head. Then come left and right arm, each with a clavicle, and left and right leg.
 constexpr std::int32_t kBodyParents[kBodyJoints] = {-1, 0, 1, 2, 3, 4, 3, 6, 7, 8, 3, 10, 11, 12, 0, 14, 15, 0, 17, 18};
 constexpr float kBodyOffsets[kBodyJoints][3] = {{0, 1, 0},      {0, 0.1f, 0},       {0, 0.15f, 0},      {0, 0.15f, 0},
                                                 {0, 0.2f, 0},   {0, 0.1f, 0},       {0.05f, 0.15f, 0},  {0.12f, 0, 0},

@@ -652,10 +652,11 @@ typedef struct swivel_joint_values {
 // - Without POLE_INCOMING poles must be written. Lengths that are written count instead of the pose's. Joints in
 //   between stay as they are posed.
 // - Results in rows are the arm's: SHOULDER, ELBOW and WRIST as without JOINTS. Limits bound these, not the joints.
-// - Bad input: a rotation of no length or not finite, a place beyond 1e15, a scale that is not above 0 or not uniform
-//   within 1e-3, and a matrix that is slanted by more than 1e-3 or mirrored. They make the limbs with or below that
-//   joint SWIVEL_BAD_INPUT; in the root, all of the body. A root's place in doubles counts by the positions that it is
-//   subtracted from. A limb that keeps its pose (swivel_default_body_group_def()) then has the incoming bits. With
+// - A rotation of no length or not finite is bad input, and so is a place beyond 1e15. The same holds for a scale that
+//   is not above 0 or not uniform within 1e-3, and for a matrix that is mirrored or slanted by more than 1e-3. Bad
+//   input makes all limbs with or below that joint SWIVEL_BAD_INPUT; that of the root all of the body. A root's place
+//   in doubles counts by the positions that it is subtracted from.
+// - A limb that keeps its pose (swivel_default_body_group_def()) has the incoming bits after bad input. With
 //   SWIVEL_REST_POSE matrices get rotations of scale 1.
 // - Inputs are read before results are written, body by body. Results of a body must not overlap another's inputs.
 typedef struct swivel_pose {
