@@ -220,7 +220,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
 
 size_t swivel_workspace_bytes(const swivel_crowd* crowd)
 {
-    return crowd ? workspace_floats(crowd->strip_blocks, crowd->joint_count) * sizeof(float) : 0;
+    return crowd ? workspace_floats(crowd->strip_blocks, crowd->body_row_count) * sizeof(float) : 0;
 }
 
 swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* priorities, float* urgency, uint32_t most_blocks,

@@ -16,8 +16,8 @@ namespace {
 struct Runs {
     const Work& work;
     const swivel_pose pose = full_pose(work.pose);
-    const StripMemory strip{work.strip.rows, work.strip.block_count, work.strip.bodies, pose.form};
-    const std::size_t block_floats = body_block_floats(work.crowd.joint_count);
+    const StripMemory strip{work.strip.rows, work.strip.block_count, work.strip.bodies, &pose};
+    const std::size_t block_floats = std::size_t{work.crowd.body_row_count} * kLanes;
 
     // Calls take(block) for the blocks of a run that have chosen bodies.
     template <class Take>
@@ -39,14 +39,22 @@ struct Runs {
         if (!is_any_named) return;
         const BodyPlan plan{crowd.joints, crowd.joint_count, &pose};
         for_each_block(run, [&](const BodyBlock& block) { work.kernels.bodies.forward(plan, block); });
-        for_each_group(crowd, work.groups, {run.first, run.count},
-                       [&](const Group& group, GroupBlocks, std::uint32_t n) {
-                           solve_limbs(group, run, n);
-                           for_each_block(run, [&](const BodyBlock& block) { pose_out(pose, crowd, group, block); });
-                       });
+        for_each_group(
+            crowd, work.groups, {run.first, run.count}, [&](const Group& group, GroupBlocks, std::uint32_t n) {
+                solve_limbs(group, run, n);
+                for_each_block(run,
+                               [&](const BodyBlock& block) { pose_out(work.kernels.bodies, plan, group.limb, block); });
+            });
+        if (gives_joints(pose)) for_each_block(run, [&](const BodyBlock& block) { give_joints(plan, block); });
     }
 
 private:
+    void give_joints(const BodyPlan& plan, const BodyBlock& block) const
+    {
+        for (std::uint32_t g = 0; g < work.crowd.group_count; ++g)
+            if (!is_named(work.groups, g)) stay(work.crowd.groups[g].limb, block);
+        joints_out(work.kernels.bodies, plan, block);
+    }
     void solve_limbs(const Group& group, GroupBlocks run, std::uint32_t n) const
     {
         if (!work.frames) return solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);

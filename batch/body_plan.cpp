@@ -1,162 +1,105 @@
 // SPDX-License-Identifier: MIT
 #include "batch/body_plan.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdio>
+#include <iterator>
 
-#include "batch/sized.h"
-#include "batch/skeleton.h"
-#include "batch/status.h"
+#include "batch/body_joints.h"
 #include "core/joint_frame.h"
 
 namespace swivel {
 
 namespace {
 
-swivel_skeleton skeleton_of(const swivel_crowd_def& def) { return element(def.skeleton, 0, swivel_default_skeleton()); }
-swivel_limb_joints joints_of(const swivel_group_def& group)
+// The next joint that a group's limb turns, from a joint upwards; -1: none.
+std::int32_t mover_of(const swivel_skeleton& skeleton, const TurnedJoints& turned, std::int32_t joint)
 {
-    return element(group.joints, 0, swivel_default_limb_joints(0, 0, 0));
+    while (joint >= 0 && !turned.has(joint)) joint = parent_of(skeleton, static_cast<std::uint32_t>(joint));
+    return joint;
 }
-
-std::array<std::uint32_t, 3> turned_joints(const swivel_limb_joints& limb)
+// The same of all groups.
+std::int32_t mover_of(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t joint)
 {
-    return {limb.shoulder, limb.elbow, limb.wrist};
-}
-
-// Whether a joint is another or above it. Both are in the skeleton, and parents lead to a root.
-bool is_above(const swivel_skeleton& skeleton, std::uint32_t joint, std::uint32_t below)
-{
-    for (auto at = static_cast<std::int32_t>(below); at >= 0; at = parent_of(skeleton, static_cast<std::uint32_t>(at)))
-        if (static_cast<std::uint32_t>(at) == joint) return true;
-    return false;
-}
-
-std::uint32_t wrist_of(const swivel_crowd_def& def, std::uint32_t g) { return joints_of(group_at(def, g)).wrist; }
-// Calls take(joint) for each needed joint, once: those of all limbs and what is above them.
-template <class Take>
-void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleton, const Take& take)
-{
-    const auto is_taken = [&](std::uint32_t joint, std::uint32_t group_count) {
-        for (std::uint32_t g = 0; g < group_count; ++g)
-            if (is_above(skeleton, joint, wrist_of(def, g))) return true;
-        return false;
-    };
-    for (std::uint32_t g = 0; g < def.group_count; ++g)
-        for (auto at = static_cast<std::int32_t>(wrist_of(def, g)); at >= 0;
-             at = parent_of(skeleton, static_cast<std::uint32_t>(at))) {
-            const auto joint = static_cast<std::uint32_t>(at);
-            if (is_taken(joint, g)) break;
-            take(joint);
-        }
-}
-
-bool is_turned(const swivel_crowd_def& def, std::uint32_t joint)
-{
-    for (std::uint32_t g = 0; g < def.group_count; ++g)
-        if (const auto turned = turned_joints(joints_of(group_at(def, g)));
-            std::find(turned.begin(), turned.end(), joint) != turned.end())
-            return true;
-    return false;
-}
-
-swivel_status check_limb(const swivel_skeleton& skeleton, const swivel_group_def& group, swivel_binding& binding)
-{
-    RestLimb limb;
-    const swivel_status status = rest_limb(skeleton, joints_of(group), limb);
-    return status == SWIVEL_OK ? bind("swivel_bind_joints", limb, binding) : status;
-}
-
-// The line of a call that failed, as one about a group.
-swivel_status fail_in_group(std::uint32_t g, swivel_status status)
-{
-    char line[256];
-    std::snprintf(line, sizeof line, "%s", last_error());
-    return fail(status, "group %u: %s", g, line);
-}
-
-swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
-{
-    const swivel_group_def group = group_at(def, g);
-    if (!group.joints)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each group does", g);
-    if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
-                    group.limb_count, def.body_count);
-    swivel_binding binding = swivel_default_binding();
-    swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
-    if (status == SWIVEL_OK) status = check_reserved("limb joints", joints_of(group));
-    if (status == SWIVEL_OK) status = check_limb(skeleton, group, binding);
-    return status == SWIVEL_OK ? status : fail_in_group(g, status);
-}
-
-// Limbs hang beside each other: what one turns is above no joint that another turns.
-swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
-{
-    const auto turning = turned_joints(joints_of(group_at(def, g)));
-    for (std::uint32_t other = 0; other < def.group_count; ++other) {
-        if (other == g) continue;
-        for (const std::uint32_t joint : turned_joints(joints_of(group_at(def, other))))
-            for (const std::uint32_t above : turning)
-                if (is_above(skeleton, above, joint))
-                    return fail(SWIVEL_INVALID_ARGUMENT,
-                                "group %u turns joint %u, which is %s joint %u of group %u; a body's limbs hang beside "
-                                "each other",
-                                g, above, above == joint ? "also" : "above", joint, other);
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        const TurnedJoints turned(skeleton, group_at(def, g));
+        if (const std::int32_t mover = mover_of(skeleton, turned, static_cast<std::int32_t>(joint)); mover >= 0)
+            return mover;
     }
-    return SWIVEL_OK;
+    return -1;
 }
 
-// A needed joint's place in the plan; joint_count if it is not there yet.
-std::uint32_t find(const BodyJoint* joints, std::uint32_t joint_count, std::int32_t skeleton_joint)
+// The place of a needed joint in the list; count if it is not there yet. The root is the parent of those without one.
+std::uint32_t find(PlannedJoints joints, std::int32_t skeleton_joint)
 {
     if (skeleton_joint < 0) return 0;
     std::uint32_t n = 1;
-    while (n < joint_count && joints[n].skeleton_joint != static_cast<std::uint32_t>(skeleton_joint)) ++n;
+    while (n < joints.count && joints.joints[n].skeleton_joint != static_cast<std::uint32_t>(skeleton_joint)) ++n;
     return n;
+}
+std::uint32_t row_of(PlannedJoints joints, std::int32_t skeleton_joint)
+{
+    return joints.joints[find(joints, skeleton_joint)].row;
+}
+
+void store(const Rotor<double>& q, float (&to)[4])
+{
+    to[0] = static_cast<float>(q.at<kI>());
+    to[1] = static_cast<float>(q.at<kJ>());
+    to[2] = static_cast<float>(q.at<kK>());
+    to[3] = static_cast<float>(q.at<kScalar>());
+}
+RestJoint rest_of(const swivel_skeleton& skeleton, std::uint32_t joint)
+{
+    RestJoint rest;
+    read_joint(skeleton, joint, rest);
+    return rest;
+}
+
+// Each turned joint with its parent and what moves that.
+void plan_turned(const swivel_skeleton& skeleton, const TurnedJoints& turned, PlannedJoints joints, BodyLimb& limb)
+{
+    for (const std::uint32_t joint : turned) {
+        const std::int32_t parent = parent_of(skeleton, joint), above = mover_of(skeleton, turned, parent);
+        limb.turned[limb.turned_count++] = {joint, row_of(joints, static_cast<std::int32_t>(joint)),
+                                            row_of(joints, parent), above < 0 ? 0 : row_of(joints, above)};
+    }
 }
 
 }  // namespace
 
-swivel_status check_bodies(const swivel_crowd_def& def)
+BodySize body_size(const swivel_crowd_def& def)
 {
-    swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(def.skeleton));
     const swivel_skeleton skeleton = skeleton_of(def);
-    if (status == SWIVEL_OK) status = check_reserved("skeleton", skeleton);
-    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g)
-        status = check_group_joints(def, skeleton, g);
-    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
-    if (status != SWIVEL_OK) return status;
+    BodySize size{1, kRootJoint + joint_row_count(false), 0};
     for_each_needed(def, skeleton, [&](std::uint32_t joint) {
-        RestJoint rest;
-        if (status == SWIVEL_OK) status = read_joint(skeleton, joint, rest);
+        ++size.joint_count;
+        size.row_count += joint_row_count(mover_of(def, skeleton, joint) == static_cast<std::int32_t>(joint));
     });
-    return status;
-}
-
-std::uint32_t needed_joint_count(const swivel_crowd_def& def)
-{
-    std::uint32_t count = 1;
-    for_each_needed(def, skeleton_of(def), [&](std::uint32_t) { ++count; });
-    return count;
+    for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
+        size.moved_count += mover_of(def, skeleton, joint) >= 0;
+    return size;
 }
 
 void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
     joints[0] = {};
-    std::uint32_t count = 1;
-    const auto is_planned = [&](std::int32_t joint) { return find(joints, count, joint) < count; };
+    joints[0].row = kRootJoint;
+    PlannedJoints planned{joints, 1};
+    std::uint32_t row = kRootJoint + joint_row_count(false);
+    const auto is_planned = [&](std::int32_t joint) { return find(planned, joint) < planned.count; };
     const auto plan = [&](std::uint32_t joint) {
-        RestJoint rest;
-        read_joint(skeleton, joint, rest);
-        const auto number = [](double x) { return static_cast<float>(x); };
-        joints[count] = {joint,
-                         find(joints, count, parent_of(skeleton, joint)),
-                         is_turned(def, joint),
-                         {number(rest.place.at<kE1>()), number(rest.place.at<kE2>()), number(rest.place.at<kE3>())}};
-        ++count;
+        const RestJoint rest = rest_of(skeleton, joint);
+        const std::int32_t mover = mover_of(def, skeleton, joint);
+        BodyJoint& to = joints[planned.count++];
+        to = {joint,
+              row,
+              row_of(planned, parent_of(skeleton, joint)),
+              0,
+              mover == static_cast<std::int32_t>(joint),
+              {static_cast<float>(rest.place.at<kE1>()), static_cast<float>(rest.place.at<kE2>()),
+               static_cast<float>(rest.place.at<kE3>())}};
+        if (mover >= 0) to.mover = row_of(planned, mover);
+        row += joint_row_count(to.is_turned != 0);
     };
     for_each_needed(def, skeleton, [&](std::uint32_t each) {
         while (!is_planned(static_cast<std::int32_t>(each))) {
@@ -168,30 +111,41 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
     });
 }
 
-BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
-                   const BodyJoint* joints, std::uint32_t joint_count)
+BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+                   PlannedJoints joints, MovedJoint* moved)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
     const swivel_limb_joints of = joints_of(group);
-    const auto planned = [&](std::uint32_t joint) {
-        return find(joints, joint_count, static_cast<std::int32_t>(joint));
-    };
-    const auto parent = [&](std::uint32_t joint) { return find(joints, joint_count, parent_of(skeleton, joint)); };
+    const TurnedJoints turned(skeleton, group);
+    const auto row = [&](std::uint32_t joint) { return row_of(joints, static_cast<std::int32_t>(joint)); };
+    const auto parent = [&](std::uint32_t joint) { return row_of(joints, parent_of(skeleton, joint)); };
     const float(&q)[4] = binding.upper_from_arm;
-    const Vector<float> hinge = turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
-    return {parent(of.shoulder),
-            planned(of.shoulder),
-            parent(of.elbow),
-            planned(of.elbow),
-            parent(of.wrist),
-            planned(of.wrist),
-            {hinge.at<kE1>(), hinge.at<kE2>(), hinge.at<kE3>()}};
+    const Vector<float> hinge = swivel::turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
+    BodyLimb limb{};
+    limb.parent = parent(of.shoulder), limb.shoulder = row(of.shoulder);
+    limb.elbow_parent = parent(of.elbow), limb.elbow = row(of.elbow);
+    limb.wrist_parent = parent(of.wrist), limb.wrist = row(of.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(group.features); ++n) {
+        limb.twist_bones[n] = row(of.twist_bones[n]), limb.twist_parents[n] = parent(of.twist_bones[n]);
+        store(normalise(rest_of(skeleton, of.twist_bones[n]).rotation), limb.twist_rest[n]);
+    }
+    std::copy(std::begin(hinge.c), std::end(hinge.c), limb.hinge);
+    if (group.features & SWIVEL_WITH_CLAVICLE)
+        store(normalise(rest_of(skeleton, turned.joint[0]).rotation), limb.clavicle_rest);
+    plan_turned(skeleton, turned, joints, limb);
+    limb.moved = moved;
+    for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
+        if (const std::int32_t mover = mover_of(skeleton, turned, static_cast<std::int32_t>(joint)); mover >= 0)
+            moved[limb.moved_count++] = {joint, row(static_cast<std::uint32_t>(mover))};
+    return limb;
 }
 
 swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group)
 {
+    RestLimb limb;
     swivel_binding binding = swivel_default_binding();
-    check_limb(skeleton_of(def), group, binding);
+    rest_limb(skeleton_of(def), joints_of(group), limb);
+    bind("swivel_bind_joints", limb, binding);
     return binding;
 }
 

@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: MIT
 //
-// The joints of a crowd of bodies: which of the skeleton some group needs, in an order in which parents come first, and
-// which of them are a group's limb.
+// The plan of a crowd of bodies, made once: which joints of the skeleton some group needs, in an order in which parents
+// come first, which of them are a group's limb, and which joints move with them.
 #pragma once
 
 #include "batch/crowd.h"
 
 namespace swivel {
 
-// What swivel_crowd_create() promises of a def with a skeleton, whose groups are otherwise right.
+// What swivel_crowd_create() promises of a def with a skeleton, whose groups are otherwise right (body_check.cpp).
 swivel_status check_bodies(const swivel_crowd_def& def);
 
-// These take a def that is right. How many joints are needed, the root among them; all of them; how a group's limb lies
-// to the arm frame at rest; and which of the joints it has.
-std::uint32_t needed_joint_count(const swivel_crowd_def& def);
+// These take a def that is right.
+struct BodySize {
+    std::uint32_t joint_count, row_count, moved_count;  // needed joints, the root among them; rows of a block
+};
+BodySize body_size(const swivel_crowd_def& def);
+// Stores the needed joints of all groups.
 void plan_joints(const swivel_crowd_def& def, BodyJoint* joints);
+// Gives a group's limb, and stores its moved joints from `moved` on.
+struct PlannedJoints {
+    const BodyJoint* joints;
+    std::uint32_t count;
+};
+BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
+                   PlannedJoints joints, MovedJoint* moved);
+// How a group's limb lies to the arm frame at rest.
 swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group);
-BodyLimb body_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
-                   const BodyJoint* joints, std::uint32_t joint_count);
 
 }  // namespace swivel

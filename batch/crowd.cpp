@@ -31,16 +31,17 @@ std::uint64_t row_bytes(const swivel_group_def& group)
 }
 
 // Blocks of bodies that are worked in at once: about as many as fit a level 2 cache of 256 KiB with their poses.
-std::uint32_t body_run_blocks(std::uint32_t joint_count)
+std::uint32_t body_run_blocks(std::uint32_t row_count)
 {
     constexpr std::size_t kRunBytes = 128 * 1024;
-    const std::size_t blocks = kRunBytes / (body_block_floats(joint_count) * sizeof(float));
+    const std::size_t blocks = kRunBytes / (row_count * kRowBytes);
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(blocks, 1, kStripBlocks));
 }
 
 struct Layout {
-    std::uint32_t block_count = 0, strip_blocks = 0, joint_count = 0;
-    std::uint64_t groups, joints, chosen, urgency, done, workspaces, rows,
+    std::uint32_t block_count = 0, strip_blocks = 0;
+    BodySize bodies{};
+    std::uint64_t groups, joints, moved, chosen, urgency, done, workspaces, rows,
         end;  // byte offsets in the arena, also of one too large
 
     explicit Layout(const swivel_crowd_def& def)
@@ -54,16 +55,17 @@ struct Layout {
                 strip_blocks = std::max(strip_blocks, std::min(blocks_in(group), kStripBlocks));
         }
         if (def.skeleton) {
-            joint_count = needed_joint_count(def);
-            strip_blocks = std::min(strip_blocks, body_run_blocks(joint_count));
+            bodies = body_size(def);
+            strip_blocks = std::min(strip_blocks, body_run_blocks(bodies.row_count));
         }
         groups = aligned(sizeof(swivel_crowd));
         joints = groups + aligned(std::uint64_t{def.group_count} * sizeof(Group));
-        chosen = joints + aligned(std::uint64_t{joint_count} * sizeof(BodyJoint));
+        moved = joints + aligned(std::uint64_t{bodies.joint_count} * sizeof(BodyJoint));
+        chosen = moved + aligned(std::uint64_t{bodies.moved_count} * sizeof(MovedJoint));
         urgency = chosen + aligned(std::uint64_t{mask_word_count(block_count)} * sizeof(std::uint32_t));
         done = urgency + aligned(std::uint64_t{block_count} * sizeof(float));
         workspaces = done + aligned(block_count);
-        rows = workspaces + def.workspace_count * workspace_floats(strip_blocks, joint_count) * sizeof(float);
+        rows = workspaces + def.workspace_count * workspace_floats(strip_blocks, bodies.row_count) * sizeof(float);
         end = rows + bytes;
     }
 };
@@ -138,7 +140,7 @@ void rest_in_arm_frame(const Group& group)
 
 // Makes a group whose rows begin at `rows`. The crowd has its joints already.
 void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def, const swivel_crowd& crowd,
-                 std::uint32_t first_block, char* rows, Group& group)
+                 std::uint32_t first_block, char* rows, MovedJoint* moved, Group& group)
 {
     group.first_block = first_block;
     group.block_count = blocks_in(def);
@@ -156,8 +158,8 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
     if (crowd_def.skeleton) {
         group.binding = body_binding(crowd_def, def);
-        group.limb = body_limb(crowd_def, def, group.binding, crowd.joints, crowd.joint_count);
-        group.body_block_floats = body_block_floats(crowd.joint_count);
+        group.limb = plan_limb(crowd_def, def, group.binding, {crowd.joints, crowd.joint_count}, moved);
+        group.body_block_floats = std::size_t{crowd.body_row_count} * kLanes;
     } else {
         group.binding = element(&def.binding, 0, swivel_default_binding());
     }
@@ -202,17 +204,20 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     crowd->strip_blocks = layout.strip_blocks;
     crowd->workspace_count = def.workspace_count;
     crowd->workspaces = reinterpret_cast<float*>(base + layout.workspaces);
-    crowd->joint_count = layout.joint_count;
+    crowd->joint_count = layout.bodies.joint_count;
+    crowd->body_row_count = layout.bodies.row_count;
     if (def.skeleton) {
         auto* const joints = reinterpret_cast<BodyJoint*>(base + layout.joints);
         plan_joints(def, joints);
         crowd->joints = joints;
     }
     char* rows = base + layout.rows;
+    auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
     std::uint32_t first_block = 0;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
-        place_group(def, of, *crowd, first_block, rows, *new (crowd->groups + g) Group{});
+        place_group(def, of, *crowd, first_block, rows, moved, *new (crowd->groups + g) Group{});
+        moved += crowd->groups[g].limb.moved_count;
         if (!def.skeleton) first_block += blocks_in(of);
         rows += row_bytes(of);
     }

@@ -52,6 +52,7 @@ struct swivel_crowd {
     float* workspaces;
     const swivel::BodyJoint* joints;  // of bodies: those that some group needs
     std::uint32_t joint_count;        // 0: free limbs
+    std::uint32_t body_row_count;     // of a block of bodies in a workspace
     std::atomic<std::uint64_t> busy;  // a bit for each workspace that a call is using
 };
 
@@ -62,14 +63,14 @@ inline constexpr swivel_features kLimbFeatures = ~(kFormulaFeatures | SWIVEL_POL
 
 inline constexpr std::uint32_t kMostWorkspaces = 64;  // of a crowd
 // A workspace: a strip of so many blocks, and the same blocks of bodies, if joints are needed.
-inline std::size_t workspace_floats(std::uint32_t strip_blocks, std::uint32_t joint_count)
+inline std::size_t workspace_floats(std::uint32_t strip_blocks, std::uint32_t body_row_count)
 {
-    return strip_blocks * (kStripBlockFloats + (joint_count > 0 ? body_block_floats(joint_count) : 0));
+    return strip_blocks * (kStripBlockFloats + std::size_t{body_row_count} * kLanes);
 }
-inline StripMemory strip_memory(float* workspace, std::uint32_t strip_blocks, std::uint32_t joint_count)
+inline StripMemory strip_memory(float* workspace, std::uint32_t strip_blocks, std::uint32_t body_row_count)
 {
     return {workspace, strip_blocks,
-            joint_count > 0 && workspace ? workspace + strip_blocks * kStripBlockFloats : nullptr};
+            body_row_count > 0 && workspace ? workspace + strip_blocks * kStripBlockFloats : nullptr};
 }
 
 // The groups that have lanes of their own: in a crowd of bodies the first one's are those of all.

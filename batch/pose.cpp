@@ -26,18 +26,16 @@ void from_rows(const float* rows, LaneMask lanes, char* values, std::size_t stri
         }
 }
 
-// The value of a joint of a block's first body.
+// The value of a joint of one body.
 char* value_of(const swivel_joint_values& values, std::uint32_t joint, std::uint32_t body)
 {
-    return static_cast<char*>(values.data) + std::size_t{body} * values.body_stride +
-           (values.offsets ? values.offsets[joint] : joint * values.joint_stride);
+    return static_cast<char*>(values.data) + std::size_t{body} * values.body_stride + offset_of(values, joint);
 }
 
 // Bytes of a pose's rotation or matrix, as far as they are touched.
 std::size_t rotation_bytes(swivel_pose_form form)
 {
-    if (form == SWIVEL_ROTATIONS) return 4 * sizeof(float);
-    return (form == SWIVEL_MATRIX_COLUMNS ? 15 : 12) * sizeof(float);
+    return form == SWIVEL_ROTATIONS ? 4 * sizeof(float) : entry_offset(form, 2, 3) + sizeof(float);
 }
 
 swivel_status check_stride(const char* name, const char* what, std::size_t stride, std::size_t bytes, bool may_repeat)
@@ -61,6 +59,35 @@ swivel_status check_root(const char* name, const swivel_in& values, std::size_t 
     return values.data ? check_stride(name, "stride", values.stride, bytes, true) : SWIVEL_OK;
 }
 
+swivel_status check_space(const swivel_pose& pose)
+{
+    std::uint32_t space;  // C lets it be any number
+    static_assert(sizeof space == sizeof pose.space);
+    std::memcpy(&space, &pose.space, sizeof space);
+    if (space > SWIVEL_IN_BODY)
+        return fail(SWIVEL_INVALID_ARGUMENT, "the pose's space is %u; it is SWIVEL_LOCAL or SWIVEL_IN_BODY", space);
+    return check_reserved("pose", pose);
+}
+// Where more than the turned joints' rotations go.
+swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
+{
+    const bool moves = pose.space == SWIVEL_IN_BODY && pose.translations.data;
+    if (pose.translation_results.data && !moves)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "the pose has translation_results, but only translations in the body's space change; leave them "
+                    "out");
+    if (moves && pose.results.data && !pose.translation_results.data)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "the pose has results, but no translation_results, and in the body's space translations change; "
+                    "give them");
+    constexpr std::size_t float3 = 3 * sizeof(float), float4 = 4 * sizeof(float);
+    swivel_status status = check_values(crowd, "translation_results", pose.translation_results, float3, true);
+    if (status == SWIVEL_OK) status = check_values(crowd, "joint_rotations", pose.joint_rotations, float4, true);
+    if (status == SWIVEL_OK) status = check_values(crowd, "joint_places", pose.joint_places, float3, true);
+    if (status != SWIVEL_OK || !moves) return status;
+    return check_values(crowd, "translations", pose.translations, float3, !pose.translation_results.data);
+}
+
 }  // namespace
 
 swivel_pose full_pose(const swivel_pose* given) { return element(given, 0, swivel_default_pose()); }
@@ -80,6 +107,7 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
     if (form > SWIVEL_MATRIX_COLUMNS3)
         return fail(SWIVEL_INVALID_ARGUMENT,
                     "the pose's form is %u; it is one of SWIVEL_ROTATIONS to SWIVEL_MATRIX_COLUMNS3", form);
+    if (const swivel_status status = check_space(pose); status != SWIVEL_OK) return status;
     if (!pose.rotations.data) return fail(SWIVEL_INVALID_ARGUMENT, "the pose has no rotations; give them");
     if (pose.form != SWIVEL_ROTATIONS && (pose.translations.data || pose.scales.data))
         return fail(SWIVEL_INVALID_ARGUMENT, "the pose has matrices and %s, which matrices hold; leave these out",
@@ -89,6 +117,7 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
     if (status == SWIVEL_OK) status = check_values(crowd, "translations", pose.translations, float3, false);
     if (status == SWIVEL_OK) status = check_values(crowd, "scales", pose.scales, float3, false);
     if (status == SWIVEL_OK) status = check_values(crowd, "results", pose.results, bytes, true);
+    if (status == SWIVEL_OK) status = check_outputs(crowd, pose);
     if (status == SWIVEL_OK)
         status = check_root("root_position", pose.root_position, pose.root_is_double ? 3 * sizeof(double) : float3);
     if (status == SWIVEL_OK) status = check_root("root_rotation", pose.root_rotation, 4 * sizeof(float));
@@ -98,21 +127,95 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
     return status;
 }
 
-void pose_out(const swivel_pose& pose, const swivel_crowd& crowd, const Group& group, const BodyBlock& block)
-{
+namespace {
+
+// A block's bodies, and where joints go.
+struct PoseWriter {
+    const swivel_pose& pose;
+    const BodyBlock& block;
     const swivel_joint_values& results = pose.results.data ? pose.results : pose.rotations;
-    const auto out = [&](std::uint32_t n) {
-        const float* const rows = block.rows + joint_row(n) * kLanes;
-        char* const to = value_of(results, crowd.joints[n].skeleton_joint, block.first);
-        if (pose.form == SWIVEL_ROTATIONS)
-            return from_rows<4>(rows + kLocalRow * kLanes, block.lanes, to, results.body_stride);
-        const std::size_t step = (pose.form == SWIVEL_MATRIX_COLUMNS3 ? 3 : 4) * sizeof(float);
-        for (std::size_t part = 0; part < 3; ++part)
-            from_rows<3>(rows + (kAxesRow + 3 * part) * kLanes, block.lanes, to + part * step, results.body_stride);
-    };
-    out(group.limb.shoulder);
-    out(group.limb.elbow);
-    if (group.features & SWIVEL_WITH_HAND) out(group.limb.wrist);
+
+    // C numbers of a joint's value, from a row and a byte on.
+    template <std::size_t C>
+    void write(const swivel_joint_values& to, std::uint32_t joint, std::uint32_t row, std::size_t byte = 0) const
+    {
+        from_rows<C>(block.rows + row * kLanes, block.lanes, value_of(to, joint, block.first) + byte, to.body_stride);
+    }
+    void write_local(const TurnedJoint& joint) const
+    {
+        if (pose.form == SWIVEL_ROTATIONS) return write<4>(results, joint.skeleton_joint, joint.row + kLocalRow);
+        for (std::uint32_t part = 0; part < 3; ++part)
+            write<3>(results, joint.skeleton_joint, joint.row + kAxesRow + 3 * part, part_offset(part));
+        if (results.data != pose.rotations.data) copy_translations(joint.skeleton_joint);
+    }
+    // From the rows of kernels.bodies.carry().
+    void write_carried(std::uint32_t joint) const
+    {
+        if (pose.form == SWIVEL_ROTATIONS) {
+            write<4>(results, joint, kOutTurnRow);
+            const bool apart = pose.translation_results.data != nullptr;
+            if (pose.translations.data)
+                write<3>(apart ? pose.translation_results : pose.translations, joint, kOutPlaceRow);
+        } else if (pose.form == SWIVEL_MATRIX_ROWS) {
+            for (std::uint32_t part = 0; part < 3; ++part) write<4>(results, joint, 4 * part, part_offset(part));
+        } else {
+            for (std::uint32_t part = 0; part < 4; ++part) write<3>(results, joint, 3 * part, part_offset(part));
+        }
+    }
+
+private:
+    // A row or a column of a matrix.
+    std::size_t part_offset(std::uint32_t part) const
+    {
+        return pose.form == SWIVEL_MATRIX_ROWS ? entry_offset(pose.form, part, 0) : entry_offset(pose.form, 0, part);
+    }
+    // A solve does not change them.
+    void copy_translations(std::uint32_t joint) const
+    {
+        for (LaneMask lanes = block.lanes; lanes != 0; lanes &= lanes - 1) {
+            const std::uint32_t body = block.first + static_cast<std::uint32_t>(std::countr_zero(lanes));
+            for (std::size_t row = 0; row < 3; ++row)
+                std::memcpy(value_of(results, joint, body) + entry_offset(pose.form, row, 3),
+                            value_of(pose.rotations, joint, body) + entry_offset(pose.form, row, 3), sizeof(float));
+        }
+    }
+};
+
+}  // namespace
+
+void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block)
+{
+    const swivel_pose& pose = *plan.pose;
+    const PoseWriter writer{pose, block};
+    const bool in_body = pose.space == SWIVEL_IN_BODY;
+    if (!in_body)
+        for (std::uint32_t n = 0; n < limb.turned_count; ++n) writer.write_local(limb.turned[n]);
+    if (in_body || gives_joints(pose)) kernels.move(block, limb);
+    if (in_body)
+        for (std::uint32_t n = 0; n < limb.moved_count; ++n) {
+            kernels.carry(plan, block, limb.moved[n]);
+            writer.write_carried(limb.moved[n].skeleton_joint);
+        }
+}
+
+void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBlock& block)
+{
+    const swivel_pose& pose = *plan.pose;
+    const PoseWriter writer{pose, block};
+    for (std::uint32_t n = 1; n < plan.joint_count; ++n) {
+        kernels.place(block, plan.joints[n]);
+        const std::uint32_t joint = plan.joints[n].skeleton_joint;
+        if (pose.joint_rotations.data) writer.write<4>(pose.joint_rotations, joint, kOutTurnRow);
+        if (pose.joint_places.data) writer.write<3>(pose.joint_places, joint, kOutPlaceRow);
+    }
+}
+
+void stay(const BodyLimb& limb, const BodyBlock& block)
+{
+    for (std::uint32_t n = 0; n < limb.turned_count; ++n)
+        for (std::uint32_t c = 0; c < 7; ++c)  // a rotor and a vector
+            std::fill_n(block.rows + (limb.turned[n].row + kMotionRow + c) * kLanes, std::size_t{kLanes},
+                        c == 3 ? 1.0f : 0.0f);
 }
 
 }  // namespace swivel

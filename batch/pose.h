@@ -16,7 +16,13 @@ swivel_pose full_pose(const swivel_pose* given);
 // The origin of the positions in a job's frames: the root, where it is doubles.
 inline swivel_in origin_of(const swivel_pose& pose) { return pose.root_is_double ? pose.root_position : swivel_in{}; }
 
-// Copies the joints of a group's limb from a block's rows to the caller's poses.
-void pose_out(const swivel_pose& pose, const swivel_crowd& crowd, const Group& group, const BodyBlock& block);
+// Whether a pose asks for where all needed joints are.
+inline bool gives_joints(const swivel_pose& pose) { return pose.joint_rotations.data || pose.joint_places.data; }
+
+// These write a block's bodies to the caller's memory: the joints that a group's limb moves; and, once all groups are
+// solved, where all needed joints are. A group that is not solved stays instead.
+void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block);
+void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBlock& block);
+void stay(const BodyLimb& limb, const BodyBlock& block);
 
 }  // namespace swivel

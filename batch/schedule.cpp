@@ -87,11 +87,11 @@ struct Parts {
     bool solve_on_heap(std::uint32_t first, std::uint32_t end) const
     {
         constexpr std::align_val_t alignment{64};
-        const std::uint32_t blocks = work.crowd.strip_blocks, joints = work.crowd.joint_count;
+        const std::uint32_t blocks = work.crowd.strip_blocks, rows = work.crowd.body_row_count;
         void* const workspace =
-            ::operator new(workspace_floats(blocks, joints) * sizeof(float), alignment, std::nothrow);
+            ::operator new(workspace_floats(blocks, rows) * sizeof(float), alignment, std::nothrow);
         if (!workspace) return false;
-        solve_in(strip_memory(static_cast<float*>(workspace), blocks, joints), first, end);
+        solve_in(strip_memory(static_cast<float*>(workspace), blocks, rows), first, end);
         ::operator delete(workspace, alignment);
         return true;
     }

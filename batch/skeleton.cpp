@@ -88,13 +88,14 @@ swivel_status name_parts(const swivel_limb_joints& joints, Parts& parts)
     return SWIVEL_OK;
 }
 
-// The joint is in the skeleton, and its parents lead to a root.
-swivel_status check_part(const swivel_skeleton& skeleton, const Part& part)
+}  // namespace
+
+swivel_status check_parents(const swivel_skeleton& skeleton, const char* name, std::uint32_t of)
 {
-    if (part.joint >= skeleton.joint_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: %s is joint %u, but the skeleton has %u joints",
-                    part.name, part.joint, skeleton.joint_count);
-    std::uint32_t joint = part.joint;
+    if (of >= skeleton.joint_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "swivel_bind_joints: %s is joint %u, but the skeleton has %u joints", name,
+                    of, skeleton.joint_count);
+    std::uint32_t joint = of;
     for (std::uint32_t seen = 0; seen < skeleton.joint_count; ++seen) {
         const std::int32_t parent = parent_of(skeleton, joint);
         if (parent == -1) return SWIVEL_OK;
@@ -105,9 +106,11 @@ swivel_status check_part(const swivel_skeleton& skeleton, const Part& part)
         joint = static_cast<std::uint32_t>(parent);
     }
     return fail(SWIVEL_INVALID_ARGUMENT,
-                "swivel_bind_joints: the parents of %s, joint %u, go round in a circle; a root's parent is -1",
-                part.name, part.joint);
+                "swivel_bind_joints: the parents of %s, joint %u, go round in a circle; a root's parent is -1", name,
+                of);
 }
+
+namespace {
 
 swivel_status read_rotation(const swivel_skeleton& skeleton, std::uint32_t joint, Rotor<double>& rotation)
 {
@@ -195,7 +198,8 @@ swivel_status rest_limb(const swivel_skeleton& skeleton, const swivel_limb_joint
     Parts parts;
     swivel_status status = check_skeleton(skeleton);
     if (status == SWIVEL_OK) status = name_parts(joints, parts);
-    for (std::uint32_t n = 0; n < parts.count && status == SWIVEL_OK; ++n) status = check_part(skeleton, parts.part[n]);
+    for (std::uint32_t n = 0; n < parts.count && status == SWIVEL_OK; ++n)
+        status = check_parents(skeleton, parts.part[n].name, parts.part[n].joint);
     if (status != SWIVEL_OK) return status;
 
     const Part *const shoulder = parts.part + kShoulder, *const elbow = parts.part + kElbow;

@@ -14,7 +14,7 @@ class Workspace {
 public:
     Workspace(swivel_crowd& crowd, void* of_job)
         : status(SWIVEL_OK),
-          strip(strip_memory(static_cast<float*>(of_job), crowd.strip_blocks, crowd.joint_count)),
+          strip(strip_memory(static_cast<float*>(of_job), crowd.strip_blocks, crowd.body_row_count)),
           crowd_(crowd)
     {
         constexpr std::size_t alignment = 64;
@@ -43,8 +43,8 @@ private:
             const std::uint64_t bit = std::uint64_t{1} << free;
             if (!crowd_.busy.compare_exchange_weak(busy, busy | bit)) continue;
             taken_ = bit;
-            strip = strip_memory(crowd_.workspaces + free * workspace_floats(crowd_.strip_blocks, crowd_.joint_count),
-                                 crowd_.strip_blocks, crowd_.joint_count);
+            strip = strip_memory(crowd_.workspaces + free * workspace_floats(crowd_.strip_blocks, crowd_.body_row_count),
+                                 crowd_.strip_blocks, crowd_.body_row_count);
             return;
         }
         const std::uint32_t count = crowd_.workspace_count;

@@ -148,4 +148,11 @@ SWIVEL_INLINE constexpr Rotor<T> hemisphere(const Rotor<T>& q)
     return with_sign_of(select(w == zero, among_xyz, w), q);
 }
 
+// No rotation.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> one()
+{
+    return rotor(T(0), T(0), T(0), T(1));
+}
+
 }  // namespace swivel::inline SWIVEL_ISA

@@ -8,11 +8,6 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
-template <class T>
-SWIVEL_INLINE constexpr Rotor<T> one()
-{
-    return rotor(T(0), T(0), T(0), T(1));
-}
 // From a to b by weight, along the shorter way.
 template <class T>
 SWIVEL_INLINE constexpr Rotor<T> blended(const Rotor<T>& a, const Rotor<T>& b, const T& weight)

@@ -11,13 +11,15 @@
 
 namespace swivel {
 
-// The rows of a joint, by the first of each value.
+// The rows of a joint, by the first of each value. Joints that no limb turns have only those before the local rotation.
 enum JointRow : std::uint32_t {
-    kLocalRow,                  // its rotation, relative to its parent: as it comes, later as it goes
-    kTurnRow = kLocalRow + 4,   // its rotation as it comes, in the world
-    kPlaceRow = kTurnRow + 4,   // its place as it comes, from the root's place
-    kScaleRow = kPlaceRow + 3,  // the same, in the world
-    kAxesRow = kScaleRow + 1,   // of poses of matrices: the axes in the order of the caller's memory
+    kTurnRow,                    // its rotation as it comes, in the world
+    kPlaceRow = kTurnRow + 4,    // its place as it comes, from the root's place
+    kScaleRow = kPlaceRow + 3,   // the same, in the world
+    kLocalRow = kScaleRow + 1,   // its rotation, relative to its parent: as it comes, later as it goes
+    kAxesRow = kLocalRow + 4,    // of local matrices: the axes in the order of the caller's memory
+    kMotionRow = kAxesRow,       // once these are written: the turn that a solve gave it and all below it,
+    kShiftRow = kMotionRow + 4,  // and the place that the root's goes to in it; both in the body's space
     kJointRows = kAxesRow + 9
 };
 // What a group's limb hands on from stage to stage, besides the rows of its strip.
@@ -27,28 +29,47 @@ enum PosedRow : std::uint32_t {
     kElbowParentFromArmRow = kUpperFromArmRow + 4,
     kForeFromArmRow = kElbowParentFromArmRow + 4,
     kWristParentFromArmRow = kForeFromArmRow + 4,
-    kRootRow =
-        kWristParentFromArmRow + 4,  // the root's place in the world; 0 where positions in rows are from the root
+    kTwistInRow = kWristParentFromArmRow + 4,  // the incoming hand's twist about the forearm: cos and sin of its half
+    kKeptRow = kTwistInRow + 2,                // 1 where the limb keeps its pose, else 0
+    kRootRow = kKeptRow + 1,  // the root's place in the world; 0 where positions in rows are from the root
     kPosedRows = kRootRow + 3
 };
-// A block has the rows of the group that is being solved, then those of all joints.
-constexpr std::uint32_t joint_row(std::uint32_t joint) { return kPosedRows + joint * kJointRows; }
-constexpr std::size_t body_block_floats(std::uint32_t joint_count)
-{
-    return std::size_t{joint_row(joint_count)} * kLanes;
-}
+// A block has the rows of the group that is being solved, then those of all joints: first the root's.
+inline constexpr std::uint32_t kRootJoint = kPosedRows;
+constexpr std::uint32_t joint_row_count(bool is_turned) { return is_turned ? kJointRows : std::uint32_t{kLocalRow}; }
+// A joint that is written goes through these rows, once its limb is done with them: its rotation and its place, or the
+// numbers of its matrix.
+enum OutRow : std::uint32_t { kOutTurnRow, kOutPlaceRow = kOutTurnRow + 4, kOutRows = 12 };
+static_assert(std::uint32_t{kOutRows} <= kKeptRow);
 
-// A joint that is needed. Joint 0 is the root, which the others hang below. It has no parent.
+// A joint that is needed, by the first rows of its own and of others. The first one is the root, which the others hang
+// below. It has no parent.
 struct BodyJoint {
     std::uint32_t skeleton_joint;  // of the skeleton; of the root it means nothing
-    std::uint32_t parent;          // among the needed ones, and before this one
-    std::uint32_t is_turned;       // whether a group's limb has it, so that its local rotation is needed later
+    std::uint32_t row, parent;     // the parent comes before it
+    std::uint32_t mover;           // the joint that it moves with: it, or the next one above that is turned; 0: none
+    std::uint32_t is_turned;       // whether a limb turns it, so that its local rotation is needed later
     float translation[3];          // at rest
 };
-// The joints of a group's limb, among the needed ones.
+// A joint of the skeleton that moves with one that a limb turns.
+struct MovedJoint {
+    std::uint32_t skeleton_joint, mover;
+};
+// A joint that a limb turns. above: the mover of its parent.
+struct TurnedJoint {
+    std::uint32_t skeleton_joint, row, parent, above;
+};
+inline constexpr std::uint32_t kMostTurned = 4 + SWIVEL_MOST_TWIST_BONES;
+// The joints of a group's limb, by their first rows.
 struct BodyLimb {
     std::uint32_t parent, shoulder, elbow_parent, elbow, wrist_parent, wrist;
-    float hinge[3];  // in the shoulder joint's frame
+    std::uint32_t twist_bones[SWIVEL_MOST_TWIST_BONES], twist_parents[SWIVEL_MOST_TWIST_BONES];
+    float hinge[3];                                                  // in the shoulder joint's frame
+    float clavicle_rest[4], twist_rest[SWIVEL_MOST_TWIST_BONES][4];  // local rotations at rest
+    TurnedJoint turned[kMostTurned];                                 // an upper one first
+    std::uint32_t turned_count;
+    const MovedJoint* moved;  // these joints and all below them
+    std::uint32_t moved_count;
 
     // The rows of what carries the arm frame to the parents of elbow and wrist.
     std::uint32_t elbow_parent_row() const
@@ -57,6 +78,19 @@ struct BodyLimb {
     }
     std::uint32_t wrist_parent_row() const { return wrist_parent == elbow ? kForeFromArmRow : kWristParentFromArmRow; }
 };
+
+// Where a number of a joint's matrix lies in the caller's memory, in bytes.
+constexpr std::size_t entry_offset(swivel_pose_form form, std::size_t row, std::size_t column)
+{
+    const std::size_t numbers =
+        form == SWIVEL_MATRIX_ROWS ? 4 * row + column : (form == SWIVEL_MATRIX_COLUMNS ? 4 : 3) * column + row;
+    return numbers * sizeof(float);
+}
+// Where a body has a joint's value, in bytes.
+constexpr std::size_t offset_of(const swivel_joint_values& values, std::uint32_t joint)
+{
+    return values.offsets ? values.offsets[joint] : joint * values.joint_stride;
+}
 
 // A block of bodies, of which some are there.
 struct BodyBlock {

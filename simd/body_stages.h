@@ -4,6 +4,7 @@
 // joints.
 #pragma once
 
+#include "core/forearm_twist.h"
 #include "core/posed_limb.h"
 #include "simd/goal_stages.h"
 
@@ -20,24 +21,29 @@ struct StageBody<Stage::posed> {
                                      : weighs                    ? BendNormal::either
                                                                  : BendNormal::steady;
         const BodyLimb& limb = *s.strip.run.limb;
-        const Rotor<T> wrist = s.joint_rotor(limb.wrist, kTurnRow);
-        const PosedLimb<T> posed{s.joint_rotor(limb.parent, kTurnRow), s.joint_rotor(limb.shoulder, kTurnRow),
-                                 s.joint_vector(limb.shoulder, kPlaceRow), s.joint_vector(limb.elbow, kPlaceRow),
-                                 s.joint_vector(limb.wrist, kPlaceRow)};
+        const Rotor<T> wrist = s.body_rotor(limb.wrist + kTurnRow);
+        const PosedLimb<T> posed{s.body_rotor(limb.parent + kTurnRow), s.body_rotor(limb.shoulder + kTurnRow),
+                                 s.body_vector(limb.shoulder + kPlaceRow), s.body_vector(limb.elbow + kPlaceRow),
+                                 s.body_vector(limb.wrist + kPlaceRow)};
         // What is bad in a joint shows in all below it.
-        s.require(is_within(len2(wrist), 0.99, 1.01) & (len2(posed.wrist_place) <= T(kHuge2)) &
-                  is_within(s.joint(limb.wrist, kScaleRow), kTiny, kHuge));
+        s.require(is_joint(s, limb.wrist));
+        for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
+            s.require(is_joint(s, limb.twist_bones[n]));
         Mask<T> stays = T(0) == T(1);
         if constexpr (which == BendNormal::either) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
                                                   vector(T(limb.hinge[0]), T(limb.hinge[1]), T(limb.hinge[2])), stays);
         s.set_rotor(kIncomingRow, seen.model.upper);
-        if (weighs || s.has(kTwistBones)) {
+        if (weighs || s.has(kTwistBones | SWIVEL_WITH_AIM)) {
+            const Rotor<T> hand = ~seen.frames.fore * wrist * ~broadcast<T>(s.strip.bind.hand_from_arm);
             s.set_rotor(kIncomingRow + 4, ~seen.model.upper * seen.model.fore);
-            s.set_rotor(kIncomingRow + 8, ~seen.frames.fore * wrist * ~broadcast<T>(s.strip.bind.hand_from_arm));
+            s.set_rotor(kIncomingRow + 8, hand);
+            const Turned<T> twist = twist_rotor(hand);
+            s.set_body(kTwistInRow, twist.cos);
+            s.set_body(kTwistInRow + 1, twist.sin);
         }
         // Lengths that were never written are NaN.
-        const T per_scale = T(1) / s.joint(limb.parent, kScaleRow);
+        const T per_scale = T(1) / s.body_row(limb.parent + kScaleRow);
         const auto length = [&](int n, const T& posed_length) SWIVEL_INLINE_LAMBDA {
             const T given = s.io.load(SWIVEL_LENGTHS, n);
             return select(given == given, given, per_scale * posed_length);
@@ -46,14 +52,37 @@ struct StageBody<Stage::posed> {
         s.set_body(kLengthsRow + 1, length(1, seen.bones.fore_length));
         const auto set_from_arm =
             [&](std::uint32_t row, std::uint32_t joint, const Rotor<T>& frame)
-                SWIVEL_INLINE_LAMBDA { s.set_body_rotor(row, ~s.joint_rotor(joint, kTurnRow) * frame); };
+                SWIVEL_INLINE_LAMBDA { s.set_body_rotor(row, ~s.body_rotor(joint + kTurnRow) * frame); };
         s.set_body_rotor(kUpperFromArmRow, ~posed.shoulder * seen.frames.upper);
         set_from_arm(kForeFromArmRow, limb.elbow, seen.frames.fore);
         if (limb.elbow_parent != limb.shoulder)
             set_from_arm(kElbowParentFromArmRow, limb.elbow_parent, seen.frames.upper);
         if (limb.wrist_parent != limb.elbow) set_from_arm(kWristParentFromArmRow, limb.wrist_parent, seen.frames.fore);
     }
+
+private:
+    template <class S>
+    SWIVEL_INLINE static Mask<typename S::T> is_joint(const S& s, std::uint32_t joint)
+    {
+        using T = typename S::T;
+        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
+               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
+               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
+    }
 };
+
+// A twist bone turns from its incoming rotation, by its share of how far the hand's twist changes.
+template <class S>
+SWIVEL_INLINE Rotor<typename S::T> turned_twist_bone(const S& s, std::uint32_t n)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const Rotor<T> fore = s.body_rotor(limb.elbow + kTurnRow) * s.body_rotor(kForeFromArmRow);
+    const Rotor<T> from_arm = ~s.body_rotor(limb.twist_parents[n] + kTurnRow) * fore;
+    const Rotor<T> turn = rotor(T(0), T(0), s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 2)),
+                                s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 3)));
+    return from_arm * turn * ~from_arm * s.body_rotor(limb.twist_bones[n] + kLocalRow);
+}
 
 // The rotations of the joints, in place of the incoming ones.
 template <>
@@ -66,13 +95,15 @@ struct StageBody<Stage::correct> {
         const swivel_binding& b = *s.strip.run.binding;
         const BodyLimb& limb = *s.strip.run.limb;
         const Mask<T> valid = lanes_where<T>(s.good()), kept = kept_lanes(s, valid);
+        const swivel_pose& pose = *s.strip.run.strip.pose;
+        s.set_body(kKeptRow, select(kept, T(1), T(0)));
         const auto store = [&](std::uint32_t joint, const Rotor<T>& solved,
                                const float(&rest)[4]) SWIVEL_INLINE_LAMBDA {
-            const Rotor<T> was = s.joint_rotor(joint, kLocalRow), q = select(valid, solved, broadcast<T>(rest));
+            const Rotor<T> was = s.body_rotor(joint + kLocalRow), q = select(valid, solved, broadcast<T>(rest));
             const T side = select(valid, scalar_product(~was, q), T(1));
-            if (s.strip.run.strip.form != SWIVEL_ROTATIONS)
+            if (pose.form != SWIVEL_ROTATIONS && pose.space == SWIVEL_LOCAL)
                 turn_axes(s, joint, select(valid, q * ~was, q), valid, kept);
-            s.set_joint_rotor(joint, kLocalRow, select(kept, was, with_sign_of(side, q)));
+            s.set_body_rotor(joint + kLocalRow, select(kept, was, with_sign_of(side, q)));
         };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
         const Rotor<T> shoulder = rotor(s.io.load_result(SWIVEL_SHOULDER, 0), s.io.load_result(SWIVEL_SHOULDER, 1),
@@ -84,6 +115,14 @@ struct StageBody<Stage::correct> {
             store(limb.wrist,
                   s.body_rotor(limb.wrist_parent_row()) * s.get_rotor(kTwistRow) * broadcast<T>(bind.hand_from_arm),
                   b.wrist_rest);
+        if (s.has(SWIVEL_WITH_CLAVICLE))
+            store(limb.parent,
+                  s.body_rotor(limb.parent + kLocalRow) *
+                      rotor(s.io.load_result(SWIVEL_CLAVICLE_TURN, 0), s.io.load_result(SWIVEL_CLAVICLE_TURN, 1),
+                            s.io.load_result(SWIVEL_CLAVICLE_TURN, 2), s.io.load_result(SWIVEL_CLAVICLE_TURN, 3)),
+                  limb.clavicle_rest);
+        for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
+            store(limb.twist_bones[n], turned_twist_bone(s, n), limb.twist_rest[n]);
     }
 
 private:
@@ -93,8 +132,8 @@ private:
                                         const Mask<typename S::T>& valid, const Mask<typename S::T>& kept)
     {
         using T = typename S::T;
-        const bool by_rows = s.strip.run.strip.form == SWIVEL_MATRIX_ROWS;
-        const std::uint32_t first = joint_row(joint) + kAxesRow;
+        const bool by_rows = s.strip.run.strip.pose->form == SWIVEL_MATRIX_ROWS;
+        const std::uint32_t first = joint + kAxesRow;
         for (std::uint32_t n = 0; n < 3; ++n) {
             const auto row = [&](std::uint32_t c)
                                  SWIVEL_INLINE_LAMBDA { return first + (by_rows ? 3 * c + n : 3 * n + c); };
@@ -106,12 +145,14 @@ private:
             s.set_body(row(2), is.template at<kE3>());
         }
     }
-    // The lanes whose joints stay as they come: of bad input in groups that keep it, and where no weight asks for more.
+    // The lanes whose joints stay as they come: of bad input in groups that keep it, or where no rest pose is known, in
+    // the body's space; and where no weight asks for more.
     template <class S>
     SWIVEL_INLINE static Mask<typename S::T> kept_lanes(const S& s, const Mask<typename S::T>& valid)
     {
         using T = typename S::T;
-        Mask<T> kept = s.strip.run.keeps ? !valid : T(0) == T(1);
+        const bool keeps = s.strip.run.keeps || s.strip.run.strip.pose->space == SWIVEL_IN_BODY;
+        Mask<T> kept = keeps ? !valid : T(0) == T(1);
         if (s.has(SWIVEL_WITH_WEIGHTS) && !(s.strip.run.features & kBoundingFeatures)) {
             const T none = T(0);
             kept = kept | (valid & (s.io.load(SWIVEL_WEIGHTS, 0) == none) & (s.io.load(SWIVEL_WEIGHTS, 1) == none) &

@@ -88,7 +88,9 @@ struct StageBody<Stage::aim> {
             goal.effector = in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR));
             s.require(len2(goal.effector) <= T(kHuge2));
         }
-        const Rotor<T> hand = use.hand ? s.get_rotor(kHandRow) : one<T>();
+        const Rotor<T> hand = use.hand             ? s.get_rotor(kHandRow)
+                              : s.has(SWIVEL_BODY) ? s.get_rotor(kIncomingRow + 8)
+                                                   : one<T>();
         const Laid<T> laid =
             lay_bones(s, [&](const T& wanted) SWIVEL_INLINE_LAMBDA { return aimed_bones(use, goal, hand, wanted); });
         s.set(kFlagsRow, laid.flags);

@@ -47,8 +47,8 @@ SWIVEL_INLINE ParentFrame<typename S::T> parent_frame(const S& s)
 {
     if (!s.has(SWIVEL_BODY)) return s.io.load_parent();
     const BodyLimb& limb = *s.strip.run.limb;
-    return {s.joint_vector(limb.shoulder, kPlaceRow), s.joint_rotor(limb.parent, kTurnRow),
-            s.joint(limb.parent, kScaleRow)};
+    return {s.body_vector(limb.shoulder + kPlaceRow), s.body_rotor(limb.parent + kTurnRow),
+            s.body_row(limb.parent + kScaleRow)};
 }
 // A bone's length.
 template <class S>
@@ -96,6 +96,42 @@ struct StageBody<Stage::see> {
     }
 };
 
+// Places from the clavicle's joint, in the arm frame: the shoulder's, and what the clavicle turns from towards the
+// target.
+template <class T>
+struct ClavicleEnds {
+    Vector<T> shoulder, from;
+};
+// Of a free limb: the clavicle's own bone.
+template <class S>
+SWIVEL_INLINE ClavicleEnds<typename S::T> resting_clavicle(const S& s)
+{
+    using T = typename S::T;
+    const Vector<T> bone = sandwich(~broadcast<T>(s.strip.bind.parent_from_arm), s.io.load_vector(SWIVEL_CLAVICLE));
+    return {bone, bone};
+}
+// Of a body's limb: what goes to the target, as it comes. With an aim that is the ray's point as far as the target is.
+template <class S>
+SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const ParentFrame<T> parent = parent_frame(s);
+    const Turn<T> back = turn_by(~(parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm)));
+    const Vector<T> clavicle = s.body_vector(limb.parent + kPlaceRow);
+    const auto seen = [&](const Vector<T>& place)
+                          SWIVEL_INLINE_LAMBDA { return (T(1) / parent.scale) * back(place - clavicle); };
+    const Turn<T> hand = turn_by(s.body_rotor(limb.wrist + kTurnRow));
+    const Vector<T> shoulder = seen(parent.position);
+    Vector<T> from = seen(s.body_vector(limb.wrist + kPlaceRow));
+    if (s.has(SWIVEL_WITH_EFFECTOR)) from = from + back(hand(s.io.load_vector(SWIVEL_EFFECTOR)));
+    if (s.has(SWIVEL_WITH_AIM)) {
+        const Vector<T> way = s.get_vector(kWristRow) + shoulder - from;
+        from = from + sqrt(len2(way)) * back(hand(s.io.load_vector(SWIVEL_AIM)));
+    }
+    return {shoulder, from};
+}
+
 // Turns the clavicle by its share, and the goal back into the arm frame, which goes with it.
 template <>
 struct StageBody<Stage::clavicle> {
@@ -103,13 +139,14 @@ struct StageBody<Stage::clavicle> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        const Rotor<T> parent_from_arm = broadcast<T>(s.strip.bind.parent_from_arm);
-        const Vector<T> bone = sandwich(~parent_from_arm, s.io.load_vector(SWIVEL_CLAVICLE));
-        const T share = s.io.load(SWIVEL_CLAVICLE, 3);
+        const bool is_posed = s.has(SWIVEL_BODY);
+        const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
+        const Vector<T>& bone = ends.shoulder;
+        const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
         const Vector<T> target = s.get_vector(kWristRow) + bone, pole = s.get_vector(kPoleRow);
         s.require((len2(bone) <= T(kHuge2)) & is_share(share));
         const Rotor<T> turn =
-            clavicle_turn(bone, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
+            clavicle_turn(ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
         const Turn<T> back = turn_by(~turn);
         s.set_vector(kWristRow, back(target) - bone);
         s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));

@@ -17,8 +17,8 @@ namespace swivel {
 struct StripMemory {
     float* rows;
     std::uint32_t block_count;
-    float* bodies = nullptr;  // as many blocks of bodies (body_rows.h), from poses of this form
-    swivel_pose_form form = SWIVEL_ROTATIONS;
+    float* bodies = nullptr;            // as many blocks of bodies (body_rows.h)
+    const swivel_pose* pose = nullptr;  // theirs
 };
 
 // A run of blocks that share their features and binding.
@@ -96,6 +96,12 @@ struct LimbKernels {
 struct BodyKernels {
     // Fills in the rows of all joints of a block from what the pose says of each.
     void (*forward)(const BodyPlan& plan, const BodyBlock& block);
+    // Finds how a solved limb moves its joints and all below them (kMotionRow).
+    void (*move)(const BodyBlock& block, const BodyLimb& limb);
+    // These fill in a block's rows for a joint to be written (OutRow), where the limbs have moved it to. carry: as it
+    // comes in a pose in the body's space. place: a needed joint's rotation and place, in the body's space.
+    void (*carry)(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint);
+    void (*place)(const BodyBlock& block, const BodyJoint& joint);
 };
 
 struct Kernels {

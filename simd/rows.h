@@ -21,6 +21,7 @@ constexpr std::uint32_t field_row_count(swivel_features features, swivel_field f
 {
     if (field == SWIVEL_ELBOW && (features & SWIVEL_JOINTS)) return 4;
     if (field == SWIVEL_TWIST_BONES) return 4 * twist_bone_count(features);
+    if (field == SWIVEL_CLAVICLE && (features & SWIVEL_BODY)) return (features & SWIVEL_WITH_CLAVICLE) != 0;
     const FieldRow& row = row_of(field);
     return (features & row.needs) == row.needs && !(features & row.excludes) ? row.component_count : 0;
 }

@@ -35,8 +35,8 @@ enum class Stage : std::uint8_t {
     choose,         // the swivel that the lines allow
     choose_in_box,  // the same, with boxes
     store,          // lifts the arm, and stores the results
-    correct,        // a body's joints
     twist_bones,
+    correct,  // a body's joints
     count
 };
 
@@ -79,8 +79,8 @@ inline constexpr StageRow kStages[] = {
     {Stage::choose, 0, kLineFeatures, kBoxFeatures},
     {Stage::choose_in_box, 0, kBoxFeatures, 0},
     {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM, 0, 0},
-    {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
+    {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr bool needs(swivel_features features, const StageRow& row)

@@ -111,7 +111,13 @@ struct StageBody<Stage::twist_bones> {
         const Results<S> results(s);
         const auto if_joints = [&](const float(&q)[4])
                                    SWIVEL_INLINE_LAMBDA { return s.has(SWIVEL_JOINTS) ? broadcast<T>(q) : one<T>(); };
-        const Turned<T> twist = twist_rotor(s.get_rotor(kTwistRow));
+        Turned<T> twist = twist_rotor(s.get_rotor(kTwistRow));
+        if (s.has(SWIVEL_BODY)) {  // from the incoming one, the short way
+            const Turned<T> was{s.body_row(kTwistInRow), s.body_row(kTwistInRow + 1)};
+            const T cos = twist.cos * was.cos + twist.sin * was.sin, sin = twist.sin * was.cos - twist.cos * was.sin;
+            twist = {abs(cos), flip_sign(sin, cos)};
+            twist = {select(results.valid, twist.cos, T(1)), select(results.valid, twist.sin, T(0))};
+        }
         const int bones = static_cast<int>(twist_bone_count(s.strip.run.features));
         for (int n = 0; n < bones; ++n) {
             const Turned<T> share = shared_twist(twist, (n + 1.0) / (bones + 1.0));

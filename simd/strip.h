@@ -93,19 +93,6 @@ struct StripSlice {
         set_body(row + 2, q.template at<kK>());
         set_body(row + 3, q.template at<kScalar>());
     }
-    SWIVEL_INLINE T joint(std::uint32_t joint, std::uint32_t row) const { return body_row(joint_row(joint) + row); }
-    SWIVEL_INLINE Rotor<T> joint_rotor(std::uint32_t joint, std::uint32_t row) const
-    {
-        return body_rotor(joint_row(joint) + row);
-    }
-    SWIVEL_INLINE Vector<T> joint_vector(std::uint32_t joint, std::uint32_t row) const
-    {
-        return body_vector(joint_row(joint) + row);
-    }
-    SWIVEL_INLINE void set_joint_rotor(std::uint32_t joint, std::uint32_t row, const Rotor<T>& q) const
-    {
-        set_body_rotor(joint_row(joint) + row, q);
-    }
     // A part of the goal: in the strip, if an earlier stage has put it there, or else as it was given.
     SWIVEL_INLINE Vector<T> goal_vector(bool in_strip, std::uint32_t row, swivel_field field) const
     {

@@ -45,8 +45,9 @@ std::size_t PoseBuffer::element(int row, int column) const
     return static_cast<std::size_t>(index) * sizeof(float);
 }
 
-void PoseBuffer::write(std::size_t n, const Body& body)
+void PoseBuffer::write(std::size_t n, const Body& local)
 {
+    const Body body = layout.in_body ? in_body_space(*layout.in_body, local) : local;
     const auto put = [&](std::size_t at, const auto& value) { std::memcpy(&bytes[at], &value, sizeof value); };
     for (std::size_t joint = 0; joint < joint_count; ++joint) {
         if (layout.form == SWIVEL_ROTATIONS) {
@@ -72,29 +73,35 @@ void PoseBuffer::write(std::size_t n, const Body& body)
 
 Body PoseBuffer::read(std::size_t n, const Body& otherwise) const
 {
-    Body body = otherwise;
+    Body body = layout.in_body ? in_body_space(*layout.in_body, otherwise) : otherwise;
     for (std::size_t joint = 0; joint < joint_count; ++joint) {
         const unsigned char* const at = &bytes[rotation_at(n, joint)];
         if (layout.form == SWIVEL_ROTATIONS) {
             std::memcpy(&body.rotations[joint], at, sizeof(Float4));
+            if (layout.translates)
+                std::memcpy(&body.translations[joint], &bytes[translation_at(n, joint)], sizeof(Float3));
             continue;
         }
         Eigen::Matrix3d turn;
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column) {
-                float number;
-                std::memcpy(&number, at + element(row, column), sizeof number);
-                turn(row, column) = number;
-            }
+        for (int row = 0; row < 3; ++row) {
+            const auto number = [&](int column) {
+                float value;
+                std::memcpy(&value, at + element(row, column), sizeof value);
+                return value;
+            };
+            for (int column = 0; column < 3; ++column) turn(row, column) = number(column);
+            body.translations[joint][static_cast<std::size_t>(row)] = number(3);
+        }
         body.rotations[joint] = floats(Quaterniond(Eigen::Matrix3d(turn / turn.col(0).norm())));
     }
-    return body;
+    return layout.in_body ? from_body_space(*layout.in_body, body) : body;
 }
 
 swivel_pose PoseBuffer::view()
 {
     swivel_pose pose = swivel_default_pose();
     pose.form = layout.form;
+    pose.space = layout.in_body ? SWIVEL_IN_BODY : SWIVEL_LOCAL;
     pose.rotations = {&bytes[rotation_at(0, 0)], body_stride, rotation_bytes(), nullptr};
     if (layout.form == SWIVEL_ROTATIONS && layout.translates)
         pose.translations = {&bytes[translation_at(0, 0)], body_stride, 12, nullptr};

@@ -11,7 +11,8 @@ namespace swivel::test {
 struct PoseLayout {
     swivel_pose_form form = SWIVEL_ROTATIONS;
     bool translates = false, scales = false, roots = false;
-    std::size_t gap = 0;  // bytes after each body
+    std::size_t gap = 0;                    // bytes after each body
+    const BodySkeleton* in_body = nullptr;  // then all is relative to the root
 };
 
 struct PoseBuffer {

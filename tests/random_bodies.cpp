@@ -20,6 +20,8 @@ swivel_limb_joints BodySkeleton::joints(std::size_t limb) const
     const BodyLimbJoints& of = limbs[limb];
     swivel_limb_joints joints = swivel_default_limb_joints(of.shoulder, of.elbow, of.wrist);
     std::ranges::copy(of.bend, joints.bend);
+    joints.twist_bones = of.twist_bones.data();
+    joints.twist_bone_count = static_cast<std::uint32_t>(of.twist_bones.size());
     return joints;
 }
 
@@ -29,6 +31,24 @@ bool BodySkeleton::is_above(std::uint32_t joint, std::uint32_t below) const
         if (static_cast<std::uint32_t>(at) == joint) return true;
     return false;
 }
+
+namespace {
+
+// Twist bones between elbow and wrist, and fingers.
+void add_parts(BodySkeleton& s, const SkeletonWish& wish, BodyLimbJoints& joints)
+{
+    const auto add = [&](std::uint32_t parent, const Float3& place) {
+        s.parents.push_back(static_cast<std::int32_t>(parent));
+        s.rotations.push_back(s.rotations[joints.elbow]);
+        s.translations.push_back(place);
+        return s.size() - 1;
+    };
+    const Float3 half = floats(Vector3d(0.5 * vec(s.translations[joints.wrist])));
+    for (std::uint32_t n = 0; n < wish.twist_bones; ++n) joints.twist_bones.push_back(add(joints.elbow, half));
+    for (std::uint32_t n = 0, above = joints.wrist; n < wish.fingers; ++n) above = add(above, {0.03f, 0.01f, 0});
+}
+
+}  // namespace
 
 BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish)
 {
@@ -54,6 +74,7 @@ BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish)
         joints.shoulder = static_cast<std::uint32_t>(shoulder);
         joints.elbow = static_cast<std::uint32_t>(elbow);
         joints.wrist = static_cast<std::uint32_t>(wrist);
+        add_parts(s, wish, joints);
         Body rest;
         rest.rotations = s.rotations, rest.translations = s.translations;
         rest.scales.assign(s.size(), Float3{1, 1, 1});
@@ -112,6 +133,36 @@ std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body)
             ++known;
         }
     return at;
+}
+
+Body in_body_space(const BodySkeleton& skeleton, const Body& local)
+{
+    Body from_root = local, in_body = local;
+    from_root.root_rotation = {0, 0, 0, 1}, from_root.root_scale = 1;
+    const std::vector<JointAt> at = joints_at(skeleton, from_root);
+    for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
+        const auto scale = static_cast<float>(at[n].scale);
+        in_body.rotations[n] = floats(at[n].rotation);
+        in_body.translations[n] = floats(at[n].place);
+        in_body.scales[n] = {scale, scale, scale};
+    }
+    return in_body;
+}
+
+Body from_body_space(const BodySkeleton& skeleton, const Body& in_body)
+{
+    Body local = in_body;
+    for (std::uint32_t n = 0; n < skeleton.size(); ++n) {
+        if (skeleton.parents[n] < 0) continue;
+        const auto above = static_cast<std::size_t>(skeleton.parents[n]);
+        const Quaterniond back = quat(in_body.rotations[above]).normalized().conjugate();
+        const double scale = in_body.scales[above][0];
+        local.rotations[n] = floats(Quaterniond(back * quat(in_body.rotations[n]).normalized()));
+        local.translations[n] =
+            floats(Vector3d(back * (vec(in_body.translations[n]) - vec(in_body.translations[above])) / scale));
+        for (float& each : local.scales[n]) each = static_cast<float>(each / scale);
+    }
+    return local;
 }
 
 double way_to(const BodySkeleton& skeleton, const std::vector<JointAt>& at, std::uint32_t joint)

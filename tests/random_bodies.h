@@ -14,6 +14,7 @@ namespace swivel::test {
 struct BodyLimbJoints {
     std::uint32_t shoulder, elbow, wrist;
     Float3 bend;
+    std::vector<std::uint32_t> twist_bones;
 };
 
 struct BodySkeleton {
@@ -32,6 +33,8 @@ struct BodySkeleton {
 struct SkeletonWish {
     std::uint32_t trunk, limbs, between;  // joints of the trunk; limbs; the most joints in between of each bone
     bool is_chain;                        // the trunk is one line of joints
+    std::uint32_t twist_bones = 0;        // of each limb, halfway to the wrist
+    std::uint32_t fingers = 0;            // joints below each wrist, in a line
 };
 BodySkeleton random_body_skeleton(Random& random, const SkeletonWish& wish);
 
@@ -57,6 +60,10 @@ struct JointAt {
 };
 // Where all joints of a body are: from the root's place, in the world's directions.
 std::vector<JointAt> joints_at(const BodySkeleton& skeleton, const Body& body);
+
+// The same values as they are relative to the root, and back.
+Body in_body_space(const BodySkeleton& skeleton, const Body& local);
+Body from_body_space(const BodySkeleton& skeleton, const Body& in_body);
 
 // The sum of the offsets from the root to a joint, as they are in the world.
 double way_to(const BodySkeleton& skeleton, const std::vector<JointAt>& at, std::uint32_t joint);

@@ -206,10 +206,7 @@ TEST_CASE("crowds and poses that cannot be get a line")
     SECTION("no joints") { groups[1].joints = nullptr, refused("group 1 names no joints"); }
     SECTION("other counts") { groups[1].limb_count = 2, refused("group 1 has 2 limbs, but there are 3 bodies"); }
     SECTION("a joint twice") { joints[1] = joints[0], refused("group 0 turns joint"); }
-    SECTION("no limb")
-    {
-        joints[1].elbow = 0, refused("group 1: swivel_bind_joints: the elbow, joint 0, is not below");
-    }
+    SECTION("no limb") { joints[1].elbow = 0, refused("group 1: the elbow, joint 0, is not below"); }
     SECTION("joints of a binding") { groups[0].features = SWIVEL_JOINTS, refused("excludes SWIVEL_JOINTS"); }
     SECTION("a limb below another")
     {
@@ -223,10 +220,31 @@ TEST_CASE("crowds and poses that cannot be get a line")
         def.skeleton = &chain;
         refused("group 0 turns joint 1, which is above joint 4 of group 1");
     }
-    SECTION("features that bodies do not have yet")
+    SECTION("twist bones that no joint is")
     {
-        groups[0].features = SWIVEL_WITH_CLAVICLE, refused("excludes");
-        groups[0].features = SWIVEL_WITH_HAND | SWIVEL_WITH_TWIST_BONES, refused("excludes");
+        groups[0].features = SWIVEL_WITH_HAND | 2 * SWIVEL_WITH_TWIST_BONES;
+        refused("group 0: its features have 2 twist bones, its joints 0");
+    }
+    SECTION("a clavicle that no joint is")
+    {
+        constexpr std::array<std::int32_t, 3> parents = {-1, 0, 1};
+        constexpr std::array<Float3, 3> offsets = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
+        swivel_skeleton arm = swivel_default_skeleton();
+        arm.parents = {parents.data(), 4}, arm.translations = {offsets.data(), 12}, arm.joint_count = 3;
+        joints[0] = swivel_default_limb_joints(0, 1, 2);
+        joints[0].bend[1] = 1;
+        groups[0].features = SWIVEL_WITH_CLAVICLE;
+        def.skeleton = &arm, def.group_count = 1;
+        refused("group 0: the shoulder, joint 0, has no parent");
+    }
+    SECTION("a joint below nothing")
+    {
+        std::vector<std::int32_t> parents = skeleton.parents;
+        parents.push_back(900);  // of a joint that no limb needs
+        swivel_skeleton longer = view;
+        longer.parents = {parents.data(), 4}, longer.joint_count = static_cast<std::uint32_t>(parents.size());
+        def.skeleton = &longer;
+        refused("'s parent is 900; give -1 for a root");
     }
     SECTION("calls that take free limbs")
     {

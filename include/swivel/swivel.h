@@ -252,8 +252,9 @@ typedef enum swivel_field {
     //   shoulder then lies on the line from shoulder to target.
     // - If the elbow crosses that line between solves, the arm rolls over, whatever SWIVEL_MOST_SWIVEL says.
     SWIVEL_AIM,
-    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Give the
-    // parent's rotation as without this feature. The parent turns about its own origin, from which the shoulder's place
+    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Of bodies the
+    // share alone: see swivel_pose. Give the parent's rotation as without this feature. The parent turns about its own
+    // origin, from which the shoulder's place
     // is counted. It turns towards the target by about share * position weight * the angle between clavicle and
     // target. Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the
     // turn
@@ -283,7 +284,8 @@ typedef enum swivel_field {
     // 4 n, WITH_TWIST_BONES * n: the rotations of n bones that share the hand's twist about the forearm. Bone i of 1..n
     // turns by i / (n + 1) of it, within 0.12 degrees. With JOINTS and a binding of these bones (swivel_bind_joints())
     // they are local rotations. With a chain's binding, a local rotation is this quaternion times the rest rotation.
-    // Without JOINTS it is this quaternion in the arm frame.
+    // Without JOINTS it is this quaternion in the arm frame. Of bodies it is what each turns by from its incoming
+    // rotation, about the forearm.
     SWIVEL_TWIST_BONES,
     // 4, WITH_CLAVICLE: the turn of the parent joint. Its rotation, in the world or local, becomes the old one times
     // this.
@@ -631,6 +633,12 @@ typedef enum swivel_pose_form {
     SWIVEL_MATRIX_COLUMNS3,  // 3 x 4 floats, column after column
 } swivel_pose_form;
 
+// What the joints of a pose are relative to.
+typedef enum swivel_pose_space {
+    SWIVEL_LOCAL,    // each to its parent
+    SWIVEL_IN_BODY,  // all to the root. Then all joints below a limb's move with it, and are read and written, too
+} swivel_pose_space;
+
 // Values of joints in the caller's own array. That of joint j of body i is at data + i * body_stride + o, where o is
 // offsets[j], or j * joint_stride where offsets is null. Strides and offsets are in bytes; any alignment.
 typedef struct swivel_joint_values {
@@ -641,7 +649,8 @@ typedef struct swivel_joint_values {
 
 // The bodies' poses, as an engine keeps them. A job with a pose reads what it says of the joints that some group needs:
 // limbs, joints in between, and all above. It finds by forward kinematics where the limbs are and how long their bones
-// are, solves them, and writes the rotations of shoulders, elbows and, WITH_HAND, wrists. All else is left alone.
+// are, solves them, and writes the rotations of shoulders, elbows and, WITH_HAND, wrists; WITH_CLAVICLE and
+// WITH_TWIST_BONES of these joints, too. All else is left alone.
 //
 // - Targets, poles and hands are in the world. Positions in rows are too, unless the root is in doubles.
 // - A solve corrects the incoming pose: a joint turns by what carries the incoming bone to the solved one. So it keeps
@@ -652,12 +661,17 @@ typedef struct swivel_joint_values {
 // - Without POLE_INCOMING poles must be written. Lengths that are written count instead of the pose's. Joints in
 //   between stay as they are posed.
 // - Results in rows are the arm's: SHOULDER, ELBOW and WRIST as without JOINTS. Limits bound these, not the joints.
+// - Twist bones (WITH_TWIST_BONES, as many as the features have, named by the limb's joints) turn from their incoming
+//   rotations. Bone i of n turns by i / (n + 1) of how far the hand's twist changes.
+// - WITH_CLAVICLE the shoulder's parent turns from its incoming rotation, by its share of the angle from what goes to
+//   the target, as it comes, to the target. With WITH_AIM that is the point of the incoming ray which is as far away as
+//   the target. So an untouched goal does not turn it.
 // - A rotation of no length or not finite is bad input, and so is a place beyond 1e15. The same holds for a scale that
 //   is not above 0 or not uniform within 1e-3, and for a matrix that is mirrored or slanted by more than 1e-3. Bad
 //   input makes all limbs with or below that joint SWIVEL_BAD_INPUT; that of the root all of the body. A root's place
 //   in doubles counts by the positions that it is subtracted from.
 // - A limb that keeps its pose (swivel_default_body_group_def()) has the incoming bits after bad input. With
-//   SWIVEL_REST_POSE matrices get rotations of scale 1.
+//   SWIVEL_REST_POSE matrices get rotations of scale 1. In SWIVEL_IN_BODY every limb keeps it.
 // - Inputs are read before results are written, body by body. Results of a body must not overlap another's inputs.
 typedef struct swivel_pose {
     size_t size;  // sizeof(swivel_pose), set by swivel_default_pose()
@@ -668,13 +682,22 @@ typedef struct swivel_pose {
     swivel_joint_values rotations;     // or matrices, as form says; must be given
     swivel_joint_values translations;  // 3 floats: the joint's place in its parent's frame; none: as the skeleton rests
     swivel_joint_values scales;        // 3 floats; none: 1
-    // Where the joints that are solved go, in the same form; none: back to rotations. Of matrices only the nine numbers
-    // of rotation and scale are written.
+    // Where the joints that are solved go, in the same form; none: back to rotations. A matrix's last row is not
+    // written.
     swivel_joint_values results;
     // Of each body, which the joints with parent -1 hang below. Null data: at the origin, not turned, scale 1.
     swivel_in root_position;  // 3 floats in the world, or doubles
     swivel_in root_rotation;  // x, y, z, w
     swivel_in root_scale;     // 1 float
+    swivel_pose_space space;
+    uint32_t reserved;  // 0
+    // In SWIVEL_IN_BODY with translations: where those of moved joints go; none: back to translations. Give it if
+    // results are given.
+    swivel_joint_values translation_results;
+    // If given: where the joints are after the solve, relative to the root. Of those that some group needs: limbs,
+    // joints in between, and all above. x, y, z, w with w >= 0, and 3 floats. A limb with bad input has them as they
+    // come.
+    swivel_joint_values joint_rotations, joint_places;
 } swivel_pose;
 
 // Rotations must still be given.

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <cstring>
+
+#include "batch/body_joints.h"
+#include "batch/body_plan.h"
+#include "batch/status.h"
+
+namespace swivel {
+
+namespace {
+
+// The line of a call that failed, as one about a group or the skeleton.
+swivel_status fail_in(const char* what, swivel_status status)
+{
+    constexpr char call[] = "swivel_bind_joints: ";
+    char line[256];
+    std::snprintf(line, sizeof line, "%s", last_error());
+    const bool names_call = std::strncmp(line, call, sizeof call - 1) == 0;
+    return fail(status, "%s: %s", what, line + (names_call ? sizeof call - 1 : 0));
+}
+
+// What the features ask of the joints.
+swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_def& group)
+{
+    const swivel_limb_joints limb = joints_of(group);
+    if (const std::uint32_t wanted = twist_bone_count(group.features); wanted > limb.twist_bone_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "its features have %u twist bones, its joints %u; name as many", wanted,
+                    limb.twist_bone_count);
+    if (group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, limb.shoulder) < 0)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "the shoulder, joint %u, has no parent that could be its clavicle; leave SWIVEL_WITH_CLAVICLE out",
+                    limb.shoulder);
+    return SWIVEL_OK;
+}
+
+swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
+{
+    const swivel_group_def group = group_at(def, g);
+    if (!group.joints)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each group does", g);
+    if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
+                    group.limb_count, def.body_count);
+    RestLimb limb;
+    swivel_binding binding = swivel_default_binding();
+    swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
+    if (status == SWIVEL_OK) status = check_reserved("limb joints", joints_of(group));
+    if (status == SWIVEL_OK) status = rest_limb(skeleton, joints_of(group), limb);
+    if (status == SWIVEL_OK) status = bind("swivel_bind_joints", limb, binding);
+    if (status == SWIVEL_OK) status = check_turned(skeleton, group);
+    if (status == SWIVEL_OK) return status;
+    char name[24];
+    std::snprintf(name, sizeof name, "group %u", g);
+    return fail_in(name, status);
+}
+
+// Limbs hang beside each other: what one turns is above no joint that another turns.
+swivel_status check_apart(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
+{
+    const TurnedJoints turning(skeleton, group_at(def, g));
+    for (std::uint32_t other = 0; other < def.group_count; ++other) {
+        if (other == g) continue;
+        for (const std::uint32_t joint : TurnedJoints(skeleton, group_at(def, other)))
+            for (const std::uint32_t above : turning)
+                if (is_above(skeleton, above, joint))
+                    return fail(SWIVEL_INVALID_ARGUMENT,
+                                "group %u turns joint %u, which is %s joint %u of group %u; a body's limbs hang beside "
+                                "each other",
+                                g, above, above == joint ? "also" : "above", joint, other);
+    }
+    return SWIVEL_OK;
+}
+
+// All joints may move with a limb, and the needed ones' translations may be those of poses.
+swivel_status check_skeleton(const swivel_crowd_def& def, const swivel_skeleton& skeleton)
+{
+    swivel_status status = SWIVEL_OK;
+    for (std::uint32_t joint = 0; joint < skeleton.joint_count && status == SWIVEL_OK; ++joint)
+        status = check_parents(skeleton, "a joint", joint);
+    if (status == SWIVEL_OK)
+        for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+            RestJoint rest;
+            if (status == SWIVEL_OK) status = read_joint(skeleton, joint, rest);
+        });
+    return status == SWIVEL_OK ? status : fail_in("the skeleton", status);
+}
+
+}  // namespace
+
+swivel_status check_bodies(const swivel_crowd_def& def)
+{
+    swivel_status status = check_size<swivel_skeleton>("skeleton", size_of(def.skeleton));
+    const swivel_skeleton skeleton = skeleton_of(def);
+    if (status == SWIVEL_OK) status = check_reserved("skeleton", skeleton);
+    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g)
+        status = check_group_joints(def, skeleton, g);
+    for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
+    return status == SWIVEL_OK ? check_skeleton(def, skeleton) : status;
+}
+
+}  // namespace swivel

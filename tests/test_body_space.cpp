@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// Poses whose joints are all in the body's space, and where a solve says that joints are. What is below a limb's joints
+// moves with them: relative to its parent nothing changes. All is checked by Eigen, in double.
+#include <catch2/catch.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/body_crowd.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+PoseLayout random_layout(Random& random, const BodySkeleton* in_body)
+{
+    PoseLayout layout;
+    layout.form = static_cast<swivel_pose_form>(random.below(SWIVEL_MATRIX_COLUMNS3 + 1));
+    layout.translates = layout.scales = in_body || layout.form != SWIVEL_ROTATIONS;
+    layout.roots = random.below(2);
+    layout.in_body = in_body;
+    return layout;
+}
+
+struct SolvedPoses {
+    BodySkeleton skeleton;
+    PoseLayout layout;
+    std::vector<Body> was, is;
+    BodyGoals goals;
+    PoseBuffer poses;
+    std::vector<std::vector<Float4>> joint_rotations;
+    std::vector<std::vector<Float3>> joint_places;
+
+    // in_body: of the poses. bad: a body that has bad input.
+    SolvedPoses(Random& random, bool in_body, std::size_t bad = ~std::size_t{0})
+        : skeleton(
+              random_body_skeleton(random, {1 + random.below(20), 1 + random.below(4), random.below(3), false, 0, 3})),
+          layout(random_layout(random, in_body ? &skeleton : nullptr)),
+          was(random_bodies(random)),
+          poses(layout, was)
+    {
+        Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, static_cast<std::uint32_t>(was.size()));
+        for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
+            goals.emplace_back();
+            for (const Body& body : was) goals.back().push_back(random_goal(random, skeleton, body, limb));
+            if (bad < was.size()) goals.back()[bad].target[1] = std::nanf("");
+        }
+        write_goals(crowd, goals);
+        swivel_pose pose = poses.view();
+        joint_rotations.assign(was.size(), std::vector<Float4>(skeleton.size()));
+        joint_places.assign(was.size(), std::vector<Float3>(skeleton.size()));
+        for (std::size_t n = 0; n < was.size(); ++n) is.push_back({});
+        std::vector<Float4> all_rotations(was.size() * skeleton.size());
+        std::vector<Float3> all_places(all_rotations.size());
+        pose.joint_rotations = {all_rotations.data(), skeleton.size() * sizeof(Float4), sizeof(Float4), nullptr};
+        pose.joint_places = {all_places.data(), skeleton.size() * sizeof(Float3), sizeof(Float3), nullptr};
+        solve_poses(crowd, pose);
+        for (std::size_t n = 0; n < was.size(); ++n) {
+            is[n] = poses.read(n, was[n]);
+            for (std::size_t joint = 0; joint < skeleton.size(); ++joint) {
+                joint_rotations[n][joint] = all_rotations[n * skeleton.size() + joint];
+                joint_places[n][joint] = all_places[n * skeleton.size() + joint];
+            }
+        }
+    }
+
+    double bound(const std::vector<JointAt>& at, std::size_t body, std::uint32_t joint) const
+    {
+        double length = 0;
+        for (const BodyLimbJoints& limb : skeleton.limbs)
+            length = std::max(length, (at[limb.elbow].place - at[limb.shoulder].place).norm() +
+                                          (at[limb.wrist].place - at[limb.elbow].place).norm());
+        return 2e-6 * length + 5e-7 * (way_to(skeleton, at, joint) + vec(was[body].root_position).norm());
+    }
+
+private:
+    std::vector<Body> random_bodies(Random& random)
+    {
+        std::vector<Body> made;
+        for (int n = 0; n < 20; ++n)
+            made.push_back(random_body(random, skeleton, {layout.translates, layout.scales, layout.roots}));
+        return made;
+    }
+};
+
+bool is_limb_joint(const BodySkeleton& skeleton, std::uint32_t joint)
+{
+    return std::ranges::any_of(skeleton.limbs, [&](const BodyLimbJoints& limb) {
+        return joint == limb.shoulder || joint == limb.elbow || joint == limb.wrist;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("poses in the body's space")
+{
+    rc::prop("meet their goals, and carry along what hangs below", [](std::uint64_t seed) {
+        Random random{seed};
+        const SolvedPoses solved(random, true);
+        for (std::size_t n = 0; n < solved.was.size(); ++n) {
+            const BodySkeleton& skeleton = solved.skeleton;
+            const std::vector<JointAt> at = joints_at(skeleton, solved.is[n]);
+            for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
+                const std::uint32_t wrist = skeleton.limbs[limb].wrist;
+                const BodyGoal& goal = solved.goals[limb][n];
+                const Vector3d target = vec(goal.target) - vec(solved.was[n].root_position);
+                RC_ASSERT((at[wrist].place - target).norm() <= solved.bound(at, n, wrist));
+                RC_ASSERT(at[wrist].rotation.angularDistance(quat(goal.hand).normalized()) <= 5e-6);
+            }
+            for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
+                const Body &was = solved.was[n], &is = solved.is[n];
+                const double scale = at[joint].scale / is.scales[joint][0];
+                RC_ASSERT(scale * (vec(is.translations[joint]) - vec(was.translations[joint])).norm() <=
+                          solved.bound(at, n, joint));
+                if (!is_limb_joint(skeleton, joint))
+                    RC_ASSERT(quat(is.rotations[joint])
+                                  .normalized()
+                                  .angularDistance(quat(was.rotations[joint]).normalized()) <= 5e-6);
+            }
+        }
+    });
+    rc::prop("keep their bits where input is bad", [](std::uint64_t seed) {
+        Random random{seed};
+        const SolvedPoses solved(random, true, 7);
+        const PoseBuffer before(solved.layout, solved.was);
+        const auto differ = [&](std::size_t n) {
+            return !std::equal(&before.bytes[n * before.body_stride], &before.bytes[(n + 1) * before.body_stride - 1],
+                               &solved.poses.bytes[n * before.body_stride]);
+        };
+        RC_ASSERT(!differ(7));
+        RC_ASSERT(differ(6));
+        RC_ASSERT(differ(8));
+    });
+}
+
+TEST_CASE("where joints are after a solve")
+{
+    rc::prop("is what forward kinematics of the poses says", [](std::uint64_t seed) {
+        Random random{seed};
+        const SolvedPoses solved(random, random.below(2));
+        const BodySkeleton& skeleton = solved.skeleton;
+        for (std::size_t n = 0; n < solved.is.size(); ++n) {
+            Body body = solved.is[n];
+            body.root_rotation = {0, 0, 0, 1}, body.root_scale = 1;
+            const std::vector<JointAt> at = joints_at(skeleton, body);
+            for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
+                const bool is_needed = std::ranges::any_of(
+                    skeleton.limbs, [&](const BodyLimbJoints& limb) { return skeleton.is_above(joint, limb.wrist); });
+                const Float4& rotation = solved.joint_rotations[n][joint];
+                RC_ASSERT((rotation == Float4{}) != is_needed);
+                if (!is_needed) continue;
+                RC_ASSERT(rotation[3] >= 0);
+                RC_ASSERT(quat(rotation).angularDistance(at[joint].rotation) <= 5e-6);
+                RC_ASSERT((vec(solved.joint_places[n][joint]) - at[joint].place).norm() <=
+                          2e-6 + solved.bound(at, n, joint));
+            }
+        }
+    });
+}
