@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The promise: the README's first program and the example page do what they say.
+// The promise: the README's programs and the example page do what they say.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -8,11 +8,12 @@ import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { close, swivel, wasm } from './common.mjs';
 
-test("the README's first program", () => {
+test("the README's programs", () => {
   const readme = readFileSync(new URL('./node_modules/swivel-wasm/README.md', import.meta.url), 'utf8');
-  const program = readme.match(/```js\n(.*?)```/s)[1];
-  const said = execFileSync(process.execPath, ['--input-type=module', '--eval', program], { encoding: 'utf8', cwd: dirname(fileURLToPath(import.meta.url)) });
-  assert.match(said, /15\.07/);
+  const programs = [...readme.matchAll(/```js\n(.*?)```/gs)].map(([, program]) => program).filter((program) => program.includes('console.log'));
+  const said = programs.map((program) =>
+    execFileSync(process.execPath, ['--input-type=module', '--eval', program], { encoding: 'utf8', cwd: dirname(fileURLToPath(import.meta.url)) }));
+  [/15\.07/, /^100\n$/].forEach((what, n) => assert.match(said[n], what));
 });
 
 test('the example page moves both wrists of a three.js skeleton to their targets', async () => {

@@ -32,6 +32,8 @@ test('calls and crowds that are disposed of leave nothing behind', async () => {
     }
     return least;
   };
+  const parents = Array.from({ length: 300 }, (_, n) => n - 1), translations = parents.flatMap((n) => [1, n % 2, 0]);
+  const bodies = { skeleton: { parents, translations }, groups: [{ joints: { shoulder: 0, elbow: 1, wrist: 2 } }], rootIsDouble: true };
   const before = largest();
   for (let n = 0; n < 300; ++n)
     {
@@ -41,6 +43,9 @@ test('calls and crowds that are disposed of leave nothing behind', async () => {
       for (const wrong of [() => crowd.values(Field.HAND), () => crowd.read(Field.HAND), () => small.crowd([100000])]) assert.throws(wrong);
       crowd.dispose();
       crowd.dispose();
+      const posed = small.bodies({ ...bodies, bodyCount: 9 });
+      posed.pose('results'), posed.positions(Field.TARGET), posed.solve(), posed.dispose();
+      assert.throws(() => small.bodies({ ...bodies, bodyCount: 1000 }), /give load\(\) more megabytes/);  // the crowd has room, its poses have not
     }
   assert.equal(largest(), before);
 });

@@ -16,6 +16,7 @@
 #define END() printf(" },\n")
 
 _Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
+_Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
 
 static void print_features(void)
 {
@@ -35,6 +36,8 @@ static void print_upper(const char* name)
     for (; *name; ++name) putchar(toupper((unsigned char)*name));
 }
 
+static void print_field(const swivel_field_info* info) { printf("    Field."), print_upper(info->name), printf(",\n"); }
+
 static void print_fields(void)
 {
     swivel_field_info info;
@@ -43,7 +46,10 @@ static void print_fields(void)
         printf("    "), print_upper(info.name), printf(": %u,\n", (unsigned)info.field);
     printf("} as const;\n\n/** Results that the next solve starts from. */\nexport const carried = [\n");
     for (uint32_t n = 0; swivel_describe_field(n, &info); ++n)
-        if (info.kind == SWIVEL_FIELD_CARRIED) printf("    Field."), print_upper(info.name), printf(",\n");
+        if (info.kind == SWIVEL_FIELD_CARRIED) print_field(&info);
+    printf("] as const;\n\n/** Fields that may be given in doubles. */\nexport const positions = [\n");
+    for (uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if (info.is_position) print_field(&info);
     printf("] as const;\n");
 }
 
@@ -63,6 +69,8 @@ static void print_enumerations(void)
     NUMBER(XYZ), NUMBER(XZY), NUMBER(YZX), NUMBER(YXZ), NUMBER(ZXY), NUMBER(ZYX);
     printf("} as const;\n\nexport const OnBadInput = {\n");
     NUMBER(REST_POSE), NUMBER(KEEP_POSE);
+    printf("} as const;\n\nexport const PoseForm = {\n");
+    NUMBER(ROTATIONS), NUMBER(MATRIX_ROWS), NUMBER(MATRIX_COLUMNS), NUMBER(MATRIX_COLUMNS3);
     printf("} as const;\n\nexport const Status = {\n");
     NUMBER(OK), NUMBER(INVALID_ARGUMENT), NUMBER(OUT_OF_MEMORY), NUMBER(UNKNOWN_ISA), NUMBER(ISA_UNAVAILABLE);
     printf("} as const;\n");
@@ -92,15 +100,21 @@ static void print_structures(void)
     BEGIN(swivel_group_def), OFFSET(swivel_group_def, size), OFFSET(swivel_group_def, features);
     OFFSET(swivel_group_def, limb_count), OFFSET(swivel_group_def, on_bad_input);
     OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
-    OFFSET(swivel_group_def, binding), END();
+    OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
-    OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups), END();
+    OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups);
+    OFFSET(swivel_crowd_def, skeleton), OFFSET(swivel_crowd_def, body_count), END();
     BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, groups);
     OFFSET(swivel_job, group_word_count), OFFSET(swivel_job, mask), OFFSET(swivel_job, mask_word_count);
     OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities), OFFSET(swivel_job, urgency);
-    OFFSET(swivel_job, most_blocks), OFFSET(swivel_job, frames), OFFSET(swivel_job, solved_count), END();
+    OFFSET(swivel_job, most_blocks), OFFSET(swivel_job, frames), OFFSET(swivel_job, solved_count);
+    OFFSET(swivel_job, pose), END();
     BEGIN(swivel_frame), OFFSET(swivel_frame, size), OFFSET(swivel_frame, fields);
     OFFSET(swivel_frame, field_count), END();
+    BEGIN(swivel_pose), OFFSET(swivel_pose, size), OFFSET(swivel_pose, form), OFFSET(swivel_pose, root_is_double);
+    OFFSET(swivel_pose, rotations), OFFSET(swivel_pose, translations), OFFSET(swivel_pose, scales);
+    OFFSET(swivel_pose, results), OFFSET(swivel_pose, root_position), OFFSET(swivel_pose, root_rotation);
+    OFFSET(swivel_pose, root_scale), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);

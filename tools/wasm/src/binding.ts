@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { Numbers, numbers, options, whole } from "./arguments.js";
 import { layout } from "./layout.js";
-import type { Borrowed, Memory } from "./memory.js";
+import type { Borrowed, Memory, Structure } from "./memory.js";
 
 /** A shoulder, elbow and wrist joint at rest, as swivel_chain: rotations x, y, z, w are the identity if left out. */
 export interface Chain {
@@ -78,19 +78,26 @@ export function bind(memory: Memory, given: Chain): Binding {
 }
 
 /** @internal */
+export function putSkeleton(given: Skeleton, borrowed: Borrowed): Structure<"swivel_skeleton"> {
+    const of = options("a skeleton", given, "parents", "translations", "rotations"), count = numbers("parents", of.parents).length;
+    const rest = borrowed.structure("swivel_skeleton").words("joint_count", count);
+    rest.words("parents", borrowed.words(Int32Array.from(of.parents)), 4);
+    rest.words("translations", borrowed.floats(numbers("translations", of.translations, 3 * count)), 12);
+    if (of.rotations) rest.words("rotations", borrowed.floats(numbers("rotations", of.rotations, 4 * count)), 16);
+    return rest;
+}
+
+/** @internal */
+export function putJoints(given: LimbJoints, borrowed: Borrowed): Structure<"swivel_limb_joints"> {
+    const limb = options("a limb's joints", given, "shoulder", "elbow", "wrist", "twistBones", "bend");
+    const chosen = borrowed.structure("swivel_limb_joints").floats("bend", numbers("bend", limb.bend ?? shownByPose, 3));
+    for (const name of ["shoulder", "elbow", "wrist"] as const) chosen.words(name, whole(name, limb[name]));
+    const bones = numbers("twistBones", limb.twistBones ?? []);
+    return chosen.words("twist_bone_count", bones.length).words("twist_bones", bones.length > 0 ? borrowed.words(bones) : 0);
+}
+
+/** @internal */
 export function bindJoints(memory: Memory, skeleton: Skeleton, joints: LimbJoints): Binding {
-    const of = options("a skeleton", skeleton, "parents", "translations", "rotations");
-    const limb = options("a limb's joints", joints, "shoulder", "elbow", "wrist", "twistBones", "bend");
-    const count = numbers("parents", of.parents).length;
-    return make(memory, (borrowed, binding) => {
-        const rest = borrowed.structure("swivel_skeleton").words("joint_count", count);
-        rest.words("parents", borrowed.words(Int32Array.from(of.parents)), 4);
-        rest.words("translations", borrowed.floats(numbers("translations", of.translations, 3 * count)), 12);
-        if (of.rotations) rest.words("rotations", borrowed.floats(numbers("rotations", of.rotations, 4 * count)), 16);
-        const chosen = borrowed.structure("swivel_limb_joints").floats("bend", numbers("bend", limb.bend ?? shownByPose, 3));
-        for (const name of ["shoulder", "elbow", "wrist"] as const) chosen.words(name, whole(name, limb[name]));
-        const bones = numbers("twistBones", limb.twistBones ?? []);
-        chosen.words("twist_bone_count", bones.length).words("twist_bones", bones.length > 0 ? borrowed.words(bones) : 0);
-        return memory.calls.swivel_bind_joints(rest.at, chosen.at, binding);
-    });
+    return make(memory, (borrowed, binding) =>
+        memory.calls.swivel_bind_joints(putSkeleton(skeleton, borrowed).at, putJoints(joints, borrowed).at, binding));
 }

@@ -4,9 +4,13 @@ import { carried, EXPLANATION_BYTES } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
-export type { Group, GroupOptions, Limbs } from "./rows.js";
+export type { BodyGroup, Group, GroupOptions } from "./groups.js";
+export type { Limbs } from "./rows.js";
 
-/** What a solve does, as swivel_job: at most one of mask, limbs and priorities. Left out: every limb. */
+/**
+ * What a solve does, as swivel_job: at most one of mask, limbs and priorities. Left out: every limb. In a crowd of bodies blocks, masks,
+ * lists and priorities count bodies.
+ */
 export interface Job {
     blocks?: { first: number; count: number };
     /** Numbers of groups: no others are solved. Not with priorities. */
@@ -15,7 +19,7 @@ export interface Job {
     mask?: Numbers;
     /** Limbs as firstLimb(group) + n. */
     limbs?: Numbers;
-    /** For each group one number for each limb, or one for all. The mostBlocks most urgent blocks are solved. */
+    /** For each group, or once for bodies: one number for each limb, or one for all. The mostBlocks most urgent blocks are solved. */
     priorities?: readonly Numbers[];
     mostBlocks?: number;
     /**
@@ -53,7 +57,7 @@ export class Crowd extends CrowdRows {
         const { memory } = this;
         return memory.borrow((borrowed) => {
             const solved = borrowed.bytes(4);
-            const to = borrowed.structure("swivel_job").words("solved_count", solved);
+            const to = borrowed.structure("swivel_job").words("solved_count", solved).words("pose", this.posed);
             const chosen = options("solve()", job, "blocks", "groups", "mask", "limbs", "priorities", "mostBlocks", "urgency");
             this.name(chosen.groups, to, borrowed);
             const urgency = this.wait(chosen.urgency, to, borrowed);
@@ -66,15 +70,17 @@ export class Crowd extends CrowdRows {
     /** A bit for each group that a job names, and their frames. */
     private name(groups: Numbers | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): void {
         if (groups === undefined) {
-            if (this.held.some((fields) => fields.size > 0)) to.words("frames", this.frames);
+            if (this.held.some((_, group) => this.lists(group))) to.words("frames", this.frames);
             return;
         }
         const words = new Array<number>(Math.ceil(this.groupCount / 32)).fill(0);
         for (const group of Array.from(numbers("groups", groups))) this.limbCount(group), words[group >> 5] |= 1 << (group & 31);
         to.words("groups", borrowed.words(words)).words("group_word_count", words.length);
         const named = Array.from(new Set(Array.from(groups))).sort((a, b) => a - b);  // the crowd's order
-        if (named.some((group) => this.held[group].size > 0)) to.words("frames", this.framesOf(named, borrowed));
+        if (named.some((group) => this.lists(group))) to.words("frames", this.framesOf(named, borrowed));
     }
+    /** Whether a group's frame lists any field. */
+    private lists(group: number): boolean { return this.listOf(group)[1] > 0; }
     /** Lends the library the urgency of blocks, which a solve changes. */
     private wait(urgency: Float32Array | undefined, to: Structure<"swivel_job">, borrowed: Borrowed): Float32Array {
         if (urgency === undefined) return new Float32Array();
@@ -93,8 +99,8 @@ export class Crowd extends CrowdRows {
         if (limbs) to.words("limbs", borrowed.words([indices("limbs", limbs), limbs.length]));
         if ((priorities === undefined) !== (mostBlocks === undefined)) refuse("solve() takes priorities and mostBlocks together");
         if (!priorities) return;
-        if (priorities.length !== this.groupCount)
-            refuse(`${priorities.length} priorities for ${this.groupCount} groups; give one list for each`);
+        const [count, of] = this.posed ? [1, "bodies; give one list"] : [this.groupCount, `${this.groupCount} groups; give one list for each`];
+        if (priorities.length !== count) refuse(`${priorities.length} priorities for ${of}`);
         const streams = priorities.map((values, group) => {
             const { length } = numbers("priorities", values);
             if (length !== 1 && length !== this.limbCount(group))

@@ -80,7 +80,7 @@ export class Memory {
         throw status === Status.OUT_OF_MEMORY ? this.full(text) : new SwivelError(status, text);
     }
     allocate(bytes: number): number {
-        const at = this.calls.malloc(bytes) >>> 0;  // pointers are unsigned, numbers of WebAssembly are not
+        const at = bytes < 2 ** 32 ? this.calls.malloc(bytes) >>> 0 : 0;  // pointers are unsigned, numbers of WebAssembly are not
         if (at === 0) throw this.full(`no memory for ${bytes} bytes`);
         return at;
     }

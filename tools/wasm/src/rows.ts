@@ -2,25 +2,9 @@
 //
 // A crowd's memory: what goes in and what comes out.
 import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown, whole } from "./arguments.js";
-import type { Binding } from "./binding.js";
-import { Field, LANES, layout, RESULT_END } from "./layout.js";
+import { CheckedGroup, create, SharedSkeleton } from "./groups.js";
+import { Field, LANES, layout, positions, RESULT_END } from "./layout.js";
 import { Borrowed, Memory, Structure } from "./memory.js";
-
-/** Limbs that share features and a binding, as swivel_group_def. */
-export interface GroupOptions {
-    limbCount: number;
-    /** Left out: those that crowd() takes for all groups. */
-    features?: bigint;
-    /** With Feature.JOINTS. */
-    binding?: Binding;
-    /** Orders of the Euler angles of SHOULDER_BOX and WRIST_BOX, from Order. Left out: XYZ. */
-    shoulderOrder?: number;
-    wristOrder?: number;
-    /** What a limb with bad input gets, from OnBadInput. Left out: its rest pose. */
-    onBadInput?: number;
-}
-/** A number alone: that many limbs. */
-export type Group = number | GroupOptions;
 
 /** Which limbs of a group. Left out: group 0, from its first limb on, up to its last. */
 export interface Limbs {
@@ -31,19 +15,7 @@ export interface Limbs {
 
 export type Values = Float32Array | Uint32Array;
 
-/** A group as it was given, checked. */
-interface CheckedGroup extends GroupOptions {
-    features: bigint;
-}
-function checked(group: Group, features: bigint): CheckedGroup {
-    const given = typeof group === "number" ? { limbCount: group } :
-        options("a group", group, "limbCount", "features", "binding", "shoulderOrder", "wristOrder", "onBadInput");
-    return { ...given, limbCount: whole("limbCount", given.limbCount), features: given.features === undefined ? features : checkedFeatures(given.features) };
-}
-function checkedFeatures(features: bigint): bigint {
-    if (typeof features === "bigint" && features >= 0n && features >> 64n === 0n) return features;
-    return refuse(`features is ${shown(features)}; give a BigInt, such as Feature.WORLD`);
-}
+export function isPosition(field: FieldNumber): boolean { return (positions as readonly FieldNumber[]).includes(field); }
 
 export class CrowdRows {
     private at = 0;
@@ -52,33 +24,36 @@ export class CrowdRows {
     protected frames = 0;
     /** Of each group, the fields that values() has given. */
     protected readonly held: Map<FieldNumber, Values>[];
+    private readonly owned: number[] = [];
+    /** Of bodies: the swivel_pose of every solve. */
+    protected posed = 0;
+    /** Of bodies: whether positions in frames are doubles. */
+    protected isDouble = false;
 
     /** @internal */
-    constructor(protected readonly memory: Memory, groups: readonly Group[], features: bigint) {
-        checkedFeatures(features);
-        if (!Array.isArray(groups)) refuse(`groups is ${shown(groups)}; give a list, such as [1000]`);
-        this.groups = groups.map((group) => checked(group, features));
-        this.held = groups.map(() => new Map());
-        this.at = memory.borrow((borrowed) => {
-            const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
-            this.groups.forEach(({ limbCount, features, binding, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 }, n) => {
-                const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
-                def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
-                def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
-                if (binding) def.copy("binding", binding.bytes);
-            });
-            const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);
-            memory.check(memory.calls.swivel_crowd_create(def.at, crowd));
-            return memory.words(crowd, 1)[0];
-        });
-        try {
+    constructor(protected readonly memory: Memory, given: readonly CheckedGroup[], bodies?: SharedSkeleton) {
+        this.at = create(memory, given, bodies);
+        this.groups = given.map((group, n) => ({ ...group, features: BigInt.asUintN(64, memory.calls.swivel_group_features(this.at, n)) }));
+        this.held = given.map(() => new Map());
+        this.orDispose(() => {
             const { bytes } = layout.swivel_frame;
-            this.frames = memory.allocate(bytes * groups.length);
-            groups.forEach((_, n) => new Structure(memory, "swivel_frame", this.frames + n * bytes));
+            this.frames = memory.allocate(bytes * given.length);
+            given.forEach((_, n) => new Structure(memory, "swivel_frame", this.frames + n * bytes));
+        });
+    }
+    /** Acts; where that fails nothing of this crowd is left. */
+    protected orDispose(act: () => void): void {
+        try {
+            act();
         } catch (error) {
             this.dispose();
             throw error;
         }
+    }
+    /** Memory that is the crowd's until it is disposed of. */
+    protected own(bytes: number): number {
+        this.owned.push(this.memory.allocate(bytes));
+        return this.owned[this.owned.length - 1];
     }
 
     /** The library's crowd. */
@@ -90,6 +65,7 @@ export class CrowdRows {
         if (this.at === 0) return;
         this.memory.calls.swivel_crowd_destroy(this.at);
         for (const fields of this.held) for (const values of fields.values()) this.memory.free(values.byteOffset);
+        for (const at of this.owned) this.memory.free(at);
         if (this.frames) this.held.forEach((_, group) => this.memory.free(this.listOf(group)[0]));
         this.memory.free(this.frames);
         this.at = 0;
@@ -118,6 +94,7 @@ export class CrowdRows {
     values(field: FieldNumber, group?: number): Float32Array;
     values(field: FieldNumber, group = 0): Values {
         const limbCount = this.limbCount(group), components = this.componentCount(field, group);
+        if (this.isDouble && isPosition(field)) refuse(`${nameOf(field)} is in doubles, as the root is; positions() gives it`);
         const held = this.crowd && this.held[group].get(field);
         if (held) return held;
         const at = this.memory.allocate(Math.max(4 * components, 4) * limbCount);
@@ -209,12 +186,12 @@ export class CrowdRows {
         return frames;
     }
     /** Where a group's frame says which fields it lists, and how many. */
-    private listOf(group: number): Uint32Array {
+    protected listOf(group: number): Uint32Array {
         const { bytes, fields } = layout.swivel_frame;
         return this.memory.words(this.frames + group * bytes + fields, 2);
     }
     /** Adds a swivel_frame_field to a group's frame. */
-    private list(group: number, field: number[]): void {
+    protected list(group: number, field: number[]): void {
         const [before, count] = this.listOf(group), size = field.length, list = this.memory.allocate(4 * size * (count + 1));
         const fields = this.memory.words(list, size * (count + 1));
         fields.set(this.memory.words(before, size * count)), fields.set(field, size * count);

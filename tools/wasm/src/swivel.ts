@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 import { Numbers, numbers, refuse, shown, whole } from "./arguments.js";
 import { bind, bindJoints, Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
-import { Crowd, Group } from "./crowd.js";
+import { Bodies, BodiesOptions } from "./bodies.js";
+import { Crowd } from "./crowd.js";
+import { freeGroups, Group } from "./groups.js";
 import { ENTITY_COUNT, layout } from "./layout.js";
 import { Memory, vector } from "./memory.js";
 
@@ -22,7 +24,11 @@ export class Swivel {
      * Makes a crowd: crowd([1000], Feature.WITH_HAND). features: of groups that give none of their own. Its memory is in use until
      * Crowd.dispose().
      */
-    crowd(groups: readonly Group[], features = 0n): Crowd { return new Crowd(this.memory, groups, features); }
+    crowd(groups: readonly Group[], features = 0n): Crowd { return new Crowd(this.memory, freeGroups(groups, features)); }
+    /** Makes a crowd of bodies, which share a skeleton: whole poses go in and come out. */
+    bodies(given: BodiesOptions & { rootIsDouble: true }): Bodies<Float64Array>;
+    bodies(given: BodiesOptions): Bodies;
+    bodies(given: BodiesOptions): Bodies<Float32Array | Float64Array> { return new Bodies(this.memory, given); }
     bind(chain: Chain): Binding { return bind(this.memory, chain); }
     bindJoints(skeleton: Skeleton, joints: LimbJoints): Binding { return bindJoints(this.memory, skeleton, joints); }
 

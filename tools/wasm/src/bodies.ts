@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// Crowds of bodies. Their poses lie in swivel's own memory, where solves read and write them.
+import { FieldNumber, nameOf, Numbers, options, refuse, shown } from "./arguments.js";
+import { Crowd } from "./crowd.js";
+import { BodyGroup, bodyGroups, SharedSkeleton } from "./groups.js";
+import { layout, PoseForm } from "./layout.js";
+import { Memory, Structure } from "./memory.js";
+import { isPosition } from "./rows.js";
+
+export interface BodiesOptions extends SharedSkeleton {
+    /** Each is one limb of every body. */
+    groups: readonly BodyGroup[];
+    /** Of groups that give none of their own. */
+    features?: bigint;
+    /** What the rotations of poses are, from PoseForm. Left out: ROTATIONS. */
+    form?: number;
+    /** Whether root positions, and the positions of goals, are doubles. */
+    rootIsDouble?: boolean;
+}
+
+type Rest = Required<Pick<BodiesOptions, "skeleton" | "form">>;
+interface Part {
+    /** Of swivel_pose. */
+    member: keyof typeof layout.swivel_pose;
+    /** What a joint starts with, or the root. */
+    start: (rest: Rest, joint: number) => number[];
+    isRoot?: boolean;
+    /** Whether matrices hold it. */
+    inMatrices?: boolean;
+}
+const valueOf = (values: Numbers, count: number, joint: number): number[] => Array.from({ length: count }, (_, n) => values[count * joint + n]);
+const named = <Name extends string>(parts: Record<Name, Part>): Record<Name, Part> => parts;
+const parts = named({
+    rotations: { member: "rotations", start: rotationOf },
+    translations: { member: "translations", start: ({ skeleton }, joint) => valueOf(skeleton.translations, 3, joint), inMatrices: true },
+    scales: { member: "scales", start: () => [1, 1, 1], inMatrices: true },
+    results: { member: "results", start: rotationOf },
+    rootPosition: { member: "root_position", start: () => [0, 0, 0], isRoot: true },
+    rootRotation: { member: "root_rotation", start: () => [0, 0, 0, 1], isRoot: true },
+    rootScale: { member: "root_scale", start: () => [1], isRoot: true },
+});
+/**
+ * A part of poses, as swivel_pose. Each joint has a rotation relative to its parent: x, y, z, w, or by the form 12 numbers of a matrix, of
+ * MATRIX_COLUMNS 16; three numbers of translation; three of scale. The root has a position, a rotation and one number of scale.
+ */
+export type PosePart = keyof typeof parts;
+
+/** A joint's rotation at rest, in the form of poses. */
+function rotationOf({ skeleton, form }: Rest, joint: number): number[] {
+    const rotation = skeleton.rotations ? valueOf(skeleton.rotations, 4, joint) : [0, 0, 0, 1];
+    if (form === PoseForm.ROTATIONS) return rotation;
+    const [x, y, z, w] = rotation, s = 2 / (x * x + y * y + z * z + w * w), [a, b, c] = valueOf(skeleton.translations, 3, joint);
+    const rows = [
+        [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w), a],
+        [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w), b],
+        [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y), c],
+    ];
+    if (form === PoseForm.MATRIX_ROWS) return rows.flat();
+    if (form === PoseForm.MATRIX_COLUMNS) rows.push([0, 0, 0, 1]);
+    return [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
+}
+
+/** A crowd of bodies: whole poses go in and come out. Swivel.bodies() makes it. Limb i of every group is body i's. */
+export class Bodies<Positions extends Float32Array | Float64Array = Float32Array> extends Crowd {
+    private readonly rest: Rest;
+    private readonly parts = new Map<PosePart, Float32Array | Float64Array>();
+    /** Of each group, the positions that are doubles. */
+    private readonly doubles: Map<FieldNumber, Float64Array>[];
+
+    /** @internal */
+    constructor(memory: Memory, given: BodiesOptions) {
+        const { skeleton, bodyCount, groups, features = 0n, form = PoseForm.ROTATIONS, rootIsDouble = false } =
+            options("bodies()", given, "skeleton", "bodyCount", "groups", "features", "form", "rootIsDouble");
+        if (!Object.values<unknown>(PoseForm).includes(form)) refuse(`form is ${shown(form)}; give one of PoseForm`);
+        super(memory, bodyGroups(groups, features, bodyCount), { skeleton, bodyCount });
+        const { parents, translations, rotations } = skeleton, copy = (values: Numbers): number[] => Array.from(values);
+        this.rest = { skeleton: { parents: copy(parents), translations: copy(translations), rotations: rotations && copy(rotations) }, form };
+        this.isDouble = Boolean(rootIsDouble);
+        this.doubles = groups.map(() => new Map());
+        this.orDispose(() => {
+            this.posed = this.own(layout.swivel_pose.bytes);
+            new Structure(memory, "swivel_pose", this.posed).words("form", form).words("root_is_double", Number(this.isDouble));
+            this.pose("rotations");
+            if (this.isDouble) this.pose("rootPosition");
+        });
+    }
+
+    /**
+     * A part of the bodies' poses, body after body and joint after joint, in swivel's own memory: no call copies it. It starts at rest.
+     * From the first call on, solves read it from here, and write solved joints to rotations, or to results if these are asked for. The
+     * view stays valid until dispose().
+     */
+    pose(part: "rootPosition"): Positions;
+    pose(part: Exclude<PosePart, "rootPosition">): Float32Array;
+    pose(part: PosePart): Float32Array | Float64Array {
+        if (!Object.keys(parts).includes(part)) refuse(`poses have ${Object.keys(parts).join(", ")}, not ${shown(part)}`);
+        const { member, start, isRoot, inMatrices } = parts[part], { memory, rest } = this;
+        const held = this.crowd && this.parts.get(part);
+        if (held) return held;
+        if (inMatrices && rest.form !== PoseForm.ROTATIONS) refuse(`the pose's matrices hold ${part}; give them there`);
+        const count = isRoot ? 1 : rest.skeleton.parents.length, ofBody = Array.from({ length: count }, (_, n) => start(rest, n)).flat();
+        const bytes = this.isDouble && part === "rootPosition" ? 8 : 4, length = ofBody.length * this.limbCount();
+        const at = this.own(bytes * length), stride = bytes * ofBody.length;
+        const values = bytes === 8 ? memory.doubles(at, length) : memory.floats(at, length);
+        for (let n = 0; n < length; n += ofBody.length) values.set(ofBody, n);
+        memory.words(this.posed + layout.swivel_pose[member], isRoot ? 2 : 4).set(isRoot ? [at, stride] : [at, stride, stride / count, 0]);
+        this.parts.set(part, values);
+        return values;
+    }
+
+    /** As values() of a position: in doubles if the root is. What nobody has set is NaN. */
+    positions(field: FieldNumber, group = 0): Positions {
+        if (!isPosition(field)) refuse(`${nameOf(field)} is no position; values() gives it`);
+        if (!this.isDouble) return this.values(field, group) as Positions;
+        const limbCount = this.limbCount(group), held = this.crowd && this.doubles[group].get(field);
+        if (held) return held as Positions;
+        if (this.componentCount(field, group) === 0) this.read(field, { group });  // which says what is missing
+        const values = this.memory.doubles(this.own(24 * limbCount), 3 * limbCount).fill(NaN);
+        this.list(group, [field, values.byteOffset, 24]);
+        this.doubles[group].set(field, values);
+        return values as Positions;
+    }
+}
