@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: MIT
 //
 // Character B: 4,096 bodies, poses as an array of structures, in place. Each of its four limbs has a target and a hand
-// or foot. Beside it the same on glm, one body at a time, and a copy of the same bytes.
+// or foot. Beside it are the same on glm, one body at a time, and a copy of the same bytes. Parts of the job tell what
+// its stages take. Last come two threads, and beside them two processes with crowds of their own.
 #include <algorithm>
 
 #include "bench/rivals/bodies.h"
 #include "bench/rivals/level.h"
 #include "bench/suite.h"
+#include "bench/team.h"
+#include "bench/twin.h"
 
 namespace bench {
 
 namespace {
 
 constexpr std::size_t kBodies = 4096;
+constexpr std::uint32_t kThreads = 2;
 
 // A crowd of them, whose goals are read from the characters, too.
 class BodyCrowd {
 public:
-    explicit BodyCrowd(std::size_t count) : bodies(random_bodies(count)), crowd_(make(count)) {}
-    void solve()
+    explicit BodyCrowd(std::size_t count) : bodies(random_bodies(count)), crowd_(make(count))
     {
         pose_.rotations = {bodies[0].rotations, sizeof(BodyCharacter), sizeof bodies[0].rotations[0], nullptr};
         pose_.root_position = {bodies[0].root_place, sizeof(BodyCharacter)};
         pose_.root_rotation = {bodies[0].root_rotation, sizeof(BodyCharacter)};
-        crowd_.solve({.frames = frames_, .on_this_thread = true, .pose = &pose_});
     }
+    swivel::Crowd& crowd() { return crowd_; }
+    swivel::Job job() const { return {.frames = frames_, .on_this_thread = true, .pose = &pose_}; }
 
     std::vector<BodyCharacter> bodies;
 
@@ -49,7 +53,13 @@ private:
             frames_[limb].fields = fields_[limb].data();
             frames_[limb].field_count = static_cast<std::uint32_t>(fields_[limb].size());
         }
-        return swivel::Crowd(skeleton, static_cast<std::uint32_t>(count), groups);
+        swivel_crowd_def def = swivel_default_crowd_def();
+        def.skeleton = &skeleton;
+        def.body_count = static_cast<std::uint32_t>(count);
+        def.groups = groups.data();
+        def.group_count = static_cast<std::uint32_t>(groups.size());
+        def.workspace_count = kThreads;
+        return swivel::Crowd(def);
     }
 
     std::array<std::array<swivel_frame_field, 2>, kBodyLimbs> fields_;
@@ -57,23 +67,41 @@ private:
     swivel_pose pose_ = swivel_default_pose();
     swivel::Crowd crowd_;
 };
+using SharedCrowd = std::shared_ptr<BodyCrowd>;
 
-}  // namespace
-
-void add_bodies(Suite& suite)
+void add_job(const std::string& name, const std::string& isa, const SharedCrowd& crowd, const swivel::Job& job,
+             Notes notes = {})
 {
-    const auto crowd = std::make_shared<BodyCrowd>(kBodies);
+    add(
+        name, kBodies, Clock::cpu,
+        [=]() -> Work {
+            swivel::check(swivel_use_isa(isa.c_str()));
+            return [=] { crowd->crowd().solve(job); };
+        },
+        std::move(notes));
+}
+
+void add_swivel(const Suite& suite, const SharedCrowd& crowd)
+{
     for (const std::string& isa : suite.isas) {
         swivel::check(swivel_use_isa(isa.c_str()));
-        crowd->solve();
-        add(
-            "bodies/" + isa, kBodies, Clock::cpu,
-            [=]() -> Work {
-                swivel::check(swivel_use_isa(isa.c_str()));
-                return [crowd] { crowd->solve(); };
-            },
-            checked("bodies/" + isa, worst_miss(crowd->bodies)));
+        crowd->crowd().solve(crowd->job());
+        add_job("bodies/" + isa, isa, crowd, crowd->job(), checked("bodies/" + isa, worst_miss(crowd->bodies)));
     }
+    // Without the other limbs; and with goals that lie in rows, where earlier jobs have left them.
+    swivel::Job one_limb = crowd->job(), from_rows = crowd->job();
+    one_limb.groups = {0};
+    one_limb.frames = (*one_limb.frames).first(1);
+    from_rows.frames = swivel::everything;
+    add_job("bodies_one_limb/" + suite.best_isa(), suite.best_isa(), crowd, one_limb);
+    add_job("bodies_from_rows/" + suite.best_isa(), suite.best_isa(), crowd, from_rows);
+    const auto copies = std::make_shared<std::vector<BodyCharacter>>(crowd->bodies);
+    add("bodies/copy", kBodies, Clock::cpu,
+        [=]() -> Work { return [=] { std::ranges::copy(crowd->bodies, copies->begin()); }; });
+}
+
+void add_glm()
+{
     for (const Level* const level : runnable_levels()) {
         const auto bodies = std::make_shared<std::vector<BodyCharacter>>(random_bodies(kBodies));
         level->solve_bodies(bodies->data(), kBodies);
@@ -82,9 +110,40 @@ void add_bodies(Suite& suite)
             name, kBodies, Clock::cpu, [=]() -> Work { return [=] { level->solve_bodies(bodies->data(), kBodies); }; },
             checked(name, worst_miss(*bodies)));
     }
-    const auto copies = std::make_shared<std::vector<BodyCharacter>>(crowd->bodies);
-    add("bodies/copy", kBodies, Clock::cpu,
-        [=]() -> Work { return [=] { std::ranges::copy(crowd->bodies, copies->begin()); }; });
+}
+
+// As many bodies for each thread as for each process. A process solves its own some times before it waits for the
+// other.
+void add_two(const Suite& suite)
+{
+    constexpr std::size_t rounds = 16;
+    const auto prepared = [isa = suite.best_isa()](std::size_t count) {
+        swivel::check(swivel_use_isa(isa.c_str()));
+        return std::make_shared<BodyCrowd>(count);
+    };
+    add("bodies_threads/2", kThreads * kBodies, Clock::wall, [=]() -> Work {
+        const SharedCrowd crowd = prepared(kThreads * kBodies);
+        swivel::Job job = crowd->job();
+        job.on_this_thread = false;
+        return [crowd, solve = solve_on(kThreads, crowd->crowd(), job)] { solve(); };
+    });
+    add("bodies_processes/2", rounds * kThreads * kBodies, Clock::wall, [=]() -> Work {
+        const auto twin = std::make_shared<Twin>([=]() -> Work {
+            return [crowd = prepared(kBodies)] {
+                for (std::size_t n = 0; n < rounds; ++n) crowd->crowd().solve(crowd->job());
+            };
+        });
+        return [twin] { twin->run(); };
+    });
+}
+
+}  // namespace
+
+void add_bodies(Suite& suite)
+{
+    add_swivel(suite, std::make_shared<BodyCrowd>(kBodies));
+    add_glm();
+    if (core_count() >= 2) add_two(suite);
 }
 
 }  // namespace bench

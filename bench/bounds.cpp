@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The bound of the ports, measured like everything else, for an arm of P and for a production limb. One loop has its
-// roots and divisions, another its multiplications and additions. No operation waits for another. The longer time is
-// the bound.
+// The bound of the ports, measured like everything else: for an arm of P, a production limb, and two stages of a body.
+// One loop has its roots and divisions, another its multiplications and additions. No operation waits for another. The
+// longer time is the bound.
 #include "bench/rivals/probe.h"
 #include "bench/suite.h"
 
@@ -30,9 +30,12 @@ void add_bound(const std::string& name, const OpCounts& ops, const std::string& 
 void add_bounds(Suite& suite)
 {
     const OpCounts production = count_production_ops();
+    const BodyOps body = count_body_ops();
     for (const std::string& isa : suite.isas) {
         add_bound("bound", suite.ops, isa);
         add_bound("bound_production", production, isa);
+        add_bound("bound_forward", body.forward, isa);
+        add_bound("bound_limbs", body.limbs, isa);
     }
 }
 

@@ -48,6 +48,9 @@ Notes checked(const std::string& name, double worst_error);
 void add_solve(Suite& suite, const std::string& name, const std::string& isa, swivel_features features,
                std::size_t arm_count, Notes notes = {});
 void add_solve(const std::string& name, const std::string& isa, std::shared_ptr<swivel::Crowd> crowd, Notes notes = {});
+// A solve of all blocks on that many threads: in an arena of oneTBB, or without oneTBB as own jobs. These take a
+// workspace of the crowd each.
+Work solve_on(int threads, swivel::Crowd& crowd, const swivel::Job& job);
 
 // One for each family. They also check what they are going to time, and throw if someone's results are wrong.
 void add_bounds(Suite& suite);

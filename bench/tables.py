@@ -21,16 +21,19 @@ LIMITED = {"cone+twist": "cone and twist", "full_arm": "full arm", "full_arm+box
 SHARES = (5, 14, 50, 100)
 NOISE = 1.03  # ratios nearer to 1 decide nothing
 CALL_GOAL = 150  # nanoseconds that a call may take beside its kernel
+BODY_GOAL = 110  # nanoseconds of a body with AVX-512
 LOOP = "loop_trig/*"  # a goal only where the bound of the ports allows it
 # The goals of release 0.2, as ratios of two benchmarks; the first that fits a row is its goal. They were set before that release was
 # written, on 2026-11-22, by a run of the former library on a virtual EPYC (Zen 4, g++ 12.2, one thread). With AVX-512 a plain arm took
-# 1.9 ns in cache, the bound of its ports 1.2, the loop with two acos 6.3, glm 53, IKTwoBoneJob 150 and a copy of its rows 2.6.
+# 1.9 ns in cache, the bound of its ports 1.2, the loop with two acos 6.3, glm 53, IKTwoBoneJob 150 and a copy of its rows 2.6. The goals
+# of bodies were set before bodies were written.
 GOALS = (
     # rivals: at least so many times as fast
     ("P/*/L2", LOOP, 3.3),
     ("P/{best}/L2", "single_glm/*", 28),
     ("resident/{best}/L2", "frame_ozz/*", 45),
     ("frame/{best}/in_one", "frame_ozz/*", 12),
+    ("bodies/{best}", "bodies_glm/*", 5),
     # the machine: at most so many times as long
     ("P/avx512/L2", "bound/*", 1.6),
     ("P/avx2/L2", "bound/*", 2.0),
@@ -41,6 +44,9 @@ GOALS = (
     ("resident/*/memory", "copy/resident/memory", 1.2),
     ("threads/*", "copy_threads/*", 1.2),
     ("frame/*/in_one", "frame_bare/*", 1.3),
+    ("bodies/{best}", "bound_bodies/*", 1.5),
+    ("bodies/avx512", "goal_bodies/*", 1),
+    ("bodies_threads/2", "bodies_processes/2", 1.11),  # 0.9 times as fast
     # itself: at most so many times as long
     ("hard/*/one_in_64", "*", 1.3),
     ("hard/*/only", "*", 6),
@@ -77,10 +83,24 @@ class Result:
         self.isas = context.get("isas", "").split()
         self.best = self.isas[0] if self.isas else ""
         self.levels = {key.removeprefix("level_of/"): isa for key, isa in context.items() if key.startswith("level_of/")}
-        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production") for isa in self.isas):
+        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs") for isa in self.isas):
             parts = [self.ns(f"{bound}/{part}") for part in ("divider", "arithmetic")]
             if all(parts):  # the least time that divider and arithmetic allow
                 self.times[bound] = max(parts)
+        self.add_stages_of_bodies()
+
+    def add_stages_of_bodies(self):
+        """What a body's stages take, as differences of jobs, and the sum of what bounds them."""
+        self.times["goal_bodies/avx512"] = BODY_GOAL
+        for isa in self.isas:
+            bounds = [self.ns(bound) for bound in (f"bound_forward/{isa}", f"bound_limbs/{isa}", "bodies/copy")]
+            if all(bounds):
+                self.times[f"bound_bodies/{isa}"] = sum(bounds)
+            whole, one, from_rows = (self.ns(f"{job}/{isa}") for job in ("bodies", "bodies_one_limb", "bodies_from_rows"))
+            if whole and one and from_rows:
+                forward, goals = (4 * one - whole) / 3, whole - from_rows
+                self.times |= {f"body_stage/{isa}/forward": forward, f"body_stage/{isa}/goals": goals,
+                               f"body_stage/{isa}/limbs": whole - forward - goals}
 
     def ns(self, name):
         return self.times.get(name)
@@ -134,7 +154,9 @@ def rivals(result):
         for own, work in ((f"resident/{isa}/L2", "resident"), (f"frame/{isa}/in_one", "whole frame")):
             rows += row(result, [work, ISAS[isa]], own, f"frame_ozz/{level}", "ozz-animation IKTwoBoneJob", rival=True)
             rows += row(result, [work, ISAS[isa]], own, f"frame_glm/{level}", "glm, one arm at a time", rival=True)
-    return Table("Beside rivals: nanoseconds an arm, and how many times as fast swivel is",
+    for isa in result.isas:
+        rows += row(result, ["bodies", ISAS[isa]], f"bodies/{isa}", f"bodies_glm/{result.level_of(isa)}", "glm, one body at a time", rival=True)
+    return Table("Beside rivals: nanoseconds an arm or a body, and how many times as fast swivel is",
                  ["work", "CPU level", "swivel", "rival", "its time", "ratio", "goal, at least", ""], rows)
 
 
@@ -272,6 +294,24 @@ def production(result):
     return Table("The production limb: nanoseconds a limb", ["work", "", "takes", "beside"], rows)
 
 
+def bodies(result):
+    """Character B: its stages with their shares, all of it beside what bounds it, and threads beside processes."""
+    rows, best = [], result.best
+    for stage, text, bound in (("forward", "poses in, forward kinematics", "bound_forward"), ("goals", "goals in", ""),
+                               ("limbs", "four limbs, joints out", "bound_limbs")):
+        own = f"body_stage/{best}/{stage}"
+        if ns := result.ns(own):
+            what = f"{text}, {ISAS[best]}: {ns / result.ns(f'bodies/{best}'):.0%}"
+            rows += row(result, [what], own, f"{bound}/{best}", "bound of the ports") or [[what, number(ns), *["–"] * 4, ""]]
+    for isa in result.isas:
+        for other, name in ((f"bound_bodies/{isa}", "both bounds and a copy"), ("bodies/copy", "copy of the same bytes"),
+                            (f"goal_bodies/{isa}", "the goal")):
+            rows += row(result, [f"all, {ISAS[isa]}"], f"bodies/{isa}", other, name)
+    rows += row(result, ["all, two threads"], "bodies_threads/2", "bodies_processes/2", "two processes side by side")
+    return Table("Bodies: nanoseconds a body, and how many times as long swivel takes",
+                 ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
+
+
 def threads(result):
     """How many times as fast several threads are as one."""
     rows = []
@@ -304,7 +344,7 @@ def summary(result):
 
 
 TABLES = {"rivals": rivals, "limits": limits, "itself": itself, "calls": calls, "held": held, "memory": memory, "features": features,
-          "production": production, "threads": threads, "summary": summary}
+          "production": production, "bodies": bodies, "threads": threads, "summary": summary}
 
 
 def arm(result):

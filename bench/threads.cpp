@@ -16,15 +16,6 @@ namespace bench {
 
 namespace {
 
-using Frames = std::span<const swivel_frame>;  // none: from and to rows
-
-swivel::Job job_of(Frames frames)
-{
-    swivel::Job job;
-    if (!frames.empty()) job.frames = frames;
-    return job;
-}
-
 std::vector<int> thread_counts()
 {
     const int cores = core_count();
@@ -33,29 +24,6 @@ std::vector<int> thread_counts()
     counts.push_back(cores);
     return counts;
 }
-
-// A solve of everything on that many threads.
-#ifdef SWIVEL_BENCH_TBB
-Work solve_on(int threads, swivel::Crowd& crowd, Frames frames)
-{
-    const auto arena = std::make_shared<oneapi::tbb::task_arena>(threads);
-    return [arena, &crowd, job = job_of(frames)] { arena->execute([&] { crowd.solve(job); }); };
-}
-#else
-Work solve_on(int threads, swivel::Crowd& crowd, Frames frames)
-{
-    const auto team = std::make_shared<Team>(threads);
-    return [team, &crowd, frames] {
-        team->run([&](int part) {
-            swivel::Job job = job_of(frames);
-            const auto [first, end] = share_of(swivel_block_count(crowd.get()), part, team->size());
-            job.blocks = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
-            job.on_this_thread = true;
-            crowd.solve(job);
-        });
-    };
-}
-#endif
 
 Work copy_on(int threads, const swivel::Crowd& crowd, const Probe& probe)
 {
@@ -106,6 +74,28 @@ void add_memory(Suite& suite, const std::string& name, swivel_features features)
 
 }  // namespace
 
+#ifdef SWIVEL_BENCH_TBB
+Work solve_on(int threads, swivel::Crowd& crowd, const swivel::Job& job)
+{
+    const auto arena = std::make_shared<oneapi::tbb::task_arena>(threads);
+    return [arena, &crowd, job] { arena->execute([&] { crowd.solve(job); }); };
+}
+#else
+Work solve_on(int threads, swivel::Crowd& crowd, const swivel::Job& job)
+{
+    const auto team = std::make_shared<Team>(threads);
+    return [team, &crowd, job] {
+        team->run([&](int part) {
+            swivel::Job own = job;
+            const auto [first, end] = share_of(swivel_block_count(crowd.get()), part, team->size());
+            own.blocks = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
+            own.on_this_thread = true;
+            crowd.solve(own);
+        });
+    };
+}
+#endif
+
 void add_threads(Suite& suite)
 {
     for (const std::size_t arm_count : {64, 1024, 16384, 262144}) {
@@ -114,7 +104,7 @@ void add_threads(Suite& suite)
                    [&suite, arm_count](int threads) { return solve_on(threads, suite.crowds.get(0, arm_count), {}); });
         const auto frame = std::make_shared<WholeFrame>(arm_count / kArms);
         add_family(suite, "frame_threads", arms, arm_count, [frame](int threads) {
-            return solve_on(threads, frame->framed().crowd(), frame->framed().frames());
+            return solve_on(threads, frame->framed().crowd(), {.frames = frame->framed().frames()});
         });
         const Level* const level = level_for(suite.best_isa());
         if (!level || arm_count < 16384) continue;

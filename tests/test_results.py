@@ -80,7 +80,10 @@ class Scripts(unittest.TestCase):
         ns = {"P/avx512/L2": 2.0, "P/avx2/L2": 3.0, "loop_trig/v4": 6.8, "loop_trig/v3": 6.0, "single_glm/v4": 1.5, "hand/avx512": 1.9,
               "P/avx512/memory": 3.0, "copy/P/memory": 2.4, "calls/here/avx512/16": 190.0, "calls/hand/avx512/16": 30.0,
               "calls/here/avx512/64": 110.0, "calls/hand/avx512/64": 125.0, "threads/1/resident/memory": 3.0, "threads/2/resident/memory": 2.0,
-              "bound/avx512/divider": 1.3, "bound/avx512/arithmetic": 1.2, "bound/avx2/divider": 0.9, "bound/avx2/arithmetic": 1.0}
+              "bound/avx512/divider": 1.3, "bound/avx512/arithmetic": 1.2, "bound/avx2/divider": 0.9, "bound/avx2/arithmetic": 1.0,
+              "bodies/avx512": 130.0, "bodies_one_limb/avx512": 49.0, "bodies_from_rows/avx512": 110.0, "bodies/copy": 10.0, "bodies_glm/v4": 660.0,
+              "bound_forward/avx512/divider": 0.1, "bound_forward/avx512/arithmetic": 11.0, "bound_limbs/avx512/divider": 60.0,
+              "bound_limbs/avx512/arithmetic": 44.0, "bodies_threads/2": 66.0, "bodies_processes/2": 60.0}
         document = result(ns)
         document["context"] |= {"isas": "avx512 avx2", "level_of/v4": "avx512", "level_of/v3": "avx2"}
         run = self.run_script("tables.py", self.file("few.json", document))
@@ -94,7 +97,14 @@ class Scripts(unittest.TestCase):
                          ("P out of cache, AVX-512", "3.00", "copy of its rows", "2.40", "1.25"): ["1.2", "missed"],
                          ("16, AVX-512", "190", "30.0", "+160", "150", "missed"): ["–", "–"],
                          ("64, AVX-512", "110", "125", "-15", "150", "kept"): ["–", "–"],
-                         ("resident, in memory", "2", "3.00"): ["2.00", "1.50"]}.items():
+                         ("resident, in memory", "2", "3.00"): ["2.00", "1.50"],
+                         ("bodies", "AVX-512", "130", "glm, one body at a time", "660", "5.1"): ["5", "kept"],
+                         ("poses in, forward kinematics, AVX-512: 17%", "22.0", "bound of the ports", "11.0"): ["2.00", "–"],
+                         ("goals in, AVX-512: 15%", "20.0", "–", "–"): ["–", "–"],
+                         ("four limbs, joints out, AVX-512: 68%", "88.0", "bound of the ports", "60.0"): ["1.47", "–"],
+                         ("all, AVX-512", "130", "both bounds and a copy", "81.0", "1.60"): ["1.5", "missed"],
+                         ("all, AVX-512", "130", "the goal", "110", "1.18"): ["1", "missed"],
+                         ("all, two threads", "66.0", "two processes side by side", "60.0", "1.10"): ["1.11", "kept"]}.items():
             self.assertEqual(rows.get(row), end, run.stdout)
         self.assertNotIn("whole frame", run.stdout)  # it was not measured
         # Without a goal, a rival that is faster is told; and a goal that the bound rules out is none.

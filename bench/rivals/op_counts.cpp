@@ -5,8 +5,10 @@
 
 #include <stdexcept>
 
+#include "bench/rivals/bodies.h"
 #include "bench/rivals/counted.h"
 #include "core/limb.h"
+#include "core/posed_limb.h"
 #include "core/solve_arm.h"
 #include "core/space.h"
 
@@ -34,6 +36,71 @@ Rotor<Counted> between(const Rotation& q)
 void store(const Rotor<Counted>& local, const Rotor<Counted>& incoming)
 {
     swivel::with_sign_of(swivel::scalar_product(~incoming, local), local);
+}
+
+using Frame = swivel::JointFrame<Counted>;
+using Frames = std::array<Frame, kBodyJoints>;
+
+// Forward kinematics of the joints that some limb needs. Joints have no scales of their own.
+Frames counted_frames(const Frame& root)
+{
+    std::array<bool, kBodyJoints> is_needed{};
+    for (const BodyChain& chain : kBodyChains)
+        for (auto n = static_cast<std::int32_t>(chain.last); n >= 0; n = kBodyParents[n])
+            is_needed[static_cast<std::size_t>(n)] = true;
+    Frames frames;
+    for (std::size_t n = 0; n < kBodyJoints; ++n) {
+        if (!is_needed[n]) continue;
+        const std::int32_t parent = kBodyParents[n];
+        const float(&offset)[3] = kBodyOffsets[n];
+        frames[n] =
+            swivel::joint_frame(parent < 0 ? root : frames[static_cast<std::size_t>(parent)],
+                                rotor(0.1, 0.05, -0.1, 0.98867), vector(offset[0], offset[1], offset[2]), Counted(1.0));
+    }
+    return frames;
+}
+
+// A target in the world that the limb reaches, as it is given: not counted.
+swivel::Vector<Counted> target_of(const Frames& frames, const BodyChain& chain, const swivel::Vector<Counted>& root)
+{
+    const OpCounts before = tally;
+    const swivel::Vector<Counted>&first = frames[chain.first].place, &last = frames[chain.last].place;
+    const swivel::Vector<Counted> target = root + last + Counted(0.2) * (first - last);
+    tally = before;
+    return target;
+}
+
+// Its stages, from simd/goal_stages.h to body_stages.h.
+void count_body_limb(const Frames& frames, const BodyChain& chain)
+{
+    const Rotor<Counted> of_binding = rotor(0.1, 0.2, 0.3, 0.92736), local = rotor(0.1, 0.05, -0.1, 0.98867);
+    const swivel::Vector<Counted> root = vector(1, 2, 3), target = target_of(frames, chain, root);
+    const Frame &parent = frames[static_cast<std::size_t>(kBodyParents[chain.first])], &shoulder = frames[chain.first],
+                &elbow = frames[chain.middle], &wrist = frames[chain.last];
+    const Rotor<Counted> arm = parent.rotation * of_binding;
+    const swivel::Turn<Counted> to_arm = swivel::turn_by(~arm);
+    const Counted per_size = Counted(1.0) / (parent.scale * to_arm.length2), per_scale = Counted(1.0) / parent.scale;
+
+    const swivel::SeenLimb<Counted> seen = swivel::seen_limb<swivel::BendNormal::own>(
+        swivel::PosedLimb<Counted>{parent.rotation, shoulder.rotation, shoulder.place, elbow.place, wrist.place},
+        of_binding, vector(1, 0, 0), Counted(0.0) < Counted(0.0));
+    const Rotor<Counted> upper_from_arm = ~shoulder.rotation * seen.frames.upper,
+                         fore_from_arm = ~elbow.rotation * seen.frames.fore;
+    swivel::LimbUse use;
+    use.hand = use.incoming = true;
+    use.wish = swivel::Wish::incoming;
+    swivel::LimbGoal<Counted> goal;
+    goal.arm = {per_size * to_arm(target - root - shoulder.place), vector(0, 0, 0), per_scale * seen.bones.upper_length,
+                per_scale * seen.bones.fore_length};
+    goal.hand = ~arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
+    goal.incoming = {seen.model.upper, seen.model.upper, seen.model.upper};  // of which the first is used
+    const swivel::SolvedLimb<Counted> solved = swivel::solve_limb<false>(use, goal, Counted(0.0) <= Counted(0.0));
+
+    store(of_binding * solved.arm.shoulder * ~upper_from_arm, local);
+    store(upper_from_arm * swivel::elbow_rotor(solved.arm) * ~fore_from_arm, local);
+    store(fore_from_arm * solved.wrist * of_binding, local);
+    if (solved.arm.flags.value != SWIVEL_REACHED)
+        throw std::logic_error("the body's limb that is counted is not an ordinary one");
 }
 
 }  // namespace
@@ -73,6 +140,19 @@ OpCounts count_production_ops()
     if (solved.arm.flags.value != SWIVEL_REACHED)
         throw std::logic_error("the production limb that is counted is not an ordinary one");
     return tally;
+}
+
+BodyOps count_body_ops()
+{
+    BodyOps ops;
+    tally = {};
+    const Frames frames =
+        counted_frames({swivel::unit_rotation(rotor(0.1, -0.2, 0.05, 0.97340)), vector(0, 0, 0), Counted(1.1)});
+    ops.forward = tally;
+    tally = {};
+    for (const BodyChain& chain : kBodyChains) count_body_limb(frames, chain);
+    ops.limbs = tally;
+    return ops;
 }
 
 }  // namespace bench

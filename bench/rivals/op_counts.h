@@ -23,6 +23,12 @@ OpCounts count_ops();
 // Those of a production limb (production_limb.h) whose wish its limits allow: the formulas of its features, the
 // parent's frame and the skeleton's joints. Checks of the inputs as they are given do not count.
 OpCounts count_production_ops();
+// Those of a body of character B (bodies.h) in two stages: forward kinematics of the joints that its limbs need, and
+// its limbs, from the frames of their joints to new local rotations. Hands have goals, elbows keep their side.
+struct BodyOps {
+    OpCounts forward, limbs;
+};
+BodyOps count_body_ops();
 
 // The least nanoseconds an arm for a kernel with these operations. The divider works on one root or division at a time.
 // All other operations share the multipliers and adders. Comparisons, selects, loads and stores count as free.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "bench/twin.h"
+
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+namespace bench {
+
+namespace {
+
+bool send(int line)
+{
+    const char word = 0;
+    return write(line, &word, 1) == 1;
+}
+bool receive(int line)
+{
+    char word;
+    return read(line, &word, 1) == 1;
+}
+
+// The other process, until the first one closes the line.
+[[noreturn]] void serve(int line, const std::function<Work()>& prepare)
+{
+    try {
+        const Work work = prepare();
+        while (send(line) && receive(line)) work();
+    } catch (...) {
+        _exit(1);
+    }
+    _exit(0);
+}
+
+}  // namespace
+
+Twin::Twin(const std::function<Work()>& prepare)
+{
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0 || (process_ = fork()) < 0)
+        throw std::runtime_error("no second process starts; nothing is measured beside it");
+    if (process_ == 0) {
+        close(ends[0]);
+        serve(ends[1], prepare);
+    }
+    close(ends[1]);
+    line_ = ends[0];
+    work_ = prepare();
+    wait_for_word();
+}
+
+Twin::~Twin()
+{
+    close(line_);
+    waitpid(process_, nullptr, 0);
+}
+
+void Twin::run()
+{
+    send(line_);
+    work_();
+    wait_for_word();
+}
+
+void Twin::wait_for_word()
+{
+    if (!receive(line_)) throw std::runtime_error("the second process ended before its work");
+}
+
+}  // namespace bench
