@@ -6,18 +6,21 @@
 
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "swivel/swivel.h"
 
 namespace swivel::python {
 
 // What an array must hold: one value for each of limb_count limbs, of component_count numbers. Its shape is
-// (limb_count, component_count), or (limb_count,) for values of one number. name is what messages call it.
+// (limb_count, component_count), or (limb_count,) for values of one number. Messages call it name, and limbs `each`.
 struct Values {
     std::string name;
     std::size_t limb_count, component_count;
+    const char* each = "limbs";
 };
 
 // Memory that no array may share with swivel, which it then gets as a copy: a crowd's own rows.
@@ -50,7 +53,26 @@ struct Output {
 // TypeError), of any strides.
 Output output(const Values& wanted, pybind11::handle object, const pybind11::dtype& type, const Memory& apart = {});
 
-// "(3, 4)", for messages.
-std::string shape_text(const pybind11::array& array);
+// Copies one value of N floats.
+template <std::size_t N>
+void copy(const char* name, const pybind11::object& given, float (&numbers)[N])
+{
+    const Input in = input({name, 1, N}, given, pybind11::dtype::of<float>(), true);
+    std::copy_n(static_cast<const char*>(in.values.data), sizeof numbers, reinterpret_cast<char*>(numbers));
+}
+// The length of what NumPy makes an array of.
+std::size_t length_of(const std::string& name, const pybind11::object& given);
+
+// What these are made of, for arrays of other shapes. They throw what input() and output() say; name is for messages.
+using Shape = std::vector<pybind11::ssize_t>;
+Shape shape_of(const pybind11::array& array);
+std::string shape_text(const pybind11::array& array);  // "(3, 4)"
+std::string shape_text(const Shape& shape);
+pybind11::array given_array(const std::string& name, pybind11::handle object);
+pybind11::array converted(const std::string& name, const pybind11::array& given, const pybind11::dtype& type);
+pybind11::array array_to_write(const std::string& name, const Shape& shape, pybind11::handle object,
+                               const pybind11::dtype& type, const Memory& apart);
+// Whether any byte from the array's first to its last lies there.
+bool touches(const pybind11::array& array, const Memory& apart);
 
 }  // namespace swivel::python

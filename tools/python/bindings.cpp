@@ -10,8 +10,8 @@
 
 #include "swivel/swivel.hpp"
 #include "tools/python/arrays.h"
-#include "tools/python/crowd.h"
 #include "tools/python/helpers.h"
+#include "tools/python/skeletons.h"
 
 namespace py = pybind11;
 
@@ -48,20 +48,6 @@ constexpr TwistMember kTwistFrames[] = {
     {"twist_from_arm", &swivel_binding::twist_from_arm, "The same to its own frame: (n, 4) float32."},
 };
 
-template <std::size_t N>
-void copy(const char* name, const py::object& given, float (&numbers)[N])
-{
-    const Input in = input({name, 1, N}, given, py::dtype::of<float>(), true);
-    std::copy_n(static_cast<const char*>(in.values.data), sizeof numbers, reinterpret_cast<char*>(numbers));
-}
-
-// The length of what NumPy makes an array of.
-std::size_t length_of(const py::object& given)
-{
-    const py::array array = py::module_::import("numpy").attr("asarray")(given);
-    return array.ndim() > 0 ? static_cast<std::size_t>(array.shape(0)) : 0;
-}
-
 // As many as there are, and the forearm's for those that there are not.
 void copy_frames(const TwistMember& member, const py::object& given, swivel_binding& binding)
 {
@@ -92,7 +78,7 @@ swivel_binding make_binding(const py::object& parent_from_arm, const py::object&
     for (std::size_t n = 0; n < std::size(kQuaternions); ++n)
         copy(kQuaternions[n].name, *given[n], binding.*kQuaternions[n].quaternion);
     copy("lengths", lengths, binding.lengths);
-    const std::size_t bones = length_of(twist_from_arm);
+    const std::size_t bones = length_of("twist_from_arm", twist_from_arm);
     if (bones > SWIVEL_MOST_TWIST_BONES)
         throw py::value_error("twist_from_arm: there are " + std::to_string(bones) +
                               " twist bones; a limb has at most " + std::to_string(SWIVEL_MOST_TWIST_BONES));
@@ -120,24 +106,9 @@ swivel_binding bind_skeleton(const py::object& parents, const py::object& transl
                              std::int64_t elbow, std::int64_t wrist, const py::object& rotations,
                              const std::vector<std::int64_t>& twist_bones, const py::object& bend)
 {
-    const std::size_t count = length_of(parents);
-    const Input parents_in = input({"parents", count, 1}, parents, py::dtype::of<std::int32_t>(), false);
-    const Input places = input({"translations", count, 3}, translations, py::dtype::of<float>(), false);
-    swivel_skeleton skeleton = swivel_default_skeleton();
-    skeleton.joint_count = count_of("number of joints", static_cast<std::int64_t>(count));
-    skeleton.parents = parents_in.values;
-    skeleton.translations = places.values;
-    Input turned{};  // none
-    if (!rotations.is_none()) turned = input({"rotations", count, 4}, rotations, py::dtype::of<float>(), false);
-    skeleton.rotations = turned.values;
-    swivel_limb_joints joints =
-        swivel_default_limb_joints(count_of("shoulder", shoulder), count_of("elbow", elbow), count_of("wrist", wrist));
-    std::vector<std::uint32_t> bones;
-    for (const std::int64_t bone : twist_bones) bones.push_back(count_of("twist_bones", bone));
-    joints.twist_bones = bones.data();
-    joints.twist_bone_count = count_of("number of twist bones", static_cast<std::int64_t>(bones.size()));
-    copy("bend", bend, joints.bend);
-    return bind(skeleton, joints);
+    const SkeletonArrays skeleton = skeleton_of(parents, translations, rotations);
+    const LimbJoints joints = joints_of(shoulder, elbow, wrist, twist_bones, bend);
+    return bind(skeleton.view, joints.view);
 }
 
 }  // namespace
