@@ -10,6 +10,7 @@ import numpy as np
 
 import swivel
 from arms import joints_at, rotate, times
+from bodies import forward
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -44,6 +45,16 @@ class Documentation(unittest.TestCase):
         self.assertTrue(np.all(knees[:100, 2] > 0.1))  # forwards
         np.testing.assert_allclose(names["arm"].lengths, (0.30, 0.26), rtol=1e-6)
         self.assertEqual(names["arm"].twist_from_arm.shape, (1, 4))
+
+    def test_the_program_of_bodies_runs(self):
+        text = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")
+        [program] = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        names = {}
+        exec(program, names)
+        skeleton = names["skeleton"]
+        at, _ = forward(names["rotations"], skeleton.translations, root=names["places"], parents=skeleton.parents)
+        for joint, target in ((names["HAND"], names["hands"]), (names["FOOT"], names["feet"])):
+            np.testing.assert_allclose(at[:, joint], target, atol=1e-5)
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ PACKAGE = Path(swivel.__file__).parent  # as built, with the stub
 HEADER = re.sub(r"//[^\n]*", "", (ROOT / "include" / "swivel" / "swivel.h").read_text(encoding="utf-8"))
 STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
 DOCS = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+BODIES = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")
 
 
 def body_of(kind, name):
@@ -88,6 +89,13 @@ class Names(unittest.TestCase):
         has = set(dir(swivel)) | set(dir(swivel.Crowd))
         self.assertEqual(functions - has, others)
 
+    def test_every_member_of_bodies_structures(self):
+        for name, has, others in (("swivel_skeleton", swivel.Skeleton, {"joint_count"}),
+                                  ("swivel_limb_joints", swivel.BodyGroup, {"twist_bone_count"}),
+                                  ("swivel_pose", swivel.Pose, {"form", "root_is_double", "results"})):
+            members = set(re.findall(r"(\w+)(?:\[\d+\])?[,;]", body_of("struct", name))) - {"size", "reserved"}
+            self.assertEqual(members - set(has._fields), others, f"swivel.{has.__name__} beside {name}")
+
     def test_every_result_has_a_place_in_arms(self):
         self.assertLessEqual({field.name.lower() for field in Field if field >= Field.SHOULDER}, set(swivel.Arms._fields))
         optional = {field.name.lower() for field in Field if field >= Field.SHOULDER and swivel.needed_features(field)}
@@ -109,7 +117,7 @@ class Stub(unittest.TestCase):
         core = sys.modules["swivel._core"]
         names = {node.name for node in STUB.body if public(node)} | {"LANES"}
         self.assertEqual(names, {name for name in vars(core) if name[0] != "_"})
-        self.assertEqual(names | {"Group", "solve"}, set(swivel.__all__))
+        self.assertEqual(names | {"BodyGroup", "Group", "Pose", "Skeleton", "solve"}, set(swivel.__all__))
         for node in STUB.body:
             if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), (int, tuple)):
                 wanted = {name for name in vars(getattr(swivel, node.name)) if name[0] != "_"}
@@ -136,14 +144,15 @@ class Stub(unittest.TestCase):
     def test_types_of_package_and_documentation(self):
         """mypy finds nothing, and does find a mistake."""
         with tempfile.TemporaryDirectory() as folder:
-            program, wrong = Path(folder) / "program.py", Path(folder) / "wrong.py"
-            program.write_text("\n".join(re.findall(r"```python\n(.*?)```", DOCS, re.DOTALL)), encoding="utf-8")
+            programs, wrong = [Path(folder) / "program.py", Path(folder) / "bodies.py"], Path(folder) / "wrong.py"
+            for program, page in zip(programs, (DOCS, BODIES)):
+                program.write_text("\n".join(re.findall(r"```python\n(.*?)```", page, re.DOTALL)), encoding="utf-8")
             wrong.write_text("import swivel\nswivel.Crowd(3).reed(swivel.Field.TARGET)\n", encoding="utf-8")
             base = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", f"--cache-dir={folder}/cache"]
             environment = {"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"}
             run = lambda *files: subprocess.run([*base, *map(str, files)], capture_output=True, text=True, env=environment,
                                                 cwd=folder)
-            good = run(*PACKAGE.glob("*.py*"), program)
+            good = run(*PACKAGE.glob("*.py*"), *programs)
             self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
             self.assertIn('has no attribute "reed"', run(wrong).stdout)
 

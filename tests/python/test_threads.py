@@ -10,6 +10,7 @@ import numpy as np
 
 import swivel
 from arms import Sample
+from bodies import Bodies, crowd_of
 from swivel import Field
 
 N = 200000
@@ -54,11 +55,13 @@ class Threads(unittest.TestCase):
         out, target = np.zeros((N, 4), np.float32), self.sample.targets
         place = np.zeros((N, 3))
         blocks = (0, crowd.block_count)
+        bodies, pose = crowd_of(20000, swivel.Feature.POLE_INCOMING), swivel.Pose(Bodies(20000).rotations)
         for call in (crowd.solve, lambda: crowd.solve(blocks=blocks, on_this_thread=True), lambda: crowd.solve(mask=active),
                      lambda: crowd.solve(limbs=lanes), lambda: crowd.solve(priorities=[ones], most_blocks=1000),
                      lambda: crowd.choose([ones], 1000), crowd.reset,
                      lambda: crowd.solve(frames={"target": target, "shoulder": out}),
                      lambda: crowd.solve(frames={"target": target}, blocks=blocks, on_this_thread=True),
+                     lambda: bodies.solve(pose=pose), lambda: bodies.solve(pose=pose, blocks=(0, 900), on_this_thread=True),
                      lambda: crowd.write(Field.TARGET, target), lambda: crowd.write_doubles(Field.TARGET, place),
                      lambda: crowd.read(Field.SHOULDER, out=out), lambda: crowd.wrists(out=place),
                      lambda: crowd.residuals(), lambda: crowd.joint_angles(), lambda: swivel.verify(2000)):

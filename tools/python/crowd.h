@@ -21,6 +21,7 @@ enum class Way { kAlone, kReading, kSolvingBlocks };
 struct HeldCrowd {
     Crowd crowd;
     Memory rows;                           // of all groups, which arrays must not share with the library
+    std::uint32_t joint_count = 0;         // of its bodies' skeleton; 0: free limbs
     std::array<std::uint32_t, 3> users{};  // by Way; changed with the GIL held
 };
 

@@ -31,7 +31,7 @@ void check_keys(std::uint32_t group, const py::dict& given)
     }
 }
 
-void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given, Frames& into)
+void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given, bool far, Frames& into)
 {
     check_keys(limbs.group, given);
     const bool from_origin = given.contains(kOrigin);
@@ -45,7 +45,7 @@ void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given,
         if (!given.contains(info.name)) continue;
         const Values values = values_of(held, info.field, limbs);
         if (info.kind == SWIVEL_FIELD_INPUT) {
-            frame.in(info.field, take(info.name, values, from_origin && info.is_position));
+            frame.in(info.field, take(info.name, values, (far || from_origin) && info.is_position));
             continue;
         }
         const py::object array = given[info.name];
@@ -60,7 +60,7 @@ void add_frame(const HeldCrowd& held, const Limbs& limbs, const py::dict& given,
 
 }  // namespace
 
-Frames frames_of(const HeldCrowd& held, const py::object& given, const std::vector<std::uint32_t>& groups)
+Frames frames_of(const HeldCrowd& held, const py::object& given, const std::vector<std::uint32_t>& groups, bool far)
 {
     std::vector<py::dict> dicts;
     if (py::isinstance<py::dict>(given))
@@ -77,7 +77,7 @@ Frames frames_of(const HeldCrowd& held, const py::object& given, const std::vect
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return groups[a] < groups[b]; });
     Frames frames;
-    for (const std::size_t n : order) add_frame(held, limbs_of(held, groups[n], 0, {}), dicts[n], frames);
+    for (const std::size_t n : order) add_frame(held, limbs_of(held, groups[n], 0, {}), dicts[n], far, frames);
     return frames;
 }
 

@@ -5,11 +5,13 @@
 #include <pybind11/stl.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
+#include "tools/python/skeletons.h"
 
 namespace py = pybind11;
 
@@ -23,6 +25,8 @@ constexpr const char* kCrowdText =
     "features and a binding: a number, a Group, or (number, binding), which is short for Group(number,\n"
     "binding). Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are\n"
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
+    "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
+    "solve() then takes their pose, and on_bad_input None is OnBadInput.KEEP_POSE instead of REST_POSE.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
     "Flag.BAD_INPUT. Parents and hands start as the identity, without limits; results as the rest pose. After\n"
     "creation the library allocates nothing.\n\n"
@@ -41,33 +45,57 @@ swivel_features features_of(std::int64_t features)
     return static_cast<swivel_features>(features);
 }
 
+// What a group says of itself beside its limbs; what is None stays. py::cast_error for what is no number.
+void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_input, py::handle shoulder_order,
+                 py::handle wrist_order)
+{
+    using Number = std::optional<std::int64_t>;
+    if (const auto given = features.cast<Number>()) def.features = features_of(*given);
+    if (const auto given = on_bad_input.cast<Number>()) def.on_bad_input = on_bad_input_of(*given);
+    if (const auto given = shoulder_order.cast<Number>()) def.shoulder_order = order_of(*given);
+    if (const auto given = wrist_order.cast<Number>()) def.wrist_order = order_of(*given);
+}
+
+[[noreturn]] void refuse(const char* expected, py::handle entry)
+{
+    throw py::type_error("groups: expected " + std::string(expected) + ", got " + std::string(py::repr(entry)));
+}
+
 // A number of limbs, or a tuple: the members of swivel.Group, of which all but the first may be missing or None. What
 // they do not say is as in `usual`.
 swivel_group_def group_of(py::handle entry, const swivel_group_def& usual)
 {
+    constexpr const char kExpected[] = "a number of limbs, (number of limbs, binding) or a Group";
     constexpr std::size_t kMemberCount = 6;
-    const auto refuse = [&] {
-        throw py::type_error("groups: expected a number of limbs, (number of limbs, binding) or a Group, got " +
-                             std::string(py::repr(entry)));
-    };
     const bool is_tuple = py::isinstance<py::tuple>(entry);
     const auto given = is_tuple ? py::reinterpret_borrow<py::tuple>(entry) : py::make_tuple(entry);
-    if (given.size() < 1 || given.size() > kMemberCount || !is_number(given[0])) refuse();
-    const auto says = [&](std::size_t member) {
-        if (member >= given.size() || given[member].is_none()) return false;
-        if (member > 1 && !is_number(given[member])) refuse();
-        return true;
-    };
+    if (given.size() < 1 || given.size() > kMemberCount || !is_number(given[0])) refuse(kExpected, entry);
+    const auto member = [&](std::size_t n) { return n < given.size() ? py::object(given[n]) : py::none(); };
     swivel_group_def def = usual;
     def.limb_count = count_of("limb count", given[0].cast<std::int64_t>());
-    if (says(1)) {
-        if (!py::isinstance<swivel_binding>(given[1])) refuse();
-        def.binding = given[1].cast<swivel_binding>();
+    try {
+        if (!member(1).is_none()) def.binding = member(1).cast<swivel_binding>();
+        set_options(def, member(2), member(3), member(4), member(5));
+    } catch (const py::cast_error&) {
+        refuse(kExpected, entry);
     }
-    if (says(2)) def.features = features_of(given[2].cast<std::int64_t>());
-    if (says(3)) def.on_bad_input = on_bad_input_of(given[3].cast<std::int64_t>());
-    if (says(4)) def.shoulder_order = order_of(given[4].cast<std::int64_t>());
-    if (says(5)) def.wrist_order = order_of(given[5].cast<std::int64_t>());
+    return def;
+}
+
+// A swivel.BodyGroup, whose joints are kept in `joints`.
+swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, LimbJoints& joints)
+{
+    const auto number = [&](const char* name) { return entry.attr(name).cast<std::int64_t>(); };
+    swivel_group_def def = usual;
+    def.joints = &joints.view;
+    try {
+        joints = joints_of(number("shoulder"), number("elbow"), number("wrist"),
+                           entry.attr("twist_bones").cast<std::vector<std::int64_t>>(), entry.attr("bend"));
+        set_options(def, entry.attr("features"), entry.attr("on_bad_input"), entry.attr("shoulder_order"),
+                    entry.attr("wrist_order"));
+    } catch (const py::cast_error&) {
+        refuse("whole numbers in a BodyGroup", entry);
+    }
     return def;
 }
 
@@ -91,23 +119,45 @@ Memory memory_of(swivel_crowd* crowd)
     return {begin, static_cast<std::size_t>(end - begin)};
 }
 
+std::vector<py::object> entries_of(const py::object& groups)
+{
+    const bool is_one = py::isinstance(groups, package("Group")) || py::isinstance(groups, package("BodyGroup"));
+    if (is_one || is_number(groups) || !py::isinstance<py::iterable>(groups)) return {groups};
+    std::vector<py::object> entries;
+    for (const py::handle entry : groups) entries.push_back(py::reinterpret_borrow<py::object>(entry));
+    return entries;
+}
+
 HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t shoulder_order, std::int64_t wrist_order,
-               std::int64_t on_bad_input)
+               std::optional<std::int64_t> on_bad_input, const py::object& skeleton, std::int64_t body_count)
 {
     swivel_group_def usual = swivel_default_group_def(0);
+    if (!skeleton.is_none()) usual.on_bad_input = SWIVEL_KEEP_POSE;
     usual.features = features_of(features);
     usual.shoulder_order = order_of(shoulder_order);
     usual.wrist_order = order_of(wrist_order);
-    usual.on_bad_input = on_bad_input_of(on_bad_input);
-    std::vector<swivel_group_def> defs;
-    const py::object one_group = py::module_::import("swivel").attr("Group");  // a tuple, but not of groups
-    if (is_number(groups) || py::isinstance(groups, one_group) || !py::isinstance<py::iterable>(groups))
-        defs.push_back(group_of(groups, usual));
-    else
-        for (const py::handle entry : groups) defs.push_back(group_of(entry, usual));
-    Crowd crowd(std::span<const swivel_group_def>{defs});
+    if (on_bad_input) usual.on_bad_input = on_bad_input_of(*on_bad_input);
+    const std::vector<py::object> entries = entries_of(groups);
+    std::vector<LimbJoints> joints(entries.size());
+    std::vector<swivel_group_def> groups_of_crowd;
+    for (std::size_t n = 0; n < entries.size(); ++n)
+        groups_of_crowd.push_back(py::isinstance(entries[n], package("BodyGroup"))
+                                      ? body_group_of(entries[n], usual, joints[n])
+                                      : group_of(entries[n], usual));
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = groups_of_crowd.data();
+    def.group_count = count_of("number of groups", static_cast<std::int64_t>(groups_of_crowd.size()));
+    def.body_count = count_of("body_count", body_count);
+    SkeletonArrays bones{};
+    if (!skeleton.is_none()) {
+        if (!py::isinstance(skeleton, package("Skeleton")))
+            throw py::type_error("skeleton: expected a Skeleton, got " + std::string(py::repr(skeleton)));
+        bones = skeleton_of(skeleton.attr("parents"), skeleton.attr("translations"), skeleton.attr("rotations"));
+        def.skeleton = &bones.view;
+    }
+    Crowd crowd(def);
     const Memory rows = memory_of(crowd.get());
-    return {std::move(crowd), rows};
+    return {std::move(crowd), rows, bones.view.joint_count};
 }
 
 }  // namespace
@@ -116,7 +166,8 @@ void add_creation(CrowdClass& crowd)
 {
     crowd.doc() = kCrowdText;
     crowd.def(py::init(&make), py::arg("groups"), py::arg("features") = 0, py::arg("shoulder_order") = 0,
-              py::arg("wrist_order") = 0, py::arg("on_bad_input") = 0, "See the class.");
+              py::arg("wrist_order") = 0, py::arg("on_bad_input") = py::none(), py::kw_only(),
+              py::arg("skeleton") = py::none(), py::arg("body_count") = 0, "See the class.");
 }
 
 }  // namespace swivel::python

@@ -10,6 +10,7 @@
 
 #include "tools/python/crowd.h"
 #include "tools/python/frames.h"
+#include "tools/python/poses.h"
 
 namespace py = pybind11;
 
@@ -67,9 +68,11 @@ std::vector<std::uint32_t> indices_of(const py::object& limbs)
 std::vector<Input> priorities_of(const HeldCrowd& held, const py::object& given)
 {
     const py::list each(given);
-    if (each.size() != swivel_group_count(held.crowd.get()))
-        throw py::value_error("priorities: expected one entry for each of " +
-                              std::to_string(swivel_group_count(held.crowd.get())) + " groups, got " +
+    const std::uint32_t groups = held.joint_count > 0 ? 1 : swivel_group_count(held.crowd.get());  // with own lanes
+    if (each.size() != groups)
+        throw py::value_error("priorities: expected one entry " +
+                              (held.joint_count > 0 ? "for the bodies, got "
+                                                    : "for each of " + std::to_string(groups) + " groups, got ") +
                               std::to_string(each.size()));
     std::vector<Input> priorities;
     for (std::uint32_t group = 0; group < each.size(); ++group) {
@@ -130,6 +133,15 @@ void require_direct(const Frames& frames)
                 "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
+// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know.
+void require_frames(const PoseArrays& pose, const py::object& frames)
+{
+    if (pose.view.root_is_double && frames.is_none())
+        throw py::value_error(
+            "root_position is float64, so targets are, too, and come in frames; give these, or a root_position of "
+            "float32");
+}
+
 // A workspace of the calling thread's own.
 void* workspace_of(const HeldCrowd& held)
 {
@@ -144,7 +156,7 @@ void* workspace_of(const HeldCrowd& held)
 
 std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups, const py::object& mask,
                     const py::object& limbs, const py::object& priorities, std::optional<std::int64_t> most_blocks,
-                    const py::object& urgency, const py::object& frames, bool on_this_thread)
+                    const py::object& urgency, const py::object& frames, const py::object& pose, bool on_this_thread)
 {
     Job job;
     if (blocks) job.blocks = {count_of("first block", blocks->first), count_of("block count", blocks->second)};
@@ -161,7 +173,10 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
         throw py::type_error("solve() takes priorities and most_blocks together");
     if (most_blocks) job.most_blocks = count_of("most_blocks", *most_blocks);
     job.urgency = urgency_of(held, urgency);
-    const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames, named);
+    const PoseArrays poses = pose.is_none() ? PoseArrays() : pose_of(held, pose);
+    if (!pose.is_none()) job.pose = &poses.view;
+    require_frames(poses, frames);
+    const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames, named, poses.view.root_is_double != 0);
     if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
     const std::vector<swivel_frame> views(arrays.frames.begin(), arrays.frames.end());
     if (!frames.is_none()) job.frames = views;
@@ -197,7 +212,7 @@ void add_solving(CrowdClass& crowd)
         "solve", &solve, py::kw_only(), py::arg("blocks") = py::none(), py::arg("groups") = py::none(),
         py::arg("mask") = py::none(), py::arg("limbs") = py::none(), py::arg("priorities") = py::none(),
         py::arg("most_blocks") = py::none(), py::arg("urgency") = py::none(), py::arg("frames") = py::none(),
-        py::arg("on_this_thread") = false,
+        py::arg("pose") = py::none(), py::arg("on_this_thread") = false,
         "Solves limbs, all of them if nothing is given, and gives how many. Equal inputs give equal bits on every "
         "CPU.\n\n"
         "blocks is (first, count), of LANES limbs each. groups: numbers of groups; others are neither read nor\n"
@@ -213,14 +228,19 @@ void add_solving(CrowdClass& crowd)
         "left out keeps its rows, or is not written. A limb's results may be its own inputs; no other arrays may\n"
         "overlap results. Where not all limbs of a group are solved, results need each value's numbers side by "
         "side.\n\n"
+        "pose, a Pose, is what a crowd of bodies is solved from and to; no other crowd takes one. Counts, blocks, "
+        "masks,\n"
+        "lists and the one entry of priorities are of bodies then. Bodies that are not chosen are neither read nor\n"
+        "written. Targets, poles and hands are in the world.\n\n"
         "On all cores if the library was built with oneTBB; on_this_thread on one, and then several threads may\n"
         "solve blocks that do not overlap at once, with the same mask and frames. Lists and priorities are for the\n"
         "whole crowd and exclude both, and priorities exclude groups. ValueError for limbs that do not exist or are\n"
         "padding.");
     crowd.def("choose", &choose, py::arg("priorities"), py::arg("most_blocks"), py::arg("urgency") = py::none(),
               "Picks at most most_blocks blocks, the most urgent ones; solves nothing.\n\n"
-              "priorities has one entry for each group: (n,) float32, one number for each limb, or () for the\n"
-              "whole group, in any unit. urgency (block_count,) float32 is yours: start it as np.zeros and give it to\n"
+              "priorities has one entry for each group, of bodies one alone: (n,) float32, one number for each limb,\n"
+              "or () for the whole group, in any unit. urgency (block_count,) float32 is yours: start it as np.zeros "
+              "and give it to\n"
               "every call. Each call adds a block's largest priority to its urgency, which is 0 again for those\n"
               "picked, so none starves. Only its magnitude counts. None: priorities alone decide. Gives a mask for\n"
               "solve(), which chooses and solves in one if it gets the priorities.");

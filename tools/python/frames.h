@@ -18,7 +18,8 @@ struct Frames {
 };
 
 // A dict for each of these groups, or one dict if it is one group; in the crowd's order. ValueError or TypeError for
-// what is none.
-Frames frames_of(const HeldCrowd& held, const pybind11::object& given, const std::vector<std::uint32_t>& groups);
+// what is none. far: positions are doubles, also without an origin.
+Frames frames_of(const HeldCrowd& held, const pybind11::object& given, const std::vector<std::uint32_t>& groups,
+                 bool far);
 
 }  // namespace swivel::python

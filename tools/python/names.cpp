@@ -199,7 +199,8 @@ swivel_on_bad_input on_bad_input_of(std::int64_t number)
     return member_of<swivel_on_bad_input>("OnBadInput", "way to treat bad input", number);
 }
 
-py::object feature_set(swivel_features features) { return py::module_::import("swivel").attr("Feature")(features); }
+py::object package(const char* name) { return py::module_::import("swivel").attr(name); }
+py::object feature_set(swivel_features features) { return package("Feature")(features); }
 
 void add_enums(py::module_& module)
 {

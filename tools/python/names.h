@@ -29,6 +29,8 @@ swivel_field field_of(std::int64_t number);
 swivel_euler_order order_of(std::int64_t number);
 swivel_on_bad_input on_bad_input_of(std::int64_t number);
 
+// What the package swivel has of this name, such as a class that is written in Python.
+pybind11::object package(const char* name);
 // A set of features as Python's Feature.
 pybind11::object feature_set(swivel_features features);
 

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: MIT
+"""The promise: poses of bodies go in and come out as NumPy arrays, judged by a forward kinematics in NumPy. Strided arrays are solved
+where they lie, and mistakes are told."""
+import re
+import unittest
+
+import numpy as np
+
+import swivel
+from arms import rotate
+from bodies import FOREARM, HAND, LIMBS, PARENTS, PELVIS, PLACES, ROLL, TURNED, UPPER_ARM, Bodies, crowd_of, forward
+from swivel import BodyGroup, Feature, Flag, Pose, Skeleton
+
+N = 50
+KEPT = [joint for joint in range(8) if joint not in TURNED]
+
+
+def angles(a, b):
+    """Between rotations, in radians."""
+    return 2 * np.arcsin(np.minimum(1, np.minimum(*(np.linalg.norm(a + sign * b, axis=-1) for sign in (1, -1))) / 2))
+
+
+def matrices_of(bodies, rotations, rows):
+    """Rows of local matrices, whose last column is the translation."""
+    made = np.zeros((len(rotations), 8, rows, 4), np.float32)
+    made[..., :3, :3] = np.swapaxes(rotate(rotations[:, :, None], np.eye(3)), 2, 3) * bodies.scales[:, :, None]
+    made[..., :3, 3] = bodies.translations
+    if rows == 4:
+        made[..., 3, 3] = 1
+    return made
+
+
+class Solved(unittest.TestCase):
+    def setUp(self):
+        self.bodies = Bodies(N)
+
+    def check_goals(self, rotations):
+        places, turned = self.bodies.at(rotations)
+        for _, _, wrist in LIMBS:
+            np.testing.assert_allclose(places[:, wrist], self.bodies.places[:, wrist], atol=1e-5)
+            self.assertLess(angles(turned[:, wrist], self.bodies.turned[:, wrist]).max(), 1e-5)
+
+    def solved(self, features=Feature.WITH_HAND, **arrays):
+        crowd = crowd_of(N, features)
+        self.assertEqual(crowd.solve(frames=self.bodies.goals(), pose=Pose(**arrays)), N)
+        self.assertIsNone(crowd.find(Flag.BAD_INPUT))
+
+    def test_wrists_and_hands_are_at_their_goals(self):
+        rotations = self.bodies.rotations.copy()
+        self.solved(rotations=rotations, **self.bodies.members())
+        self.check_goals(rotations)
+        np.testing.assert_array_equal(rotations[:, KEPT], self.bodies.rotations[:, KEPT])
+        before, out = self.bodies.rotations.copy(), self.bodies.rotations.copy()
+        before.setflags(write=False)
+        self.solved(rotations=before, out=out, **self.bodies.members())
+        np.testing.assert_array_equal(out, rotations)
+
+    def test_untouched_goals_give_the_pose_back(self):
+        crowd, rotations = crowd_of(N, Feature.POLE_INCOMING), self.bodies.rotations.copy()
+        places, turned = self.bodies.at(rotations)
+        crowd.solve(frames=[{"target": places[:, wrist]} for _, _, wrist in LIMBS], pose=Pose(rotations, **self.bodies.members()))
+        self.assertTrue(np.any(rotations != self.bodies.rotations))
+        after, turned_after = self.bodies.at(rotations)
+        np.testing.assert_allclose(after, places, atol=1e-5)
+        for shoulder, elbow, wrist in LIMBS:
+            upper, fore = places[:, elbow] - places[:, shoulder], places[:, wrist] - places[:, elbow]
+            lengths = np.linalg.norm(upper, axis=1) + np.linalg.norm(fore, axis=1)
+            bound = 5e-6 + 3e-6 * lengths**2 / np.linalg.norm(np.cross(upper, fore), axis=1)
+            for joint in (shoulder, elbow):
+                self.assertTrue(np.all(angles(turned_after[:, joint], turned[:, joint]) < bound))
+
+    def test_matrices_are_rotations(self):
+        """Of three rows and four, and the views of columns as they lie in an engine's memory."""
+        wanted = self.bodies.rotations.copy()
+        self.solved(rotations=wanted, **self.bodies.members())
+        for rows in (3, 4):
+            given, after = (matrices_of(self.bodies, rotations, rows) for rotations in (self.bodies.rotations, wanted))
+            columns = np.ascontiguousarray(np.swapaxes(given, 2, 3))
+            for matrices in (given.copy(), np.swapaxes(columns, 2, 3)):
+                out = matrices.copy("K")
+                self.solved(matrices=matrices, out=out, **self.bodies.roots())
+                np.testing.assert_array_equal(matrices, given)
+                self.solved(matrices=matrices, **self.bodies.roots())
+                np.testing.assert_array_equal(matrices, out)
+                np.testing.assert_allclose(matrices, after, atol=1e-5)
+                np.testing.assert_array_equal(matrices[:, KEPT], given[:, KEPT])
+
+    def test_what_is_left_out_rests(self):
+        """Of the translations, scales and roots, and so is one value for all bodies."""
+        given, ones = self.bodies.rotations, np.ones((8, 3))
+        whole, short, out = given.copy(), given.copy(), np.zeros((N, 8, 4), np.float32)
+        targets = [{"target": forward(self.bodies.other)[0][:, wrist]} for _, _, wrist in LIMBS]
+        for rotations, members in ((whole, {}), (short, dict(translations=PLACES.tolist(), scales=ones, root_position=(0, 0, 0),
+                                                             root_rotation=(0, 0, 0, 1), root_scale=1))):
+            crowd_of(N, Feature.POLE_INCOMING).solve(frames=targets, pose=Pose(rotations, **members))
+        np.testing.assert_array_equal(short, whole)
+        for _, _, wrist in LIMBS:
+            np.testing.assert_allclose(forward(whole)[0][:, wrist], forward(self.bodies.other)[0][:, wrist], atol=1e-5)
+        crowd_of(N, Feature.POLE_INCOMING).solve(frames=targets, pose=Pose(given[0].tolist(), out=out))
+        same = np.tile(given[0], (N, 1, 1))
+        crowd_of(N, Feature.POLE_INCOMING).solve(frames=targets, pose=Pose(same))
+        written = [joint for limb in LIMBS for joint in limb[:2]]  # no hands, so no wrists
+        np.testing.assert_array_equal(out[:, written], same[:, written])
+        self.assertFalse(np.any(np.delete(out, written, axis=1)))
+
+    def test_far_roots_in_doubles_give_the_same(self):
+        offsets = [np.round((self.bodies.places[:, wrist] - self.bodies.root_position) * 2**16) / 2**16 for _, _, wrist in LIMBS]
+        results = []
+        for root in (np.zeros((N, 3)), np.arange(3.0 * N).reshape(N, 3) * 2**20):
+            results.append(self.bodies.rotations.copy())
+            crowd = crowd_of(N, Feature.POLE_INCOMING)
+            crowd.solve(frames=[{"target": root + offset} for offset in offsets], pose=Pose(results[-1], root_position=root))
+            self.assertIsNone(crowd.find(Flag.BAD_INPUT))
+        near = self.bodies.rotations.copy()
+        crowd_of(N, Feature.POLE_INCOMING).solve(frames=[{"target": offset} for offset in offsets], pose=Pose(near))
+        for rotations in results:
+            np.testing.assert_array_equal(rotations, near)
+
+    def test_strided_arrays_are_solved_where_they_lie(self):
+        wanted = self.bodies.rotations.copy()
+        self.solved(rotations=wanted, **self.bodies.members())
+        random = np.random.default_rng(3)
+        memory = random.integers(0, 256, (2 * N, 11, 40), np.uint8)
+        views = [memory[::2, 2:10, 8:24].view(np.float32), memory[1::2, 1:9, 20:36].view(np.float32)]
+        rotations, out = views
+        rotations[:] = out[:] = self.bodies.rotations
+        characters = np.zeros(N, [("name", "u1"), ("root", "f4", 3), ("pose", [("q", "f4", 4), ("t", "f4", 3)], 8)])
+        characters["pose"]["q"], characters["pose"]["t"] = self.bodies.rotations, self.bodies.translations
+        characters["root"] = self.bodies.root_position
+        before = memory.copy()
+        self.solved(rotations=rotations, out=out, **self.bodies.members())
+        self.solved(rotations=rotations, **self.bodies.members())
+        by_joint = np.ascontiguousarray(np.swapaxes(self.bodies.rotations, 0, 1)).swapaxes(0, 1)  # joints outside, bodies inside
+        self.solved(rotations=by_joint, **self.bodies.members())
+        self.solved(rotations=characters["pose"]["q"], **{**self.bodies.members(), "translations": characters["pose"]["t"],
+                                                         "root_position": characters["root"]})
+        for each in (rotations, out, by_joint, characters["pose"]["q"]):
+            np.testing.assert_array_equal(each, wanted)
+        for view in views:
+            view[:] = self.bodies.rotations
+        np.testing.assert_array_equal(memory, before)
+
+    def test_some_bodies(self):
+        """By masks, lists, blocks and priorities. Others keep their bytes, though they are not even numbers."""
+        wanted = self.bodies.rotations.copy()
+        self.solved(rotations=wanted, **self.bodies.members())
+        odd = np.arange(N) % 2 == 1
+        first = np.arange(N) < 16
+        lanes = np.zeros(64, bool)
+        lanes[:N] = odd
+        for chosen, choice in ((odd, {"mask": lanes}), (odd, {"limbs": np.flatnonzero(odd)}), (odd, {"mask": lanes, "on_this_thread": True}),
+                               (first, {"blocks": (0, 1)}), (first, {"priorities": [first.astype(float)], "most_blocks": 3})):
+            rotations = np.where(chosen[:, None, None], self.bodies.rotations, np.float32(np.nan))
+            crowd = crowd_of(N, Feature.WITH_HAND)
+            solved = crowd.solve(frames=self.bodies.goals(), pose=Pose(rotations, **self.bodies.members()), **choice)
+            self.assertEqual((solved, crowd.block_count, crowd.limbs(1)), (chosen.sum(), 4, range(N)))
+            np.testing.assert_array_equal(rotations[chosen], wanted[chosen])
+            self.assertTrue(np.all(np.isnan(rotations[~chosen])))
+        rotations = self.bodies.rotations.copy()
+        crowd_of(N, Feature.WITH_HAND).solve(groups=[1], frames=self.bodies.goals()[1], pose=Pose(rotations, **self.bodies.members()))
+        np.testing.assert_array_equal(rotations[:, list(LIMBS[1])], wanted[:, list(LIMBS[1])])
+        np.testing.assert_array_equal(rotations[:, list(LIMBS[0])], self.bodies.rotations[:, list(LIMBS[0])])
+
+    def test_bad_input_keeps_the_pose_unless_it_is_to_rest(self):
+        for on_bad_input in (None, swivel.OnBadInput.REST_POSE):
+            crowd = swivel.Crowd(BodyGroup(*LIMBS[0], bend=(0, 0, 1)), Feature.POLE_INCOMING, on_bad_input=on_bad_input,
+                                 skeleton=Skeleton(PARENTS, PLACES), body_count=N)
+            rotations = self.bodies.rotations.copy()
+            crowd.solve(pose=Pose(rotations))  # without targets
+            self.assertEqual(crowd.find(Flag.BAD_INPUT), (0, 0))
+            self.assertEqual(np.array_equal(rotations, self.bodies.rotations), on_bad_input is None)
+
+
+class Made(unittest.TestCase):
+    def test_a_bent_rest_pose_says_where_limbs_bend(self):
+        rest = np.tile(np.float32((0, 0, 0, 1)), (8, 1))
+        make = lambda skeleton: swivel.Crowd([BodyGroup(*LIMBS[0])], skeleton=skeleton, body_count=1)
+        with self.assertRaisesRegex(ValueError, "bend"):
+            make(Skeleton(PARENTS, PLACES, rest))
+        rest[FOREARM] = (0, 0, np.sin(0.4), np.cos(0.4))
+        self.assertEqual(make(Skeleton(PARENTS, PLACES, rest)).limb_count(), 1)
+
+    def test_groups_have_their_own_features(self):
+        crowd = swivel.Crowd([BodyGroup(*LIMBS[0], (0, 0, 1), features=Feature.WITH_HAND), BodyGroup(*LIMBS[1], (0, 0, -1))],
+                             Feature.POLE_INCOMING, skeleton=Skeleton(PARENTS, PLACES), body_count=3)
+        bodys = Feature.BODY | swivel.needed_features(swivel.Field.INCOMING_ELBOW) | Feature.WORLD
+        self.assertEqual([crowd.features(group) for group in (0, 1)], [bodys | Feature.WITH_HAND, bodys | Feature.POLE_INCOMING])
+
+
+class Mistakes(unittest.TestCase):
+    def fails(self, error, text, call, *arguments, **keywords):
+        with self.assertRaisesRegex(error, re.escape(text)) as caught:
+            call(*arguments, **keywords)
+        self.assertNotIn("\n", str(caught.exception))
+
+    def solve_fails(self, error, text, *arguments, frames=None, **keywords):
+        self.fails(error, text, crowd_of(2).solve, frames=frames, pose=Pose(*arguments, **keywords))
+
+    def test_poses(self):
+        good, matrices = np.zeros((2, 8, 4), np.float32), np.zeros((2, 8, 4, 4), np.float32)
+        frozen = good.copy()
+        frozen.setflags(write=False)
+        fails = self.solve_fails
+        fails(ValueError, "rotations: expected shape (2, 8, 4), got (3, 8, 4)", np.zeros((3, 8, 4), np.float32))
+        fails(ValueError, "out: expected shape (2, 8, 4), got (8, 4)", good, out=good[0])
+        fails(ValueError, "rotations: expected shape (2, 8, 4), or (8, 4) for all bodies, got (2, 4)", good[:, 0], out=good)
+        fails(TypeError, "rotations: expected dtype float32, got float64", good.astype(float))
+        fails(TypeError, "rotations: expected an array to write to, got list", good.tolist())
+        fails(ValueError, "rotations: the array is read-only", frozen)
+        side_by_side = "the numbers of a value must lie side by side, and joints and bodies apart; give an array that numpy.asc"
+        for wrong in (np.zeros((2, 8, 8), np.float32)[..., ::2], good[::-1], np.asfortranarray(good),
+                      np.lib.stride_tricks.as_strided(good, strides=(0, 16, 4))):
+            fails(ValueError, "rotations: " + side_by_side, wrong)
+            fails(ValueError, "out: " + side_by_side, good, out=wrong)
+        fails(ValueError, "matrices: " + side_by_side, matrices=np.zeros((2, 8, 3, 5), np.float32)[..., :4])
+        fails(ValueError, "matrices: expected shape (2, 8, 4, 4), got (2, 8, 5, 4)", matrices=np.zeros((2, 8, 5, 4), np.float32))
+        fails(ValueError, "out: its matrices lie in another order", matrices=matrices, out=np.swapaxes(matrices.copy(), 2, 3))
+        fails(ValueError, "the pose has no rotations and matrices; give one of the two")
+        fails(ValueError, "the pose has both rotations and matrices; give one of the two", good, matrices)
+        fails(ValueError, "the pose has matrices and scales, which matrices hold", matrices=matrices, scales=np.ones((8, 3)))
+        fails(ValueError, "scales: expected shape (2, 8, 3), or (8, 3) for all bodies, got (3,)", good, scales=(1, 1, 1))
+        fails(ValueError, "root_rotation: expected shape (2, 4), or (4,) for all bodies, got (4, 4)", good, root_rotation=np.eye(4))
+        fails(ValueError, "root_position is float64, so targets are, too", good, root_position=np.zeros(3))
+        fails(ValueError, "a body's origin is its root in doubles", good, frames=[{"origin": (0, 0, 0)}, {}])
+
+    def test_crowds(self):
+        crowd, skeleton, arm = crowd_of(2), Skeleton(PARENTS, PLACES), BodyGroup(*LIMBS[0], bend=(0, 0, 1))
+        self.fails(TypeError, "pose: expected a Pose, got ndarray", crowd.solve, pose=np.zeros((2, 8, 4), np.float32))
+        self.fails(ValueError, "give the job their pose", crowd.solve)
+        self.fails(ValueError, "this crowd has no bodies, so it takes no pose", swivel.Crowd(2).solve, pose=Pose())
+        self.fails(ValueError, "priorities: expected one entry for the bodies, got 2", crowd.choose, [1, 1], 1)
+        self.fails(ValueError, "has a skeleton, but no bodies", swivel.Crowd, arm, skeleton=skeleton)
+        self.fails(ValueError, "the crowd def has no skeleton", swivel.Crowd, arm)
+        self.fails(TypeError, "skeleton: expected a Skeleton, got [", swivel.Crowd, arm, skeleton=PARENTS, body_count=1)
+        self.fails(TypeError, "expected whole numbers in a BodyGroup, got BodyGroup(shoulder='", swivel.Crowd, arm._replace(shoulder="x"))
+        self.fails(ValueError, "elbow is -1", swivel.Crowd, arm._replace(elbow=-1), skeleton=skeleton, body_count=1)
+        self.fails(ValueError, "twist bone", swivel.Crowd, arm._replace(twist_bones=[ROLL]), skeleton=skeleton, body_count=1)
+        self.fails(ValueError, "translations: expected shape (8, 3)", swivel.Crowd, arm, skeleton=Skeleton(PARENTS, PLACES[1:]), body_count=1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""What a crowd of bodies is made of, and what it solves."""
+from typing import NamedTuple, Optional, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import EulerOrder, OnBadInput
+
+
+class Skeleton(NamedTuple):
+    """A skeleton at rest, which all bodies of a Crowd have. Joints are in any order.
+
+    parents       (joints,) each joint's parent, -1 for a root
+    translations  (joints, 3) its place in its parent's frame
+    rotations     (joints, 4) relative to its parent, x, y, z, w; None: no joint is turned at rest
+    """
+
+    parents: npt.ArrayLike
+    translations: npt.ArrayLike
+    rotations: Optional[npt.ArrayLike] = None
+
+
+class BodyGroup(NamedTuple):
+    """A limb of each body, for a Crowd with a skeleton. The last four: None is as the crowd says for all of its groups.
+
+    shoulder        joint of the skeleton; the elbow is below it, the wrist below the elbow
+    elbow           joints in between keep their own rotations
+    wrist           turned with Feature.WITH_HAND alone
+    bend            (3,) where flexion carries the forearm, in the shoulder joint's frame; zeros: as the rest pose is bent
+    twist_bones     joints below the elbow that share the hand's twist, from elbow to wrist
+    features        members of Feature, combined with |; the crowd adds those of bodies
+    on_bad_input    what a limb with bad input gets
+    shoulder_order  of Field.SHOULDER_BOX
+    wrist_order     of Field.WRIST_BOX
+    """
+
+    shoulder: int
+    elbow: int
+    wrist: int
+    bend: npt.ArrayLike = (0, 0, 0)
+    twist_bones: Sequence[int] = ()
+    features: Optional[int] = None
+    on_bad_input: Optional[OnBadInput] = None
+    shoulder_order: Optional[EulerOrder] = None
+    wrist_order: Optional[EulerOrder] = None
+
+
+class Pose(NamedTuple):
+    """The poses of all bodies, for Crowd.solve(), which reads them and writes the joints that it turns.
+
+    rotations      (bodies, joints, 4) x, y, z, w, each joint's relative to its parent
+    matrices       (bodies, joints, 3, 4) or (bodies, joints, 4, 4) instead of rotations, translations and scales
+    translations   (bodies, joints, 3) each joint's place in its parent's frame; None: as the skeleton rests
+    scales         (bodies, joints, 3) uniform within a thousandth; None: 1
+    root_position  (bodies, 3) what joints without a parent hang below, in the world; None: the origin
+    root_rotation  (bodies, 4) None: not turned
+    root_scale     (bodies,) None: 1
+    out            where turned joints go, in the shape of the rotations or matrices; None: back to these
+
+    Values that are the same for all bodies may lack the first axis. What is written is an array of float32, with the numbers of
+    a value side by side and any distances between joints and bodies. Matrices may also be transposed views of such. Joints that
+    are not turned are not written, and neither are matrices' last column and row: start `out` as a copy. What is only read may
+    be anything that NumPy makes an array of, which is copied first if it lies differently.
+
+    A root_position that is an array of float64 makes all positions in frames float64. The root is subtracted in double, for
+    crowds kilometres from the origin. Positions that frames leave out are then counted from the root.
+    """
+
+    rotations: Optional[npt.ArrayLike] = None
+    matrices: Optional[npt.ArrayLike] = None
+    translations: Optional[npt.ArrayLike] = None
+    scales: Optional[npt.ArrayLike] = None
+    root_position: Optional[npt.ArrayLike] = None
+    root_rotation: Optional[npt.ArrayLike] = None
+    root_scale: Optional[npt.ArrayLike] = None
+    out: Optional[npt.NDArray[np.float32]] = None
