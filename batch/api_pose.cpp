@@ -10,6 +10,7 @@
 #include "batch/explain.h"
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
+#include "batch/one_limb.h"
 #include "batch/solve.h"
 #include "batch/status.h"
 #include "batch/streams.h"
@@ -31,11 +32,26 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
-// Bodies' limbs have no rows of what their pose gives.
-swivel_status check_free(const swivel_crowd& crowd, std::uint32_t group, const char* call)
+// What bodies' poses gave is known if it is kept.
+swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call)
 {
-    if (crowd.joint_count == 0) return SWIVEL_OK;
-    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is of bodies; it takes free limbs", call, group);
+    if (crowd.joint_count == 0 || crowd.groups[group].features & SWIVEL_WITH_RECORD) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is of bodies; create it with SWIVEL_WITH_RECORD", call, group);
+}
+
+// Calls take(group, limb, n) for the nth limb from `first` on; a body's as a free limb.
+template <class Take>
+void for_each_free_limb(const Group& of, std::uint32_t first, std::uint32_t limb_count, const Take& take)
+{
+    if (of.features & SWIVEL_BODY) {
+        OneLimb one(of);
+        for (std::uint32_t n = 0; n < limb_count; ++n) {
+            one.take(first + n);
+            take(one.group(), 0, n);
+        }
+    } else {
+        for (std::uint32_t n = 0; n < limb_count; ++n) take(of, first + n, n);
+    }
 }
 
 std::uint32_t flags_of(const Group& group, std::size_t limb)
@@ -67,7 +83,7 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_free(*crowd, group, "swivel_explain"); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK) return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     explain(crowd->groups[group], limb, {text, size});
     return SWIVEL_OK;
@@ -91,11 +107,13 @@ swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uin
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_free(*crowd, group, "swivel_allowed_arcs"); status != SWIVEL_OK)
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_allowed_arcs"); status != SWIVEL_OK)
         return status;
     if (!arc_count) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arc_count is null");
     if (!arcs && capacity > 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_allowed_arcs: arcs is null");
-    *arc_count = allowed_arcs(find_isa("scalar")->kernels, crowd->groups[group], limb, arcs, capacity);
+    for_each_free_limb(crowd->groups[group], limb, 1, [&](const Group& of, std::uint32_t at, std::uint32_t) {
+        *arc_count = allowed_arcs(find_isa("scalar")->kernels, of, at, arcs, capacity);
+    });
     return SWIVEL_OK;
 }
 
@@ -131,7 +149,7 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_free(*crowd, group, "swivel_forward"); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_forward"); status != SWIVEL_OK) return status;
     if (hand.data && !(crowd->groups[group].features & SWIVEL_WITH_HAND))
         return fail(SWIVEL_INVALID_ARGUMENT, "swivel_forward: group %u has no hands; create it with SWIVEL_WITH_HAND",
                     group);
@@ -142,13 +160,14 @@ swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t
                                                           component_count * sizeof(double), false);
                 status != SWIVEL_OK)
                 return status;
-    const Group& of = crowd->groups[group];
-    for (uint32_t n = 0; n < limb_count; ++n) {
-        const LimbPose pose = forward(of, first + n);
+    const Group& all = crowd->groups[group];
+    const Rotor<double> joint = hand_from_arm(all);
+    for_each_free_limb(all, first, limb_count, [&](const Group& of, std::uint32_t limb, std::uint32_t n) {
+        const LimbPose pose = forward(of, limb);
         store(elbow, n, pose.elbow);
         store(wrist, n, pose.wrist);
-        store(hand, n, pose.hand);
-    }
+        store(hand, n, pose.hand * joint);
+    });
     return SWIVEL_OK;
 }
 
@@ -158,15 +177,15 @@ swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_free(*crowd, group, "swivel_residuals"); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_kept(*crowd, group, "swivel_residuals"); status != SWIVEL_OK) return status;
     if (const swivel_status status =
             check_stride(group, "distance", limb_count, distance.data, distance.stride, sizeof(double), false);
         status != SWIVEL_OK)
         return status;
-    const Group& of = crowd->groups[group];
-    for (uint32_t n = 0; n < limb_count; ++n) {
-        const double value = residual(of, first + n);
-        std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
-    }
+    for_each_free_limb(crowd->groups[group], first, limb_count,
+                       [&](const Group& of, std::uint32_t limb, std::uint32_t n) {
+                           const double value = residual(of, limb);
+                           std::memcpy(static_cast<char*>(distance.data) + n * distance.stride, &value, sizeof value);
+                       });
     return SWIVEL_OK;
 }

@@ -165,6 +165,9 @@ swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel
         return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", row.name);
     const swivel_features features = crowd.groups[group].features;
     if (field_row_count(features, field) != 0) return SWIVEL_OK;
+    if (features & row.excludes & SWIVEL_BODY)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: the pose of a body gives it; leave it out", group,
+                    row.name);
     const swivel_features missing = row.needs & ~features;
     return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this group; create it with%s SWIVEL_%s", group,
                 row.name, missing ? "" : "out", feature_name(missing ? missing : row.excludes));

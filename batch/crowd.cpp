@@ -134,7 +134,7 @@ void rest_in_arm_frame(const Group& group)
     for (std::size_t f = kInputCount; f < kFieldCount; ++f)
         for (std::uint32_t c = 0; c < field_row_count(group.features, kFields[f].field); ++c)
             std::fill_n(group.results + (group.first_row[f] + c) * SWIVEL_LANES, std::size_t{SWIVEL_LANES},
-                        kFields[f].start[c]);
+                        kFields[f].start_of(c));
     spread(group.results, group.result_row_count, group.block_count);
 }
 

@@ -15,6 +15,7 @@
 
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
+#include "batch/one_limb.h"
 #include "batch/solve.h"
 #include "core/bit_cast.h"
 #include "core/limb_goal.h"
@@ -53,28 +54,13 @@ private:
     std::size_t used_ = 0;
 };
 
-// A crowd of one limb, which takes a limb of another. With its strip it takes three fifths of the stack that a call
-// may take. So there is one, which takes the limb again for each question.
+// A limb that is solved alone. With its strip it takes three fifths of the stack that a call may take. So there is one,
+// which takes the limb again for each question.
 class Probe {
 public:
-    Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), crowd_(nullptr) { take(); }
+    Probe(const Group& of, std::uint32_t limb) : of_(of), limb_(limb), one_(of) { take(); }
     // Takes the limb as it is.
-    void take()
-    {
-        swivel_group_def alone = swivel_default_group_def(1);
-        alone.features = of_.features;
-        alone.shoulder_order = of_.shoulder_order;
-        alone.wrist_order = of_.wrist_order;
-        alone.binding = of_.binding;
-        swivel_crowd_def def = swivel_default_crowd_def();
-        def.groups = &alone;
-        def.group_count = 1;
-        def.workspace_count = 0;
-        crowd_ = place_crowd(def, arena_);
-        copy_lane(of_.input_row_count, of_.input + row_offset(limb_, of_.input_row_count, 0), group().input);
-        if (of_.features & kCarryingFeatures)  // such as the normal that the next step is from
-            copy_lane(of_.result_row_count, of_.results + row_offset(limb_, of_.result_row_count, 0), group().results);
-    }
+    void take() { one_.take(limb_); }
     StripMemory strip() { return {strip_, 1}; }
     LimbPose pose() const { return forward(group(), 0); }
     // By how many degrees the pose violates a limit; 0 or less where it keeps it, or the group has none.
@@ -109,14 +95,24 @@ public:
         const std::size_t at = std::size_t{field_first_row(of.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
         return bit_cast<std::uint32_t>(of.results[at]);
     }
-    // Whether these are the results that the limb has.
-    bool has_bits_of_limb() const
+    // Whether these are the results that the limb has. A body's may differ in rounding and signs.
+    bool has_results_of_limb() const
     {
+        if (is_of_body()) return has_pose_of_limb();
         for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
             const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
             if (std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
         }
         return true;
+    }
+    bool is_of_body() const { return of_.features & SWIVEL_BODY; }
+    // Whether a body's pose gave the field, and not the caller.
+    bool is_posed(swivel_field field) const
+    {
+        if (!is_of_body()) return false;
+        const std::size_t lengths =
+            row_offset(limb_, of_.input_row_count, field_first_row(of_.features, SWIVEL_LENGTHS));
+        return row_of(field).excludes & SWIVEL_BODY || (field == SWIVEL_LENGTHS && std::isnan(of_.input[lengths]));
     }
     // Makes the field ask for nothing. It gets the padding's value, from an ordinary arm without limits.
     void give_up(swivel_field field)
@@ -132,14 +128,19 @@ public:
     }
 
 private:
-    const Group& group() const { return crowd_->groups[0]; }
-    static constexpr std::size_t kArenaBytes = 14 * 1024;
-    static_assert(block_bytes(kEveryFeature) + 4096 <= kArenaBytes, "rows, and what stands before them");
-    alignas(64) unsigned char arena_[kArenaBytes];
+    const Group& group() const { return one_.group(); }
+    bool has_pose_of_limb() const
+    {
+        OneLimb solved(of_);
+        solved.take(limb_);
+        const LimbPose theirs = forward(solved.group(), 0), ours = pose();
+        const double size2 = len2(ours.elbow - ours.shoulder) + len2(ours.wrist - ours.elbow);
+        return len2(theirs.elbow - ours.elbow) + len2(theirs.wrist - ours.wrist) <= 1e-8 * size2;
+    }
     alignas(64) float strip_[kStripBlockFloats];
     const Group& of_;
     std::uint32_t limb_;
-    swivel_crowd* crowd_;
+    OneLimb one_;
 };
 
 // The lengths of a field's axis and pairs that must be 1 and are not.
@@ -163,13 +164,15 @@ void explain_lengths(const Probe& probe, swivel_field field, Text& text)
 void explain_bad_input(Probe& probe, bool keeps, Text& text)
 {
     text.add("Bad input: ");
-    bool is_found = false;
+    bool is_found = false, is_pose_bad = false;
     for (const FieldRow& row : kFields) {
         const swivel_field field = row.field;
         if (row.kind != SWIVEL_FIELD_INPUT || probe.component_count(field) == 0) continue;
         probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
+        is_pose_bad = is_pose_bad || probe.is_posed(field);
+        if (probe.is_posed(field)) continue;
         text.add("%s%s (", is_found ? "; " : "", row.name);
         bool is_number = true, is_given = false;
         for (std::uint32_t c = 0; c < probe.component_count(field); ++c) {
@@ -186,7 +189,11 @@ void explain_bad_input(Probe& probe, bool keeps, Text& text)
             text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
         }
     }
-    if (!is_found) text.add("each input is in its range, but not as the parent's rotation and scale have it");
+    if (is_pose_bad || (!is_found && probe.is_of_body()))
+        text.add("%sin the pose, a rotation, place or scale of the limb's joints or of those above is out of its range",
+                 is_found ? "; " : "");
+    else if (!is_found)
+        text.add("each input is in its range, but not as the parent's rotation and scale have it");
     text.add(". The limb %s.", keeps ? "keeps the pose it had" : "has its rest pose");
 }
 
@@ -326,7 +333,7 @@ void explain(const Group& group, std::uint32_t limb, std::span<char> room)
     const std::uint32_t flags = probe.solve();
     const bool is_kept = group.keeps && flags & SWIVEL_BAD_INPUT;
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
-    if (!(group.features & kCarryingFeatures) && !is_kept && !probe.has_bits_of_limb())
+    if (!(group.features & kCarryingFeatures) && !is_kept && !probe.has_results_of_limb())
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, group.keeps, text);
     explain_reach(probe, flags, text);

@@ -34,7 +34,7 @@ struct StageBody<Stage::posed> {
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
                                                   vector(T(limb.hinge[0]), T(limb.hinge[1]), T(limb.hinge[2])), stays);
         s.set_rotor(kIncomingRow, seen.model.upper);
-        if (weighs || s.has(kTwistBones | SWIVEL_WITH_AIM)) {
+        if (weighs || s.has(kTwistBones | SWIVEL_WITH_AIM | SWIVEL_WITH_RECORD)) {
             const Rotor<T> hand = ~seen.frames.fore * wrist * ~broadcast<T>(s.strip.bind.hand_from_arm);
             s.set_rotor(kIncomingRow + 4, ~seen.model.upper * seen.model.fore);
             s.set_rotor(kIncomingRow + 8, hand);
@@ -68,6 +68,40 @@ private:
         return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
                (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
                is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
+    }
+};
+
+// Keeps what the pose gave, with the clavicle as turned. So the limb can be seen again as a free one.
+template <>
+struct StageBody<Stage::record> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const BodyLimb& limb = *s.strip.run.limb;
+        const ParentFrame<T> parent = parent_frame(s);
+        Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+        Vector<T> shoulder = parent.position;
+        if (s.has(SWIVEL_WITH_CLAVICLE)) {
+            const Vector<T> clavicle = s.body_vector(limb.parent + kPlaceRow);
+            const Rotor<T> is = arm * s.get_rotor(kClavicleRow);
+            shoulder = clavicle + sandwich(is * ~arm, shoulder - clavicle);
+            arm = is;
+        }
+        Rotor<T> hand = s.get_rotor(kIncomingRow + 8);
+        if (s.has(SWIVEL_WITH_AIM) && s.has(SWIVEL_WITH_HAND))
+            hand = ~s.body_rotor(limb.wrist_parent_row()) * s.io.load_rotor(SWIVEL_HAND) *
+                   ~broadcast<T>(s.strip.bind.hand_from_arm);
+        Rows<T, kTold> out = s.io;
+        out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
+        out.store_vector(SWIVEL_RECORD, shoulder + s.body_vector(kRootRow), kRecordShoulder);
+        out.store_rotor(SWIVEL_RECORD, arm, kRecordArm);
+        out.store(SWIVEL_RECORD, kRecordScale, parent.scale);
+        out.store(SWIVEL_RECORD, kRecordLengths, s.body_row(kLengthsRow));
+        out.store(SWIVEL_RECORD, kRecordLengths + 1, s.body_row(kLengthsRow + 1));
+        out.store_rotor(SWIVEL_RECORD, s.get_rotor(kIncomingRow), kRecordIncoming);
+        out.store_rotor(SWIVEL_RECORD, s.get_rotor(kIncomingRow + 4), kRecordIncoming + 4);
+        out.store_rotor(SWIVEL_RECORD, hand, kRecordIncoming + 8);
     }
 };
 

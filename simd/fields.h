@@ -46,6 +46,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_AIM, "WITH_AIM", 0, SWIVEL_WITH_WEIGHTS | SWIVEL_WITH_REACH | SWIVEL_WITH_FLEXION_LIMIT | kHandLimits},
     {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
     {SWIVEL_BODY, "BODY", SWIVEL_WORLD | SWIVEL_WITH_INCOMING, SWIVEL_JOINTS},
+    {SWIVEL_WITH_RECORD, "WITH_RECORD", SWIVEL_BODY},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -73,7 +74,16 @@ constexpr const char* feature_name(swivel_features features)
 struct UnitParts {  // the numbers of a value that are a unit axis, and pairs of cosine and sine that follow
     std::uint32_t axis_size = 0, pair_count = 0;
 };
-inline constexpr std::uint32_t kMostComponents = 12;   // of an input, and of what is carried
+inline constexpr std::uint32_t kMostComponents = 12;  // of an input, and of what is carried
+// The numbers of SWIVEL_RECORD, by the first of each value.
+enum RecordNumber : int {
+    kRecordShoulder,
+    kRecordArm = kRecordShoulder + 3,
+    kRecordScale = kRecordArm + 4,
+    kRecordLengths = kRecordScale + 1,
+    kRecordIncoming = kRecordLengths + 2,
+    kRecordSize = kRecordIncoming + 12
+};
 enum class Start : std::uint8_t { neutral, unknown };  // unknown: NaN until it is given
 enum class Place : std::uint8_t { no, yes };           // a position: it may be given in double, from an origin
 struct FieldRow {
@@ -88,6 +98,12 @@ struct FieldRow {
     Start starts = Start::neutral;
     Place place = Place::no;
     UnitParts unit = {};
+
+    // Component c of a value of any number of components: values of twist bones are many of the row's.
+    constexpr float start_of(std::uint32_t c) const
+    {
+        return c % component_count < kMostComponents ? start[c % component_count] : 0;
+    }
 };
 constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_RESULT, kCarried = SWIVEL_FIELD_CARRIED;
 constexpr const char kPlace[] = "no further than 1e15", kQuaternion[] = "a quaternion of length 1e-9 to 1e9",
@@ -155,8 +171,9 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_FLAGS, "flags", 1, kResult},
     {SWIVEL_STRETCH, "stretch", 1, kResult, SWIVEL_WITH_REACH, 0, "", {1}},
     {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MOST_SWIVEL},
-    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES},
+    {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES, 0, "", {0, 0, 0, 1}},
     {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
+    {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 

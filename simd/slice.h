@@ -89,11 +89,11 @@ struct Rows {
         else
             store_lanes(place, value, lanes_where<T>(chosen));
     }
-    SWIVEL_INLINE void store_vector(swivel_field field, const Vector<T>& v) const
+    SWIVEL_INLINE void store_vector(swivel_field field, const Vector<T>& v, int first = 0) const
     {
-        store(field, 0, v.template at<kE1>());
-        store(field, 1, v.template at<kE2>());
-        store(field, 2, v.template at<kE3>());
+        store(field, first, v.template at<kE1>());
+        store(field, first + 1, v.template at<kE2>());
+        store(field, first + 2, v.template at<kE3>());
     }
     SWIVEL_INLINE void store_rotor(swivel_field field, const Rotor<T>& q, int first = 0) const
     {

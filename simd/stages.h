@@ -20,6 +20,7 @@ enum class Stage : std::uint8_t {
     clavicle,  // turned by its share, and the goal turned back
     incoming,  // the incoming pose, in the arm frame
     posed,     // the same of a body's limb, with its bones and how its joints lie to them
+    record,    // what of it free limbs are given
     goal,      // the hand's orientation and the wrist's place
     place,
     bones,  // the line to the wrist, the flexion and the lift
@@ -64,6 +65,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
     {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, SWIVEL_BODY},
     {Stage::posed, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_BODY, 0},
+    {Stage::record, 0, SWIVEL_WITH_RECORD, 0},
     {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
     {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},
     {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM},

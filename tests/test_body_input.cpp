@@ -246,7 +246,7 @@ TEST_CASE("crowds and poses that cannot be get a line")
         def.skeleton = &longer;
         refused("'s parent is 900; give -1 for a root");
     }
-    SECTION("calls that take free limbs")
+    SECTION("calls that need a record")
     {
         Crowd crowd(def);
         char text[100];
@@ -256,7 +256,7 @@ TEST_CASE("crowds and poses that cannot be get a line")
         REQUIRE(swivel_allowed_arcs(crowd.get(), 0, 0, nullptr, 0, &count) == SWIVEL_INVALID_ARGUMENT);
         REQUIRE(swivel_residuals(crowd.get(), 0, 0, 1, {&number, 8}) == SWIVEL_INVALID_ARGUMENT);
         REQUIRE(swivel_forward(crowd.get(), 0, 0, 0, {}, {}, {}) == SWIVEL_INVALID_ARGUMENT);
-        REQUIRE(std::string(swivel_last_error()).find("takes free limbs") != std::string::npos);
+        REQUIRE(std::string(swivel_last_error()).find("create it with SWIVEL_WITH_RECORD") != std::string::npos);
         Crowd free({group(1)});
         const swivel_pose pose = swivel_default_pose();
         REQUIRE_THROWS_WITH(free.solve({.pose = &pose}), Catch::Contains("no bodies"));

@@ -148,6 +148,7 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_AIM (UINT64_C(1) << 21)       // the flexion is given, and the hand points at the target
 #define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)  // the shoulder's parent joint shares the reach
 #define SWIVEL_BODY (UINT64_C(1) << 23)  // limb i is body i's: groups of a crowd with a skeleton have it, and its needs
+#define SWIVEL_WITH_RECORD (UINT64_C(1) << 24)  // of bodies: keeps what the pose gave, which explain and others need
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
@@ -290,6 +291,11 @@ typedef enum swivel_field {
     // 4, WITH_CLAVICLE: the turn of the parent joint. Its rotation, in the world or local, becomes the old one times
     // this.
     SWIVEL_CLAVICLE_TURN,
+    // 22, WITH_RECORD: how a body's limb came, from its pose and after the clavicle's turn. The shoulder's place, 3, in
+    // the space of the target; the arm frame's rotation in the world, 4; the parent's scale; both lengths, as they
+    // counted. Then the incoming pose, 4 each: the upper arm in the arm frame, the forearm relative to it, the hand
+    // relative to the forearm; WITH_AIM the hand that is aimed.
+    SWIVEL_RECORD,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
