@@ -27,7 +27,7 @@ std::int32_t mover_of(const swivel_crowd_def& def, const swivel_skeleton& skelet
     return -1;
 }
 
-// The place of a needed joint in the list; count if it is not there yet. The root is the parent of those without one.
+// The place of a needed joint in the list. The root is the parent of those without one.
 std::uint32_t find(PlannedJoints joints, std::int32_t skeleton_joint)
 {
     if (skeleton_joint < 0) return 0;
@@ -38,6 +38,14 @@ std::uint32_t find(PlannedJoints joints, std::int32_t skeleton_joint)
 std::uint32_t row_of(PlannedJoints joints, std::int32_t skeleton_joint)
 {
     return joints.joints[find(joints, skeleton_joint)].row;
+}
+
+std::uint32_t depth_of(const swivel_skeleton& skeleton, std::uint32_t joint)
+{
+    std::uint32_t depth = 0;
+    for (std::int32_t at = parent_of(skeleton, joint); at >= 0; ++depth)
+        at = parent_of(skeleton, static_cast<std::uint32_t>(at));
+    return depth;
 }
 
 void store(const Rotor<double>& q, float (&to)[4])
@@ -82,33 +90,30 @@ BodySize body_size(const swivel_crowd_def& def)
 void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
-    joints[0] = {};
-    joints[0].row = kRootJoint;
-    PlannedJoints planned{joints, 1};
-    std::uint32_t row = kRootJoint + joint_row_count(false);
-    const auto is_planned = [&](std::int32_t joint) { return find(planned, joint) < planned.count; };
-    const auto plan = [&](std::uint32_t joint) {
-        const RestJoint rest = rest_of(skeleton, joint);
-        const std::int32_t mover = mover_of(def, skeleton, joint);
-        BodyJoint& to = joints[planned.count++];
-        to = {joint,
-              row,
-              row_of(planned, parent_of(skeleton, joint)),
-              0,
-              mover == static_cast<std::int32_t>(joint),
-              {static_cast<float>(rest.place.at<kE1>()), static_cast<float>(rest.place.at<kE2>()),
-               static_cast<float>(rest.place.at<kE3>())}};
-        if (mover >= 0) to.mover = row_of(planned, mover);
-        row += joint_row_count(to.is_turned != 0);
-    };
-    for_each_needed(def, skeleton, [&](std::uint32_t each) {
-        while (!is_planned(static_cast<std::int32_t>(each))) {
-            std::uint32_t joint = each;
-            while (!is_planned(parent_of(skeleton, joint)))
-                joint = static_cast<std::uint32_t>(parent_of(skeleton, joint));
-            plan(joint);
-        }
+    BodyJoint* end = joints;
+    *end++ = {};
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) { (end++)->skeleton_joint = joint; });
+    std::sort(joints + 1, end, [&](const BodyJoint& a, const BodyJoint& b) {
+        const std::uint32_t a_depth = depth_of(skeleton, a.skeleton_joint),
+                            b_depth = depth_of(skeleton, b.skeleton_joint);
+        return a_depth != b_depth ? a_depth < b_depth : a.skeleton_joint < b.skeleton_joint;
     });
+    joints[0].row = kRootJoint;
+    std::uint32_t row = kRootJoint + joint_row_count(false);
+    for (BodyJoint* to = joints + 1; to != end; ++to) {
+        const PlannedJoints planned{joints, static_cast<std::uint32_t>(to - joints) + 1};
+        const std::uint32_t joint = to->skeleton_joint;
+        const std::int32_t mover = mover_of(def, skeleton, joint);
+        const RestJoint rest = rest_of(skeleton, joint);
+        to->row = row;
+        to->parent = row_of(planned, parent_of(skeleton, joint));
+        to->mover = mover < 0 ? 0 : row_of(planned, mover);
+        to->is_turned = mover == static_cast<std::int32_t>(joint);
+        to->translation[0] = static_cast<float>(rest.place.at<kE1>());
+        to->translation[1] = static_cast<float>(rest.place.at<kE2>());
+        to->translation[2] = static_cast<float>(rest.place.at<kE3>());
+        row += joint_row_count(to->is_turned != 0);
+    }
 }
 
 BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,

@@ -88,8 +88,7 @@ struct Parts {
     {
         constexpr std::align_val_t alignment{64};
         const std::uint32_t blocks = work.crowd.strip_blocks, rows = work.crowd.body_row_count;
-        void* const workspace =
-            ::operator new(workspace_floats(blocks, rows) * sizeof(float), alignment, std::nothrow);
+        void* const workspace = ::operator new(workspace_floats(blocks, rows) * sizeof(float), alignment, std::nothrow);
         if (!workspace) return false;
         solve_in(strip_memory(static_cast<float*>(workspace), blocks, rows), first, end);
         ::operator delete(workspace, alignment);

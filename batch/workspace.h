@@ -43,8 +43,9 @@ private:
             const std::uint64_t bit = std::uint64_t{1} << free;
             if (!crowd_.busy.compare_exchange_weak(busy, busy | bit)) continue;
             taken_ = bit;
-            strip = strip_memory(crowd_.workspaces + free * workspace_floats(crowd_.strip_blocks, crowd_.body_row_count),
-                                 crowd_.strip_blocks, crowd_.body_row_count);
+            strip =
+                strip_memory(crowd_.workspaces + free * workspace_floats(crowd_.strip_blocks, crowd_.body_row_count),
+                             crowd_.strip_blocks, crowd_.body_row_count);
             return;
         }
         const std::uint32_t count = crowd_.workspace_count;

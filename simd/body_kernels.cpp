@@ -1,85 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Forward kinematics of bodies, compiled once for each instruction set: from the caller's poses to rows of world
-// frames, and how what was solved moves the joints.
-#include <array>
+// The kernels of bodies, compiled once for each instruction set: forward kinematics, from the caller's poses to rows of
+// world frames, and how what was solved moves the joints.
 #include <cstring>
 
-#include "core/joint_frame.h"
 #include "core/matrix_frame.h"
-#include "simd/kernels.h"
-#include "simd/lanes.h"
-#include "simd/values.h"
+#include "simd/body_motion.h"
+#include "simd/body_values.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
 namespace {
-
-using T = typename KernelNumber<SWIVEL_ARCH, 1>::type;
-
-// The rows of one joint, from the lanes of a slice on.
-struct JointRows {
-    float* rows;
-
-    SWIVEL_INLINE T get(std::uint32_t row) const
-    {
-        return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + n; });
-    }
-    SWIVEL_INLINE void set(std::uint32_t row, const T& value) const
-    {
-        store_lanes([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + n; }, value);
-    }
-    SWIVEL_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
-    {
-        set(row, v.template at<kE1>());
-        set(row + 1, v.template at<kE2>());
-        set(row + 2, v.template at<kE3>());
-    }
-    SWIVEL_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
-    {
-        set(row, q.template at<kI>());
-        set(row + 1, q.template at<kJ>());
-        set(row + 2, q.template at<kK>());
-        set(row + 3, q.template at<kScalar>());
-    }
-    SWIVEL_INLINE Vector<T> get_vector(std::uint32_t row) const { return vector(get(row), get(row + 1), get(row + 2)); }
-    SWIVEL_INLINE Rotor<T> get_rotor(std::uint32_t row) const
-    {
-        return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
-    }
-    SWIVEL_INLINE JointFrame<T> frame() const { return {get_rotor(kTurnRow), get_vector(kPlaceRow), get(kScaleRow)}; }
-    SWIVEL_INLINE void set_frame(const JointFrame<T>& frame) const
-    {
-        set_rotor(kTurnRow, frame.rotation);
-        set_vector(kPlaceRow, frame.place);
-        set(kScaleRow, frame.scale);
-    }
-};
-
-SWIVEL_INLINE Vector<T> vector_of(const std::array<T, 3>& v) { return vector(v[0], v[1], v[2]); }
-SWIVEL_INLINE Rotor<T> rotor_of(const std::array<T, 4>& q) { return rotor(q[0], q[1], q[2], q[3]); }
-
-// Where a block's bodies have their values. Lanes of bodies that are not there take those of one that is.
-struct Bodies {
-    const char* lane[kLanes];
-
-    Bodies() = default;
-    Bodies(const BodyBlock& block, const void* data, std::size_t stride)
-    {
-        const auto any = static_cast<std::uint32_t>(__builtin_ctz(block.lanes));
-        const char* each = static_cast<const char*>(data) + std::size_t{block.first} * stride;
-        const char* const instead = each + any * stride;
-        for (std::uint32_t n = 0; n < kLanes; ++n, each += stride) lane[n] = block.lanes >> n & 1 ? each : instead;
-    }
-    Bodies(const BodyBlock& block, const swivel_in& values) : Bodies(block, values.data, values.stride) {}
-    Bodies(const BodyBlock& block, const swivel_joint_values& values) : Bodies(block, values.data, values.body_stride)
-    {
-    }
-};
-SWIVEL_INLINE JointRows rows_of(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
-{
-    return {block.rows + row * kLanes + lane};
-}
 
 // What a pose says of a joint, relative to its parent or to the root.
 struct GivenJoint {
@@ -87,31 +18,6 @@ struct GivenJoint {
     Vector<T> translation;
     T scale;
 };
-
-// A matrix in the order of memory: rows without the translation, and that; or columns.
-struct MatrixParts {
-    std::array<T, 3> part[4];
-};
-template <swivel_pose_form Form>
-SWIVEL_INLINE MatrixParts read_parts(LaneValues lane, std::size_t at)
-{
-    MatrixParts m;
-    if constexpr (Form == SWIVEL_MATRIX_ROWS) {
-        for (std::size_t r = 0; r < 3; ++r) {
-            const std::array<T, 4> row = load_values<T, 4>(lane, at + entry_offset(Form, r, 0));
-            m.part[r] = {row[0], row[1], row[2]};
-            m.part[3][r] = row[3];
-        }
-    } else {
-        for (std::size_t c = 0; c < 4; ++c) m.part[c] = load_values<T, 3>(lane, at + entry_offset(Form, 0, c));
-    }
-    return m;
-}
-template <swivel_pose_form Form>
-SWIVEL_INLINE Vector<T> axis_of(const MatrixParts& m, std::size_t n)
-{
-    return Form == SWIVEL_MATRIX_ROWS ? vector(m.part[0][n], m.part[1][n], m.part[2][n]) : vector_of(m.part[n]);
-}
 
 // The joints of a block. Form, Translates, Scales: what the pose has, as constants.
 template <swivel_pose_form Form, bool Translates, bool Scales>
@@ -242,110 +148,6 @@ void forward(const BodyPlan& plan, const BodyBlock& block)
                                         : read_joints<SWIVEL_ROTATIONS, true, false>(plan, block);
             return pose.scales.data ? read_joints<SWIVEL_ROTATIONS, false, true>(plan, block)
                                     : read_joints<SWIVEL_ROTATIONS, false, false>(plan, block);
-    }
-}
-
-// How a joint moves, in the body's space: it turns about the root's place, and is shifted.
-struct Motion {
-    Rotor<T> turn;
-    Vector<T> shift;
-
-    // of: the row of the joint that moves it, or 0.
-    SWIVEL_INLINE static Motion at(const BodyBlock& block, std::uint32_t of, std::uint32_t lane)
-    {
-        if (of == 0) return {one<T>(), vector(T(0), T(0), T(0))};
-        const JointRows rows = rows_of(block, of, lane);
-        return {rows.get_rotor(kMotionRow), rows.get_vector(kShiftRow)};
-    }
-    SWIVEL_INLINE Vector<T> operator()(const Vector<T>& place) const { return turned(turn, place) + shift; }
-    // Where nothing moves, so the incoming bits stay.
-    SWIVEL_INLINE Mask<T> is_none() const
-    {
-        const Vector<T> axis = vector(turn.template at<kI>(), turn.template at<kJ>(), turn.template at<kK>());
-        return (len2(axis) == T(0)) & (len2(shift) == T(0));
-    }
-};
-
-// From the world to the body's space.
-struct IntoBody {
-    Rotor<T> back;
-    T shrink;
-
-    SWIVEL_INLINE IntoBody(const BodyBlock& block, std::uint32_t lane)
-        : back(~rows_of(block, kRootJoint, lane).get_rotor(kTurnRow)),
-          shrink(T(1) / rows_of(block, kRootJoint, lane).get(kScaleRow))
-    {
-    }
-    SWIVEL_INLINE Rotor<T> rotation(const JointRows& of) const { return back * of.get_rotor(kTurnRow); }
-    SWIVEL_INLINE Vector<T> place(const JointRows& of) const { return turned(back, shrink * of.get_vector(kPlaceRow)); }
-};
-
-SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
-{
-    const Motion none = Motion::at(block, 0, 0);
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const IntoBody body(block, lane);
-        const Mask<T> kept = rows_of(block, 0, lane).get(kKeptRow) > T(0.5);
-        for (std::uint32_t n = 0; n < limb.turned_count; ++n) {
-            const TurnedJoint& joint = limb.turned[n];
-            const Motion above = Motion::at(block, joint.above, lane);
-            const JointRows at = rows_of(block, joint.row, lane);
-            const Rotor<T> parent = body.rotation(rows_of(block, joint.parent, lane)), was = body.rotation(at);
-            const Vector<T> place = body.place(at);
-            const Rotor<T> is = unit_rotation(above.turn * parent * at.get_rotor(kLocalRow));
-            const Rotor<T> turn = select(kept, none.turn, hemisphere(is * ~was));
-            at.set_rotor(kMotionRow, turn);
-            at.set_vector(kShiftRow, select(kept, none.shift, above(place) - turned(turn, place)));
-        }
-    }
-}
-
-template <swivel_pose_form Form>
-SWIVEL_INLINE void carry_matrix(const Motion& motion, LaneValues lane, std::size_t at, const JointRows& out)
-{
-    const MatrixParts m = read_parts<Form>(lane, at);
-    const Mask<T> none = motion.is_none();
-    for (std::uint32_t c = 0; c < 4; ++c) {
-        const Vector<T> was = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
-        const Vector<T> is = select(none, was, c < 3 ? turned(motion.turn, was) : motion(was));
-        const std::uint32_t first = Form == SWIVEL_MATRIX_ROWS ? c : 3 * c, step = Form == SWIVEL_MATRIX_ROWS ? 4 : 1;
-        out.set(first, is.template at<kE1>());
-        out.set(first + step, is.template at<kE2>());
-        out.set(first + 2 * step, is.template at<kE3>());
-    }
-}
-SWIVEL_FLATTEN void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint)
-{
-    const swivel_pose& pose = *plan.pose;
-    const Bodies rotations(block, pose.rotations);
-    const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
-    const bool translates = pose.translations.data != nullptr;
-    const Bodies translations = translates ? Bodies(block, pose.translations) : rotations;
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const Motion motion = Motion::at(block, joint.mover, lane);
-        const JointRows out = rows_of(block, 0, lane);
-        const LaneValues from = rotations.lane + lane;
-        if (pose.form == SWIVEL_MATRIX_ROWS) carry_matrix<SWIVEL_MATRIX_ROWS>(motion, from, at, out);
-        if (pose.form == SWIVEL_MATRIX_COLUMNS) carry_matrix<SWIVEL_MATRIX_COLUMNS>(motion, from, at, out);
-        if (pose.form == SWIVEL_MATRIX_COLUMNS3) carry_matrix<SWIVEL_MATRIX_COLUMNS3>(motion, from, at, out);
-        if (pose.form != SWIVEL_ROTATIONS) continue;
-        const Rotor<T> rotation = rotor_of(load_values<T, 4>(from, at));
-        out.set_rotor(kOutTurnRow, select(motion.is_none(), rotation, motion.turn * rotation));
-        if (!translates) continue;
-        const Vector<T> place =
-            vector_of(load_values<T, 3>(translations.lane + lane, offset_of(pose.translations, joint.skeleton_joint)));
-        out.set_vector(kOutPlaceRow, select(motion.is_none(), place, motion(place)));
-    }
-}
-
-SWIVEL_FLATTEN void place(const BodyBlock& block, const BodyJoint& joint)
-{
-    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
-        const IntoBody body(block, lane);
-        const Motion motion = Motion::at(block, joint.mover, lane);
-        const JointRows at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
-        out.set_rotor(kOutTurnRow, hemisphere(motion.turn * body.rotation(at)));
-        out.set_vector(kOutPlaceRow, motion(body.place(at)));
     }
 }
 

@@ -38,9 +38,11 @@ struct StageBody<Stage::posed> {
             const Rotor<T> hand = ~seen.frames.fore * wrist * ~broadcast<T>(s.strip.bind.hand_from_arm);
             s.set_rotor(kIncomingRow + 4, ~seen.model.upper * seen.model.fore);
             s.set_rotor(kIncomingRow + 8, hand);
-            const Turned<T> twist = twist_rotor(hand);
-            s.set_body(kTwistInRow, twist.cos);
-            s.set_body(kTwistInRow + 1, twist.sin);
+            if (s.has(kTwistBones)) {
+                const Turned<T> twist = twist_rotor(hand);
+                s.set_body(kTwistInRow, twist.cos);
+                s.set_body(kTwistInRow + 1, twist.sin);
+            }
         }
         // Lengths that were never written are NaN.
         const T per_scale = T(1) / s.body_row(limb.parent + kScaleRow);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// What the kernels of bodies read and write: rows of a block's joints, and the caller's values of its bodies.
+// Only body_kernels.cpp includes this.
+#pragma once
+
+#include <array>
+
+#include "core/joint_frame.h"
+#include "simd/kernels.h"
+#include "simd/lanes.h"
+#include "simd/values.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+namespace {
+
+using T = typename KernelNumber<SWIVEL_ARCH, 1>::type;
+
+// The rows of one joint, from the lanes of a slice on.
+struct JointRows {
+    float* rows;
+
+    SWIVEL_INLINE T get(std::uint32_t row) const
+    {
+        return load_lanes<T>([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + n; });
+    }
+    SWIVEL_INLINE void set(std::uint32_t row, const T& value) const
+    {
+        store_lanes([&](std::size_t n) SWIVEL_INLINE_LAMBDA { return rows + row * kLanes + n; }, value);
+    }
+    SWIVEL_INLINE void set_vector(std::uint32_t row, const Vector<T>& v) const
+    {
+        set(row, v.template at<kE1>());
+        set(row + 1, v.template at<kE2>());
+        set(row + 2, v.template at<kE3>());
+    }
+    SWIVEL_INLINE void set_rotor(std::uint32_t row, const Rotor<T>& q) const
+    {
+        set(row, q.template at<kI>());
+        set(row + 1, q.template at<kJ>());
+        set(row + 2, q.template at<kK>());
+        set(row + 3, q.template at<kScalar>());
+    }
+    SWIVEL_INLINE Vector<T> get_vector(std::uint32_t row) const { return vector(get(row), get(row + 1), get(row + 2)); }
+    SWIVEL_INLINE Rotor<T> get_rotor(std::uint32_t row) const
+    {
+        return rotor(get(row), get(row + 1), get(row + 2), get(row + 3));
+    }
+    SWIVEL_INLINE JointFrame<T> frame() const { return {get_rotor(kTurnRow), get_vector(kPlaceRow), get(kScaleRow)}; }
+    SWIVEL_INLINE void set_frame(const JointFrame<T>& frame) const
+    {
+        set_rotor(kTurnRow, frame.rotation);
+        set_vector(kPlaceRow, frame.place);
+        set(kScaleRow, frame.scale);
+    }
+};
+
+SWIVEL_INLINE Vector<T> vector_of(const std::array<T, 3>& v) { return vector(v[0], v[1], v[2]); }
+SWIVEL_INLINE Rotor<T> rotor_of(const std::array<T, 4>& q) { return rotor(q[0], q[1], q[2], q[3]); }
+
+// Where a block's bodies have their values. Lanes of bodies that are not there take those of one that is.
+struct Bodies {
+    const char* lane[kLanes];
+
+    Bodies() = default;
+    Bodies(const BodyBlock& block, const void* data, std::size_t stride)
+    {
+        const auto any = static_cast<std::uint32_t>(__builtin_ctz(block.lanes));
+        const char* each = static_cast<const char*>(data) + std::size_t{block.first} * stride;
+        const char* const instead = each + any * stride;
+        for (std::uint32_t n = 0; n < kLanes; ++n, each += stride) lane[n] = block.lanes >> n & 1 ? each : instead;
+    }
+    Bodies(const BodyBlock& block, const swivel_in& values) : Bodies(block, values.data, values.stride) {}
+    Bodies(const BodyBlock& block, const swivel_joint_values& values) : Bodies(block, values.data, values.body_stride)
+    {
+    }
+};
+SWIVEL_INLINE JointRows rows_of(const BodyBlock& block, std::uint32_t row, std::uint32_t lane)
+{
+    return {block.rows + row * kLanes + lane};
+}
+
+// A matrix in the order of memory: rows without the translation, and that; or columns.
+struct MatrixParts {
+    std::array<T, 3> part[4];
+};
+template <swivel_pose_form Form>
+SWIVEL_INLINE MatrixParts read_parts(LaneValues lane, std::size_t at)
+{
+    MatrixParts m;
+    if constexpr (Form == SWIVEL_MATRIX_ROWS) {
+        for (std::size_t r = 0; r < 3; ++r) {
+            const std::array<T, 4> row = load_values<T, 4>(lane, at + entry_offset(Form, r, 0));
+            m.part[r] = {row[0], row[1], row[2]};
+            m.part[3][r] = row[3];
+        }
+    } else {
+        for (std::size_t c = 0; c < 4; ++c) m.part[c] = load_values<T, 3>(lane, at + entry_offset(Form, 0, c));
+    }
+    return m;
+}
+template <swivel_pose_form Form>
+SWIVEL_INLINE Vector<T> axis_of(const MatrixParts& m, std::size_t n)
+{
+    return Form == SWIVEL_MATRIX_ROWS ? vector(m.part[0][n], m.part[1][n], m.part[2][n]) : vector_of(m.part[n]);
+}
+
+}  // namespace
+
+}  // namespace swivel::inline SWIVEL_ISA
