@@ -58,7 +58,7 @@ SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
             const Rotor<T> parent = body.rotation(rows_of(block, joint.parent, lane)), was = body.rotation(at);
             const Vector<T> place = body.place(at);
             const Rotor<T> is = unit_rotation(above.turn * parent * at.get_rotor(kLocalRow));
-            const Rotor<T> turn = select(kept, none.turn, hemisphere(is * ~was));
+            const Rotor<T> turn = select(kept, none.turn, hemisphere(unit_rotation(is * ~was)));
             at.set_rotor(kMotionRow, turn);
             at.set_vector(kShiftRow, select(kept, none.shift, above(place) - turned(turn, place)));
         }
