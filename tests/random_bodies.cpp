@@ -5,16 +5,6 @@
 
 namespace swivel::test {
 
-swivel_skeleton BodySkeleton::view() const
-{
-    swivel_skeleton skeleton = swivel_default_skeleton();
-    skeleton.parents = {parents.data(), sizeof parents[0]};
-    skeleton.rotations = {rotations.data(), sizeof rotations[0]};
-    skeleton.translations = {translations.data(), sizeof translations[0]};
-    skeleton.joint_count = size();
-    return skeleton;
-}
-
 swivel_limb_joints BodySkeleton::joints(std::size_t limb) const
 {
     const BodyLimbJoints& of = limbs[limb];

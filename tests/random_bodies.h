@@ -24,7 +24,7 @@ struct BodySkeleton {
     std::vector<BodyLimbJoints> limbs;
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(parents.size()); }
-    swivel_skeleton view() const;
+    swivel_skeleton view() const { return view_of(*this); }
     swivel_limb_joints joints(std::size_t limb) const;
     // Whether a joint is another or above it.
     bool is_above(std::uint32_t joint, std::uint32_t below) const;

@@ -28,15 +28,7 @@ struct RestSkeleton {
         translations.push_back(translation);
         return size() - 1;
     }
-    swivel_skeleton view() const
-    {
-        swivel_skeleton skeleton = swivel_default_skeleton();
-        skeleton.parents = {parents.data(), sizeof parents[0]};
-        skeleton.rotations = {rotations.data(), sizeof rotations[0]};
-        skeleton.translations = {translations.data(), sizeof translations[0]};
-        skeleton.joint_count = size();
-        return skeleton;
-    }
+    swivel_skeleton view() const { return view_of(*this); }
     swivel_limb_joints joints() const
     {
         swivel_limb_joints joints = swivel_default_limb_joints(shoulder, elbow, wrist);

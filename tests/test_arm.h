@@ -51,6 +51,18 @@ inline bool is_in_hemisphere(const Float4& q)
 }
 inline bool is_unit(const Float4& q) { return std::abs(quat(q).norm() - 1) <= 1e-6; }
 
+// The arrays of a test's skeleton, as the library takes them.
+template <class Skeleton>
+swivel_skeleton view_of(const Skeleton& s)
+{
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = {s.parents.data(), sizeof s.parents[0]};
+    skeleton.rotations = {s.rotations.data(), sizeof s.rotations[0]};
+    skeleton.translations = {s.translations.data(), sizeof s.translations[0]};
+    skeleton.joint_count = static_cast<std::uint32_t>(s.parents.size());
+    return skeleton;
+}
+
 inline Crowd crowd_of(swivel_features features, std::uint32_t limb_count, const swivel_binding& binding = {})
 {
     Crowd crowd({swivel::group(limb_count, binding, features)});
