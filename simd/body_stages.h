@@ -138,7 +138,7 @@ struct StageBody<Stage::correct> {
             const Rotor<T> was = s.body_rotor(joint + kLocalRow), q = select(valid, solved, broadcast<T>(rest));
             const T side = select(valid, scalar_product(~was, q), T(1));
             if (pose.form != SWIVEL_ROTATIONS && pose.space == SWIVEL_LOCAL)
-                turn_axes(s, joint, select(valid, q * ~was, q), valid, kept);
+                turn_axes(s, joint, unit_rotation(select(valid, q * ~was, q)), valid, kept);
             s.set_body_rotor(joint + kLocalRow, select(kept, was, with_sign_of(side, q)));
         };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));

@@ -82,19 +82,24 @@ Body PoseBuffer::read(std::size_t n, const Body& otherwise) const
                 std::memcpy(&body.translations[joint], &bytes[translation_at(n, joint)], sizeof(Float3));
             continue;
         }
-        Eigen::Matrix3d turn;
-        for (int row = 0; row < 3; ++row) {
-            const auto number = [&](int column) {
-                float value;
-                std::memcpy(&value, at + element(row, column), sizeof value);
-                return value;
-            };
-            for (int column = 0; column < 3; ++column) turn(row, column) = number(column);
-            body.translations[joint][static_cast<std::size_t>(row)] = number(3);
-        }
+        const Eigen::Matrix3d turn = matrix(n, joint);
+        for (int row = 0; row < 3; ++row)
+            std::memcpy(&body.translations[joint][static_cast<std::size_t>(row)], at + element(row, 3), sizeof(float));
         body.rotations[joint] = floats(Quaterniond(Eigen::Matrix3d(turn / turn.col(0).norm())));
     }
     return layout.in_body ? from_body_space(*layout.in_body, body) : body;
+}
+
+Eigen::Matrix3d PoseBuffer::matrix(std::size_t n, std::size_t joint) const
+{
+    Eigen::Matrix3d axes;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) {
+            float number;
+            std::memcpy(&number, &bytes[rotation_at(n, joint) + element(row, column)], sizeof number);
+            axes(row, column) = number;
+        }
+    return axes;
 }
 
 swivel_pose PoseBuffer::view()

@@ -26,6 +26,7 @@ struct PoseBuffer {
     void write(std::size_t n, const Body& body);
     // What it says of a body. What its form does not say is taken from `otherwise`.
     Body read(std::size_t n, const Body& otherwise) const;
+    Eigen::Matrix3d matrix(std::size_t n, std::size_t joint) const;  // where its form has matrices
     swivel_pose view();
 
 private:

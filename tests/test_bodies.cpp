@@ -133,3 +133,28 @@ TEST_CASE("any goal in reach is met")
         });
     });
 }
+
+TEST_CASE("matrices that are solved in place again and again stay rotations")
+{
+    Random random{7};
+    const BodySkeleton skeleton = random_body_skeleton(random, {3, 1, 0, false});
+    std::vector<Body> bodies;
+    for (int n = 0; n < 40; ++n) bodies.push_back(random_body(random, skeleton, {true, false, true}));
+    PoseLayout layout;
+    layout.form = GENERATE(SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS);
+    layout.roots = true;
+    PoseBuffer poses(layout, bodies);
+    Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, 40);
+    for (int frame = 0; frame < 100; ++frame) {
+        BodyGoals goals(1);
+        for (const Body& body : bodies) goals[0].push_back(random_goal(random, skeleton, body, 0));
+        write_goals(crowd, goals);
+        solve_poses(crowd, poses.view());
+    }
+    const BodyLimbJoints& limb = skeleton.limbs[0];
+    for (std::size_t n = 0; n < bodies.size(); ++n)
+        for (const std::uint32_t joint : {limb.shoulder, limb.elbow, limb.wrist}) {
+            const Eigen::Matrix3d axes = poses.matrix(n, joint);
+            REQUIRE((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm() <= 3e-5);
+        }
+}
