@@ -91,8 +91,8 @@ Body random_body(Random& random, const BodySkeleton& skeleton, const BodyWish& w
         body.root_rotation = floats(random.rotation());
         body.root_scale = static_cast<float>(random.spread(0.1, 10));
     }
+    const std::vector<JointAt> at = joints_at(skeleton, body);  // which no other limb's bend changes
     for (const BodyLimbJoints& limb : skeleton.limbs) {
-        const std::vector<JointAt> at = joints_at(skeleton, body);
         const Vector3d upper = at[limb.elbow].place - at[limb.shoulder].place,
                        fore = at[limb.wrist].place - at[limb.elbow].place, axis = random.across(upper);
         // What turns the forearm to where it is bent by just that angle.
