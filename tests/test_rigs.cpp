@@ -16,6 +16,7 @@
 #include "tests/plain_motion.h"
 #include "tests/random_figure.h"
 #include "tests/rig_body.h"
+#include "tests/shared_figures.h"
 
 using namespace swivel::test;
 using Eigen::Vector3d;
@@ -65,38 +66,6 @@ void require_no_new_messages(const WrittenFiles& files)
     }
 }
 
-// A real file, or an empty path where this machine keeps none; a folder that was named must have it.
-fs::path find_or_warn(const std::string& name)
-{
-    const fs::path path = find_data(name);
-    if (!path.empty()) return path;
-    INFO(name << " is in none of the folders of tests/test_data.h");
-    REQUIRE(std::getenv("SWIVEL_TEST_DATA") == nullptr);
-    WARN("not judged: " << name << ", which this machine has not; figures made up by the test are");
-    return path;
-}
-
-// A shared file, of which all animations come back, and what tells the bend of arms and of legs.
-struct Shared {
-    std::string name;
-    int animations;  // 0: it has none
-    std::size_t limbs;
-    std::string arms_by, legs_by;
-    Words options = {};
-};
-const std::vector<Shared> kShared = {
-    {"RobotExpressive.glb", 14, 2, "rest pose", ""},  // its feet hang on its root
-    {"m2m_human_ymca.glb", 1, 4, "clip", "toes"},
-    {"m2m_human_skeleton_tpose.glb", 1, 4, "toes", "toes"},
-    {"m2m_human_male.glb", 0, 4, "toes", "rest pose"},
-    {"cesium_man.gltf",
-     1,
-     4,
-     "rest pose",
-     "rest pose",
-     {"--arm", "left:#16,#17,#18", "--arm", "right:#13,#14,#15", "--leg", "left:#7,#8,#9", "--leg", "right:#3,#4,#5"}},
-};
-
 // Which way a figure faces, by where its left and right shoulders are at rest; all shared figures stand along +y.
 Vector3d front_of(const PlainGltf& plain, const json& report)
 {
@@ -107,7 +76,7 @@ Vector3d front_of(const PlainGltf& plain, const json& report)
 }
 
 // An elbow bends forwards, a knee backwards, whatever tells it. bend: in the world at rest.
-void judge_bend(const json& limb, const Vector3d& bend, const Vector3d& front, const Shared& file)
+void judge_bend(const json& limb, const Vector3d& bend, const Vector3d& front, const SharedFigure& file)
 {
     const bool is_arm = limb.at("limb").get<std::string>().ends_with("arm");
     const std::string said = limb.at("bend_source");
@@ -124,7 +93,7 @@ TEST_CASE("rigs: every animation of the shared figures comes back, and bends the
 {
     const TempFolder folder;
     WrittenFiles files;
-    for (const Shared& file : kShared) {
+    for (const SharedFigure& file : kSharedFigures) {
         const fs::path path = find_or_warn(file.name);
         if (path.empty()) continue;
         const PlainGltf plain = plain_gltf_of(path);
@@ -151,7 +120,7 @@ TEST_CASE("rigs: every animation of the shared figures comes back, and bends the
 
 TEST_CASE("rigs: the bends of the shared clips")
 {
-    for (const char* name : {"cmu_01_01_forward_jump.bvh", "cmu_02_01_walk.bvh", "cmu_05_06_dance.bvh"}) {
+    for (const char* name : kSharedClips) {
         const fs::path path = find_or_warn(name);
         if (path.empty()) continue;
         INFO(name);
