@@ -7,61 +7,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/body_crowd.h"
+#include "tests/body_stage.h"
 #include "tests/test_isa_scope.h"
 
 namespace {
 
 using namespace swivel;
 using namespace swivel::test;
-
-constexpr std::uint32_t kBodies = 150;  // several runs, and a block that is not full
-constexpr swivel_features kBodyFeatures = SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS;
-
-struct BodyStage {
-    BodySkeleton skeleton;
-    std::vector<Body> bodies;
-    BodyGoals goals;
-    std::vector<Float3> weights;
-
-    explicit BodyStage(std::uint64_t seed, std::uint32_t body_count = kBodies)
-    {
-        Random random{seed};
-        skeleton = random_body_skeleton(random, {5, 3, 1, false});
-        for (std::uint32_t n = 0; n < body_count; ++n) {
-            bodies.push_back(random_body(random, skeleton, {true, true, true}));
-            weights.push_back({static_cast<float>(random.unit()), static_cast<float>(random.unit()),
-                               random.below(2) ? 0 : static_cast<float>(random.unit())});
-        }
-        for (std::size_t limb = 0; limb < skeleton.limbs.size(); ++limb) {
-            goals.emplace_back();
-            for (const Body& body : bodies) goals.back().push_back(random_goal(random, skeleton, body, limb));
-        }
-    }
-    Crowd crowd() const
-    {
-        Crowd made = body_crowd(skeleton, kBodyFeatures, static_cast<std::uint32_t>(bodies.size()));
-        write_goals(made, goals);
-        for (std::uint32_t g = 0; g < goals.size(); ++g) made.write(SWIVEL_WEIGHTS, g, weights);
-        return made;
-    }
-};
-
-PoseLayout layout_of(int n)
-{
-    PoseLayout layout;
-    layout.form = static_cast<swivel_pose_form>(n);
-    layout.translates = layout.scales = layout.roots = true;
-    return layout;
-}
-
-// The bits of all rotations of a body.
-std::vector<std::uint32_t> pose_bits(const PoseBuffer& poses, std::size_t n)
-{
-    std::vector<std::uint32_t> bits(poses.joint_count * (poses.layout.form == SWIVEL_ROTATIONS ? 4 : 12));
-    std::memcpy(bits.data(), &poses.bytes[n * poses.body_stride], bits.size() * sizeof bits[0]);
-    return bits;
-}
 
 }  // namespace
 
@@ -90,12 +42,12 @@ TEST_CASE("a body's pose does not depend on its neighbours")
 {
     const BodyStage stage(2);
     BodyStage other = stage;
-    std::vector<std::size_t> order(kBodies);
+    std::vector<std::size_t> order(kStageBodies);
     std::iota(order.begin(), order.end(), 0u);
     Random random{5};
-    for (std::size_t n = kBodies; n > 1; --n)
+    for (std::size_t n = kStageBodies; n > 1; --n)
         std::swap(order[n - 1], order[random.below(static_cast<std::uint32_t>(n))]);
-    for (std::size_t n = 0; n < kBodies; ++n) {
+    for (std::size_t n = 0; n < kStageBodies; ++n) {
         other.bodies[n] = stage.bodies[order[n]];
         other.weights[n] = stage.weights[order[n]];
         for (std::size_t g = 0; g < stage.goals.size(); ++g) other.goals[g][n] = stage.goals[g][order[n]];
@@ -109,12 +61,12 @@ TEST_CASE("a body's pose does not depend on its neighbours")
     std::vector<bool> is_turned(stage.skeleton.size());
     for (const BodyLimbJoints& limb : stage.skeleton.limbs)
         is_turned[limb.shoulder] = is_turned[limb.elbow] = is_turned[limb.wrist] = true;
-    for (std::size_t n = 0; n < kBodies; ++n)
+    for (std::size_t n = 0; n < kStageBodies; ++n)
         for (std::size_t joint = 0; joint < is_turned.size(); ++joint) {
             const std::size_t at = n * poses.body_stride + joint * 16;
             REQUIRE((std::memcmp(&poses.bytes[at], &before.bytes[at], 16) == 0) == !is_turned[joint]);
         }
-    for (std::size_t n = 0; n < kBodies; ++n) REQUIRE(pose_bits(others, n) == pose_bits(poses, order[n]));
+    for (std::size_t n = 0; n < kStageBodies; ++n) REQUIRE(pose_bits(others, n) == pose_bits(poses, order[n]));
 }
 
 TEST_CASE("poses may lie 16 bytes to 4 KiB apart, joint by joint or body by body")
@@ -128,10 +80,10 @@ TEST_CASE("poses may lie 16 bytes to 4 KiB apart, joint by joint or body by body
         // Without a stride: all bodies' first joints side by side, then all their second joints, from the last on.
         std::vector<std::size_t> offsets(joints);
         for (std::size_t joint = 0; joint < joints; ++joint)
-            offsets[joint] = (joints - 1 - joint) * 16 * (stride == 0 ? kBodies : 1);
+            offsets[joint] = (joints - 1 - joint) * 16 * (stride == 0 ? kStageBodies : 1);
         const std::size_t step = stride == 0 ? 16 : stride;
-        std::vector<unsigned char> bytes(kBodies * std::max(step, joints * 16) + joints * 16, 0xa5);
-        for (std::size_t n = 0; n < kBodies; ++n)
+        std::vector<unsigned char> bytes(kStageBodies * std::max(step, joints * 16) + joints * 16, 0xa5);
+        for (std::size_t n = 0; n < kStageBodies; ++n)
             for (std::size_t joint = 0; joint < joints; ++joint)
                 std::memcpy(&bytes[n * step + offsets[joint]], &stage.bodies[n].rotations[joint], 16);
         PoseBuffer apart(layout_of(SWIVEL_ROTATIONS), stage.bodies);  // translations, scales and roots
@@ -139,7 +91,7 @@ TEST_CASE("poses may lie 16 bytes to 4 KiB apart, joint by joint or body by body
         pose.rotations = {bytes.data(), step, 0, offsets.data()};
         Crowd again = stage.crowd();
         solve_poses(again, pose);
-        for (std::size_t n = 0; n < kBodies; ++n)
+        for (std::size_t n = 0; n < kStageBodies; ++n)
             for (std::size_t joint = 0; joint < joints; ++joint)
                 REQUIRE(std::memcmp(&bytes[n * step + offsets[joint]], &poses.bytes[n * poses.body_stride + joint * 16],
                                     16) == 0);
@@ -223,12 +175,12 @@ TEST_CASE("doubles far from the origin give the bits of floats near it")
     struct Doubles {
         double at[3];
     };
-    std::vector<Doubles> roots(kBodies);
+    std::vector<Doubles> roots(kStageBodies);
     std::vector<std::vector<Doubles>> targets(stage.goals.size()), poles(stage.goals.size());
     const auto far_from = [&](const Float3& v) {
         return Doubles{{far[0] + double{v[0]}, far[1] + double{v[1]}, far[2] + double{v[2]}}};
     };
-    for (std::size_t n = 0; n < kBodies; ++n) {
+    for (std::size_t n = 0; n < kStageBodies; ++n) {
         roots[n] = far_from(stage.bodies[n].root_position);
         for (std::size_t g = 0; g < stage.goals.size(); ++g) {
             targets[g].push_back(far_from(stage.goals[g][n].target));
@@ -253,7 +205,7 @@ TEST_CASE("doubles far from the origin give the bits of floats near it")
     Crowd other = stage.crowd();
     check(swivel_solve(other.get(), &job));
     REQUIRE(swivel_digest(other.get()) == swivel_digest(crowd.get()));
-    for (std::size_t n = 0; n < kBodies; ++n) REQUIRE(pose_bits(poses, n) == pose_bits(near, n));
+    for (std::size_t n = 0; n < kStageBodies; ++n) REQUIRE(pose_bits(poses, n) == pose_bits(near, n));
 }
 
 TEST_CASE("results may go elsewhere, and the pose stays as it is")
