@@ -116,6 +116,34 @@ TEST_CASE("any goal in reach is met")
     });
 }
 
+TEST_CASE("with a pole, elbows that are bent against their hinge come back bent with it")
+{
+    Random random{8};
+    const BodySkeleton skeleton = random_body_skeleton(random, {3, 1, 0, false});
+    const BodyLimbJoints& limb = skeleton.limbs[0];
+    std::vector<Body> bodies;
+    BodyGoals goals(1);
+    for (int n = 0; n < 1000; ++n) {
+        bodies.push_back(random_body(random, skeleton, {false, false, true}));
+        goals[0].push_back(random_goal(random, skeleton, bodies.back(), 0));
+    }
+    PoseBuffer poses({.roots = true}, bodies);
+    Crowd crowd = body_crowd(skeleton, 0, 1000);
+    write_goals(crowd, goals);
+    solve_poses(crowd, poses.view());
+    // How far the forearm is towards where flexion carries it.
+    const auto flexed = [&](const Body& body) {
+        const std::vector<JointAt> at = joints_at(skeleton, body);
+        return (at[limb.wrist].place - at[limb.elbow].place).dot(at[limb.shoulder].rotation * vec(limb.bend));
+    };
+    int backward_count = 0;
+    for (std::size_t n = 0; n < bodies.size(); ++n) {
+        backward_count += flexed(bodies[n]) < 0;
+        REQUIRE(flexed(poses.read(n, bodies[n])) > -1e-5);
+    }
+    REQUIRE(backward_count > 300);
+}
+
 TEST_CASE("matrices that are solved in place again and again stay rotations")
 {
     Random random{7};
