@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 import swivel
-from swivel import Field
+from bodies import crowd_of
+from swivel import Feature, Field
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = Path(swivel.__file__).parent  # as built, with the stub
@@ -39,6 +40,11 @@ def header_enum(name):
             members[key.strip().removeprefix("SWIVEL_")] = value
             value += 1
     return {key: number for key, number in members.items() if not key.endswith("_END")}
+
+
+def crowd_with(features):
+    """Of one limb, or of one body for what bodies alone have."""
+    return crowd_of(1, features) if features & Feature.BODY else swivel.Crowd(1, features)
 
 
 def public(node):
@@ -104,12 +110,13 @@ class Names(unittest.TestCase):
     def test_needed_features_bring_the_field_and_none_is_too_many(self):
         for field in Field:
             needed = swivel.needed_features(field)
-            self.assertGreater(swivel.Crowd(1, needed).component_count(field), 0)
+            self.assertGreater(crowd_with(needed).component_count(field), 0)
             for one in needed:
                 try:
-                    self.assertEqual(swivel.Crowd(1, needed & ~one).component_count(field), 0)
+                    crowd = crowd_with(needed & ~one)
                 except ValueError:
-                    pass  # what is left does not go together
+                    continue  # what is left does not go together
+                self.assertEqual(crowd.component_count(field) > 0, bool(crowd.features() & one))  # bodies add some by themselves
 
 
 class Stub(unittest.TestCase):
@@ -189,8 +196,8 @@ class Words(unittest.TestCase):
         rows = dict(re.findall(r"^\| `(\w+)` \| `\((.*?)\)`", DOCS, re.MULTILINE))
         self.assertEqual(list(rows), [field.name.lower() for field in Field])
         for field in Field:
-            crowd = swivel.Crowd(1, swivel.needed_features(field))
-            shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 13)}, "n, 4 b": 4}[rows[field.name.lower()]]
+            crowd = crowd_with(swivel.needed_features(field))
+            shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 23)}, "n, 4 b": 4}[rows[field.name.lower()]]
             self.assertEqual(shape, crowd.component_count(field), field.name)
             self.assertEqual(np.ndim(crowd.read(field)), 1 if shape == 1 else 2)
 
