@@ -18,6 +18,11 @@ def crowd_of(n, features=0):
     return swivel.Crowd(groups, features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
 
 
+def angles(a, b):
+    """Between rotations, in radians."""
+    return 2 * np.arcsin(np.minimum(1, np.minimum(*(np.linalg.norm(a + sign * b, axis=-1) for sign in (1, -1))) / 2))
+
+
 def depth_of(parents, joint):
     return 0 if joint < 0 else 1 + depth_of(parents, parents[joint])
 

@@ -8,16 +8,11 @@ import numpy as np
 
 import swivel
 from arms import rotate
-from bodies import FOREARM, HAND, LIMBS, PARENTS, PELVIS, PLACES, ROLL, TURNED, UPPER_ARM, Bodies, crowd_of, forward
+from bodies import FOREARM, HAND, LIMBS, PARENTS, PELVIS, PLACES, ROLL, TURNED, UPPER_ARM, Bodies, angles, crowd_of, forward
 from swivel import BodyGroup, Feature, Flag, Pose, Skeleton
 
 N = 50
 KEPT = [joint for joint in range(8) if joint not in TURNED]
-
-
-def angles(a, b):
-    """Between rotations, in radians."""
-    return 2 * np.arcsin(np.minimum(1, np.minimum(*(np.linalg.norm(a + sign * b, axis=-1) for sign in (1, -1))) / 2))
 
 
 def matrices_of(bodies, rotations, rows):
@@ -223,6 +218,17 @@ class Mistakes(unittest.TestCase):
         fails(ValueError, "root_position is float64, so targets are, too", good, root_position=np.zeros(3))
         fails(ValueError, "a body's origin is its root in doubles", good, frames=[{"origin": (0, 0, 0)}, {}])
 
+    def test_spaces_and_outputs(self):
+        good, places, space = np.zeros((2, 8, 4), np.float32), np.zeros((2, 8, 3), np.float32), swivel.PoseSpace.IN_BODY
+        fails = self.solve_fails
+        fails(ValueError, "there is no space of poses 2; give a member of swivel.PoseSpace", good, space=2)
+        fails(TypeError, "space: expected a member of swivel.PoseSpace, got 'LOCAL'", good, space="LOCAL")
+        fails(TypeError, "translations: expected an array to write to, got list", good, space=space, translations=places.tolist())
+        fails(ValueError, "the pose has out_translations, but only translations in the body's space change", good, out_translations=places)
+        fails(ValueError, "the pose has out, but no out_translations, and", good, space=space, translations=places, out=good.copy())
+        fails(ValueError, "joint_places: expected shape (2, 8, 3), got (2, 8, 4)", good, joint_places=good.copy())
+        fails(TypeError, "joint_rotations: expected an array to write to, got bool", good, joint_rotations=True)
+
     def test_crowds(self):
         crowd, skeleton, arm = crowd_of(2), Skeleton(PARENTS, PLACES), BodyGroup(*LIMBS[0], bend=(0, 0, 1))
         self.fails(TypeError, "pose: expected a Pose, got ndarray", crowd.solve, pose=np.zeros((2, 8, 4), np.float32))
@@ -234,7 +240,7 @@ class Mistakes(unittest.TestCase):
         self.fails(TypeError, "skeleton: expected a Skeleton, got [", swivel.Crowd, arm, skeleton=PARENTS, body_count=1)
         self.fails(TypeError, "expected whole numbers in a BodyGroup, got BodyGroup(shoulder='", swivel.Crowd, arm._replace(shoulder="x"))
         self.fails(ValueError, "elbow is -1", swivel.Crowd, arm._replace(elbow=-1), skeleton=skeleton, body_count=1)
-        self.fails(ValueError, "twist bone", swivel.Crowd, arm._replace(twist_bones=[ROLL]), skeleton=skeleton, body_count=1)
+        self.fails(ValueError, "twist bone", swivel.Crowd, arm._replace(twist_bones=[ROLL]), Feature.WITH_HAND, skeleton=skeleton, body_count=1)
         self.fails(ValueError, "translations: expected shape (8, 3)", swivel.Crowd, arm, skeleton=Skeleton(PARENTS, PLACES[1:]), body_count=1)
 
 

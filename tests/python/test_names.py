@@ -68,7 +68,8 @@ def parameters(function):
 class Names(unittest.TestCase):
     def test_every_enumerator_of_the_header(self):
         for name, enum in (("swivel_features", swivel.Feature), ("swivel_field", Field), ("swivel_flag", swivel.Flag),
-                           ("swivel_euler_order", swivel.EulerOrder), ("swivel_on_bad_input", swivel.OnBadInput)):
+                           ("swivel_euler_order", swivel.EulerOrder), ("swivel_on_bad_input", swivel.OnBadInput),
+                           ("swivel_pose_space", swivel.PoseSpace)):
             wanted = header_enum(name)
             self.assertGreater(len(wanted), 1)
             self.assertEqual({each.name: each.value for each in enum}, wanted, f"swivel.{enum.__name__} beside {name}")
@@ -98,7 +99,7 @@ class Names(unittest.TestCase):
     def test_every_member_of_bodies_structures(self):
         for name, has, others in (("swivel_skeleton", swivel.Skeleton, {"joint_count"}),
                                   ("swivel_limb_joints", swivel.BodyGroup, {"twist_bone_count"}),
-                                  ("swivel_pose", swivel.Pose, {"form", "root_is_double", "results"})):
+                                  ("swivel_pose", swivel.Pose, {"form", "root_is_double", "results", "translation_results"})):
             members = set(re.findall(r"(\w+)(?:\[\d+\])?[,;]", body_of("struct", name))) - {"size", "reserved"}
             self.assertEqual(members - set(has._fields), others, f"swivel.{has.__name__} beside {name}")
 

@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -96,6 +97,10 @@ swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, 
     } catch (const py::cast_error&) {
         refuse("whole numbers in a BodyGroup", entry);
     }
+    // Who names twist bones wants them to turn. Too many are for the library to refuse.
+    constexpr swivel_features kAnyBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+    if (!(def.features & kAnyBones))
+        def.features |= std::min(joints.twist_bones.size() * SWIVEL_WITH_TWIST_BONES, kAnyBones);
     return def;
 }
 

@@ -91,6 +91,11 @@ const std::vector<Enum>& enums()
          "REST_POSE: its rest pose. KEEP_POSE: it keeps its results and its values in frames; only its flags\n"
          "are written.",
          {{"REST_POSE", SWIVEL_REST_POSE}, {"KEEP_POSE", SWIVEL_KEEP_POSE}}},
+        {"IntEnum",
+         "PoseSpace",
+         "What the joints of a Pose are relative to.\n\n"
+         "LOCAL: each to its parent. IN_BODY: all to the root; what hangs below a limb then moves with it.",
+         {{"LOCAL", SWIVEL_LOCAL}, {"IN_BODY", SWIVEL_IN_BODY}}},
     };
     return all;
 }
@@ -197,6 +202,10 @@ swivel_euler_order order_of(std::int64_t number)
 swivel_on_bad_input on_bad_input_of(std::int64_t number)
 {
     return member_of<swivel_on_bad_input>("OnBadInput", "way to treat bad input", number);
+}
+swivel_pose_space pose_space_of(std::int64_t number)
+{
+    return member_of<swivel_pose_space>("PoseSpace", "space of poses", number);
 }
 
 py::object package(const char* name) { return py::module_::import("swivel").attr(name); }

@@ -28,6 +28,7 @@ std::string in_python(const std::string& line);
 swivel_field field_of(std::int64_t number);
 swivel_euler_order order_of(std::int64_t number);
 swivel_on_bad_input on_bad_input_of(std::int64_t number);
+swivel_pose_space pose_space_of(std::int64_t number);
 
 // What the package swivel has of this name, such as a class that is written in Python.
 pybind11::object package(const char* name);

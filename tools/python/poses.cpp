@@ -12,13 +12,18 @@ namespace swivel::python {
 
 namespace {
 
-// Members of swivel.Pose that are only read: 3 floats for each joint; and some for each root.
+// Members of swivel.Pose beside the rotations: floats for each joint, and for each root.
 struct JointMember {
     const char* name;
     swivel_joint_values swivel_pose::*values;
+    py::ssize_t component_count;
+    bool is_output;
 };
-constexpr JointMember kJointMembers[] = {{"translations", &swivel_pose::translations},
-                                         {"scales", &swivel_pose::scales}};
+constexpr JointMember kJointMembers[] = {{"translations", &swivel_pose::translations, 3, false},
+                                         {"scales", &swivel_pose::scales, 3, false},
+                                         {"out_translations", &swivel_pose::translation_results, 3, true},
+                                         {"joint_rotations", &swivel_pose::joint_rotations, 4, true},
+                                         {"joint_places", &swivel_pose::joint_places, 3, true}};
 struct RootMember {
     const char* name;
     swivel_in swivel_pose::*values;
@@ -62,6 +67,44 @@ void add_rotations(const HeldCrowd& held, const py::object& given, JointValues w
     into.owners.push_back(to.owner);
 }
 
+swivel_pose_space space_of(const py::object& given)
+{
+    try {
+        return pose_space_of(given.cast<std::int64_t>());
+    } catch (const py::cast_error&) {
+        throw py::type_error("space: expected a member of swivel.PoseSpace, got " + std::string(py::repr(given)));
+    }
+}
+
+// The library says so, too, but calls them results.
+void require_out_translations(const py::object& given, swivel_pose_space space)
+{
+    const auto has = [&](const char* name) { return !given.attr(name).is_none(); };
+    const bool change = space == SWIVEL_IN_BODY && has("translations") && !has("matrices");
+    if (has("out_translations") && !change)
+        throw py::value_error(
+            "the pose has out_translations, but only translations in the body's space change; leave them out");
+    if (change && has("out") && !has("out_translations"))
+        throw py::value_error(
+            "the pose has out, but no out_translations, and in the body's space translations change; give them");
+}
+
+void add_joint_members(const HeldCrowd& held, const py::object& given, std::uint32_t body_count, PoseArrays& into)
+{
+    require_out_translations(given, into.view.space);
+    const bool in_place = into.view.space == SWIVEL_IN_BODY && given.attr("out_translations").is_none();
+    for (const JointMember& member : kJointMembers) {
+        const py::object values = given.attr(member.name);
+        if (values.is_none()) continue;
+        const bool is_output = member.is_output || (in_place && member.values == &swivel_pose::translations);
+        const JointValues wanted{member.name, body_count, held.joint_count, {member.component_count}};
+        const JointArray array =
+            is_output ? joint_output(wanted, values, held.rows) : joint_input(wanted, values, held.rows);
+        into.view.*member.values = array.values;
+        into.owners.push_back(array.owner);
+    }
+}
+
 }  // namespace
 
 PoseArrays pose_of(const HeldCrowd& held, const py::object& given)
@@ -72,14 +115,9 @@ PoseArrays pose_of(const HeldCrowd& held, const py::object& given)
     PoseArrays made{swivel_default_pose(), {}};
     if (held.joint_count == 0) return made;  // which the library refuses
     const std::uint32_t body_count = swivel_group_limb_count(held.crowd.get(), 0);
+    made.view.space = space_of(given.attr("space"));
     add_rotations(held, given, {"", body_count, held.joint_count, {}}, made);
-    for (const JointMember& member : kJointMembers) {
-        const py::object values = given.attr(member.name);
-        if (values.is_none()) continue;
-        const JointArray in = joint_input({member.name, body_count, held.joint_count, {3}}, values, held.rows);
-        made.view.*member.values = in.values;
-        made.owners.push_back(in.owner);
-    }
+    add_joint_members(held, given, body_count, made);
     made.view.root_is_double = is_doubles(given.attr("root_position"));
     for (const RootMember& member : kRootMembers) {
         const py::object values = given.attr(member.name);

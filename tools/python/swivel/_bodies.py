@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ._core import EulerOrder, OnBadInput
+from ._core import EulerOrder, OnBadInput, PoseSpace
 
 
 class Skeleton(NamedTuple):
@@ -28,8 +28,8 @@ class BodyGroup(NamedTuple):
     elbow           joints in between keep their own rotations
     wrist           turned with Feature.WITH_HAND alone
     bend            (3,) where flexion carries the forearm, in the shoulder joint's frame; zeros: as the rest pose is bent
-    twist_bones     joints below the elbow that share the hand's twist, from elbow to wrist
-    features        members of Feature, combined with |; the crowd adds those of bodies
+    twist_bones     joints below the elbow that share the hand's twist, from elbow to wrist; they need Feature.WITH_HAND
+    features        members of Feature, combined with |; the crowd adds those of bodies, and of these twist bones
     on_bad_input    what a limb with bad input gets
     shoulder_order  of Field.SHOULDER_BOX
     wrist_order     of Field.WRIST_BOX
@@ -49,19 +49,26 @@ class BodyGroup(NamedTuple):
 class Pose(NamedTuple):
     """The poses of all bodies, for Crowd.solve(), which reads them and writes the joints that it turns.
 
-    rotations      (bodies, joints, 4) x, y, z, w, each joint's relative to its parent
-    matrices       (bodies, joints, 3, 4) or (bodies, joints, 4, 4) instead of rotations, translations and scales
-    translations   (bodies, joints, 3) each joint's place in its parent's frame; None: as the skeleton rests
-    scales         (bodies, joints, 3) uniform within a thousandth; None: 1
-    root_position  (bodies, 3) what joints without a parent hang below, in the world; None: the origin
-    root_rotation  (bodies, 4) None: not turned
-    root_scale     (bodies,) None: 1
-    out            where turned joints go, in the shape of the rotations or matrices; None: back to these
+    rotations         (bodies, joints, 4) x, y, z, w, each joint's relative to its parent
+    matrices          (bodies, joints, 3, 4) or (bodies, joints, 4, 4) instead of rotations, translations and scales
+    translations      (bodies, joints, 3) each joint's place in its parent's frame; None: as the skeleton rests
+    scales            (bodies, joints, 3) uniform within a thousandth; None: 1
+    root_position     (bodies, 3) what joints without a parent hang below, in the world; None: the origin
+    root_rotation     (bodies, 4) None: not turned
+    root_scale        (bodies,) None: 1
+    out               where turned joints go, in the shape of the rotations or matrices; None: back to these
+    space             PoseSpace.IN_BODY: rotations, translations, scales and matrices are relative to the root, not to parents
+    out_translations  in the body's space: where translations of moved joints go; None: back to translations
+    joint_rotations   (bodies, joints, 4) to write: how joints are turned after the solve, relative to the root
+    joint_places      (bodies, joints, 3) to write: where they are then
 
     Values that are the same for all bodies may lack the first axis. What is written is an array of float32, with the numbers of
     a value side by side and any distances between joints and bodies. Matrices may also be transposed views of such. Joints that
-    are not turned are not written, and neither are matrices' last column and row: start `out` as a copy. What is only read may
-    be anything that NumPy makes an array of, which is copied first if it lies differently.
+    are not turned are not written, and neither is the last row of a matrix: start `out` as a copy. What is only read may be
+    anything that NumPy makes an array of, which is copied first if it lies differently.
+
+    In the body's space all joints below a limb's move with it, and are written, too, translations among them. joint_rotations
+    and joint_places get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
 
     A root_position that is an array of float64 makes all positions in frames float64. The root is subtracted in double, for
     crowds kilometres from the origin. Positions that frames leave out are then counted from the root.
@@ -75,3 +82,7 @@ class Pose(NamedTuple):
     root_rotation: Optional[npt.ArrayLike] = None
     root_scale: Optional[npt.ArrayLike] = None
     out: Optional[npt.NDArray[np.float32]] = None
+    space: PoseSpace = PoseSpace.LOCAL
+    out_translations: Optional[npt.NDArray[np.float32]] = None
+    joint_rotations: Optional[npt.NDArray[np.float32]] = None
+    joint_places: Optional[npt.NDArray[np.float32]] = None
