@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { Feature, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, Status, VERSION } from 'swivel-wasm';
+import { Feature, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION } from 'swivel-wasm';
 import { swivel } from './common.mjs';
 
 // The arms of tests/package/arm.c.
@@ -61,7 +61,7 @@ test('every name of swivel.h, with its number', () => {
       return [key.replace('SWIVEL_', ''), value];
     }).filter(([key]) => !key.endsWith('_END')));
   };
-  for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [PoseForm, 'pose_form'], [Status, 'status']])
+  for (const [names, kind] of [[Field, 'field'], [Flag, 'flag'], [Order, 'euler_order'], [OnBadInput, 'on_bad_input'], [PoseForm, 'pose_form'], [PoseSpace, 'pose_space'], [Status, 'status']])
     assert.deepEqual({ ...names }, numbersOf(`swivel_${kind}`));
   assert.equal(LANES, 16);
   assert.equal(MOST_TWIST_BONES, 7);

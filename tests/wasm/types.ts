@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The promise: the types of the package for the web allow what works, and refuse what does not. tsc reads this, nothing runs it.
-import { type Binding, type Bodies, type BodyGroup, type Crowd, Feature, Field, Flag, type Group, load, OnBadInput, Order, PoseForm, type Swivel, SwivelError } from 'swivel-wasm';
+import { type Binding, type Bodies, type BodyGroup, type Crowd, Feature, Field, Flag, type Group, load, OnBadInput, Order, PoseForm, PoseSpace, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
 const binding: Binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: new Float32Array([0, 0, 1]), bend: [0, 1, 0] });
@@ -14,7 +14,7 @@ const closing: number = swivel.steps([1, 0, 1], [0, 1, 0], 1, 1).closingError;
 const place: { group: number; limb: number } | undefined = crowd.find(Flag.BAD_INPUT | Flag.INFEASIBLE);
 const arm: BodyGroup = { joints: { shoulder: 1, elbow: 2, wrist: 3 }, features: Feature.WITH_HAND, onBadInput: OnBadInput.REST_POSE };
 const skeleton = { parents: [-1, 0, 1, 2], translations: new Float32Array(12) };
-const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], form: PoseForm.MATRIX_ROWS });
+const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], form: PoseForm.MATRIX_ROWS, space: PoseSpace.IN_BODY });
 const near: Float32Array[] = [bodies.pose('rotations'), bodies.pose('rootPosition'), bodies.positions(Field.TARGET)];
 const far: Float64Array[] = [swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], rootIsDouble: true }).pose('rootPosition')];
 export { closing, far, near, digest, flags, place, shoulders, solved, SwivelError };

@@ -71,6 +71,8 @@ static void print_enumerations(void)
     NUMBER(REST_POSE), NUMBER(KEEP_POSE);
     printf("} as const;\n\nexport const PoseForm = {\n");
     NUMBER(ROTATIONS), NUMBER(MATRIX_ROWS), NUMBER(MATRIX_COLUMNS), NUMBER(MATRIX_COLUMNS3);
+    printf("} as const;\n\nexport const PoseSpace = {\n");
+    NUMBER(LOCAL), NUMBER(IN_BODY);
     printf("} as const;\n\nexport const Status = {\n");
     NUMBER(OK), NUMBER(INVALID_ARGUMENT), NUMBER(OUT_OF_MEMORY), NUMBER(UNKNOWN_ISA), NUMBER(ISA_UNAVAILABLE);
     printf("} as const;\n");
@@ -114,7 +116,8 @@ static void print_structures(void)
     BEGIN(swivel_pose), OFFSET(swivel_pose, size), OFFSET(swivel_pose, form), OFFSET(swivel_pose, root_is_double);
     OFFSET(swivel_pose, rotations), OFFSET(swivel_pose, translations), OFFSET(swivel_pose, scales);
     OFFSET(swivel_pose, results), OFFSET(swivel_pose, root_position), OFFSET(swivel_pose, root_rotation);
-    OFFSET(swivel_pose, root_scale), END();
+    OFFSET(swivel_pose, root_scale), OFFSET(swivel_pose, space), OFFSET(swivel_pose, translation_results);
+    OFFSET(swivel_pose, joint_rotations), OFFSET(swivel_pose, joint_places), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);

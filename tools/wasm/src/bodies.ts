@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Crowds of bodies. Their poses lie in swivel's own memory, where solves read and write them.
-import { FieldNumber, nameOf, Numbers, options, refuse, shown } from "./arguments.js";
+import { FieldNumber, nameOf, options, refuse, shown } from "./arguments.js";
 import { Crowd } from "./crowd.js";
 import { BodyGroup, bodyGroups, SharedSkeleton } from "./groups.js";
-import { layout, PoseForm } from "./layout.js";
+import { layout, PoseForm, PoseSpace } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
+import { copyOf, inBody, Rest, rotationOf, valueOf } from "./rest.js";
 import { isPosition } from "./rows.js";
 
 export interface BodiesOptions extends SharedSkeleton {
@@ -15,11 +16,12 @@ export interface BodiesOptions extends SharedSkeleton {
     features?: bigint;
     /** What the rotations of poses are, from PoseForm. Left out: ROTATIONS. */
     form?: number;
+    /** What the joints of poses are relative to, from PoseSpace. Left out: LOCAL, each to its parent. */
+    space?: number;
     /** Whether root positions, and the positions of goals, are doubles. */
     rootIsDouble?: boolean;
 }
 
-type Rest = Required<Pick<BodiesOptions, "skeleton" | "form">>;
 interface Part {
     /** Of swivel_pose. */
     member: keyof typeof layout.swivel_pose;
@@ -29,13 +31,15 @@ interface Part {
     /** Whether matrices hold it. */
     inMatrices?: boolean;
 }
-const valueOf = (values: Numbers, count: number, joint: number): number[] => Array.from({ length: count }, (_, n) => values[count * joint + n]);
 const named = <Name extends string>(parts: Record<Name, Part>): Record<Name, Part> => parts;
 const parts = named({
     rotations: { member: "rotations", start: rotationOf },
-    translations: { member: "translations", start: ({ skeleton }, joint) => valueOf(skeleton.translations, 3, joint), inMatrices: true },
+    translations: { member: "translations", start: translationOf, inMatrices: true },
     scales: { member: "scales", start: () => [1, 1, 1], inMatrices: true },
     results: { member: "results", start: rotationOf },
+    translationResults: { member: "translation_results", start: translationOf, inMatrices: true },
+    jointRotations: { member: "joint_rotations", start: () => [NaN, NaN, NaN, NaN] },
+    jointPlaces: { member: "joint_places", start: () => [NaN, NaN, NaN] },
     rootPosition: { member: "root_position", start: () => [0, 0, 0], isRoot: true },
     rootRotation: { member: "root_rotation", start: () => [0, 0, 0, 1], isRoot: true },
     rootScale: { member: "root_scale", start: () => [1], isRoot: true },
@@ -43,44 +47,36 @@ const parts = named({
 /**
  * A part of poses, as swivel_pose. Each joint has a rotation relative to its parent: x, y, z, w, or by the form 12 numbers of a matrix, of
  * MATRIX_COLUMNS 16; three numbers of translation; three of scale. The root has a position, a rotation and one number of scale.
+ *
+ * Solves write jointRotations, x, y, z, w, and jointPlaces: where the joints that some limb needs are then, relative to the root. Those of
+ * others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
  */
 export type PosePart = keyof typeof parts;
 
-/** A joint's rotation at rest, in the form of poses. */
-function rotationOf({ skeleton, form }: Rest, joint: number): number[] {
-    const rotation = skeleton.rotations ? valueOf(skeleton.rotations, 4, joint) : [0, 0, 0, 1];
-    if (form === PoseForm.ROTATIONS) return rotation;
-    const [x, y, z, w] = rotation, s = 2 / (x * x + y * y + z * z + w * w), [a, b, c] = valueOf(skeleton.translations, 3, joint);
-    const rows = [
-        [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w), a],
-        [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w), b],
-        [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y), c],
-    ];
-    if (form === PoseForm.MATRIX_ROWS) return rows.flat();
-    if (form === PoseForm.MATRIX_COLUMNS) rows.push([0, 0, 0, 1]);
-    return [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
-}
+function translationOf({ skeleton }: Rest, joint: number): number[] { return valueOf(skeleton.translations, 3, joint); }
 
 /** A crowd of bodies: whole poses go in and come out. Swivel.bodies() makes it. Limb i of every group is body i's. */
 export class Bodies<Positions extends Float32Array | Float64Array = Float32Array> extends Crowd {
     private readonly rest: Rest;
+    private readonly isInBody: boolean;
     private readonly parts = new Map<PosePart, Float32Array | Float64Array>();
     /** Of each group, the positions that are doubles. */
     private readonly doubles: Map<FieldNumber, Float64Array>[];
 
     /** @internal */
     constructor(memory: Memory, given: BodiesOptions) {
-        const { skeleton, bodyCount, groups, features = 0n, form = PoseForm.ROTATIONS, rootIsDouble = false } =
-            options("bodies()", given, "skeleton", "bodyCount", "groups", "features", "form", "rootIsDouble");
+        const { skeleton, bodyCount, groups, features = 0n, form = PoseForm.ROTATIONS, space = PoseSpace.LOCAL, rootIsDouble = false } =
+            options("bodies()", given, "skeleton", "bodyCount", "groups", "features", "form", "space", "rootIsDouble");
         if (!Object.values<unknown>(PoseForm).includes(form)) refuse(`form is ${shown(form)}; give one of PoseForm`);
+        if (!Object.values<unknown>(PoseSpace).includes(space)) refuse(`space is ${shown(space)}; give one of PoseSpace`);
         super(memory, bodyGroups(groups, features, bodyCount), { skeleton, bodyCount });
-        const { parents, translations, rotations } = skeleton, copy = (values: Numbers): number[] => Array.from(values);
-        this.rest = { skeleton: { parents: copy(parents), translations: copy(translations), rotations: rotations && copy(rotations) }, form };
+        this.isInBody = space === PoseSpace.IN_BODY;
+        this.rest = { skeleton: this.isInBody ? inBody(copyOf(skeleton)) : copyOf(skeleton), form };
         this.isDouble = Boolean(rootIsDouble);
         this.doubles = groups.map(() => new Map());
         this.orDispose(() => {
             this.posed = this.own(layout.swivel_pose.bytes);
-            new Structure(memory, "swivel_pose", this.posed).words("form", form).words("root_is_double", Number(this.isDouble));
+            new Structure(memory, "swivel_pose", this.posed).words("form", form).words("space", space).words("root_is_double", Number(this.isDouble));
             this.pose("rotations");
             if (this.isDouble) this.pose("rootPosition");
         });
@@ -99,6 +95,10 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
         const held = this.crowd && this.parts.get(part);
         if (held) return held;
         if (inMatrices && rest.form !== PoseForm.ROTATIONS) refuse(`the pose's matrices hold ${part}; give them there`);
+        if (part === "translationResults") {
+            if (!this.isInBody) refuse("only translations in the body's space change; give bodies() the space PoseSpace.IN_BODY");
+            this.pose("translations");
+        }
         const count = isRoot ? 1 : rest.skeleton.parents.length, ofBody = Array.from({ length: count }, (_, n) => start(rest, n)).flat();
         const bytes = this.isDouble && part === "rootPosition" ? 8 : 4, length = ofBody.length * this.limbCount();
         const at = this.own(bytes * length), stride = bytes * ofBody.length;

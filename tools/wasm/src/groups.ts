@@ -3,7 +3,7 @@
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
 import { options, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { layout, OnBadInput } from "./layout.js";
+import { Feature, layout, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
 
 /** What groups of free limbs and of bodies have. */
@@ -26,6 +26,7 @@ export interface GroupOptions extends LimbOptions {
 export type Group = number | GroupOptions;
 /** The limb of each body that has these joints. */
 export interface BodyGroup extends LimbOptions {
+    /** Its features get the number of twistBones, unless they have one. */
     joints: LimbJoints;
     /** As GroupOptions'. Left out: it keeps its incoming pose. */
     onBadInput?: number;
@@ -61,12 +62,18 @@ export function freeGroups(groups: readonly Group[], features: bigint): CheckedG
         return { ...given, limbCount: whole("limbCount", given.limbCount) };
     });
 }
+/** Who names twist bones wants them to turn. Too many are for the library to refuse. */
+function withTwistBones(group: CheckedGroup): CheckedGroup {
+    const most = BigInt(MOST_TWIST_BONES), count = BigInt(group.joints?.twistBones?.length ?? 0);
+    if (group.features & (most * Feature.WITH_TWIST_BONES)) return group;
+    return { ...group, features: group.features | (count < most ? count : most) * Feature.WITH_TWIST_BONES };
+}
 export function bodyGroups(groups: readonly BodyGroup[], features: bigint, bodyCount: number): CheckedGroup[] {
     const limbCount = whole("bodyCount", bodyCount);
     return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => {
         const given = options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput");
         return { ...given, onBadInput: given.onBadInput ?? OnBadInput.KEEP_POSE, limbCount };
-    });
+    }).map(withTwistBones);
 }
 
 /** Makes the library's crowd. Without a skeleton its limbs are free. */

@@ -9,7 +9,7 @@ export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
 export type { Bodies, BodiesOptions, PosePart } from "./bodies.js";
 export type { Arc, BodyGroup, Crowd, Group, GroupOptions, JointAngles, Job, Limbs, Place } from "./crowd.js";
-export { Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, Status, VERSION } from "./layout.js";
+export { Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION } from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
 export type { Entity, Swivel } from "./swivel.js";
 
