@@ -35,18 +35,24 @@ using swivel::corpus::Recipe;
 using swivel::corpus::recipe_of;
 using swivel::corpus::recipes_of;
 
-void solve(Crowd& crowd) { crowd.solve(); }
+void solve(Crowd& crowd, const Job& job) { crowd.solve(job); }
 
 // Crowds for the promises that batching keeps and no kernel does: threads and chunks. They are plain arms with
-// and without every feature, and whole limbs, some of which keep their swivel from frame to frame.
+// and without every feature, whole limbs, some of which keep their swivel from frame to frame, and bodies.
 std::vector<const Recipe*> few_crowds()
 {
-    return {&recipe_of(Part::ordinary, "world-joints-hand"), &recipe_of(Part::hard, "arms"),
+    return {&recipe_of(Part::ordinary, "world-joints-hand"),
+            &recipe_of(Part::hard, "arms"),
             &recipe_of(Part::hard, "world-joints-hand-direction"),
-            &recipe_of(Part::limbs, "set-world-joints-normal-angle-step"), &recipe_of(Part::limbs, "set-all-limits")};
+            &recipe_of(Part::limbs, "set-world-joints-normal-angle-step"),
+            &recipe_of(Part::limbs, "set-all-limits"),
+            &recipe_of(Part::bodies, "set-all-limits")};
 }
 // Limbs enough for several chunks of any of them.
-std::uint32_t large(const Recipe& recipe) { return recipe.part == Part::limbs ? 1000 : 8000; }
+std::uint32_t large(const Recipe& recipe)
+{
+    return recipe.part == Part::bodies ? 300 : recipe.part == Part::limbs ? 1000 : 8000;
+}
 
 // What the scalar build gives for crowds of these sizes.
 template <class Solve>
@@ -94,14 +100,16 @@ TEST_CASE("every number of threads gives the scalar build's bits")
 {
     const IsaScope scope;
     for (const Recipe* recipe : few_crowds()) {
-        const std::uint64_t expected =
-            scalar_digest(scope, *recipe, large(*recipe), [](Crowd& crowd) { crowd.solve({.on_this_thread = true}); });
+        const std::uint64_t expected = scalar_digest(scope, *recipe, large(*recipe), [](Crowd& crowd, Job job) {
+            job.on_this_thread = true;
+            crowd.solve(job);
+        });
         for (const int threads : {1, 2}) {
             INFO(full_name(*recipe) << ", " << threads << " threads");
             using oneapi::tbb::global_control;
             const global_control control(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
             oneapi::tbb::task_arena arena(threads);
-            const auto solve_there = [&](Crowd& crowd) { arena.execute([&] { crowd.solve(); }); };
+            const auto solve_there = [&](Crowd& crowd, const Job& job) { arena.execute([&] { crowd.solve(job); }); };
             CHECK(digest_of(*recipe, solve_there, large(*recipe)) == expected);
         }
     }
@@ -159,10 +167,10 @@ TEST_CASE("worker threads that took over the caller's environment give the same 
     _mm_setcsr(before);
     for (const Recipe* recipe : few_crowds()) {
         INFO(full_name(*recipe));
-        const auto solve_there = [&](Crowd& crowd) {
+        const auto solve_there = [&](Crowd& crowd, const Job& job) {
             arena.execute([&] {
                 _mm_setcsr(0x1f80 | 0x8000 | 0x0040 | 0x4000);
-                swivel_solve(crowd.get(), nullptr);
+                crowd.solve(job);
                 _mm_setcsr(before);
             });
         };

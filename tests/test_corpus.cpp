@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: the corpus is what it says. Hard and whole limbs together have every flag. Names and seeds are unique,
+// The promise: the corpus is what it says. Whole limbs have every flag, and so have bodies. Names and seeds are unique,
 // and golden.h has each crowd once.
 #include "tools/corpus/corpus.h"
 
@@ -21,8 +21,8 @@ std::uint32_t flags_of(Part part)
 {
     std::uint32_t flags = 0;
     for (const Recipe& recipe : recipes_of(part))
-        digest_of(recipe, [&](Crowd& crowd) {
-            crowd.solve();
+        digest_of(recipe, [&](Crowd& crowd, const Job& job) {
+            crowd.solve(job);
             for (std::uint32_t group = 0; group < kGroupCount; ++group) {
                 for (const std::uint32_t word : read_field(crowd, recipe, Field::flags, group)) flags |= word;
             }
@@ -32,12 +32,13 @@ std::uint32_t flags_of(Part part)
 
 }  // namespace
 
-TEST_CASE("ordinary arms are reached, too far and too near; hard ones and whole limbs have every flag")
+TEST_CASE("ordinary arms are reached, too far and too near; whole limbs and bodies have every flag")
 {
     constexpr std::uint32_t reach = kReached | kClampedFar | kClampedNear;
     CHECK(flags_of(Part::ordinary) == reach);
     CHECK(flags_of(Part::hard) == (reach | kSwivelUndefined | kBadInput));
     CHECK(flags_of(Part::limbs) == kEveryFlag);
+    CHECK(flags_of(Part::bodies) == kEveryFlag);
 }
 
 TEST_CASE("limbs have the same numbers in crowds of any size")
@@ -81,7 +82,8 @@ TEST_CASE("names and seeds are unique, and golden.h has each crowd once and thei
 
 TEST_CASE("a digest that is not golden is told by its crowd's name")
 {
-    std::vector<std::uint64_t> digests = digests_of(Part::ordinary, [](Crowd& crowd) { crowd.solve(); });
+    std::vector<std::uint64_t> digests =
+        digests_of(Part::ordinary, [](Crowd& crowd, const Job& job) { crowd.solve(job); });
     CHECK(wrong_crowds(Part::ordinary, digests).empty());
     digests[2] ^= 1;
     CHECK(wrong_crowds(Part::ordinary, digests) == std::vector{full_name(recipes_of(Part::ordinary)[2])});

@@ -97,8 +97,8 @@ struct Frames {
     }
 };
 
-// Every kind of job over a crowd, on rows and on frames.
-void run_jobs(Crowd& crowd, const std::string& name, Most& most)
+// Every kind of job over a crowd, on rows and on frames. pose: of bodies.
+void run_jobs(Crowd& crowd, const swivel_pose* pose, const std::string& name, Most& most)
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
     const std::vector<std::uint32_t> few((blocks + 1) / 2, 0x00018001u), many((blocks + 1) / 2, 0xfff70ff7u);
@@ -116,7 +116,8 @@ void run_jobs(Crowd& crowd, const std::string& name, Most& most)
     Frames frames(crowd);
     for (auto& [kind, job] : jobs) {
         if (job.mask) job.mask_word_count = (blocks + 1) / 2, job.on_this_thread = 1;
-        const auto solve = [&, &each = job] { swivel_solve(crowd.get(), &each); };
+        job.pose = pose;
+        const auto solve = [&, &each = job] { check(swivel_solve(crowd.get(), &each)); };
         most.take(name + ", " + kind, solve);
         job.frames = frames.frames.data();
         most.take(name + ", " + kind + ", with frames", solve);
@@ -155,7 +156,8 @@ TEST_CASE("every kind of job, on every kind of crowd, takes at most 32 KiB of st
         for (const Part part : corpus::kParts)
             for (const Recipe& recipe : corpus::recipes_of(part)) {
                 Crowd crowd = corpus::make_crowd(recipe, 100);
-                run_jobs(crowd, full_name(recipe), jobs);
+                corpus::Poses poses = corpus::poses_of(crowd, recipe, 0);
+                corpus::with_job(poses, [&](const Job& job) { run_jobs(crowd, job.pose, full_name(recipe), jobs); });
                 run_questions(crowd, full_name(recipe), questions);
             }
         INFO(isa << ": " << jobs.what << ": " << jobs.bytes << "; " << questions.what << ": " << questions.bytes);

@@ -56,27 +56,12 @@ Vector random_pole(Random& random, const Vector& line, double far)
     return (distance / square_root(1 + slope * slope)) * (across + slope * line);
 }
 
-std::array<float, 4> random_rotation(Random& random, double shortest, double longest)
-{
-    const Rotation q = random_unit_rotation(random);
-    const double length = random.between(shortest, longest);
-    return {static_cast<float>(length * q.v.x), static_cast<float>(length * q.v.y), static_cast<float>(length * q.v.z),
-            static_cast<float>(length * q.w)};
-}
-
-std::array<float, 3> floats(const Vector& v)
-{
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 // From the parent's frame to the world, if the arm has a parent.
 std::array<float, 3> placed(const Arm& arm, const Vector& v, bool is_point)
 {
-    const auto& q = arm.parent_rotation;
-    const auto& p = arm.parent_position;
-    const Vector turned = turn(unit({{q[0], q[1], q[2]}, q[3]}), v);
+    const Vector turned = turn(unit(rotation_of(arm.parent_rotation)), v);
     if (!is_point) return floats(turned);
-    return floats(Vector{p[0], p[1], p[2]} + double{arm.parent_scale[0]} * turned);
+    return floats(vector_of(arm.parent_position) + double{arm.parent_scale[0]} * turned);
 }
 
 }  // namespace
@@ -103,6 +88,15 @@ std::span<float> Arm::values(Field field)
     }
 }
 
+void set_goals(const Recipe& recipe, Random& targets, Random& poles, Arm& arm)
+{
+    const Vector line = random_direction(targets);
+    const double distance = random_distance(targets, arm.lengths);
+    arm.target = placed(arm, distance * line, true);
+    const Vector pole = random_pole(poles, line, double{arm.lengths[0]} + arm.lengths[1]);
+    arm.pole = placed(arm, pole, !(recipe.features & (kPoleDirection | kPoleNormal)));
+}
+
 std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count, std::uint32_t frame)
 {
     const auto random_of = [&](Field field, std::uint32_t in_frame) {
@@ -118,16 +112,11 @@ std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::u
         arm.lengths = random_lengths(lengths);
         if (world) {
             for (float& x : arm.parent_position) x = static_cast<float>(8 * positions.signed_unit());
-            arm.parent_rotation = random_rotation(rotations, 0.78, 1.34);
+            arm.parent_rotation = floats(random_rotation(rotations, 0.78, 1.34));
             arm.parent_scale = {static_cast<float>(scales.spread(-2, 2))};
         }
-        arm.hand = random_rotation(hands, 0.5, 2);
-
-        const Vector line = random_direction(targets);
-        const double distance = random_distance(targets, arm.lengths);
-        arm.target = placed(arm, distance * line, true);
-        const Vector pole = random_pole(poles, line, double{arm.lengths[0]} + arm.lengths[1]);
-        arm.pole = placed(arm, pole, !(recipe.features & (kPoleDirection | kPoleNormal)));
+        arm.hand = floats(random_rotation(hands, 0.5, 2));
+        set_goals(recipe, targets, poles, arm);
     }
     return arms;
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/corpus/random.h"
 #include "tools/corpus/recipe.h"
 
 namespace swivel::corpus {
@@ -28,6 +29,9 @@ struct Arm {
 inline constexpr Field kArmFields[] = {
     Field::target,          Field::pole,         Field::lengths, Field::parent_position,
     Field::parent_rotation, Field::parent_scale, Field::hand};
+
+// An arm's target, in one of the bands of its reach, and its pole.
+void set_goals(const Recipe& recipe, Random& targets, Random& poles, Arm& arm);
 
 // limb_count arms of a group. frame: their goals are others in every frame, all else stays.
 std::vector<Arm> ordinary_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count,

@@ -2,9 +2,11 @@
 #include "tools/corpus/corpus.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include "tools/corpus/arms.h"
+#include "tools/corpus/bodies.h"
 #include "tools/corpus/golden.h"
 #include "tools/corpus/hard_cases.h"
 #include "tools/corpus/interface.h"
@@ -15,14 +17,14 @@ namespace swivel::corpus {
 namespace {
 
 // Limbs come in runs. Of the hard part: hard cases, ordinary arms, arms of which numbers are spoilt. Of whole limbs:
-// spoilt ones, one in eight of them a hard pose, and ordinary ones.
+// spoilt ones, one in eight of them a hard pose, and ordinary ones. Of bodies: spoilt and ordinary ones.
 enum class Run { cases, ordinary, spoilt };
 Run run_of(const Recipe& recipe, std::uint32_t limb)
 {
     constexpr Run hard[] = {Run::cases, Run::ordinary, Run::spoilt};
     if (recipe.part == Part::hard) return hard[limb / kRunLimbs % 3];
     if (recipe.part == Part::ordinary || !is_spoilt_run(limb)) return Run::ordinary;
-    return limb % 8 == 3 ? Run::cases : Run::spoilt;
+    return limb % 8 == 3 && recipe.part == Part::limbs ? Run::cases : Run::spoilt;
 }
 // A limb's hard case. Groups of the hard part start with a pass of their own; whole limbs have some of the poses.
 Arm case_of(const Recipe& recipe, std::uint32_t group, std::uint32_t limb, std::uint32_t frame)
@@ -48,6 +50,35 @@ void put_hard_cases(const Recipe& recipe, std::uint32_t group, std::uint32_t fra
 {
     for (std::uint32_t limb = 0; limb < arms.size(); ++limb)
         if (run_of(recipe, limb) == Run::cases) arms[limb] = case_of(recipe, group, limb, frame);
+}
+
+// The arms of a group in a frame, whose goals at least are written.
+std::vector<Arm> arms_of(const Recipe& recipe, std::uint32_t group, std::span<const Arm> ordinary, std::uint32_t frame)
+{
+    std::vector<Arm> arms(ordinary.begin(), ordinary.end());
+    put_hard_cases(recipe, group, frame, arms);
+    spoil_arms(recipe, group, frame, arms);
+    return arms;
+}
+std::vector<Arm> good_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count, std::uint32_t frame)
+{
+    return recipe.part == Part::bodies ? body_arms(recipe, group, limb_count, frame)
+                                       : ordinary_arms(recipe, group, limb_count, frame);
+}
+// Bodies' bones are as long as their poses say, and goals that are far away are given in double.
+bool is_in_rows(const Recipe& recipe, Field field)
+{
+    if (recipe.part != Part::bodies) return true;
+    return field == Field::lengths ? recipe.pose & kLengths : !(recipe.pose & kFar) || !changes_with_frames(field);
+}
+
+std::vector<double> far_from(const std::vector<double>& roots, const std::vector<Arm>& arms,
+                             std::array<float, 3> Arm::*place)
+{
+    std::vector<double> places;
+    for (std::size_t n = 0; n < arms.size(); ++n)
+        for (std::size_t c = 0; c < 3; ++c) places.push_back(roots[3 * n + c] + double{(arms[n].*place)[c]});
+    return places;
 }
 
 bool is_of_arms(Field field)
@@ -77,12 +108,10 @@ template <class IsWanted>
 void write_inputs(Crowd& crowd, const Recipe& recipe, const LimbCounts& counts, std::uint32_t frame, IsWanted is_wanted)
 {
     for (std::uint32_t group = 0; group < counts.size(); ++group) {
-        const std::vector<Arm> ordinary = ordinary_arms(recipe, group, counts[group], frame);
-        std::vector<Arm> arms = ordinary;
-        put_hard_cases(recipe, group, frame, arms);
-        spoil_arms(recipe, group, frame, arms);
+        const std::vector<Arm> ordinary = good_arms(recipe, group, counts[group], frame);
+        std::vector<Arm> arms = arms_of(recipe, group, ordinary, frame);
         for (const Field field : inputs_of(recipe)) {
-            if (!is_wanted(field)) continue;
+            if (!is_wanted(field) || !is_in_rows(recipe, field)) continue;
             if (is_of_arms(field))
                 write_arms(crowd, field, group, arms);
             else
@@ -110,14 +139,24 @@ void check_rows(const Recipe& recipe, const Crowd& crowd)
 
 const char* name_of(Part part)
 {
-    constexpr const char* names[] = {"ordinary", "hard", "limbs"};
+    constexpr const char* names[] = {"ordinary", "hard", "limbs", "bodies"};
     return names[static_cast<std::size_t>(part)];
 }
 std::string full_name(const Recipe& recipe) { return std::string(name_of(recipe.part)) + " " + recipe.name; }
 
 std::span<const Recipe> recipes_of(Part part)
 {
-    return part == Part::ordinary ? ordinary_recipes() : part == Part::hard ? hard_recipes() : limb_recipes();
+    switch (part) {
+        case Part::ordinary:
+            return ordinary_recipes();
+        case Part::hard:
+            return hard_recipes();
+        case Part::limbs:
+            return limb_recipes();
+        case Part::bodies:
+            return body_recipes();
+    }
+    return {};
 }
 const Recipe& recipe_of(Part part, std::string_view name)
 {
@@ -126,12 +165,13 @@ const Recipe& recipe_of(Part part, std::string_view name)
     throw std::out_of_range("corpus: part " + std::string(name_of(part)) + " has no crowd " + std::string(name));
 }
 
-std::uint32_t own_limb_count(Part part) { return part == Part::limbs ? 600 : 1000; }
-std::uint32_t frame_count(Part part) { return part == Part::limbs ? 3 : 1; }
+std::uint32_t own_limb_count(Part part) { return part == Part::bodies ? 200 : part == Part::limbs ? 600 : 1000; }
+std::uint32_t frame_count(Part part) { return part == Part::limbs || part == Part::bodies ? 3 : 1; }
 
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count)
 {
-    const LimbCounts counts = {limb_count, limb_count / 2 + 1, 7};
+    const LimbCounts counts = recipe.part == Part::bodies ? LimbCounts{limb_count, limb_count, limb_count}
+                                                          : LimbCounts{limb_count, limb_count / 2 + 1, 7};
     Crowd crowd = create_crowd(recipe, counts);
     check_rows(recipe, crowd);
     write_inputs(crowd, recipe, counts, 0, [](Field) { return true; });
@@ -142,11 +182,30 @@ void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
     write_inputs(crowd, recipe, limb_counts(crowd), frame, changes_with_frames);
 }
 
+Poses poses_of(const Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
+{
+    if (recipe.part != Part::bodies) return {};
+    const std::uint32_t body_count = limb_counts(crowd)[0];
+    Poses poses = make_poses(recipe, body_count, frame);
+    for (std::uint32_t group = 0; (recipe.pose & kFar) && group < kGroupCount; ++group) {
+        const std::vector<Arm> arms = arms_of(recipe, group, good_arms(recipe, group, body_count, frame), frame);
+        poses.far_targets[group] = far_from(poses.far_roots, arms, &Arm::target);
+        if (!(recipe.features & kPoleIncoming)) poses.far_poles[group] = far_from(poses.far_roots, arms, &Arm::pole);
+    }
+    return poses;
+}
+
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash)
 {
     for (const Field field : results_of(recipe))
         for (std::uint32_t group = 0; group < kGroupCount; ++group)
             for (const std::uint32_t word : read_field(crowd, recipe, field, group)) hash = add_bytes(hash, word, 4);
+    return hash;
+}
+
+std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash)
+{
+    for (const float number : poses.solved()) hash = add_bytes(hash, std::bit_cast<std::uint32_t>(number), 4);
     return hash;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowds that the promise of equal bits is checked on, in three parts, and their digests. Frozen: a crowd's
+// The crowds that the promise of equal bits is checked on, in four parts, and their digests. Frozen: a crowd's
 // numbers are its own, whatever the library's names, defaults and orders are. golden.h has what the digests must be.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "swivel/swivel.hpp"
+#include "tools/corpus/interface.h"
 #include "tools/corpus/recipes.h"
 
 namespace swivel::corpus {
@@ -21,25 +21,30 @@ const Recipe& recipe_of(Part part, std::string_view name);
 // "hard world-joints", for messages.
 std::string full_name(const Recipe& recipe);
 
-// Limbs in the first group of a crowd at its own size, which golden.h is about.
+// Limbs in the first group of a crowd at its own size, which golden.h is about; of bodies, bodies.
 std::uint32_t own_limb_count(Part part);
 // The crowd with every input written: limb_count limbs in the first group, half as many and one in the second, seven
-// in the third. A limb's numbers do not depend on how many there are. Throws std::logic_error where the library has
-// other inputs or results than the recipe's features bring here.
+// in the third; of bodies as many in each. A limb's numbers do not depend on how many there are. Throws
+// std::logic_error where the library has other inputs or results than the recipe's features bring here.
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
 
-// How many times a crowd is solved, with other goals each time. Crowds of whole limbs carry things on.
+// How many times a crowd is solved, with other goals and poses each time. Some crowds carry things on.
 std::uint32_t frame_count(Part part);
 // Writes the goals of frame 1, 2...; make_crowd() wrote those of frame 0.
 void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
+// The poses of a frame; those of free limbs are empty.
+Poses poses_of(const Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
 
 // FNV-1a (64 bits) of the words of all limbs' results, field by field as the recipe lists them, group by group.
 inline constexpr std::uint64_t kDigestStart = 0xcbf29ce484222325u;
 std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint64_t hash = kDigestStart);
+// The same of solved poses, body by body.
+std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash);
 // The same of digests.
 std::uint64_t fold(std::uint64_t hash, std::uint64_t digest);
 
-// The digest of one crowd, each frame solved by solve(crowd). limb_count 0: the crowd's own.
+// The digest of one crowd, each frame solved by solve(crowd, job), with a job that solves all. limb_count 0: the
+// crowd's own.
 template <class Solve>
 std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_count = 0)
 {
@@ -47,8 +52,9 @@ std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_
     std::uint64_t hash = kDigestStart;
     for (std::uint32_t frame = 0; frame < frame_count(recipe.part); ++frame) {
         if (frame > 0) write_goals(crowd, recipe, frame);
-        solve(crowd);
-        hash = digest_results(crowd, recipe, hash);
+        Poses poses = poses_of(crowd, recipe, frame);
+        with_job(poses, [&](const Job& job) { solve(crowd, job); });
+        hash = digest_poses(poses, digest_results(crowd, recipe, hash));
     }
     return hash;
 }

@@ -15,6 +15,7 @@ inline constexpr std::uint64_t kGoldenDigests[] = {
     0x1c18711c60d19dbbu,  // ordinary
     0xbdab33c3b85403efu,  // hard
     0x4dc389bb313fc64au,  // limbs
+    0x3b439ae0396b5f1eu,  // bodies
 };
 
 // Crowd by crowd, so that a failure has a name.
@@ -120,6 +121,31 @@ inline constexpr GoldenCrowd kGoldenCrowds[] = {
     {Part::limbs, "set-all-limits", 0x7c5de983fe18f996u},
     {Part::limbs, "set-aim", 0x5feb754970b69c5du},
     {Part::limbs, "set-clavicle", 0xf4af5926a6889548u},
+    {Part::bodies, "rotations", 0x459d984ec3f9f715u},
+    {Part::bodies, "rotations-places", 0xba7c686e7194a401u},
+    {Part::bodies, "rotations-scales", 0x0f120a529f2f9d1eu},
+    {Part::bodies, "rotations-all", 0x7dd8ad42c994469eu},
+    {Part::bodies, "rows", 0xa3e7947953eb90acu},
+    {Part::bodies, "columns", 0x227220cd71fdce61u},
+    {Part::bodies, "columns3", 0x6d8f4f88449d902au},
+    {Part::bodies, "far", 0x99bfee0af2b97d27u},
+    {Part::bodies, "far-pole-incoming", 0x84104a237726d0eeu},
+    {Part::bodies, "offsets-apart", 0x0f23342d7f6d79efu},
+    {Part::bodies, "rows-offsets-apart", 0x6ad99efb1a5cd990u},
+    {Part::bodies, "rests", 0xf2c7af049b8e9024u},
+    {Part::bodies, "columns-rests", 0xd0d330ce0f54556bu},
+    {Part::bodies, "lengths", 0x88d51dd301e52564u},
+    {Part::bodies, "pole-incoming", 0xf37f511f8f1724b8u},
+    {Part::bodies, "pole-normal-angle", 0xa7f1f980a4c55013u},
+    {Part::bodies, "pole-direction", 0x793d2ac84724df0eu},
+    {Part::bodies, "weights", 0x0f35817207c8fbebu},
+    {Part::bodies, "weights-hand-pole-incoming", 0x80d22a9621fa4277u},
+    {Part::bodies, "effector", 0xb7043115bc19133du},
+    {Part::bodies, "reach-step", 0xb519e43ce1c5d3a2u},
+    {Part::bodies, "aim-step", 0x5a1d9d15acd72d3eu},
+    {Part::bodies, "aim-hand", 0x4f81096c343311e2u},
+    {Part::bodies, "set-both-boxes", 0x696ad320bb9f9208u},
+    {Part::bodies, "set-all-limits", 0x8f115b2bba7eedf2u},
 };
 
 }  // namespace swivel::corpus

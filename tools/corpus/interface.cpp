@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/corpus/bodies.h"
+
 namespace swivel::corpus {
 
 namespace {
@@ -110,6 +112,9 @@ constexpr FlagName kFlags[] = {
 
 // In the order of enum Order.
 constexpr swivel_euler_order kOrders[] = {SWIVEL_XYZ, SWIVEL_XZY, SWIVEL_YZX, SWIVEL_YXZ, SWIVEL_ZXY, SWIVEL_ZYX};
+// In the order of enum Form.
+constexpr swivel_pose_form kForms[] = {SWIVEL_ROTATIONS, SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS,
+                                       SWIVEL_MATRIX_COLUMNS3};
 
 const FieldName& name_of(Field field)
 {
@@ -176,6 +181,59 @@ swivel_binding library_binding(const Binding& own)
     return binding;
 }
 
+template <class Value>
+swivel_in in(const std::vector<Value>& values)
+{
+    return {values.data(), sizeof values[0]};
+}
+Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups)
+{
+    const Skeleton own = skeleton_of(recipe);
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = in(own.parents);
+    skeleton.rotations = in(own.rotations);
+    skeleton.translations = in(own.translations);
+    skeleton.joint_count = own.joint_count();
+    swivel_limb_joints joints[kGroupCount];
+    for (std::size_t g = 0; g < kGroupCount; ++g) {
+        const LimbJoints& limb = own.limbs[g];
+        joints[g] = swivel_default_limb_joints(limb.shoulder, limb.elbow, limb.wrist);
+        std::copy(limb.bend.begin(), limb.bend.end(), joints[g].bend);
+        groups[g].joints = &joints[g];
+        groups[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
+    }
+    return Crowd(skeleton, body_count, groups);
+}
+
+// Values of bodies; none where they are empty.
+template <class Value>
+swivel_in body_values(const Poses& poses, const std::vector<Value>& values)
+{
+    return {values.empty() ? nullptr : values.data(), values.size() / poses.body_count * sizeof(Value)};
+}
+swivel_joint_values joint_values(const Poses& poses, std::vector<float>& values,
+                                 const std::vector<std::size_t>& offsets)
+{
+    if (values.empty()) return {};
+    const std::size_t each = values.size() / poses.body_count * sizeof(float);
+    return {values.data(), each, each / poses.joint_count, offsets.empty() ? nullptr : offsets.data()};
+}
+swivel_pose library_pose(Poses& poses)
+{
+    swivel_pose pose = swivel_default_pose();
+    pose.form = kForms[static_cast<std::size_t>(poses.form)];
+    pose.rotations = joint_values(poses, poses.rotations, poses.offsets);
+    pose.translations = joint_values(poses, poses.translations, {});
+    pose.scales = joint_values(poses, poses.scales, {});
+    pose.results = joint_values(poses, poses.results, poses.offsets);
+    pose.root_is_double = !poses.far_roots.empty();
+    pose.root_position =
+        pose.root_is_double ? body_values(poses, poses.far_roots) : body_values(poses, poses.root_positions);
+    pose.root_rotation = body_values(poses, poses.root_rotations);
+    pose.root_scale = body_values(poses, poses.root_scales);
+    return pose;
+}
+
 }  // namespace
 
 std::uint64_t library_features(const Recipe& recipe)
@@ -194,6 +252,7 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
         groups[g].shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
         groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
     }
+    if (recipe.part == Part::bodies) return create_bodies(recipe, limb_counts[0], groups);
     return Crowd(groups);
 }
 
@@ -236,6 +295,20 @@ std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, 
     if (field == Field::flags)
         for (std::uint32_t& word : words) word = own_flags(word);
     return words;
+}
+
+void with_job(Poses& poses, const std::function<void(const Job&)>& take)
+{
+    if (poses.body_count == 0) return take({});
+    const swivel_pose pose = library_pose(poses);
+    Job job{.pose = &pose};
+    std::array<Frame, kGroupCount> frames;
+    for (std::size_t g = 0; g < kGroupCount; ++g) {
+        if (!poses.far_targets[g].empty()) frames[g].in(SWIVEL_TARGET, body_values(poses, poses.far_targets[g]));
+        if (!poses.far_poles[g].empty()) frames[g].in(SWIVEL_POLE, body_values(poses, poses.far_poles[g]));
+    }
+    if (pose.root_is_double) job.frames = frames;
+    take(job);
 }
 
 }  // namespace swivel::corpus

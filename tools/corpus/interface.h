@@ -6,11 +6,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "swivel/swivel.hpp"
 #include "tools/corpus/bindings.h"
+#include "tools/corpus/poses.h"
 #include "tools/corpus/recipe.h"
 
 namespace swivel::corpus {
@@ -19,7 +21,7 @@ using LimbCounts = std::array<std::uint32_t, kGroupCount>;
 
 // The recipe's features in the library's bits.
 std::uint64_t library_features(const Recipe& recipe);
-// An empty crowd of three groups with the bindings of bindings.h.
+// An empty crowd of three groups with the bindings of bindings.h, or of bodies, of which each group has a limb.
 Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts);
 LimbCounts limb_counts(const Crowd& crowd);
 
@@ -40,5 +42,8 @@ void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const
 // The words of a field, limb by limb: its component_count() floats, or what results are packed into with kCompact. Flag
 // words have the corpus's bits.
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group);
+
+// Calls take(job) with a job that solves all, and brings the poses.
+void with_job(Poses& poses, const std::function<void(const Job&)>& take);
 
 }  // namespace swivel::corpus

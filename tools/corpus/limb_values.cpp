@@ -97,6 +97,13 @@ void shape(Field field, double* v, double length)
     }
 }
 
+// Some bodies keep their pose, and some their elbow.
+void keep_some(std::uint32_t body, std::span<double> weights)
+{
+    if (body % 8 == 5) weights[0] = weights[1] = weights[2] = 0;
+    if (body % 8 == 6) weights[2] = 0;
+}
+
 }  // namespace
 
 std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t group, std::span<const Arm> arms)
@@ -112,6 +119,7 @@ std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t 
         if (is_spoilt_run(limb)) spoil(spoiling, std::span(value), 64);
         const Arm& arm = arms[limb];
         shape(field, value.data(), double{arm.lengths[0]} + arm.lengths[1]);
+        if (recipe.part == Part::bodies && field == Field::weights) keep_some(limb, value);
         for (const double x : value) values.push_back(static_cast<float>(x));
     }
     return values;

@@ -12,8 +12,9 @@ enum class Part : std::uint8_t {
     ordinary,  // plain arms that the plain formula holds for
     hard,      // plain arms of bad numbers, degenerate poles, straight, folded, of every size
     limbs,     // whole limbs: each feature alone, and many together
+    bodies,    // poses of bodies go in and out
 };
-inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs};
+inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs, Part::bodies};
 
 enum Feature : std::uint32_t {
     kWorld = 1u << 0,
@@ -69,6 +70,15 @@ enum class Field : std::uint8_t {
     wrist_box = 23,
     aim = 24,
     clavicle = 25,
+    // of bodies, which have no rows of them
+    skeleton = 32,
+    joint_rotation = 33,
+    joint_translation = 34,
+    joint_scale = 35,
+    bend = 36,
+    root_position = 37,
+    root_rotation = 38,
+    root_scale = 39,
     // results
     shoulder = 64,
     elbow = 65,
@@ -106,6 +116,22 @@ inline constexpr std::uint32_t kEveryFlag = (1u << 18) - 1;
 
 enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 
+// What bodies' poses hold of a joint: a rotation, or all of it in a matrix.
+enum class Form : std::uint8_t { rotations, rows, columns, columns3 };
+
+// What else the poses have, and where results go.
+enum PoseFeature : std::uint32_t {
+    kTranslations = 1u << 0,  // joints have places of their own; always with matrices
+    kScales = 1u << 1,        // and scales of their own; the same
+    kRoots = 1u << 2,         // bodies stand somewhere, turned and scaled
+    kFar = 1u << 3,           // with kRoots: far away, so that places and goals are doubles
+    kBetween = 1u << 4,       // joints in between
+    kLengths = 1u << 5,       // bones have the lengths that are written
+    kOffsets = 1u << 6,       // joints lie in another order than in the skeleton
+    kApart = 1u << 7,         // solved joints go elsewhere
+    kRests = 1u << 8,         // bad input gets the rest pose
+};
+
 struct Recipe {
     Part part;
     const char* name;
@@ -113,6 +139,8 @@ struct Recipe {
     std::uint32_t features;  // of enum Feature
     std::uint32_t twist_bones = 0;
     Order shoulder_order = Order::xyz, wrist_order = Order::xyz;
+    Form form = Form::rotations;
+    std::uint32_t pose = 0;  // of enum PoseFeature
 };
 
 }  // namespace swivel::corpus

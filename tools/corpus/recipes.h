@@ -14,5 +14,7 @@ std::span<const Recipe> ordinary_recipes();
 std::span<const Recipe> hard_recipes();
 // Each feature alone, with what it needs, and sets of many.
 std::span<const Recipe> limb_recipes();
+// Each form of poses, and each thing that they may have; the features of limbs, many together.
+std::span<const Recipe> body_recipes();
 
 }  // namespace swivel::corpus

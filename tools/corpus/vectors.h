@@ -3,6 +3,7 @@
 // Vectors and rotations in double, of + - * / and square roots alone: the same numbers on every machine.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "tools/corpus/random.h"
@@ -20,18 +21,30 @@ struct Rotation {
 inline double square_root(double x) { return std::sqrt(x); }
 
 inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vector operator*(double s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
 inline double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vector cross(const Vector& a, const Vector& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline Vector unit(const Vector& a) { return (1 / square_root(dot(a, a))) * a; }
+inline double length(const Vector& a) { return square_root(dot(a, a)); }
+inline Vector unit(const Vector& a) { return (1 / length(a)) * a; }
 
 inline Rotation unit(const Rotation& q)
 {
     const double scale = 1 / square_root(dot(q.v, q.v) + q.w * q.w);
     return {scale * q.v, scale * q.w};
+}
+inline Rotation operator*(const Rotation& a, const Rotation& b)
+{
+    return {a.w * b.v + b.w * a.v + cross(a.v, b.v), a.w * b.w - dot(a.v, b.v)};
+}
+inline Rotation reverse(const Rotation& q) { return {-1 * q.v, q.w}; }
+// The least turn from one direction to another, which is not its opposite.
+inline Rotation turn_between(const Vector& from, const Vector& to)
+{
+    return unit(Rotation{cross(from, to), length(from) * length(to) + dot(from, to)});
 }
 // q: of unit length.
 inline Vector turn(const Rotation& q, const Vector& a)
@@ -64,5 +77,24 @@ inline Rotation random_unit_rotation(Random& random)
         if (length2 > 0.01 && length2 < 1) return unit(q);
     }
 }
+
+// Of any length between these.
+inline Rotation random_rotation(Random& random, double shortest, double longest)
+{
+    const Rotation q = random_unit_rotation(random);
+    const double size = random.between(shortest, longest);
+    return {size * q.v, size * q.w};
+}
+
+inline std::array<float, 3> floats(const Vector& v)
+{
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+inline std::array<float, 4> floats(const Rotation& q)
+{
+    return {static_cast<float>(q.v.x), static_cast<float>(q.v.y), static_cast<float>(q.v.z), static_cast<float>(q.w)};
+}
+inline Vector vector_of(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+inline Rotation rotation_of(const std::array<float, 4>& q) { return {{q[0], q[1], q[2]}, q[3]}; }
 
 }  // namespace swivel::corpus

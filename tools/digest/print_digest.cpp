@@ -17,7 +17,7 @@ namespace {
 using namespace swivel;
 using namespace swivel::corpus;
 
-void solve(Crowd& crowd) { crowd.solve(); }
+void solve(Crowd& crowd, const Job& job) { crowd.solve(job); }
 
 void print_golden()
 {

@@ -59,24 +59,31 @@ PartDigests large_digests(Solve solve)
     using corpus::Part;
     return {corpus::digest_of(corpus::recipe_of(Part::ordinary, "world-joints-hand"), solve, 20'000),
             corpus::digest_of(corpus::recipe_of(Part::hard, "world-joints-hand"), solve, 20'000),
-            corpus::digest_of(corpus::recipe_of(Part::limbs, "set-all-limits"), solve, 2'000)};
+            corpus::digest_of(corpus::recipe_of(Part::limbs, "set-all-limits"), solve, 2'000),
+            corpus::digest_of(corpus::recipe_of(Part::bodies, "set-all-limits"), solve, 2'000)};
 }
 
-void solve_in_chunks(Crowd& crowd, std::uint32_t chunk)
+void solve_in_chunks(Crowd& crowd, Job job, std::uint32_t chunk)
 {
     const std::uint32_t blocks = swivel_block_count(crowd.get());
-    for (std::uint32_t first = 0; first < blocks; first += chunk)
-        crowd.solve({.blocks = swivel_blocks{first, std::min(chunk, blocks - first)}, .on_this_thread = true});
+    job.on_this_thread = true;
+    for (std::uint32_t first = 0; first < blocks; first += chunk) {
+        job.blocks = swivel_blocks{first, std::min(chunk, blocks - first)};
+        crowd.solve(job);
+    }
 }
 
 // The corpus on one instruction set, every way there is to run it.
 void add_digests(const char* isa, std::vector<Digest>& digests)
 {
-    const auto solve = [](Crowd& crowd) { crowd.solve({.on_this_thread = is_one_thread()}); };
+    const auto solve = [](Crowd& crowd, Job job) {
+        job.on_this_thread = is_one_thread();
+        crowd.solve(job);
+    };
     digests.push_back(digest_of(isa, "whole", solve));
     for (const std::uint32_t chunk : {1u, 2u, 3u, 5u, 64u})
         digests.push_back(digest_of(isa, fmt::format("chunks of {}", chunk),
-                                    [chunk](Crowd& crowd) { solve_in_chunks(crowd, chunk); }));
+                                    [chunk](Crowd& crowd, const Job& job) { solve_in_chunks(crowd, job, chunk); }));
     for (const unsigned threads : {1u, 2u}) {
         const ThreadLimit limit(threads);
         const std::string how = fmt::format("large, {} thread{}", threads, threads == 1 ? "" : "s");

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "tools/corpus/recipes.h"
+
+namespace swivel::corpus {
+
+namespace {
+
+constexpr Recipe body(const char* name, std::uint64_t seed, std::uint32_t features, std::uint32_t pose,
+                      Form form = Form::rotations)
+{
+    return {Part::bodies, name, seed, features, 0, Order::yxz, Order::zxy, form, pose};
+}
+
+// A row's skeleton, poses and goals come from its seed alone, so a further row changes no other row's digest.
+// clang-format off
+constexpr Recipe kBodies[] = {
+    body("rotations", 0x6edd3a249018775au, 0, 0),
+    body("rotations-places", 0x8687b18d8ce14c8bu, 0, kTranslations),
+    body("rotations-scales", 0x1ed40c227dab7ad2u, 0, kScales),
+    body("rotations-all", 0x3fe6e7be9ba05717u, kHand, kTranslations | kScales | kRoots | kBetween),
+    body("rows", 0xcb674d999253f6b7u, kHand, kRoots | kBetween, Form::rows),
+    body("columns", 0x2d38de7c3bec5519u, kHand, kRoots | kBetween, Form::columns),
+    body("columns3", 0x57b39e4dbda513bdu, kHand, kRoots | kBetween, Form::columns3),
+    body("far", 0xbafcaba920f0ac5cu, kHand, kTranslations | kRoots | kFar),
+    body("far-pole-incoming", 0x06082c084826f652u, kPoleIncoming, kRoots | kFar, Form::columns),
+    body("offsets-apart", 0xa93f99f2e8a4987eu, kHand, kBetween | kOffsets | kApart),
+    body("rows-offsets-apart", 0xe2c532cf9756a036u, kHand, kRoots | kOffsets | kApart, Form::rows),
+    body("rests", 0x70db71c4a6d5169eu, kHand, kTranslations | kScales | kRoots | kBetween | kRests),
+    body("columns-rests", 0xb51d8b61ea81606du, kHand, kRoots | kBetween | kRests, Form::columns),
+    body("lengths", 0x7f5364eb98d00ba6u, kHand, kScales | kRoots | kBetween | kLengths),
+    body("pole-incoming", 0x0b0084f7de574f6du, kHand | kPoleIncoming, kTranslations | kRoots | kBetween),
+    body("pole-normal-angle", 0x88b065e74dd5a9ecu, kPoleNormal | kAngle, kRoots),
+    body("pole-direction", 0x373020538dcceab0u, kPoleDirection, kRoots, Form::rows),
+    body("weights", 0x187e81ac2c112e79u, kWeights, kTranslations | kRoots),
+    body("weights-hand-pole-incoming", 0x2d4cc06b3a1290fcu, kHand | kWeights | kPoleIncoming, kRoots | kBetween,
+         Form::columns3),
+    body("effector", 0x6acc5fa209ae3ad4u, kHand | kEffector, kScales | kRoots | kBetween),
+    body("reach-step", 0x4285a3e8267133eeu, kHand | kReach | kStep, kTranslations | kScales | kRoots | kBetween),
+    body("aim-step", 0x374cc47ee0d33d02u, kAim | kStep, kRoots, Form::columns),
+    body("aim-hand", 0x4e9ac62aa1b018a7u, kHand | kEffector | kAim, kRoots | kBetween),
+    body("set-both-boxes", 0x40eb60ed801cf357u, kHand | kPoleIncoming | kShoulderBox | kWristBox, kTranslations |
+         kScales | kRoots | kBetween),
+    body("set-all-limits", 0x1dba58587dc7abbeu, kHand | kEffector | kAngle | kWeights | kReach | kStep | kFlexion |
+         kShoulderCone | kHumeralTwist | kShoulderBox | kHandCone | kForearmTwist | kHandTwist | kWristBox,
+         kTranslations | kScales | kRoots | kBetween | kFar),
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Recipe> body_recipes() { return kBodies; }
+
+}  // namespace swivel::corpus

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// The poses of a crowd's bodies as a caller keeps them: what a solve of bodies takes and gives beside the crowd's rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tools/corpus/bindings.h"
+#include "tools/corpus/recipe.h"
+
+namespace swivel::corpus {
+
+// Values body after body, and within a body joint after joint. What is empty is not given.
+struct Poses {
+    std::uint32_t body_count = 0, joint_count = 0;  // 0: the crowd is of free limbs
+    Form form = Form::rotations;
+    std::vector<float> rotations, translations, scales;  // rotations: or matrices
+    std::vector<float> results;                          // empty: rotations
+    std::vector<std::size_t> offsets;  // of each joint's rotation from its body's first; empty: in the joints' order
+    std::vector<float> root_positions, root_rotations, root_scales;
+    std::vector<double> far_roots;                             // in place of root_positions
+    std::array<std::vector<double>, kGroupCount> far_targets;  // in place of rows; poles likewise, if they are wanted
+    std::array<std::vector<double>, kGroupCount> far_poles;
+
+    std::uint32_t rotation_floats() const;
+    // The joints that a solve wrote, and all that it did not.
+    const std::vector<float>& solved() const { return results.empty() ? rotations : results; }
+};
+
+// Those of a frame, without goals.
+Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t frame);
+
+}  // namespace swivel::corpus
