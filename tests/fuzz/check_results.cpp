@@ -122,7 +122,7 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
                        : flags == SWIVEL_BAD_INPUT   ? is_clear
                                                      : is_normal);
     }
-    if (flags != SWIVEL_BAD_INPUT) check_places(session, group, limb);
+    if (flags != SWIVEL_BAD_INPUT && !session.bodies) check_places(session, group, limb);
 }
 
 void check_alone(Session& session, std::uint32_t group, std::uint32_t limb)
@@ -136,26 +136,41 @@ void check_alone(Session& session, std::uint32_t group, std::uint32_t limb)
         of_one.group_count = 1;
         SWIVEL_REQUIRE(swivel_crowd_create(&of_one, &alone) == SWIVEL_OK);
     }
+    copy_limb(session, group, limb, alone, 0);
+    solve_scalar(alone, nullptr);
+    check_equal(session, group, limb, alone, 0);
+}
+
+void copy_limb(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to)
+{
     const Rows inputs = inputs_of(session.crowd, group), results = results_of(session.crowd, group),
-               to = inputs_of(alone, 0), got = results_of(alone, 0);
-    for (std::size_t row = 0; row < to.row_count; ++row)
-        std::memcpy(to.at(0, row), inputs.at(limb, row), to.number_bytes);
+               put = inputs_of(alone, to), got = results_of(alone, to);
+    for (std::size_t row = 0; row < put.row_count; ++row)
+        std::memcpy(put.at(0, row), inputs.at(limb, row), put.number_bytes);
     for (std::size_t row = 0; row < got.row_count; ++row)
         std::memcpy(got.at(0, row), before(session, results.at(limb, row)), got.number_bytes);
+}
+
+void solve_scalar(swivel_crowd* alone, const swivel_job* job)
+{
     const char* const isa = swivel_isa_name();
     SWIVEL_REQUIRE(swivel_use_isa("scalar") == SWIVEL_OK);
-    SWIVEL_REQUIRE(swivel_solve(alone, nullptr) == SWIVEL_OK);
+    SWIVEL_REQUIRE(swivel_solve(alone, job) == SWIVEL_OK);
     SWIVEL_REQUIRE(swivel_use_isa(isa) == SWIVEL_OK);
+}
+
+void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to)
+{
+    const Rows results = results_of(session.crowd, group), got = results_of(alone, to);
     for (std::size_t row = 0; row < got.row_count; ++row)
         SWIVEL_REQUIRE(std::memcmp(got.at(0, row), results.at(limb, row), got.number_bytes) == 0);
 }
 
-void check_others(const Session& session, const std::vector<bool>& chosen)
+void check_others(const Session& session, const SomeLimbs& chosen)
 {
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
-        const std::size_t limb_count = swivel_group_limb_count(session.crowd, group);
-        const std::size_t first_limb = swivel_group_first_limb(session.crowd, group);
-        const auto is_chosen = [&](std::size_t limb) -> bool { return chosen[first_limb + limb]; };
+        const std::size_t limb_count = chosen[group].size();
+        const auto is_chosen = [&](std::size_t limb) -> bool { return chosen[group][limb]; };
         for (std::size_t first = 0; first < limb_count; first += SWIVEL_LANES) {
             const std::size_t end = std::min(first + SWIVEL_LANES, limb_count);
             bool is_untouched = true;

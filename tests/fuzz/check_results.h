@@ -11,9 +11,14 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
 
 // A solved limb has the bits of the same limb alone in a crowd, without a job, on the scalar build.
 void check_alone(Session& session, std::uint32_t group, std::uint32_t limb);
+// Its parts: the limb as it was before the call becomes limb 0 of a group there, which is solved, and is equal.
+void copy_limb(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone, std::uint32_t to);
+void solve_scalar(swivel_crowd* alone, const swivel_job* job);
+void check_equal(const Session& session, std::uint32_t group, std::uint32_t limb, swivel_crowd* alone,
+                 std::uint32_t to);
 
-// Inputs and results of limbs whose lanes are not chosen, and whole blocks without such a limb, have the bits that they
+// Inputs and results of limbs that are not chosen, and whole blocks without such a limb, have the bits that they
 // had before the call.
-void check_others(const Session& session, const std::vector<bool>& chosen);
+void check_others(const Session& session, const SomeLimbs& chosen);
 
 }  // namespace swivel::fuzz

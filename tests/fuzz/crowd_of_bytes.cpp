@@ -131,6 +131,24 @@ swivel_binding binding_of(Random random)
     return binding;
 }
 
+// Those that go with these and with each other.
+swivel_features features_with(swivel_features features, swivel_features excluded, Bytes& bytes)
+{
+    const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
+    const auto bits = bytes.take<std::uint64_t>();
+    // kind 0: half of all; 1: those that plain arms have, so often; 2 and 3: few.
+    const swivel_features wanted = kind == 0 ? bits : kind == 1 ? bits & kPlain : bits & bytes.take<std::uint64_t>();
+    swivel_feature_info info;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
+        const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
+        const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
+        if (info.feature == SWIVEL_BODY || !(wanted & all) || (excluded & all) || (features & info.excludes)) continue;
+        features |= (wanted & all) | info.needs;
+        excluded |= info.excludes;
+    }
+    return features;
+}
+
 }  // namespace
 
 std::uint64_t Random::bits()
@@ -142,22 +160,12 @@ std::uint64_t Random::bits()
 }
 float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits() >> 40) - (1 << 23)) * 0x1p-23f; }
 
-swivel_features features_of(Bytes& bytes)
+swivel_features features_of(Bytes& bytes) { return features_with(0, 0, bytes); }
+swivel_features body_features_of(Bytes& bytes)
 {
-    const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;
-    const auto bits = bytes.take<std::uint64_t>();
-    // kind 0: half of all; 1: those that plain arms have, so often; 2 and 3: few.
-    const swivel_features wanted = kind == 0 ? bits : kind == 1 ? bits & kPlain : bits & bytes.take<std::uint64_t>();
-    swivel_features features = 0, excluded = 0;
     swivel_feature_info info;
-    for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
-        const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
-        const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
-        if (info.feature == SWIVEL_BODY || !(wanted & all) || (excluded & all) || (features & info.excludes)) continue;
-        features |= (wanted & all) | info.needs;
-        excluded |= info.excludes;
-    }
-    return features;
+    for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != SWIVEL_BODY;) ++n;
+    return features_with(info.feature | info.needs, info.excludes, bytes);
 }
 
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)

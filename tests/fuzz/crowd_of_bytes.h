@@ -13,6 +13,8 @@ namespace swivel::fuzz {
 
 // A set of features that go together.
 swivel_features features_of(Bytes& bytes);
+// The same of bodies' limbs.
+swivel_features body_features_of(Bytes& bytes);
 
 // Each group has features and a sound binding of its own, and 1 to most_limbs limbs.
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs);

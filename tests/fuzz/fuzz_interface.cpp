@@ -4,6 +4,7 @@
 // nothing, what must succeed does and keeps the promises of swivel.h: each limb has
 // the bits that it has alone, on every instruction set, whatever the job is. No byte beside the caller's values is
 // touched.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::uint32_t kMostLimbs = 40;
 constexpr int kMostCalls = 40;
+constexpr std::uint8_t kBodies = 0xb0;  // from this first byte on, the crowd is of bodies
 
 struct Free {
     void operator()(char* memory) const { std::free(memory); }
@@ -48,31 +50,47 @@ void call_one(Session& session)
     calls[session.bytes.take<std::uint8_t>() % calls.size()](session);
 }
 
+// Calls in any order, with a crowd in memory of its own. must_be: the def is right.
+void run(Session session, swivel_crowd_def def, bool must_be, std::size_t isa)
+{
+    const std::size_t needed = swivel_crowd_bytes(&def);
+    SWIVEL_REQUIRE(needed > 0 || !must_be);
+    const Arena arena = aligned(std::max<std::size_t>(needed, 64));
+    def.memory = arena.get();
+    def.memory_bytes = needed;
+    session.group_count = def.group_count;
+    session.arena = {arena.get(), needed};
+    session.has_workspace = def.workspace_count > 0;
+    session.groups = {def.groups, def.group_count};
+    const swivel_status status = swivel_crowd_create(&def, &session.crowd);
+    SWIVEL_REQUIRE((status == SWIVEL_OK) == (needed > 0) && (session.crowd != nullptr) == (needed > 0));
+    if (!session.crowd) return;
+    session.is_solved = session.limbs_that(false);
+    session.alone.resize(def.group_count);
+    choose_isa(isa);
+    for (int n = 0; n < kMostCalls && !session.bytes.is_empty(); ++n) call_one(session);
+    session.alone.push_back(session.crowd);
+    for (swivel_crowd* const crowd : session.alone) swivel_crowd_destroy(crowd);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     Bytes bytes(data, size);
+    if (size > 0 && data[0] >= kBodies) {
+        bytes.take<std::uint8_t>();
+        BodyDef bodies(bytes, kMostLimbs);
+        swivel_crowd_def def = bodies.crowd_def(bodies.body_count);
+        def.workspace_count = bytes.one_in(4) ? 0 : 1;
+        run({.bytes = bytes, .bodies = &bodies}, def, bodies.is_sound, size);
+        return 0;
+    }
     swivel_crowd_def def = swivel_default_crowd_def();
     std::vector<swivel_group_def> groups = groups_of(bytes, kMostLimbs);
     def.groups = groups.data();
     def.group_count = static_cast<std::uint32_t>(groups.size());
     def.workspace_count = bytes.take<std::uint8_t>() % 4 == 3 ? 0 : 1;
-
-    const std::size_t needed = swivel_crowd_bytes(&def);
-    SWIVEL_REQUIRE(needed > 0);
-    const Arena arena = aligned(needed);
-    def.memory = arena.get();
-    def.memory_bytes = needed;
-    Session session{bytes, nullptr, def.group_count, {arena.get(), needed}};
-    session.has_workspace = def.workspace_count > 0;
-    SWIVEL_REQUIRE(swivel_crowd_create(&def, &session.crowd) == SWIVEL_OK);
-    session.is_solved.resize(session.lane_count());
-    session.groups = groups;
-    session.alone.resize(groups.size());
-    choose_isa(size);
-    for (int n = 0; n < kMostCalls && !bytes.is_empty(); ++n) call_one(session);
-    session.alone.push_back(session.crowd);
-    for (swivel_crowd* const crowd : session.alone) swivel_crowd_destroy(crowd);
+    run({.bytes = bytes}, def, true, size);
     return 0;
 }

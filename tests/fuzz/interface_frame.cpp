@@ -20,9 +20,11 @@ bool is_given(Session& session, std::uint32_t group, swivel_field field)
 
 }  // namespace
 
-Frame::Frame(Session& session, std::uint32_t group)
+Frame::Frame(Session& session, std::uint32_t group, const Strided* of_bodies) : root(of_bodies)
 {
-    if (session.bytes.one_in(4)) take_origin(session, swivel_group_limb_count(session.crowd, group));
+    const bool has_origin = session.bytes.one_in(4);
+    if (has_origin && !session.bodies) take_origin(session, swivel_group_limb_count(session.crowd, group));
+    if (has_origin && root) origin = root->in();
     swivel_field_info info;
     for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n) {
         const bool is_input = info.kind == SWIVEL_FIELD_INPUT;
@@ -57,7 +59,7 @@ void Frame::add(const Session& session, std::uint32_t group, swivel_field field,
 void Frame::take_input(Session& session, std::uint32_t group, swivel_field field)
 {
     const bool is_position = field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
-    const std::size_t each = origin.data && is_position ? sizeof(double) : sizeof(float),
+    const std::size_t each = (origin.data || root) && is_position ? sizeof(double) : sizeof(float),
                       components = std::max(component_count(session, group, field), 1u);
     const std::uint32_t kind = session.bytes.take<std::uint8_t>();
     Random random{session.bytes.take<std::uint16_t>()};
@@ -93,6 +95,17 @@ void Frame::take_output(Session& session, std::uint32_t group, swivel_field fiel
     add(session, group, field, values);
 }
 
+// What is subtracted from a position. Origins of free limbs are zeros, and directions have none.
+double Frame::from(const Session& session, std::uint32_t group, swivel_field field, std::uint32_t limb,
+                   std::size_t c) const
+{
+    double place = 0;
+    const bool is_direction =
+        field == SWIVEL_POLE && has_features(session, group, SWIVEL_POLE_DIRECTION | SWIVEL_POLE_NORMAL);
+    if (root && !is_direction) std::memcpy(&place, root->at(limb) + c * sizeof place, sizeof place);
+    return place;
+}
+
 void Frame::check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb) const
 {
     const swivel_rows rows = swivel_input_rows(session.crowd, group);
@@ -106,30 +119,28 @@ void Frame::check_inputs(const Session& session, std::uint32_t group, std::uint3
             double wide;
             if (is_wide) std::memcpy(&wide, inputs[n].at(limb) + c * sizeof wide, sizeof wide);
             std::memcpy(&wanted, inputs[n].at(limb) + c * sizeof wanted, sizeof wanted);
-            if (is_wide) wanted = static_cast<float>(wide);  // from an origin of zeros
+            if (is_wide) wanted = static_cast<float>(wide - from(session, group, input_fields[n], limb, c));
             const float& got =
                 rows.base[(std::size_t{limb / SWIVEL_LANES} * rows.row_count + first_row + c) * SWIVEL_LANES +
                           limb % SWIVEL_LANES];
-            SWIVEL_REQUIRE(std::memcmp(&got, &wanted, sizeof got) == 0 || (is_wide && wide != wide && got != got));
+            SWIVEL_REQUIRE(std::memcmp(&got, &wanted, sizeof got) == 0 || (is_wide && wanted != wanted && got != got));
         }
     }
 }
 
 void Frame::check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const
 {
-    const std::uint32_t limb_count = swivel_group_limb_count(session.crowd, group),
-                        first = swivel_group_first_limb(session.crowd, group);
-    const auto lane = chosen.begin() + first;
-    const bool is_untouched = std::find(lane, lane + limb_count, true) == lane + limb_count;
+    const auto limb_count = static_cast<std::uint32_t>(chosen.size());
+    const bool is_untouched = std::find(chosen.begin(), chosen.end(), true) == chosen.end();
     for (std::uint32_t limb = 0; limb < limb_count; ++limb)
-        if (lane[limb]) check_inputs(session, group, limb);
+        if (chosen[limb]) check_inputs(session, group, limb);
     for (std::size_t n = 0; n < outputs.size(); ++n) {
         outputs[n].check_gaps(is_untouched);
         if (is_untouched || outputs[n].is_null()) continue;
         std::array<char, 28 * sizeof(float)> result;  // seven twist bones
         for (std::uint32_t limb = 0; limb < limb_count; ++limb) {
             const bool is_written = output_fields[n] == SWIVEL_FLAGS || !is_kept(session, group, limb);
-            if (lane[limb] && is_written)
+            if (chosen[limb] && is_written)
                 swivel_read(session.crowd, output_fields[n], group, limb, 1, {result.data(), result.size()});
             else
                 result.fill(Strided::kPattern);

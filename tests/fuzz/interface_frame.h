@@ -14,12 +14,14 @@ namespace swivel::fuzz {
 // One group's frame and the arrays that it points to.
 struct Frame {
     swivel_in origin = {};
+    const Strided* root;
     std::vector<swivel_frame_field> fields = {};
     std::vector<Strided> inputs = {}, outputs = {};
     std::vector<swivel_field> input_fields = {}, output_fields = {};
     bool is_valid = true;
 
-    Frame(Session& session, std::uint32_t group);
+    // root: where bodies' roots are, in doubles; null for others.
+    Frame(Session& session, std::uint32_t group, const Strided* root);
     swivel_frame view() const;  // of this, which must outlive it
 
     // Inputs of chosen limbs are in the crowd's rows, and results are the crowd's. Values of others, and all of them if
@@ -27,6 +29,8 @@ struct Frame {
     void check(const Session& session, std::uint32_t group, const std::vector<bool>& chosen) const;
 
 private:
+    double from(const Session& session, std::uint32_t group, swivel_field field, std::uint32_t limb,
+                std::size_t c) const;
     void check_inputs(const Session& session, std::uint32_t group, std::uint32_t limb) const;
     void take_origin(Session& session, std::uint32_t limb_count);
     void take_input(Session& session, std::uint32_t group, swivel_field field);

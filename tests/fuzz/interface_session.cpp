@@ -9,6 +9,14 @@
 
 namespace swivel::fuzz {
 
+SomeLimbs Session::limbs_that(bool are) const
+{
+    SomeLimbs limbs;
+    for (std::uint32_t group = 0; group < group_count; ++group)
+        limbs.emplace_back(swivel_group_limb_count(crowd, group), are);
+    return limbs;
+}
+
 Limbs take_limbs(Session& session)
 {
     Bytes& bytes = session.bytes;
@@ -17,7 +25,6 @@ Limbs take_limbs(Session& session)
     const std::uint32_t has = swivel_group_limb_count(session.crowd, limbs.group);
     limbs.first = bytes.below(has + 1);
     limbs.count = bytes.below(has - limbs.first + 1);
-    limbs.first_lane = swivel_group_first_limb(session.crowd, limbs.group) + limbs.first;
     if (!bytes.one_in(16)) return limbs;
     limbs.is_valid = false;
     switch (bytes.take<std::uint8_t>() % 3) {
@@ -62,17 +69,15 @@ void check_status(const Session& session, swivel_status status, bool expected)
     SWIVEL_REQUIRE(std::memcmp(session.arena.data(), session.arena_before.data(), session.arena.size()) == 0);
 }
 
-void check_solved(Session& session, const std::vector<bool>& chosen)
+void check_solved(Session& session, const SomeLimbs& chosen)
 {
-    for (std::uint32_t group = 0; group < session.group_count; ++group) {
-        const std::uint32_t first = swivel_group_first_limb(session.crowd, group);
-        for (std::uint32_t limb = 0; limb < swivel_group_limb_count(session.crowd, group); ++limb) {
-            if (!chosen[first + limb]) continue;
-            session.is_solved[first + limb] = true;
+    for (std::uint32_t group = 0; group < session.group_count; ++group)
+        for (std::uint32_t limb = 0; limb < chosen[group].size(); ++limb) {
+            if (!chosen[group][limb]) continue;
+            session.is_solved[group][limb] = true;
             check_results(session, group, limb);
-            check_alone(session, group, limb);
+            if (!session.bodies) check_alone(session, group, limb);
         }
-    }
     check_others(session, chosen);
 }
 

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "swivel/swivel.h"
-#include "tests/fuzz/bytes.h"
+#include "tests/fuzz/bodies_of_bytes.h"
 
 namespace swivel::fuzz {
+
+// Limbs of each group.
+using SomeLimbs = std::vector<std::vector<bool>>;
 
 struct Session {
     Bytes& bytes;
@@ -18,19 +21,21 @@ struct Session {
     std::uint32_t group_count = 0;
     std::span<const char> arena = {};     // all of the crowd's memory
     std::vector<char> arena_before = {};  // as it was before the call at hand
-    std::vector<bool> is_solved = {};     // each lane
+    SomeLimbs is_solved = {};
     std::span<const swivel_group_def> groups = {};
-    std::vector<swivel_crowd*> alone = {};  // for one limb of each group
+    std::vector<swivel_crowd*> alone = {};  // for one limb of each group; of bodies the first is for one body
     bool has_workspace = true;
+    BodyDef* bodies = nullptr;  // null: free limbs
 
+    // The lanes that jobs choose; those of bodies are bodies.
     std::uint32_t lane_count() const { return swivel_block_count(crowd) * SWIVEL_LANES; }
+    SomeLimbs limbs_that(bool are) const;  // all limbs or none
 };
 
 // Some limbs of one group, there or not.
 struct Limbs {
     std::uint32_t group = 0, first = 0, count = 0;
     bool is_valid = true;
-    std::uint32_t first_lane = 0;  // where valid
 };
 Limbs take_limbs(Session& session);
 
@@ -43,8 +48,8 @@ bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb);
 
 // A call was to succeed or not, and did so; if not, it has changed nothing.
 void check_status(const Session& session, swivel_status status, bool expected);
-// Lanes with chosen[lane] were solved, results of all others are the bits they were.
-void check_solved(Session& session, const std::vector<bool>& chosen);
+// Chosen limbs were solved, results of all others are the bits they were.
+void check_solved(Session& session, const SomeLimbs& chosen);
 
 // ---- the calls: interface_copies.cpp, interface_solves.cpp, interface_poses.cpp
 void call_write(Session& session);

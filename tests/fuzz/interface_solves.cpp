@@ -3,7 +3,9 @@
 // Calls of the C interface that solve, with jobs of all kinds, and that choose the most urgent.
 #include <algorithm>
 #include <bit>
+#include <memory>
 
+#include "tests/fuzz/interface_bodies.h"
 #include "tests/fuzz/interface_frame.h"
 #include "tests/fuzz/interface_session.h"
 #include "tests/fuzz/require.h"
@@ -56,7 +58,7 @@ std::vector<bool> limbs_of(const Session& session)
     return lanes;
 }
 
-// One entry for each group.
+// One entry for each group; of bodies one alone.
 struct Priorities {
     std::vector<Strided> values;
     std::vector<swivel_in> in;
@@ -64,7 +66,7 @@ struct Priorities {
 
     explicit Priorities(Session& session)
     {
-        for (std::uint32_t group = 0; group < session.group_count; ++group) {
+        for (std::uint32_t group = 0; group < (session.bodies ? 1 : session.group_count); ++group) {
             Strided& each =
                 values.emplace_back(session.bytes, swivel_group_limb_count(session.crowd, group), sizeof(float), true);
             const bool any_bits = session.bytes.one_in(2);
@@ -107,6 +109,7 @@ struct TakenJob {
     swivel_limbs limbs_given{nullptr, 0};
     std::vector<std::uint32_t> words = {}, list = {};
     std::vector<Priorities> priorities = {};
+    std::unique_ptr<Pose> pose = {};
     std::vector<Frame> frames = {};
     std::vector<std::uint32_t> framed_groups = {}, named = {};
     std::vector<float> urgency = {};
@@ -138,6 +141,7 @@ struct TakenJob {
         }
         if (bytes.one_in(64) && !job.mask) take_mask();  // beside another choice, it may be
         if (bytes.one_in(4)) take_groups();
+        if (session.bodies) take_pose();
         if (bytes.one_in(2)) take_frames();
         if (bytes.one_in(2)) job.solved_count = &solved_count;
         take_workspace();
@@ -149,8 +153,25 @@ struct TakenJob {
         }
     }
 
-    // Lanes of a null job, or of one whose urgent blocks are not known here.
+    // Not of one whose urgent blocks are not known here.
     bool is_known() const { return !job.priorities; }
+    SomeLimbs chosen() const
+    {
+        SomeLimbs limbs = session.limbs_that(true);
+        for (std::uint32_t group = 0; group < limbs.size(); ++group)
+            for (std::uint32_t n = 0; n < limbs[group].size(); ++n)
+                limbs[group][n] = is_named(group) && lanes[swivel_group_first_limb(session.crowd, group) + n];
+        return limbs;
+    }
+    // Limbs, or bodies, which are those of each named group.
+    std::uint32_t count() const
+    {
+        std::uint32_t count = 0;
+        const SomeLimbs limbs = chosen();
+        for (std::uint32_t group = 0; group < limbs.size() && !(session.bodies && count > 0); ++group)
+            count += static_cast<std::uint32_t>(std::ranges::count(limbs[group], true));
+        return count;
+    }
 
 private:
     void keep(const std::vector<bool>& some)
@@ -173,11 +194,12 @@ private:
         job.group_word_count = static_cast<std::uint32_t>(named.size());
         if (session.bytes.one_in(32)) job.group_word_count = 2, is_valid = false;
         if (job.priorities) is_valid = false;
-        std::vector<bool> some(lanes.size());
-        for (std::uint32_t group = 0; group < session.group_count; ++group)
-            for (std::uint32_t n = 0; is_named(group) && n < swivel_group_limb_count(session.crowd, group); ++n)
-                some[swivel_group_first_limb(session.crowd, group) + n] = true;
-        keep(some);
+    }
+    void take_pose()
+    {
+        pose = std::make_unique<Pose>(session);
+        job.pose = session.bytes.one_in(64) ? nullptr : &pose->given;
+        if (!job.pose || !pose->is_valid(session)) is_valid = false;
     }
     void take_workspace()
     {
@@ -231,7 +253,8 @@ private:
     {
         for (std::uint32_t group = 0; group < session.group_count; ++group) {
             if (!is_named(group)) continue;
-            frames.emplace_back(session, group);
+            const bool is_far = job.pose && pose->seen().root_is_double && pose->root_position;
+            frames.emplace_back(session, group, is_far ? &*pose->root_position : nullptr);
             framed_groups.push_back(group);
             const std::uint32_t from = swivel_group_first_limb(session.crowd, group) / SWIVEL_LANES,
                                 to = from + (swivel_group_limb_count(session.crowd, group) - 1) / SWIVEL_LANES;
@@ -250,30 +273,29 @@ private:
 void call_solve(Session& session)
 {
     if (session.bytes.one_in(8)) {
-        check_status(session, swivel_solve(session.crowd, nullptr), has_workspace(session));
-        return check_solved(session, std::vector<bool>(session.lane_count(), has_workspace(session)));
+        const bool can_be = has_workspace(session) && !session.bodies;  // which need a pose
+        check_status(session, swivel_solve(session.crowd, nullptr), can_be);
+        return check_solved(session, session.limbs_that(can_be));
     }
     TakenJob taken(session);
     const swivel_status status = swivel_solve(session.crowd, &taken.job);
     check_status(session, status, taken.is_valid);
     const bool is_solved = status == SWIVEL_OK;
     if (taken.job.solved_count) SWIVEL_REQUIRE(is_solved == (taken.solved_count != ~0u));
-    if (!is_solved) taken.lanes.assign(taken.lanes.size(), false);
     if (!taken.is_known() && is_solved) {
+        if (taken.pose) taken.pose->check_others(session);
         for (const Frame& frame : taken.frames)
             for (const Strided& output : frame.outputs) output.check_gaps(false);
         SWIVEL_REQUIRE(!taken.job.solved_count || taken.solved_count <= session.lane_count());
         return;
     }
+    const SomeLimbs chosen = is_solved ? taken.chosen() : session.limbs_that(false);
     for (std::size_t n = 0; n < taken.frames.size(); ++n)
-        taken.frames[n].check(session, taken.framed_groups[n], taken.lanes);
+        taken.frames[n].check(session, taken.framed_groups[n], chosen[taken.framed_groups[n]]);
+    if (taken.pose) taken.pose->check(session, chosen);
     if (!is_solved) return;
-    check_solved(session, taken.lanes);
-    if (!taken.job.solved_count) return;
-    const std::vector<bool> limbs = limbs_of(session);
-    std::uint32_t count = 0;
-    for (std::size_t lane = 0; lane < limbs.size(); ++lane) count += limbs[lane] && taken.lanes[lane];
-    SWIVEL_REQUIRE(count == taken.solved_count);
+    check_solved(session, chosen);
+    if (taken.job.solved_count) SWIVEL_REQUIRE(taken.count() == taken.solved_count);
 }
 
 void call_choose(Session& session)

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/bodies_of_bytes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace swivel::fuzz {
+
+BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
+{
+    Random random{bytes.take<std::uint16_t>()};
+    body_count = 1 + bytes.below(most_bodies);
+    const std::uint32_t trunk = bytes.below(5);
+    for (std::uint32_t n = 0; n < trunk; ++n) add(random, static_cast<std::int32_t>(bytes.below(n + 1)) - 1);
+    groups.resize(1 + bytes.below(4));
+    joints.reserve(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) take_limb(bytes, random, trunk);
+    skeleton.joint_count = joint_count();
+    skeleton.parents = {parents.data(), sizeof parents[0]};
+    skeleton.translations = {translations.data(), 3 * sizeof translations[0]};
+    if (bytes.one_in(2)) skeleton.rotations = {rotations.data(), 4 * sizeof rotations[0]};
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        // Where flexion carries the forearm: not along the upper arm.
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            swivel_binding binding = swivel_default_binding();
+            if (swivel_bind_joints(&skeleton, &joints[g], &binding) == SWIVEL_OK) break;
+            for (std::size_t n = 0; n < 3; ++n) joints[g].bend[n] = n == axis;
+        }
+        groups[g] = swivel_default_body_group_def(&joints[g]);
+        groups[g].features = body_features_of(bytes);
+        groups[g].shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
+        groups[g].wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
+        if (bytes.one_in(2)) groups[g].on_bad_input = SWIVEL_REST_POSE;
+    }
+    if (!bytes.one_in(4)) return;
+    is_sound = false;
+    for (std::uint32_t n = 1 + bytes.below(3); n > 0; --n) spoil(bytes);
+}
+
+std::int32_t BodyDef::add(Random& random, std::int32_t parent)
+{
+    parents.push_back(parent);
+    for (int n = 0; n < 4; ++n) rotations.push_back(random.share());
+    for (int n = 0; n < 3; ++n) translations.push_back(random.share());
+    return static_cast<std::int32_t>(joint_count() - 1);
+}
+
+void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk)
+{
+    const auto below = [&](std::int32_t joint) {
+        for (std::uint32_t n = bytes.below(3); n > 0; --n) joint = add(random, joint);
+        return add(random, joint);
+    };
+    const std::int32_t shoulder = below(static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1), elbow = below(shoulder),
+                       wrist = below(elbow);
+    if (bytes.one_in(2)) add(random, wrist);  // which no limb needs
+    joints.push_back(swivel_default_limb_joints(static_cast<std::uint32_t>(shoulder), static_cast<std::uint32_t>(elbow),
+                                                static_cast<std::uint32_t>(wrist)));
+    for (float& x : joints.back().bend) x = random.share();
+}
+
+void BodyDef::spoil(Bytes& bytes)
+{
+    const std::uint32_t joint = bytes.below(joint_count()), any_joint = bytes.below(joint_count() + 2);
+    const std::size_t g = bytes.below(static_cast<std::uint32_t>(groups.size()));
+    swivel_limb_joints& limb = joints[g];
+    switch (bytes.take<std::uint8_t>() % 12) {
+        case 0:  // also in a circle
+            parents[joint] = static_cast<std::int32_t>(any_joint) - 1;
+            break;
+        case 1:
+            parents[joint] = bytes.take<std::int32_t>();
+            break;
+        case 2:
+            *std::array{&limb.shoulder, &limb.elbow, &limb.wrist}[bytes.below(3)] = any_joint;
+            break;
+        case 3:  // the limb of another group
+            limb = joints[bytes.below(static_cast<std::uint32_t>(groups.size()))];
+            break;
+        case 4:
+            translations[std::size_t{3} * joint + bytes.below(3)] = bytes.any_float();
+            break;
+        case 5:
+            rotations[std::size_t{4} * joint + bytes.below(4)] = bytes.any_float();
+            break;
+        case 6:
+            limb.bend[bytes.below(3)] = bytes.any_float();
+            break;
+        case 7:
+            groups[g].features ^= swivel_features{1} << bytes.below(64);
+            break;
+        case 8:  // 0 and the bodies' count are right
+            groups[g].limb_count = bytes.below(body_count + 2);
+            break;
+        case 9:
+            (bytes.one_in(2) ? skeleton.size : limb.size) = bytes.below(sizeof(swivel_limb_joints) + 9);
+            break;
+        case 10:
+            (bytes.one_in(2) ? skeleton.joint_count : skeleton.reserved) = joint;
+            break;
+        default:
+            groups[g].joints = nullptr;
+    }
+}
+
+swivel_crowd_def BodyDef::crowd_def(std::uint32_t bodies)
+{
+    swivel_crowd_def def = swivel_default_crowd_def();
+    for (swivel_group_def& group : groups)
+        if (group.limb_count == body_count && bodies != body_count) group.limb_count = 0;
+    def.groups = groups.data();
+    def.group_count = static_cast<std::uint32_t>(groups.size());
+    def.skeleton = &skeleton;
+    def.body_count = bodies;
+    return def;
+}
+
+swivel_limb_joints BodyDef::limb_of(std::uint32_t group) const
+{
+    swivel_limb_joints limb = swivel_default_limb_joints(0, 0, 0);
+    std::memcpy(&limb, &joints[group], std::min(joints[group].size, sizeof limb));
+    return limb;
+}
+
+bool BodyDef::is_needed(std::uint32_t joint) const
+{
+    for (std::uint32_t g = 0; g < groups.size(); ++g)
+        for (auto at = static_cast<std::int32_t>(limb_of(g).wrist); at >= 0; at = parents[static_cast<std::size_t>(at)])
+            if (static_cast<std::uint32_t>(at) == joint) return true;
+    return false;
+}
+
+std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
+{
+    const swivel_limb_joints limb = limb_of(group);
+    std::vector<std::uint32_t> turned = {limb.shoulder, limb.elbow};
+    if (groups[group].features & SWIVEL_WITH_HAND) turned.push_back(limb.wrist);
+    return turned;
+}
+
+}  // namespace swivel::fuzz

@@ -1,0 +1,41 @@
+#pragma once
+// SPDX-License-Identifier: MIT
+// Crowds of bodies as a fuzzer's bytes say: a skeleton with limbs beside each other, and the same spoilt in some
+// places.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tests/fuzz/crowd_of_bytes.h"
+
+namespace swivel::fuzz {
+
+struct BodyDef {
+    std::vector<std::int32_t> parents = {};
+    std::vector<float> rotations = {}, translations = {};
+    std::vector<swivel_limb_joints> joints = {};  // of each group
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    std::vector<swivel_group_def> groups = {};
+    std::uint32_t body_count = 0;
+    bool is_sound = true;
+
+    BodyDef(Bytes& bytes, std::uint32_t most_bodies);
+    BodyDef(const BodyDef&) = delete;  // its parts point to each other
+
+    std::uint32_t joint_count() const { return static_cast<std::uint32_t>(parents.size()); }
+    // A def of that many bodies, which views this.
+    swivel_crowd_def crowd_def(std::uint32_t bodies);
+    // Whether a group's limb has the joint, or one below it; in a crowd that could be made.
+    bool is_needed(std::uint32_t joint) const;
+    // The joints that a group's limb turns.
+    std::vector<std::uint32_t> turned_joints(std::uint32_t group) const;
+
+private:
+    swivel_limb_joints limb_of(std::uint32_t group) const;  // as far as its size says
+    std::int32_t add(Random& random, std::int32_t parent);
+    void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk);
+    void spoil(Bytes& bytes);
+};
+
+}  // namespace swivel::fuzz

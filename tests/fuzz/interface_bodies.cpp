@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/interface_bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "tests/fuzz/check_results.h"
+#include "tests/fuzz/crowd_of_bytes.h"
+
+namespace swivel::fuzz {
+namespace {
+
+// Bytes of a rotation or a matrix, as far as a solve may touch them, and from one to the next.
+std::size_t rotation_bytes(swivel_pose_form form)
+{
+    return (form == SWIVEL_ROTATIONS ? 4 : form == SWIVEL_MATRIX_COLUMNS ? 15 : 12) * sizeof(float);
+}
+
+void make_matrix(Random& random, swivel_pose_form form, std::span<float> value)
+{
+    std::array<float, 4> q;
+    make_value(random, SWIVEL_INCOMING_SHOULDER, 0, q);
+    const float scale = 0.5f + std::abs(random.share()),
+                s = 2 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] + 1e-9f);
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) {
+            const std::size_t third = 3 - row - column, step = form == SWIVEL_MATRIX_COLUMNS ? 4 : 3,
+                              n = form == SWIVEL_MATRIX_ROWS ? 4 * row + column : step * column + row;
+            if (column == 3)
+                value[n] = random.share();
+            else if (row == column)
+                value[n] =
+                    scale * (1 - s * (q[(row + 1) % 3] * q[(row + 1) % 3] + q[(row + 2) % 3] * q[(row + 2) % 3]));
+            else
+                value[n] =
+                    scale * s * (q[row] * q[column] + ((row + 1) % 3 == column ? -1.0f : 1.0f) * q[third] * q[3]);
+        }
+}
+// As make_value(), of a joint, one in eight of which is as hard as kind says. likeness: a field whose values are alike.
+void make_joint_value(Random& random, swivel_field likeness, swivel_pose_form form, std::uint32_t kind,
+                      std::span<float> value)
+{
+    if (random.below(8) != 0) kind = 0;
+    if (value.size() >= 12 && kind % 8 < 6) return make_matrix(random, form, value);
+    make_value(random, likeness, kind, value);
+    if (likeness == SWIVEL_PARENT_SCALE && kind % 8 < 6) std::ranges::fill(value, value[0]);
+}
+
+void take(Session& session, std::optional<JointArray>& values, swivel_joint_values& view, std::size_t bytes,
+          swivel_field likeness, swivel_pose_form form)
+{
+    const std::uint32_t kind = session.bytes.take<std::uint8_t>();
+    Random random{session.bytes.take<std::uint16_t>()};
+    values.emplace(session.bytes, *session.bodies, bytes);
+    values->fill([&](char* at) {
+        std::array<float, 15> value;
+        make_joint_value(random, likeness, form, kind, std::span(value).first(bytes / sizeof(float)));
+        std::memcpy(at, value.data(), bytes);
+    });
+    view = values->view();
+}
+// kind: as make_value()'s.
+void take_root(Session& session, std::optional<Strided>& values, swivel_in& view, swivel_field likeness,
+               std::size_t count, std::size_t each)
+{
+    if (session.bytes.one_in(2)) return;
+    const std::uint32_t kind = session.bytes.take<std::uint8_t>();
+    Random random{session.bytes.take<std::uint16_t>()};
+    values.emplace(session.bytes, session.bodies->body_count, count * each, true);
+    values->fill([&](std::size_t, char* at) {
+        std::array<float, 4> value;
+        make_value(random, likeness, kind, std::span(value).first(count));
+        for (std::size_t n = 0; n < count; ++n) {
+            const double wide = 1e6 * double{value[n]};
+            std::memcpy(at + n * each, each == sizeof wide ? static_cast<const void*>(&wide) : &value[n], each);
+        }
+    });
+    view = values->in();
+}
+
+bool are_valid(const swivel_joint_values& values, std::size_t bytes, bool may_repeat, std::uint32_t bodies)
+{
+    if (!values.data) return true;
+    const bool is_apart = values.body_stride >= bytes || (values.body_stride == 0 && (may_repeat || bodies == 1));
+    return is_apart && (values.offsets || values.joint_stride >= bytes || (values.joint_stride == 0 && may_repeat));
+}
+bool is_valid_root(const swivel_in& values, std::size_t bytes)
+{
+    return !values.data || values.stride == 0 || values.stride >= bytes;
+}
+
+}  // namespace
+
+Pose::Pose(Session& session)
+{
+    Bytes& bytes = session.bytes;
+    const auto form = static_cast<swivel_pose_form>(bytes.below(SWIVEL_MATRIX_COLUMNS3 + 1));
+    given.form = form;
+    given.root_is_double = bytes.one_in(3);
+    take(session, rotations, given.rotations, rotation_bytes(form), SWIVEL_INCOMING_SHOULDER, form);
+    const bool has_others = form == SWIVEL_ROTATIONS || bytes.one_in(64);
+    if (has_others && bytes.one_in(2))
+        take(session, translations, given.translations, 3 * sizeof(float), SWIVEL_EFFECTOR, form);
+    if (has_others && bytes.one_in(2))
+        take(session, scales, given.scales, 3 * sizeof(float), SWIVEL_PARENT_SCALE, form);
+    if (bytes.one_in(2)) given.results = results.emplace(bytes, *session.bodies, rotation_bytes(form)).view();
+    const std::size_t each = given.root_is_double ? sizeof(double) : sizeof(float);
+    take_root(session, root_position, given.root_position, SWIVEL_TARGET, 3, each);
+    take_root(session, root_rotation, given.root_rotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
+    take_root(session, root_scale, given.root_scale, SWIVEL_PARENT_SCALE, 1, sizeof(float));
+    if (bytes.one_in(32)) given.size = bytes.below(sizeof given + 9);
+    if (bytes.one_in(64)) {  // C lets it be any number
+        const std::uint32_t any = SWIVEL_MATRIX_COLUMNS3 + 1 + bytes.below(9);
+        std::memcpy(&given.form, &any, sizeof any);
+    }
+}
+
+swivel_pose Pose::seen() const
+{
+    swivel_pose pose = swivel_default_pose();
+    std::memcpy(&pose, &given, std::min(given.size, sizeof pose));
+    pose.size = sizeof pose;
+    return pose;
+}
+
+bool Pose::is_valid(const Session& session) const
+{
+    const swivel_pose pose = seen();
+    std::uint32_t form;
+    std::memcpy(&form, &pose.form, sizeof form);
+    const std::uint32_t bodies = session.bodies->body_count;
+    const bool is_sized = given.size > 0 && given.size % alignof(swivel_pose) == 0 && given.size <= sizeof given;
+    if (!is_sized || form > SWIVEL_MATRIX_COLUMNS3 || !pose.rotations.data) return false;
+    if (pose.form != SWIVEL_ROTATIONS && (pose.translations.data || pose.scales.data)) return false;
+    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float);
+    return are_valid(pose.rotations, bytes, pose.results.data, bodies) &&
+           are_valid(pose.results, bytes, false, bodies) && are_valid(pose.translations, three, true, bodies) &&
+           are_valid(pose.scales, three, true, bodies) &&
+           is_valid_root(pose.root_position, pose.root_is_double ? 2 * three : three) &&
+           is_valid_root(pose.root_rotation, 4 * sizeof(float)) && is_valid_root(pose.root_scale, sizeof(float)) &&
+           (pose.root_position.data || !pose.root_is_double);
+}
+
+void Pose::check_all() const
+{
+    for (const auto* values : {&rotations, &translations, &scales, &results})
+        if (*values) (*values)->check();
+    for (const auto* values : {&root_position, &root_rotation, &root_scale})
+        if (*values) (*values)->check_gaps(false);
+}
+
+swivel_pose Pose::of_body(std::uint32_t body, std::vector<char> (&memory)[4]) const
+{
+    swivel_pose pose = seen();
+    const auto put = [&](swivel_joint_values& view, const std::optional<JointArray>& values, std::vector<char>& here) {
+        if (!view.data) return;
+        here = values->values_of(body);
+        view = {here.data(), here.size(), values->value_bytes(), nullptr};
+    };
+    put(pose.rotations, rotations, memory[0]);
+    put(pose.translations, translations, memory[1]);
+    put(pose.scales, scales, memory[2]);
+    put(pose.results, results, memory[3]);
+    const auto put_root = [&](swivel_in& view, const std::optional<Strided>& values) {
+        if (view.data) view.data = values->at(body);
+    };
+    put_root(pose.root_position, root_position);
+    put_root(pose.root_rotation, root_rotation);
+    put_root(pose.root_scale, root_scale);
+    return pose;
+}
+
+void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body)
+{
+    std::uint32_t named = 0;
+    for (std::uint32_t group = 0; group < session.group_count; ++group)
+        if (chosen[group][body]) named |= 1u << group;
+    if (named == 0) return;
+    swivel_crowd*& alone = session.alone[0];
+    if (!alone) {
+        const swivel_crowd_def def = session.bodies->crowd_def(1);
+        SWIVEL_REQUIRE(swivel_crowd_create(&def, &alone) == SWIVEL_OK);
+    }
+    for (std::uint32_t group = 0; group < session.group_count; ++group) copy_limb(session, group, body, alone, group);
+    std::vector<char> memory[4];
+    const swivel_pose pose = of_body(body, memory);
+    swivel_job job = swivel_default_job();
+    job.groups = &named, job.group_word_count = 1;
+    job.pose = &pose;
+    solve_scalar(alone, &job);
+    const std::vector<char>& got = pose.results.data ? memory[3] : memory[0];
+    for (std::uint32_t group = 0; group < session.group_count; ++group) {
+        if (!chosen[group][body]) continue;
+        check_equal(session, group, body, alone, group);
+        for (const std::uint32_t joint : session.bodies->turned_joints(group))
+            solved().expect(body, joint, &got[joint * solved().value_bytes()]);
+    }
+}
+
+void Pose::check(Session& session, const SomeLimbs& chosen)
+{
+    for (std::uint32_t body = 0; body < session.bodies->body_count; ++body) check_body(session, chosen, body);
+    check_all();
+}
+
+void Pose::check_others(const Session& session)
+{
+    for (std::uint32_t group = 0; group < session.group_count; ++group)
+        for (std::uint32_t body = 0; body < session.bodies->body_count; ++body)
+            for (const std::uint32_t joint : session.bodies->turned_joints(group))
+                solved().expect(body, joint, nullptr);
+    check_all();
+}
+
+}  // namespace swivel::fuzz

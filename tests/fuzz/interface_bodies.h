@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// The poses of a job's bodies, made from bytes in all forms and at any distances; and what must be in them after a
+// solve.
+#pragma once
+
+#include <optional>
+
+#include "tests/fuzz/interface_session.h"
+#include "tests/fuzz/joint_array.h"
+#include "tests/fuzz/strided.h"
+
+namespace swivel::fuzz {
+
+struct Pose {
+    swivel_pose given = swivel_default_pose();
+    std::optional<JointArray> rotations = {}, translations = {}, scales = {}, results = {};
+    std::optional<Strided> root_position = {}, root_rotation = {}, root_scale = {};
+
+    explicit Pose(Session& session);
+    Pose(const Pose&) = delete;  // its view points to its arrays
+
+    // As the library sees it: members beyond its size are left out.
+    swivel_pose seen() const;
+    bool is_valid(const Session& session) const;
+    // Chosen limbs have the pose and the results of their body alone. All other bytes are as they were.
+    void check(Session& session, const SomeLimbs& chosen);
+    // The same where it is not known which limbs were chosen: those that might be may have changed.
+    void check_others(const Session& session);
+
+private:
+    JointArray& solved() { return seen().results.data ? *results : *rotations; }
+    // One body's, in memory of its own.
+    swivel_pose of_body(std::uint32_t body, std::vector<char> (&memory)[4]) const;
+    void check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body);
+    void check_all() const;
+};
+
+}  // namespace swivel::fuzz
