@@ -12,7 +12,8 @@ namespace {
 
 std::array<float, 3> random_offset(Random& random)
 {
-    return floats(random.between(0.05, 0.3) * random_direction(random));
+    const double size = random.between(0.05, 0.3);  // first: compilers order the operands of a product as they like
+    return floats(size * random_direction(random));
 }
 
 // Numbers joints from the last to the first.
