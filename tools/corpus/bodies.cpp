@@ -20,9 +20,9 @@ std::array<float, 3> random_offset(Random& random)
 void turn_round(Skeleton& skeleton)
 {
     const std::uint32_t last = skeleton.joint_count() - 1;
-    std::ranges::reverse(skeleton.parents);
-    std::ranges::reverse(skeleton.rotations);
-    std::ranges::reverse(skeleton.translations);
+    std::reverse(skeleton.parents.begin(), skeleton.parents.end());
+    std::reverse(skeleton.rotations.begin(), skeleton.rotations.end());
+    std::reverse(skeleton.translations.begin(), skeleton.translations.end());
     for (std::int32_t& parent : skeleton.parents)
         if (parent >= 0) parent = static_cast<std::int32_t>(last) - parent;
     for (LimbJoints& limb : skeleton.limbs)
