@@ -52,7 +52,7 @@ void put_hard_cases(const Recipe& recipe, std::uint32_t group, std::uint32_t fra
         if (run_of(recipe, limb) == Run::cases) arms[limb] = case_of(recipe, group, limb, frame);
 }
 
-// The arms of a group in a frame, whose goals at least are written.
+// Arms as they are written: hard cases in place of ordinary ones, and numbers spoilt.
 std::vector<Arm> arms_of(const Recipe& recipe, std::uint32_t group, std::span<const Arm> ordinary, std::uint32_t frame)
 {
     std::vector<Arm> arms(ordinary.begin(), ordinary.end());
@@ -60,6 +60,7 @@ std::vector<Arm> arms_of(const Recipe& recipe, std::uint32_t group, std::span<co
     spoil_arms(recipe, group, frame, arms);
     return arms;
 }
+// What they are made from.
 std::vector<Arm> good_arms(const Recipe& recipe, std::uint32_t group, std::uint32_t limb_count, std::uint32_t frame)
 {
     return recipe.part == Part::bodies ? body_arms(recipe, group, limb_count, frame)

@@ -21,9 +21,8 @@ struct Poses {
     std::vector<float> results;                          // empty: rotations
     std::vector<std::size_t> offsets;  // of each joint's rotation from its body's first; empty: in the joints' order
     std::vector<float> root_positions, root_rotations, root_scales;
-    std::vector<double> far_roots;                             // in place of root_positions
-    std::array<std::vector<double>, kGroupCount> far_targets;  // in place of rows; poles likewise, if they are wanted
-    std::array<std::vector<double>, kGroupCount> far_poles;
+    std::vector<double> far_roots;                                        // in place of root_positions
+    std::array<std::vector<double>, kGroupCount> far_targets, far_poles;  // of each group, in place of rows
 
     std::uint32_t rotation_floats() const;
     // The joints that a solve wrote, and all that it did not.
