@@ -2,7 +2,7 @@
 #include "tools/corpus/corpus.h"
 
 #include <algorithm>
-#include <bit>
+#include <cstring>
 #include <stdexcept>
 
 #include "tools/corpus/arms.h"
@@ -206,7 +206,11 @@ std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint
 
 std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash)
 {
-    for (const float number : poses.solved()) hash = add_bytes(hash, std::bit_cast<std::uint32_t>(number), 4);
+    for (const float& number : poses.solved()) {
+        std::uint32_t word;
+        std::memcpy(&word, &number, sizeof word);
+        hash = add_bytes(hash, word, 4);
+    }
     return hash;
 }
 
