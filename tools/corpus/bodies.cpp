@@ -25,8 +25,10 @@ void turn_round(Skeleton& skeleton)
     std::reverse(skeleton.translations.begin(), skeleton.translations.end());
     for (std::int32_t& parent : skeleton.parents)
         if (parent >= 0) parent = static_cast<std::int32_t>(last) - parent;
-    for (LimbJoints& limb : skeleton.limbs)
+    for (LimbJoints& limb : skeleton.limbs) {
         for (std::uint32_t* const joint : {&limb.shoulder, &limb.elbow, &limb.wrist}) *joint = last - *joint;
+        for (std::uint32_t& joint : limb.twist_bones) joint = last - joint;
+    }
 }
 
 // Where a joint is: from the root's place, in the world's directions.
@@ -108,6 +110,19 @@ Body random_body(Streams& streams, const Recipe& recipe, const Skeleton& skeleto
 
 bool has_matrices(const Recipe& recipe) { return recipe.form != Form::rotations; }
 
+Body in_body_space(const Skeleton& skeleton, const Body& local)
+{
+    Body from_root = local, in_body = local;
+    from_root.root_rotation = {0, 0, 0, 1}, from_root.root_scale = 1;
+    const std::vector<JointAt> at = joints_at(skeleton, from_root);
+    for (std::size_t n = 0; n < at.size(); ++n) {
+        in_body.rotations[n] = floats(at[n].rotation);
+        in_body.translations[n] = floats(at[n].place);
+        in_body.scales[n] = static_cast<float>(at[n].scale);
+    }
+    return in_body;
+}
+
 Skeleton skeleton_of(const Recipe& recipe)
 {
     Random random = stream(recipe.seed, 0, Field::skeleton, Use::value, 0);
@@ -125,11 +140,21 @@ Skeleton skeleton_of(const Recipe& recipe)
     };
     add(add(add(-1)));  // the trunk
     for (LimbJoints& limb : skeleton.limbs) {
-        const std::int32_t shoulder = add(static_cast<std::int32_t>(random.below(4)) - 1), elbow = below(shoulder),
-                           wrist = below(elbow);
+        std::int32_t above = static_cast<std::int32_t>(random.below(4)) - 1;
+        if (recipe.features & kClavicle) above = add(above);
+        const std::int32_t shoulder = add(above), elbow = below(shoulder), wrist = below(elbow);
         add(wrist);  // which no limb needs
-        limb = {static_cast<std::uint32_t>(shoulder), static_cast<std::uint32_t>(elbow),
-                static_cast<std::uint32_t>(wrist), floats(random_direction(random))};
+        limb = {static_cast<std::uint32_t>(shoulder),
+                static_cast<std::uint32_t>(elbow),
+                static_cast<std::uint32_t>(wrist),
+                floats(random_direction(random)),
+                {}};
+        // All at the elbow, so that they are in any order along the forearm.
+        for (std::uint32_t n = 0; n < recipe.twist_bones; ++n) {
+            const std::int32_t bone = add(elbow);
+            skeleton.translations.back() = {0, 0, 0};
+            limb.twist_bones.push_back(static_cast<std::uint32_t>(bone));
+        }
     }
     turn_round(skeleton);
     return skeleton;

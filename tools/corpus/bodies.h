@@ -16,6 +16,7 @@ namespace swivel::corpus {
 struct LimbJoints {
     std::uint32_t shoulder, elbow, wrist;
     std::array<float, 3> bend;  // where flexion carries the forearm, in the shoulder joint's frame
+    std::vector<std::uint32_t> twist_bones;
 };
 // Children come before their parents.
 struct Skeleton {
@@ -37,6 +38,8 @@ struct Body {
     float root_scale = 1;
 };
 bool has_matrices(const Recipe& recipe);
+// The same pose with all joints relative to the root.
+Body in_body_space(const Skeleton& skeleton, const Body& local);
 // Other poses in every frame.
 std::vector<Body> bodies_of(const Recipe& recipe, std::uint32_t body_count, std::uint32_t frame);
 

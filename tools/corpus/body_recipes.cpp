@@ -6,9 +6,9 @@ namespace swivel::corpus {
 namespace {
 
 constexpr Recipe body(const char* name, std::uint64_t seed, std::uint32_t features, std::uint32_t pose,
-                      Form form = Form::rotations)
+                      Form form = Form::rotations, std::uint32_t twist_bones = 0)
 {
-    return {Part::bodies, name, seed, features, 0, Order::yxz, Order::zxy, form, pose};
+    return {Part::bodies, name, seed, features, twist_bones, Order::yxz, Order::zxy, form, pose};
 }
 
 // A row's skeleton, poses and goals come from its seed alone, so a further row changes no other row's digest.
@@ -43,6 +43,30 @@ constexpr Recipe kBodies[] = {
     body("set-all-limits", 0x1dba58587dc7abbeu, kHand | kEffector | kAngle | kWeights | kReach | kStep | kFlexion |
          kShoulderCone | kHumeralTwist | kShoulderBox | kHandCone | kForearmTwist | kHandTwist | kWristBox,
          kTranslations | kScales | kRoots | kBetween | kFar),
+    body("twist-bones-1", 0xc620e2ee1e7f6dbfu, kHand, kRoots | kBetween, Form::rotations, 1),
+    body("twist-bones-3", 0xd933b7e19cbfde6au, kHand | kWeights, kRoots, Form::columns, 3),
+    body("twist-bones-7", 0xe438d972b37fdd13u, kHand | kPoleIncoming, kTranslations | kScales | kRoots | kBetween,
+         Form::rotations, 7),
+    body("clavicle", 0xada7368431d18069u, kClavicle, kTranslations | kScales | kRoots | kBetween),
+    body("clavicle-hand", 0x5f55d09cb38f87c0u, kHand | kEffector | kWeights | kClavicle, kRoots | kBetween | kRests,
+         Form::rows),
+    body("clavicle-aim", 0x9c14d0fba73440e0u, kHand | kAim | kClavicle, kRoots),
+    body("in-body", 0xf74369b51ad50868u, kHand, kTranslations | kScales | kBetween | kInBody),
+    body("in-body-apart", 0xa60f9adc38b516ecu, kHand, kTranslations | kScales | kRoots | kBetween | kOffsets | kApart
+         | kInBody),
+    body("in-body-rows", 0x1a2696745873b1c6u, kHand | kClavicle, kRoots | kBetween | kInBody, Form::rows, 2),
+    body("in-body-columns", 0x0fc311120b86a2a7u, kPoleIncoming, kRoots | kFar | kInBody, Form::columns),
+    body("in-body-columns3", 0x1a67d17e11a44ab6u, kWeights, kRoots | kApart | kInBody, Form::columns3),
+    body("all-joints", 0x54e0185bac60bb88u, kHand, kTranslations | kScales | kRoots | kBetween | kAllJoints,
+         Form::rotations, 3),
+    body("in-body-all-joints", 0xd5664a18991e0412u, kHand | kClavicle, kRoots | kBetween | kInBody | kAllJoints,
+         Form::columns),
+    body("record", 0x6360defb29d0059du, kHand | kReach | kStep | kRecord, kTranslations | kScales | kRoots |
+         kBetween),
+    body("record-aim-clavicle", 0xa4ce2b48d1cfb335u, kAim | kClavicle | kRecord, kRoots),
+    body("set-everything", 0x4320a72c42d80ff4u, kHand | kEffector | kAngle | kWeights | kReach | kStep | kFlexion |
+         kShoulderCone | kHumeralTwist | kShoulderBox | kHandCone | kForearmTwist | kHandTwist | kWristBox | kClavicle
+         | kRecord, kTranslations | kScales | kRoots | kBetween | kFar | kInBody | kAllJoints, Form::rotations, 3),
 };
 // clang-format on
 

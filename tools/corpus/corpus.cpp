@@ -206,11 +206,12 @@ std::uint64_t digest_results(const Crowd& crowd, const Recipe& recipe, std::uint
 
 std::uint64_t digest_poses(const Poses& poses, std::uint64_t hash)
 {
-    for (const float& number : poses.solved()) {
-        std::uint32_t word;
-        std::memcpy(&word, &number, sizeof word);
-        hash = add_bytes(hash, word, 4);
-    }
+    for (const std::vector<float>* const numbers : poses.solved())
+        for (const float& number : *numbers) {
+            std::uint32_t word;
+            std::memcpy(&word, &number, sizeof word);
+            hash = add_bytes(hash, word, 4);
+        }
     return hash;
 }
 

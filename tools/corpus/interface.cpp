@@ -40,6 +40,7 @@ constexpr FeatureName kFeatures[] = {
     {kWristBox, SWIVEL_WITH_WRIST_BOX},
     {kAim, SWIVEL_WITH_AIM},
     {kClavicle, SWIVEL_WITH_CLAVICLE},
+    {kRecord, SWIVEL_WITH_RECORD},
 };
 
 struct FieldName {
@@ -74,7 +75,7 @@ constexpr FieldName kFields[] = {
     {Field::hand_twist, SWIVEL_HAND_TWIST, 7, kHandTwist},
     {Field::wrist_box, SWIVEL_WRIST_BOX, 12, kWristBox},
     {Field::aim, SWIVEL_AIM, 5, kAim},
-    {Field::clavicle, SWIVEL_CLAVICLE, 4, kClavicle},
+    {Field::clavicle, SWIVEL_CLAVICLE, 4, kClavicle},  // 1 of bodies
     {Field::shoulder, SWIVEL_SHOULDER, 4},
     {Field::elbow, SWIVEL_ELBOW, 2},  // 4 with joints
     {Field::wrist, SWIVEL_WRIST, 4, kHand},
@@ -83,6 +84,7 @@ constexpr FieldName kFields[] = {
     {Field::normal, SWIVEL_NORMAL, 3, kStep},
     {Field::twist, SWIVEL_TWIST_BONES, 4},  // for each bone
     {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4, kClavicle},
+    {Field::record, SWIVEL_RECORD, 22, kRecord},
 };
 
 struct FlagName {
@@ -199,6 +201,8 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
         const LimbJoints& limb = own.limbs[g];
         joints[g] = swivel_default_limb_joints(limb.shoulder, limb.elbow, limb.wrist);
         std::copy(limb.bend.begin(), limb.bend.end(), joints[g].bend);
+        joints[g].twist_bones = limb.twist_bones.data();
+        joints[g].twist_bone_count = recipe.twist_bones;
         groups[g].joints = &joints[g];
         groups[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
     }
@@ -226,6 +230,10 @@ swivel_pose library_pose(Poses& poses)
     pose.translations = joint_values(poses, poses.translations, {});
     pose.scales = joint_values(poses, poses.scales, {});
     pose.results = joint_values(poses, poses.results, poses.offsets);
+    pose.space = poses.is_in_body ? SWIVEL_IN_BODY : SWIVEL_LOCAL;
+    pose.translation_results = joint_values(poses, poses.translation_results, {});
+    pose.joint_rotations = joint_values(poses, poses.joint_rotations, {});
+    pose.joint_places = joint_values(poses, poses.joint_places, {});
     pose.root_is_double = !poses.far_roots.empty();
     pose.root_position =
         pose.root_is_double ? body_values(poses, poses.far_roots) : body_values(poses, poses.root_positions);
@@ -274,6 +282,7 @@ std::uint32_t component_count(const Recipe& recipe, Field field)
 {
     const std::uint32_t components = name_of(field).components;
     if (field == Field::elbow && (recipe.features & kJoints)) return 4;
+    if (field == Field::clavicle && recipe.part == Part::bodies) return 1;
     return field == Field::twist ? components * recipe.twist_bones : components;
 }
 

@@ -50,7 +50,7 @@ void make_longer(double* v, int count, double factor)
 }
 
 // Numbers in -1..1, some of them perhaps hard, become a value of the field. length: of the arm.
-void shape(Field field, double* v, double length)
+void shape(Field field, double* v, std::uint32_t count, double length)
 {
     switch (field) {
         case Field::effector:
@@ -88,6 +88,7 @@ void shape(Field field, double* v, double length)
             v[3] = size_of(v[3]);
             return make_half(v + 3);
         case Field::clavicle:
+            if (count == 1) return make_shares(v, 1, 1);  // of bodies
             make_longer(v, 3, 0.25 * length);
             v[3] = size_of(v[3]);
             return;
@@ -118,7 +119,7 @@ std::vector<float> limb_values(const Recipe& recipe, Field field, std::uint32_t 
         for (double& x : value) x = random.signed_unit();
         if (is_spoilt_run(limb)) spoil(spoiling, std::span(value), 64);
         const Arm& arm = arms[limb];
-        shape(field, value.data(), double{arm.lengths[0]} + arm.lengths[1]);
+        shape(field, value.data(), components, double{arm.lengths[0]} + arm.lengths[1]);
         if (recipe.part == Part::bodies && field == Field::weights) keep_some(limb, value);
         for (const double x : value) values.push_back(static_cast<float>(x));
     }

@@ -71,6 +71,13 @@ void spoil_bodies(const Recipe& recipe, Field field, std::uint32_t frame, std::u
 
 std::uint32_t Poses::rotation_floats() const { return form == Form::rotations ? 4 : form == Form::columns ? 16 : 12; }
 
+std::array<const std::vector<float>*, 4> Poses::solved() const
+{
+    static const std::vector<float> none;
+    const std::vector<float>& places = translation_results.empty() ? translations : translation_results;
+    return {results.empty() ? &rotations : &results, is_in_body ? &places : &none, &joint_rotations, &joint_places};
+}
+
 Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t frame)
 {
     const std::vector<Body> bodies = bodies_of(recipe, body_count, frame);
@@ -81,7 +88,9 @@ Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t f
     if (recipe.pose & kOffsets)
         for (std::size_t n = poses.joint_count; n-- > 0;)
             poses.offsets.push_back(n * poses.rotation_floats() * sizeof(float));
-    for (const Body& body : bodies) append_body(poses, recipe, body);
+    poses.is_in_body = recipe.pose & kInBody;
+    const Skeleton skeleton = skeleton_of(recipe);
+    for (const Body& body : bodies) append_body(poses, recipe, poses.is_in_body ? in_body_space(skeleton, body) : body);
     const auto spoil_all = [&](Field field, std::vector<float>& values) {
         spoil_bodies(recipe, field, frame, poses.body_count, values);
     };
@@ -92,6 +101,11 @@ Poses make_poses(const Recipe& recipe, std::uint32_t body_count, std::uint32_t f
     spoil_all(Field::root_rotation, poses.root_rotations);
     spoil_all(Field::root_scale, poses.root_scales);
     if (recipe.pose & kApart) poses.results.resize(poses.rotations.size());
+    if ((recipe.pose & kApart) && poses.is_in_body) poses.translation_results.resize(poses.translations.size());
+    if (recipe.pose & kAllJoints) {
+        poses.joint_rotations.resize(std::size_t{4} * body_count * poses.joint_count);
+        poses.joint_places.resize(std::size_t{3} * body_count * poses.joint_count);
+    }
     return poses;
 }
 

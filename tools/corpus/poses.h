@@ -17,16 +17,18 @@ namespace swivel::corpus {
 struct Poses {
     std::uint32_t body_count = 0, joint_count = 0;  // 0: the crowd is of free limbs
     Form form = Form::rotations;
+    bool is_in_body = false;
     std::vector<float> rotations, translations, scales;  // rotations: or matrices
-    std::vector<float> results;                          // empty: rotations
+    std::vector<float> results, translation_results;     // empty: rotations and translations
+    std::vector<float> joint_rotations, joint_places;
     std::vector<std::size_t> offsets;  // of each joint's rotation from its body's first; empty: in the joints' order
     std::vector<float> root_positions, root_rotations, root_scales;
     std::vector<double> far_roots;                                        // in place of root_positions
     std::array<std::vector<double>, kGroupCount> far_targets, far_poles;  // of each group, in place of rows
 
     std::uint32_t rotation_floats() const;
-    // The joints that a solve wrote, and all that it did not.
-    const std::vector<float>& solved() const { return results.empty() ? rotations : results; }
+    // What a solve wrote, and what it did not write beside it.
+    std::array<const std::vector<float>*, 4> solved() const;
 };
 
 // Those of a frame, without goals.

@@ -40,6 +40,7 @@ enum Feature : std::uint32_t {
     kWristBox = 1u << 20,
     kAim = 1u << 21,
     kClavicle = 1u << 22,
+    kRecord = 1u << 23,
 };
 
 // Random numbers of a field depend on its number here.
@@ -88,6 +89,7 @@ enum class Field : std::uint8_t {
     normal = 69,
     twist = 70,
     clavicle_turn = 71,
+    record = 72,
 };
 
 // Bits of the flag words that are digested.
@@ -130,6 +132,8 @@ enum PoseFeature : std::uint32_t {
     kOffsets = 1u << 6,       // joints lie in another order than in the skeleton
     kApart = 1u << 7,         // solved joints go elsewhere
     kRests = 1u << 8,         // bad input gets the rest pose
+    kInBody = 1u << 9,        // joints are relative to the root, and all below a limb's move with it
+    kAllJoints = 1u << 10,    // where all needed joints are comes out, too
 };
 
 struct Recipe {
