@@ -142,7 +142,7 @@ swivel_features features_with(swivel_features features, swivel_features excluded
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
         const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
         const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
-        if (info.feature == SWIVEL_BODY || !(wanted & all) || (excluded & all) || (features & info.excludes)) continue;
+        if (!(wanted & all) || (excluded & (all | info.needs)) || (features & info.excludes)) continue;
         features |= (wanted & all) | info.needs;
         excluded |= info.excludes;
     }
@@ -160,7 +160,7 @@ std::uint64_t Random::bits()
 }
 float Random::share() { return static_cast<float>(static_cast<std::int32_t>(bits() >> 40) - (1 << 23)) * 0x1p-23f; }
 
-swivel_features features_of(Bytes& bytes) { return features_with(0, 0, bytes); }
+swivel_features features_of(Bytes& bytes) { return features_with(0, SWIVEL_BODY, bytes); }
 swivel_features body_features_of(Bytes& bytes)
 {
     swivel_feature_info info;
