@@ -16,7 +16,8 @@ struct BodySize {
     std::uint32_t joint_count, row_count, moved_count;  // needed joints, the root among them; rows of a block
 };
 BodySize body_size(const swivel_crowd_def& def);
-// Stores the needed joints of all groups, depth after depth. So those that follow each other seldom wait for each other.
+// Stores the needed joints of all groups, depth after depth. So those that follow each other seldom wait for each
+// other.
 void plan_joints(const swivel_crowd_def& def, BodyJoint* joints);
 // Gives a group's limb, and stores its moved joints from `moved` on.
 struct PlannedJoints {
