@@ -49,6 +49,12 @@ swivel_features random_features(Random& random)
     return features;
 }
 
+// A body without a wanted hand aims with the one that comes; a free limb must be told.
+swivel_features free_features(swivel_features features)
+{
+    return (features & ~SWIVEL_BODY) | (features & SWIVEL_WITH_AIM ? SWIVEL_WITH_HAND : 0);
+}
+
 template <class Value>
 std::vector<float> list(const Value& value)
 {
@@ -151,7 +157,7 @@ struct LimbInBody {
                                        values.at(SWIVEL_HAND)[3]}) *
                            hand_rest.conjugate();
         if (features & SWIVEL_WITH_AIM) hand = fore_frame.conjugate() * above(limb.wrist).rotation * hand;
-        free[SWIVEL_HAND] = list(floats(hand));
+        free[SWIVEL_HAND] = features & SWIVEL_WITH_HAND ? list(floats(hand)) : free[SWIVEL_INCOMING_WRIST];
         for (const swivel_field field : {SWIVEL_EFFECTOR, SWIVEL_AIM}) {
             const Float3 v = floats(Vector3d(hand_rest * vec({free[field][0], free[field][1], free[field][2]})));
             std::ranges::copy(v, free[field].begin());
@@ -197,8 +203,8 @@ struct Twins {
     const BodySkeleton skeleton = random_body_skeleton(random, {1 + random.below(8), 2, random.below(3), false});
     std::vector<Body> bodies;
     Crowd crowd = body_crowd(skeleton, features & ~kPosed, kPosedBodies),
-          free = Crowd({group(kPosedBodies * kTwins, features & ~SWIVEL_BODY),
-                        group(kPosedBodies*kTwins, features & ~SWIVEL_BODY)});
+          free = Crowd({group(kPosedBodies * kTwins, free_features(features)),
+                        group(kPosedBodies*kTwins, free_features(features))});
     std::vector<bool> is_between;  // limbs that are neither straight nor bent, or against nothing
 
     explicit Twins(Random& from) : random(from)
