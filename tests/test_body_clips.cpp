@@ -46,7 +46,7 @@ struct ClipBodies {
         }
         for (const tools::Limb& limb : limbs_of(clip, options)) {
             const auto joint = [&](std::size_t n) { return static_cast<std::uint32_t>(limb.joints[n]); };
-            skeleton.limbs.push_back({joint(0), joint(1), joint(2), floats(limb.bend)});
+            skeleton.limbs.push_back({joint(0), joint(1), joint(2), floats(limb.bend), {}});
         }
         for (std::size_t frame = 0; frame < frames.size(); ++frame)
             for (std::size_t n = 0; n < clip.joints.size(); ++n) {
