@@ -15,6 +15,26 @@ struct JointFrame {
     T scale;  // uniform
 };
 
+// A value that goes out although its input may be bad. The NaN of an operation has other bits on other CPUs, so there
+// is one for all.
+template <class T>
+SWIVEL_INLINE constexpr T with_one_nan(const T& x)
+{
+    return select(x == x, x, T(__builtin_nan("")));
+}
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> with_one_nan(const Vector<T>& v)
+{
+    return vector(with_one_nan(v.template at<kE1>()), with_one_nan(v.template at<kE2>()),
+                  with_one_nan(v.template at<kE3>()));
+}
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> with_one_nan(const Rotor<T>& q)
+{
+    return rotor(with_one_nan(q.template at<kI>()), with_one_nan(q.template at<kJ>()),
+                 with_one_nan(q.template at<kK>()), with_one_nan(q.template at<kScalar>()));
+}
+
 // A rotation made unit. Most are unit but for rounding. For these one step of Newton's method on
 // 1 / sqrt(length^2) does: it leaves 3/8 of the squared error, less than rounding. Others take the root and the
 // quotient. Zero and what is not finite becomes NaN.

@@ -72,7 +72,7 @@ SWIVEL_INLINE void carry_matrix(const Motion& motion, LaneValues lane, std::size
     const Mask<T> none = motion.is_none();
     for (std::uint32_t c = 0; c < 4; ++c) {
         const Vector<T> was = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
-        const Vector<T> is = select(none, was, c < 3 ? turned(motion.turn, was) : motion(was));
+        const Vector<T> is = select(none, was, with_one_nan(c < 3 ? turned(motion.turn, was) : motion(was)));
         const std::uint32_t first = Form == SWIVEL_MATRIX_ROWS ? c : 3 * c, step = Form == SWIVEL_MATRIX_ROWS ? 4 : 1;
         out.set(first, is.template at<kE1>());
         out.set(first + step, is.template at<kE2>());
@@ -95,11 +95,11 @@ SWIVEL_FLATTEN void carry(const BodyPlan& plan, const BodyBlock& block, const Mo
         if (pose.form == SWIVEL_MATRIX_COLUMNS3) carry_matrix<SWIVEL_MATRIX_COLUMNS3>(motion, from, at, out);
         if (pose.form != SWIVEL_ROTATIONS) continue;
         const Rotor<T> rotation = rotor_of(load_values<T, 4>(from, at));
-        out.set_rotor(kOutTurnRow, select(motion.is_none(), rotation, motion.turn * rotation));
+        out.set_rotor(kOutTurnRow, select(motion.is_none(), rotation, with_one_nan(motion.turn * rotation)));
         if (!translates) continue;
         const Vector<T> place =
             vector_of(load_values<T, 3>(translations.lane + lane, offset_of(pose.translations, joint.skeleton_joint)));
-        out.set_vector(kOutPlaceRow, select(motion.is_none(), place, motion(place)));
+        out.set_vector(kOutPlaceRow, select(motion.is_none(), place, with_one_nan(motion(place))));
     }
 }
 
@@ -109,8 +109,8 @@ SWIVEL_FLATTEN void place(const BodyBlock& block, const BodyJoint& joint)
         const IntoBody body(block, lane);
         const Motion motion = Motion::at(block, joint.mover, lane);
         const JointRows at = rows_of(block, joint.row, lane), out = rows_of(block, 0, lane);
-        out.set_rotor(kOutTurnRow, hemisphere(motion.turn * body.rotation(at)));
-        out.set_vector(kOutPlaceRow, motion(body.place(at)));
+        out.set_rotor(kOutTurnRow, with_one_nan(hemisphere(motion.turn * body.rotation(at))));
+        out.set_vector(kOutPlaceRow, with_one_nan(motion(body.place(at))));
     }
 }
 

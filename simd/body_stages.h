@@ -96,14 +96,14 @@ struct StageBody<Stage::record> {
                    ~broadcast<T>(s.strip.bind.hand_from_arm);
         Rows<T, kTold> out = s.io;
         out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
-        out.store_vector(SWIVEL_RECORD, shoulder + s.body_vector(kRootRow), kRecordShoulder);
-        out.store_rotor(SWIVEL_RECORD, arm, kRecordArm);
-        out.store(SWIVEL_RECORD, kRecordScale, parent.scale);
-        out.store(SWIVEL_RECORD, kRecordLengths, s.body_row(kLengthsRow));
-        out.store(SWIVEL_RECORD, kRecordLengths + 1, s.body_row(kLengthsRow + 1));
-        out.store_rotor(SWIVEL_RECORD, s.get_rotor(kIncomingRow), kRecordIncoming);
-        out.store_rotor(SWIVEL_RECORD, s.get_rotor(kIncomingRow + 4), kRecordIncoming + 4);
-        out.store_rotor(SWIVEL_RECORD, hand, kRecordIncoming + 8);
+        out.store_vector(SWIVEL_RECORD, with_one_nan(shoulder + s.body_vector(kRootRow)), kRecordShoulder);
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(arm), kRecordArm);
+        out.store(SWIVEL_RECORD, kRecordScale, with_one_nan(parent.scale));
+        out.store(SWIVEL_RECORD, kRecordLengths, with_one_nan(s.body_row(kLengthsRow)));
+        out.store(SWIVEL_RECORD, kRecordLengths + 1, with_one_nan(s.body_row(kLengthsRow + 1)));
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(s.get_rotor(kIncomingRow)), kRecordIncoming);
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(s.get_rotor(kIncomingRow + 4)), kRecordIncoming + 4);
+        out.store_rotor(SWIVEL_RECORD, with_one_nan(hand), kRecordIncoming + 8);
     }
 };
 
