@@ -14,13 +14,17 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
     const std::uint32_t trunk = bytes.below(5);
     for (std::uint32_t n = 0; n < trunk; ++n) add(random, static_cast<std::int32_t>(bytes.below(n + 1)) - 1);
     groups.resize(1 + bytes.below(4));
-    joints.reserve(groups.size());
-    for (std::size_t g = 0; g < groups.size(); ++g) take_limb(bytes, random, trunk);
+    std::vector<swivel_features> features;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        features.push_back(body_features_of(bytes));
+        take_limb(bytes, random, trunk, features[g]);
+    }
     skeleton.joint_count = joint_count();
     skeleton.parents = {parents.data(), sizeof parents[0]};
     skeleton.translations = {translations.data(), 3 * sizeof translations[0]};
     if (bytes.one_in(2)) skeleton.rotations = {rotations.data(), 4 * sizeof rotations[0]};
     for (std::size_t g = 0; g < groups.size(); ++g) {
+        joints[g].twist_bones = twist_bones[g].data();
         // Where flexion carries the forearm: not along the upper arm.
         for (std::size_t axis = 0; axis < 3; ++axis) {
             swivel_binding binding = swivel_default_binding();
@@ -28,7 +32,7 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
             for (std::size_t n = 0; n < 3; ++n) joints[g].bend[n] = n == axis;
         }
         groups[g] = swivel_default_body_group_def(&joints[g]);
-        groups[g].features = body_features_of(bytes);
+        groups[g].features = features[g];
         groups[g].shoulder_order = static_cast<swivel_euler_order>(bytes.below(6));
         groups[g].wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
         if (bytes.one_in(2)) groups[g].on_bad_input = SWIVEL_REST_POSE;
@@ -46,18 +50,26 @@ std::int32_t BodyDef::add(Random& random, std::int32_t parent)
     return static_cast<std::int32_t>(joint_count() - 1);
 }
 
-void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk)
+void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features)
 {
     const auto below = [&](std::int32_t joint) {
         for (std::uint32_t n = bytes.below(3); n > 0; --n) joint = add(random, joint);
         return add(random, joint);
     };
-    const std::int32_t shoulder = below(static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1), elbow = below(shoulder),
-                       wrist = below(elbow);
+    std::int32_t above = static_cast<std::int32_t>(bytes.below(trunk + 1)) - 1;
+    if (features & SWIVEL_WITH_CLAVICLE) above = add(random, above);
+    const std::int32_t shoulder = add(random, above), elbow = below(shoulder), wrist = below(elbow);
     if (bytes.one_in(2)) add(random, wrist);  // which no limb needs
     joints.push_back(swivel_default_limb_joints(static_cast<std::uint32_t>(shoulder), static_cast<std::uint32_t>(elbow),
                                                 static_cast<std::uint32_t>(wrist)));
     for (float& x : joints.back().bend) x = random.share();
+    // At the elbow, all of them: they must not lie one before the other.
+    std::vector<std::uint32_t>& bones = twist_bones.emplace_back();
+    for (auto n = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1); n > 0; --n) {
+        bones.push_back(static_cast<std::uint32_t>(add(random, elbow)));
+        std::fill_n(translations.end() - 3, 3, 0.0f);
+    }
+    joints.back().twist_bone_count = static_cast<std::uint32_t>(bones.size());
 }
 
 void BodyDef::spoil(Bytes& bytes)
@@ -123,20 +135,55 @@ swivel_limb_joints BodyDef::limb_of(std::uint32_t group) const
     return limb;
 }
 
+bool BodyDef::is_above(std::uint32_t joint, std::uint32_t below) const
+{
+    for (auto at = static_cast<std::int32_t>(below); at >= 0; at = parents[static_cast<std::size_t>(at)])
+        if (static_cast<std::uint32_t>(at) == joint) return true;
+    return false;
+}
+
 bool BodyDef::is_needed(std::uint32_t joint) const
 {
-    for (std::uint32_t g = 0; g < groups.size(); ++g)
-        for (auto at = static_cast<std::int32_t>(limb_of(g).wrist); at >= 0; at = parents[static_cast<std::size_t>(at)])
-            if (static_cast<std::uint32_t>(at) == joint) return true;
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+        if (is_above(joint, limb_of(g).wrist)) return true;
+        for (const std::uint32_t turned : turned_joints(g))
+            if (is_above(joint, turned)) return true;
+    }
     return false;
 }
 
 std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
 {
     const swivel_limb_joints limb = limb_of(group);
+    const swivel_features features = groups[group].features;
     std::vector<std::uint32_t> turned = {limb.shoulder, limb.elbow};
-    if (groups[group].features & SWIVEL_WITH_HAND) turned.push_back(limb.wrist);
+    if (features & SWIVEL_WITH_HAND) turned.push_back(limb.wrist);
+    if (features & SWIVEL_WITH_CLAVICLE) turned.push_back(static_cast<std::uint32_t>(parents[limb.shoulder]));
+    const auto bones = features / SWIVEL_WITH_TWIST_BONES % (SWIVEL_MOST_TWIST_BONES + 1);
+    turned.insert(turned.end(), limb.twist_bones, limb.twist_bones + bones);
     return turned;
+}
+
+std::vector<std::uint32_t> BodyDef::moved_joints(std::uint32_t group) const
+{
+    std::vector<std::uint32_t> moved;
+    for (std::uint32_t joint = 0; joint < joint_count(); ++joint)
+        for (const std::uint32_t turned : turned_joints(group))
+            if (is_above(turned, joint)) {
+                moved.push_back(joint);
+                break;
+            }
+    return moved;
+}
+
+bool BodyDef::is_seen(std::uint32_t joint) const
+{
+    bool is_moved = false;
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+        const std::vector<std::uint32_t> moved = moved_joints(g);
+        is_moved = is_moved || std::find(moved.begin(), moved.end(), joint) != moved.end();
+    }
+    return is_moved || is_needed(joint);
 }
 
 }  // namespace swivel::fuzz

@@ -15,6 +15,7 @@ struct BodyDef {
     std::vector<std::int32_t> parents = {};
     std::vector<float> rotations = {}, translations = {};
     std::vector<swivel_limb_joints> joints = {};  // of each group
+    std::vector<std::vector<std::uint32_t>> twist_bones = {};
     swivel_skeleton skeleton = swivel_default_skeleton();
     std::vector<swivel_group_def> groups = {};
     std::uint32_t body_count = 0;
@@ -26,15 +27,19 @@ struct BodyDef {
     std::uint32_t joint_count() const { return static_cast<std::uint32_t>(parents.size()); }
     // A def of that many bodies, which views this.
     swivel_crowd_def crowd_def(std::uint32_t bodies);
-    // Whether a group's limb has the joint, or one below it; in a crowd that could be made.
+    // These are of a crowd that could be made. Whether a group's limb has the joint, or one below it.
     bool is_needed(std::uint32_t joint) const;
-    // The joints that a group's limb turns.
+    // The joints that a group's limb turns, and those with what is below them.
     std::vector<std::uint32_t> turned_joints(std::uint32_t group) const;
+    std::vector<std::uint32_t> moved_joints(std::uint32_t group) const;
+    // Whether a solve of any pose may look at a joint.
+    bool is_seen(std::uint32_t joint) const;
 
 private:
     swivel_limb_joints limb_of(std::uint32_t group) const;  // as far as its size says
     std::int32_t add(Random& random, std::int32_t parent);
-    void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk);
+    bool is_above(std::uint32_t joint, std::uint32_t below) const;
+    void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features);
     void spoil(Bytes& bytes);
 };
 

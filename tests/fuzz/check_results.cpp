@@ -122,7 +122,7 @@ void check_results(const Session& session, std::uint32_t group, std::uint32_t li
                        : flags == SWIVEL_BAD_INPUT   ? is_clear
                                                      : is_normal);
     }
-    if (flags != SWIVEL_BAD_INPUT && !session.bodies) check_places(session, group, limb);
+    if (flags != SWIVEL_BAD_INPUT && is_known(session, group)) check_places(session, group, limb);
 }
 
 void check_alone(Session& session, std::uint32_t group, std::uint32_t limb)

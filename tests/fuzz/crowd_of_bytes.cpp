@@ -86,7 +86,7 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
             value[2] += 1;
             break;
         case SWIVEL_CLAVICLE:
-            value[3] = std::abs(value[3]);
+            value.back() = std::abs(value.back());
             break;
         case SWIVEL_TARGET:
             for (float& x : value) x *= 2;
@@ -131,7 +131,7 @@ swivel_binding binding_of(Random random)
     return binding;
 }
 
-// Those that go with these and with each other.
+// Those that go with these and with each other, and need none that is excluded.
 swivel_features features_with(swivel_features features, swivel_features excluded, Bytes& bytes)
 {
     const std::uint32_t kind = bytes.take<std::uint8_t>() % 4;

@@ -12,7 +12,21 @@
 namespace swivel::fuzz {
 namespace {
 
-// Bytes of a rotation or a matrix, as far as a solve may touch them, and from one to the next.
+// The pose's values of joints.
+enum Array : std::size_t {
+    kRotations,
+    kTranslations,
+    kScales,
+    kResults,
+    kTranslationResults,
+    kJointRotations,
+    kJointPlaces
+};
+constexpr swivel_joint_values swivel_pose::*kArrays[] = {
+    &swivel_pose::rotations,           &swivel_pose::translations,    &swivel_pose::scales,      &swivel_pose::results,
+    &swivel_pose::translation_results, &swivel_pose::joint_rotations, &swivel_pose::joint_places};
+
+// Bytes of a rotation or a matrix, as far as a solve may touch them.
 std::size_t rotation_bytes(swivel_pose_form form)
 {
     return (form == SWIVEL_ROTATIONS ? 4 : form == SWIVEL_MATRIX_COLUMNS ? 15 : 12) * sizeof(float);
@@ -96,24 +110,35 @@ bool is_valid_root(const swivel_in& values, std::size_t bytes)
 Pose::Pose(Session& session)
 {
     Bytes& bytes = session.bytes;
+    constexpr std::size_t three = 3 * sizeof(float), four = 4 * sizeof(float);
     const auto form = static_cast<swivel_pose_form>(bytes.below(SWIVEL_MATRIX_COLUMNS3 + 1));
     given.form = form;
+    given.space = bytes.one_in(3) ? SWIVEL_IN_BODY : SWIVEL_LOCAL;
     given.root_is_double = bytes.one_in(3);
-    take(session, rotations, given.rotations, rotation_bytes(form), SWIVEL_INCOMING_SHOULDER, form);
+    const auto take_in = [&](Array n, std::size_t size, swivel_field likeness) {
+        take(session, arrays[n], given.*kArrays[n], size, likeness, form);
+    };
+    const auto take_out = [&](Array n, std::size_t size) {
+        given.*kArrays[n] = arrays[n].emplace(bytes, *session.bodies, size).view();
+    };
+    take_in(kRotations, rotation_bytes(form), SWIVEL_INCOMING_SHOULDER);
     const bool has_others = form == SWIVEL_ROTATIONS || bytes.one_in(64);
-    if (has_others && bytes.one_in(2))
-        take(session, translations, given.translations, 3 * sizeof(float), SWIVEL_EFFECTOR, form);
-    if (has_others && bytes.one_in(2))
-        take(session, scales, given.scales, 3 * sizeof(float), SWIVEL_PARENT_SCALE, form);
-    if (bytes.one_in(2)) given.results = results.emplace(bytes, *session.bodies, rotation_bytes(form)).view();
+    if (has_others && bytes.one_in(2)) take_in(kTranslations, three, SWIVEL_EFFECTOR);
+    if (has_others && bytes.one_in(2)) take_in(kScales, three, SWIVEL_PARENT_SCALE);
+    if (bytes.one_in(2)) take_out(kResults, rotation_bytes(form));
+    const bool moves = given.space == SWIVEL_IN_BODY && given.translations.data && given.results.data;
+    if (moves != bytes.one_in(16)) take_out(kTranslationResults, three);
+    if (bytes.one_in(4)) take_out(kJointRotations, four);
+    if (bytes.one_in(4)) take_out(kJointPlaces, three);
     const std::size_t each = given.root_is_double ? sizeof(double) : sizeof(float);
     take_root(session, root_position, given.root_position, SWIVEL_TARGET, 3, each);
     take_root(session, root_rotation, given.root_rotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
     take_root(session, root_scale, given.root_scale, SWIVEL_PARENT_SCALE, 1, sizeof(float));
     if (bytes.one_in(32)) given.size = bytes.below(sizeof given + 9);
+    if (bytes.one_in(64)) given.reserved = bytes.below(9);
     if (bytes.one_in(64)) {  // C lets it be any number
         const std::uint32_t any = SWIVEL_MATRIX_COLUMNS3 + 1 + bytes.below(9);
-        std::memcpy(&given.form, &any, sizeof any);
+        bytes.one_in(2) ? std::memcpy(&given.space, &any, sizeof any) : std::memcpy(&given.form, &any, sizeof any);
     }
 }
 
@@ -128,41 +153,62 @@ swivel_pose Pose::seen() const
 bool Pose::is_valid(const Session& session) const
 {
     const swivel_pose pose = seen();
-    std::uint32_t form;
+    std::uint32_t form, space;
     std::memcpy(&form, &pose.form, sizeof form);
-    const std::uint32_t bodies = session.bodies->body_count;
+    std::memcpy(&space, &pose.space, sizeof space);
     const bool is_sized = given.size > 0 && given.size % alignof(swivel_pose) == 0 && given.size <= sizeof given;
-    if (!is_sized || form > SWIVEL_MATRIX_COLUMNS3 || !pose.rotations.data) return false;
+    if (!is_sized || form > SWIVEL_MATRIX_COLUMNS3 || space > SWIVEL_IN_BODY || pose.reserved != 0) return false;
+    if (!pose.rotations.data) return false;
     if (pose.form != SWIVEL_ROTATIONS && (pose.translations.data || pose.scales.data)) return false;
-    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float);
-    return are_valid(pose.rotations, bytes, pose.results.data, bodies) &&
-           are_valid(pose.results, bytes, false, bodies) && are_valid(pose.translations, three, true, bodies) &&
-           are_valid(pose.scales, three, true, bodies) &&
+    const bool moves = pose.space == SWIVEL_IN_BODY && pose.translations.data;
+    if (pose.translation_results.data ? !moves : moves && pose.results.data) return false;
+    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float), four = 4 * sizeof(float);
+    const auto are_right = [&](const swivel_joint_values& values, std::size_t size, bool is_written) {
+        return are_valid(values, size, !is_written, session.bodies->body_count);
+    };
+    return are_right(pose.rotations, bytes, !pose.results.data) && are_right(pose.results, bytes, true) &&
+           are_right(pose.translations, three, moves && !pose.translation_results.data) &&
+           are_right(pose.scales, three, false) && are_right(pose.translation_results, three, true) &&
+           are_right(pose.joint_rotations, four, true) && are_right(pose.joint_places, three, true) &&
            is_valid_root(pose.root_position, pose.root_is_double ? 2 * three : three) &&
-           is_valid_root(pose.root_rotation, 4 * sizeof(float)) && is_valid_root(pose.root_scale, sizeof(float)) &&
+           is_valid_root(pose.root_rotation, four) && is_valid_root(pose.root_scale, sizeof(float)) &&
            (pose.root_position.data || !pose.root_is_double);
+}
+
+template <class Take>
+void Pose::for_each_written(const Session& session, std::uint32_t group, const Take& take)
+{
+    const swivel_pose pose = seen();
+    const bool in_body = pose.space == SWIVEL_IN_BODY;
+    const BodyDef& bodies = *session.bodies;
+    for (const std::uint32_t joint : in_body ? bodies.moved_joints(group) : bodies.turned_joints(group)) {
+        take(pose.results.data ? kResults : kRotations, joint);
+        if (in_body && pose.translations.data)
+            take(pose.translation_results.data ? kTranslationResults : kTranslations, joint);
+    }
+    for (std::uint32_t joint = 0; joint < bodies.joint_count(); ++joint) {
+        if (!bodies.is_needed(joint)) continue;
+        if (pose.joint_rotations.data) take(kJointRotations, joint);
+        if (pose.joint_places.data) take(kJointPlaces, joint);
+    }
 }
 
 void Pose::check_all() const
 {
-    for (const auto* values : {&rotations, &translations, &scales, &results})
-        if (*values) (*values)->check();
+    for (const std::optional<JointArray>& values : arrays)
+        if (values) values->check();
     for (const auto* values : {&root_position, &root_rotation, &root_scale})
         if (*values) (*values)->check_gaps(false);
 }
 
-swivel_pose Pose::of_body(std::uint32_t body, std::vector<char> (&memory)[4]) const
+swivel_pose Pose::of_body(std::uint32_t body, std::array<std::vector<char>, 7>& memory) const
 {
     swivel_pose pose = seen();
-    const auto put = [&](swivel_joint_values& view, const std::optional<JointArray>& values, std::vector<char>& here) {
-        if (!view.data) return;
-        here = values->values_of(body);
-        view = {here.data(), here.size(), values->value_bytes(), nullptr};
-    };
-    put(pose.rotations, rotations, memory[0]);
-    put(pose.translations, translations, memory[1]);
-    put(pose.scales, scales, memory[2]);
-    put(pose.results, results, memory[3]);
+    for (std::size_t n = 0; n < arrays.size(); ++n) {
+        if (!(pose.*kArrays[n]).data) continue;
+        memory[n] = arrays[n]->values_of(body);
+        pose.*kArrays[n] = {memory[n].data(), memory[n].size(), arrays[n]->value_bytes(), nullptr};
+    }
     const auto put_root = [&](swivel_in& view, const std::optional<Strided>& values) {
         if (view.data) view.data = values->at(body);
     };
@@ -184,18 +230,18 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
         SWIVEL_REQUIRE(swivel_crowd_create(&def, &alone) == SWIVEL_OK);
     }
     for (std::uint32_t group = 0; group < session.group_count; ++group) copy_limb(session, group, body, alone, group);
-    std::vector<char> memory[4];
+    std::array<std::vector<char>, 7> memory;
     const swivel_pose pose = of_body(body, memory);
     swivel_job job = swivel_default_job();
     job.groups = &named, job.group_word_count = 1;
     job.pose = &pose;
     solve_scalar(alone, &job);
-    const std::vector<char>& got = pose.results.data ? memory[3] : memory[0];
     for (std::uint32_t group = 0; group < session.group_count; ++group) {
         if (!chosen[group][body]) continue;
         check_equal(session, group, body, alone, group);
-        for (const std::uint32_t joint : session.bodies->turned_joints(group))
-            solved().expect(body, joint, &got[joint * solved().value_bytes()]);
+        for_each_written(session, group, [&](Array n, std::uint32_t joint) {
+            arrays[n]->expect(body, joint, &memory[n][joint * arrays[n]->value_bytes()]);
+        });
     }
 }
 
@@ -209,8 +255,8 @@ void Pose::check_others(const Session& session)
 {
     for (std::uint32_t group = 0; group < session.group_count; ++group)
         for (std::uint32_t body = 0; body < session.bodies->body_count; ++body)
-            for (const std::uint32_t joint : session.bodies->turned_joints(group))
-                solved().expect(body, joint, nullptr);
+            for_each_written(session, group,
+                             [&](Array n, std::uint32_t joint) { arrays[n]->expect(body, joint, nullptr); });
     check_all();
 }
 

@@ -4,6 +4,7 @@
 // solve.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "tests/fuzz/interface_session.h"
@@ -14,7 +15,8 @@ namespace swivel::fuzz {
 
 struct Pose {
     swivel_pose given = swivel_default_pose();
-    std::optional<JointArray> rotations = {}, translations = {}, scales = {}, results = {};
+    // In the order of kArrays; some are not given.
+    std::array<std::optional<JointArray>, 7> arrays = {};
     std::optional<Strided> root_position = {}, root_rotation = {}, root_scale = {};
 
     explicit Pose(Session& session);
@@ -29,9 +31,11 @@ struct Pose {
     void check_others(const Session& session);
 
 private:
-    JointArray& solved() { return seen().results.data ? *results : *rotations; }
     // One body's, in memory of its own.
-    swivel_pose of_body(std::uint32_t body, std::vector<char> (&memory)[4]) const;
+    swivel_pose of_body(std::uint32_t body, std::array<std::vector<char>, 7>& memory) const;
+    // Calls take(array, joint) for each value of a body that a solve of a group may write.
+    template <class Take>
+    void for_each_written(const Session& session, std::uint32_t group, const Take& take);
     void check_body(Session& session, const SomeLimbs& chosen, std::uint32_t body);
     void check_all() const;
 };

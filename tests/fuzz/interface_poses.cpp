@@ -187,12 +187,12 @@ void call_reset(Session& session)
 void call_allowed_arcs(Session& session)
 {
     const Limbs limbs = take_limbs(session);
-    const bool is_valid =
-        limbs.is_valid && !session.bodies && limbs.first < swivel_group_limb_count(session.crowd, limbs.group);
+    const bool is_valid = limbs.is_valid && is_known(session, limbs.group) &&
+                          limbs.first < swivel_group_limb_count(session.crowd, limbs.group);
     std::vector<swivel_arc> arcs(session.bytes.below(6));
     std::uint32_t count = ~0u;
     // A range of bad limbs may be bad for its count alone, and this takes none.
-    if (!is_valid && !session.bodies && limbs.group < session.group_count &&
+    if (!is_valid && is_known(session, limbs.group) && limbs.group < session.group_count &&
         limbs.first < swivel_group_limb_count(session.crowd, limbs.group))
         return;
     const swivel_status status = swivel_allowed_arcs(session.crowd, limbs.group, limbs.first, arcs.data(),
@@ -235,8 +235,8 @@ void call_forward(Session& session)
         swivel_forward(session.crowd, limbs.group, limbs.first, limbs.count, elbow.out(), wrist.out(), hand.out());
     const auto is_sound = [](const Strided& out) { return out.is_null() || out.is_valid(); };
     check_status(session, status,
-                 limbs.is_valid && !session.bodies && is_sound(elbow) && is_sound(wrist) && is_sound(hand) &&
-                     (hand.is_null() || has_features(session, limbs.group, SWIVEL_WITH_HAND)));
+                 limbs.is_valid && is_known(session, limbs.group) && is_sound(elbow) && is_sound(wrist) &&
+                     is_sound(hand) && (hand.is_null() || has_features(session, limbs.group, SWIVEL_WITH_HAND)));
     for (const Strided* out : {&elbow, &wrist, &hand}) out->check_gaps(status != SWIVEL_OK);
 }
 
@@ -245,7 +245,7 @@ void call_residuals(Session& session)
     const Limbs limbs = take_limbs(session);
     Strided distance(session.bytes, limbs.is_valid ? limbs.count : 1, sizeof(double), false);
     const swivel_status status = swivel_residuals(session.crowd, limbs.group, limbs.first, limbs.count, distance.out());
-    check_status(session, status, limbs.is_valid && !session.bodies && distance.is_valid());
+    check_status(session, status, limbs.is_valid && is_known(session, limbs.group) && distance.is_valid());
     distance.check_gaps(status != SWIVEL_OK);
 }
 

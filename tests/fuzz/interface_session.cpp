@@ -51,6 +51,11 @@ bool has_features(const Session& session, std::uint32_t group, swivel_features f
     return (swivel_group_features(session.crowd, group) & features) != 0;
 }
 
+bool is_known(const Session& session, std::uint32_t group)
+{
+    return !session.bodies || has_features(session, group, SWIVEL_WITH_RECORD);
+}
+
 bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
 {
     std::uint32_t flags = 0;

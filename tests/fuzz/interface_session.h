@@ -43,6 +43,8 @@ Limbs take_limbs(Session& session);
 std::uint32_t component_count(const Session& session, std::uint32_t group, swivel_field field);
 // Whether a group has any of these features.
 bool has_features(const Session& session, std::uint32_t group, swivel_features features);
+// Whether it is known where limbs are: of free ones, and of bodies that keep it.
+bool is_known(const Session& session, std::uint32_t group);
 // Whether a limb has bad input and keeps its results.
 bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb);
 

@@ -33,10 +33,10 @@ void JointArray::take_steps(Bytes& bytes)
             view_.joint_stride += bytes.below(9);
             view_.body_stride = joints * view_.joint_stride + bytes.below(300);
             break;
-        case 3:  // in another order; nobody may look at joints that are not needed
+        case 3:  // in another order; nobody may look at joints that no limb needs or moves
+            for (std::uint32_t joint = 0; joint < joints; ++joint) is_seen_.push_back(bodies_->is_seen(joint));
             for (std::uint32_t joint = 0; joint < joints; ++joint)
-                offsets_.push_back(bodies_->is_needed(joint) ? (joints - 1 - joint) * value_bytes_
-                                                             : ~std::size_t{0} / 4);
+                offsets_.push_back(is_seen_[joint] ? (joints - 1 - joint) * value_bytes_ : ~std::size_t{0} / 4);
             view_.offsets = offsets_.data();
             view_.joint_stride = bytes.below(2);
             break;

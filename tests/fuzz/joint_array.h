@@ -24,7 +24,7 @@ public:
                 if (has(joint)) fill_one(memory_.data() + at(body, joint));
         before_ = memory_;
     }
-    bool has(std::uint32_t joint) const { return !is_null_ && (!view_.offsets || bodies_->is_needed(joint)); }
+    bool has(std::uint32_t joint) const { return !is_null_ && (!view_.offsets || is_seen_[joint]); }
     std::size_t at(std::uint32_t body, std::uint32_t joint) const;
     std::size_t value_bytes() const { return value_bytes_; }
     const swivel_joint_values& view() const { return view_; }
@@ -43,6 +43,7 @@ private:
     std::vector<char> memory_, before_ = {};
     std::vector<std::size_t> offsets_ = {};
     swivel_joint_values view_ = {};
+    std::vector<bool> is_seen_ = {};  // whether a solve may look at a joint
     bool is_null_ = false;
 };
 
