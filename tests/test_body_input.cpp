@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstddef>
 
 #include "tests/body_crowd.h"
 #include "tests/complaint.h"
@@ -289,5 +290,33 @@ TEST_CASE("crowds and poses that cannot be get a line")
         std::uint32_t form = 77;
         std::memcpy(&pose.form, &form, sizeof form);
         no_pose(&pose, "form is 77");
+        pose = swivel_default_pose();
+        pose.rotations = {rotations.data(), skeleton.size() * 16, 16, nullptr};
+        pose.translation_results = pose.rotations;
+        no_pose(&pose, "only translations in the body's space change");
+        pose.space = SWIVEL_IN_BODY, pose.translations = pose.results = pose.rotations, pose.translation_results = {};
+        no_pose(&pose, "no translation_results");
+        pose.translation_results = pose.rotations, pose.joint_places = {rotations.data(), 8, 16, nullptr};
+        no_pose(&pose, "joint_places: body_stride 8");
+        std::memcpy(&pose.space, &form, sizeof form);
+        no_pose(&pose, "space is 77");
     }
+    SECTION("what a pose gives")
+    {
+        Crowd crowd(def);
+        REQUIRE_THROWS_WITH(crowd.write_all(SWIVEL_PARENT_SCALE, 0, std::array{1.0f}),
+                            Catch::Contains("the pose of a body gives it"));
+    }
+}
+
+TEST_CASE("a pose of an older header is read as far as it goes")
+{
+    PosedStage stage(9, SWIVEL_WITH_HAND);
+    PoseBuffer whole(stage.layout, stage.bodies), older(stage.layout, stage.bodies);
+    solve_poses(stage.crowd, whole.view());
+    swivel_pose pose = older.view();
+    pose.size = offsetof(swivel_pose, space);
+    pose.reserved = 1;  // beyond its end
+    solve_poses(stage.crowd, pose);
+    REQUIRE(whole.bytes == older.bytes);
 }
