@@ -84,14 +84,15 @@ struct Frames {
 
     explicit Frames(const Crowd& crowd)
     {
-        constexpr std::size_t kFloats = 4 * 7;  // the longest result: seven twist bones
+        constexpr std::size_t kFloats = 4 * 7, kResults = SWIVEL_RESULT_END - SWIVEL_SHOULDER;  // seven twist bones
         for (std::uint32_t g = 0; swivel_group_limb_count(crowd.get(), g) > 0; ++g) {
-            std::vector<float>& group = values.emplace_back(kFloats * 8 * swivel_group_limb_count(crowd.get(), g));
+            std::vector<float>& group =
+                values.emplace_back(kFloats * kResults * swivel_group_limb_count(crowd.get(), g));
             Frame& frame = own.emplace_back();
             for (std::size_t n = 0; SWIVEL_SHOULDER + n < SWIVEL_RESULT_END; ++n)
                 if (const auto field = static_cast<swivel_field>(SWIVEL_SHOULDER + n);
                     swivel_field_row_count(crowd.get(), g, field) > 0)
-                    frame.out(field, {group.data() + kFloats * n, kFloats * 8 * sizeof(float)});
+                    frame.out(field, {group.data() + kFloats * n, kFloats * kResults * sizeof(float)});
         }
         frames.assign(own.begin(), own.end());
     }
