@@ -24,8 +24,9 @@ swivel_status fail_in(const char* what, swivel_status status)
 swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_def& group)
 {
     const swivel_limb_joints limb = joints_of(group);
-    if (const std::uint32_t wanted = twist_bone_count(group.features); wanted > limb.twist_bone_count)
-        return fail(SWIVEL_INVALID_ARGUMENT, "its features have %u twist bones, its joints %u; name as many", wanted,
+    if (const std::uint32_t wanted = twist_bone_count(group.features); wanted != limb.twist_bone_count)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "its features have %u twist bones, its joints %u; name as many, or leave the feature out", wanted,
                     limb.twist_bone_count);
     if (group.features & SWIVEL_WITH_CLAVICLE && parent_of(skeleton, limb.shoulder) < 0)
         return fail(SWIVEL_INVALID_ARGUMENT,
@@ -77,7 +78,7 @@ swivel_status check_skeleton(const swivel_crowd_def& def, const swivel_skeleton&
 {
     swivel_status status = SWIVEL_OK;
     for (std::uint32_t joint = 0; joint < skeleton.joint_count && status == SWIVEL_OK; ++joint)
-        status = check_parents(skeleton, "a joint", joint);
+        status = check_parents(skeleton, "the chain", joint);
     if (status == SWIVEL_OK)
         for_each_needed(def, skeleton, [&](std::uint32_t joint) {
             RestJoint rest;

@@ -92,11 +92,12 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
     const swivel_skeleton skeleton = skeleton_of(def);
     BodyJoint* end = joints;
     *end++ = {};
-    for_each_needed(def, skeleton, [&](std::uint32_t joint) { (end++)->skeleton_joint = joint; });
-    std::sort(joints + 1, end, [&](const BodyJoint& a, const BodyJoint& b) {
-        const std::uint32_t a_depth = depth_of(skeleton, a.skeleton_joint),
-                            b_depth = depth_of(skeleton, b.skeleton_joint);
-        return a_depth != b_depth ? a_depth < b_depth : a.skeleton_joint < b.skeleton_joint;
+    for_each_needed(def, skeleton, [&](std::uint32_t joint) {
+        end->skeleton_joint = joint;
+        (end++)->row = depth_of(skeleton, joint);  // until its row is known
+    });
+    std::sort(joints + 1, end, [](const BodyJoint& a, const BodyJoint& b) {
+        return a.row != b.row ? a.row < b.row : a.skeleton_joint < b.skeleton_joint;
     });
     joints[0].row = kRootJoint;
     std::uint32_t row = kRootJoint + joint_row_count(false);

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "batch/body_joints.h"
 #include "batch/body_plan.h"
 #include "batch/sized.h"
 #include "batch/solve.h"
@@ -178,6 +179,9 @@ swivel_group_def group_at(const swivel_crowd_def& def, std::uint32_t g)
     swivel_group_def group = element(def.groups, g, swivel_default_group_def(0));
     if (def.skeleton) {
         group.features |= SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING;
+        if (group.joints && !(group.features & kTwistBones))
+            group.features |= std::min<std::uint32_t>(joints_of(group).twist_bone_count, SWIVEL_MOST_TWIST_BONES) *
+                              SWIVEL_WITH_TWIST_BONES;
         if (group.limb_count == 0) group.limb_count = def.body_count;
     }
     return group;

@@ -87,18 +87,20 @@ public:
         return group().input[row_offset(0, 0, field_first_row(group().features, field) + component)];
     }
 
+    std::uint32_t flags() const
+    {
+        const std::size_t at = std::size_t{field_first_row(group().features, SWIVEL_FLAGS)} * SWIVEL_LANES;
+        return bit_cast<std::uint32_t>(group().results[at]);
+    }
     // Solves the limb and gives its flags.
     std::uint32_t solve()
     {
-        const Group& of = group();
-        solve_group(find_isa("scalar")->kernels, of, {0, 1}, strip());
-        const std::size_t at = std::size_t{field_first_row(of.features, SWIVEL_FLAGS)} * SWIVEL_LANES;
-        return bit_cast<std::uint32_t>(of.results[at]);
+        solve_group(find_isa("scalar")->kernels, group(), {0, 1}, strip());
+        return flags();
     }
-    // Whether these are the results that the limb has. A body's may differ in rounding and signs.
-    bool has_results_of_limb() const
+    // Whether these are the results that the limb has.
+    bool has_bits_of_limb() const
     {
-        if (is_of_body()) return has_pose_of_limb();
         for (std::uint32_t row = 0; row < of_.result_row_count; ++row) {
             const std::size_t theirs = row_offset(limb_, of_.result_row_count, row), ours = row_offset(0, 0, row);
             if (std::memcmp(of_.results + theirs, group().results + ours, sizeof(float)) != 0) return false;
@@ -129,14 +131,6 @@ public:
 
 private:
     const Group& group() const { return one_.group(); }
-    bool has_pose_of_limb() const
-    {
-        OneLimb solved(of_);
-        solved.take(limb_);
-        const LimbPose theirs = forward(solved.group(), 0), ours = pose();
-        const double size2 = len2(ours.elbow - ours.shoulder) + len2(ours.wrist - ours.elbow);
-        return len2(theirs.elbow - ours.elbow) + len2(theirs.wrist - ours.wrist) <= 1e-8 * size2;
-    }
     alignas(64) float strip_[kStripBlockFloats];
     const Group& of_;
     std::uint32_t limb_;
@@ -190,11 +184,15 @@ void explain_bad_input(Probe& probe, bool keeps, Text& text)
         }
     }
     if (is_pose_bad || (!is_found && probe.is_of_body()))
-        text.add("%sin the pose, a rotation, place or scale of the limb's joints or of those above is out of its range",
-                 is_found ? "; " : "");
+        text.add(
+            "%sin the pose, a rotation, place or scale of the limb's joints, of those above or of the root is not a "
+            "number or out of its range",
+            is_found ? "; " : "");
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");
-    text.add(". The limb %s.", keeps ? "keeps the pose it had" : "has its rest pose");
+    text.add(". The limb %s.", !keeps               ? "has its rest pose"
+                               : probe.is_of_body() ? "keeps its incoming pose"
+                                                    : "keeps the pose it had");
 }
 
 // What goes to the target.
@@ -324,16 +322,28 @@ void explain_limits(Probe& probe, const LimbPose& solved, std::uint32_t flags, T
              swivel_between(solved, probe.pose()));
 }
 
+// Of a body's limb, which is solved from a record, so that its last digits differ: whether these are one pose. The
+// share of the limb is a thousand times rounding, and less than anyone sees.
+bool is_near(const LimbPose& a, const LimbPose& b)
+{
+    constexpr double kShare = 1e-4;
+    const double size2 = len2(b.elbow - b.shoulder) + len2(b.wrist - b.elbow);
+    return len2(a.elbow - b.elbow) + len2(a.wrist - b.wrist) <= kShare * kShare * size2;
+}
+
 }  // namespace
 
 void explain(const Group& group, std::uint32_t limb, std::span<char> room)
 {
     Text text(room);
     Probe probe(group, limb);
+    if (probe.is_of_body() && probe.flags() == 0) return text.add("It was never solved, so no pose of it is known.");
+    const LimbPose was = probe.pose();
     const std::uint32_t flags = probe.solve();
     const bool is_kept = group.keeps && flags & SWIVEL_BAD_INPUT;
+    const bool is_same = probe.is_of_body() ? is_near(was, probe.pose()) : probe.has_bits_of_limb();
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
-    if (!(group.features & kCarryingFeatures) && !is_kept && !probe.has_results_of_limb())
+    if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
     if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, group.keeps, text);
     explain_reach(probe, flags, text);

@@ -146,7 +146,7 @@ struct PoseWriter {
         if (pose.form == SWIVEL_ROTATIONS) return write<4>(results, joint.skeleton_joint, joint.row + kLocalRow);
         for (std::uint32_t part = 0; part < 3; ++part)
             write<3>(results, joint.skeleton_joint, joint.row + kAxesRow + 3 * part, part_offset(part));
-        if (results.data != pose.rotations.data) copy_translations(joint.skeleton_joint);
+        copy_translations(joint.skeleton_joint);
     }
     // From the rows of kernels.bodies.carry().
     void write_carried(std::uint32_t joint) const
@@ -172,6 +172,9 @@ private:
     // A solve does not change them.
     void copy_translations(std::uint32_t joint) const
     {
+        if (value_of(results, joint, 0) == value_of(pose.rotations, joint, 0) &&
+            results.body_stride == pose.rotations.body_stride)
+            return;
         for (LaneMask lanes = block.lanes; lanes != 0; lanes &= lanes - 1) {
             const std::uint32_t body = block.first + static_cast<std::uint32_t>(std::countr_zero(lanes));
             for (std::size_t row = 0; row < 3; ++row)

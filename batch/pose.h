@@ -20,9 +20,10 @@ inline swivel_in origin_of(const swivel_pose& pose) { return pose.root_is_double
 inline bool gives_joints(const swivel_pose& pose) { return pose.joint_rotations.data || pose.joint_places.data; }
 
 // These write a block's bodies to the caller's memory: the joints that a group's limb moves; and, once all groups are
-// solved, where all needed joints are. A group that is not solved stays instead.
+// solved, where all needed joints are.
 void pose_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyLimb& limb, const BodyBlock& block);
 void joints_out(const BodyKernels& kernels, const BodyPlan& plan, const BodyBlock& block);
+// Sets how a limb moves its joints to not at all, for joints_out(): its group is not solved.
 void stay(const BodyLimb& limb, const BodyBlock& block);
 
 }  // namespace swivel

@@ -14,12 +14,17 @@ namespace {
 bool send(int line)
 {
     const char word = 0;
-    return write(line, &word, 1) == 1;
+    return ::send(line, &word, 1, MSG_NOSIGNAL) == 1;
 }
 bool receive(int line)
 {
     char word;
     return read(line, &word, 1) == 1;
+}
+
+void require(bool is_there)
+{
+    if (!is_there) throw std::runtime_error("the second process ended before its work");
 }
 
 // The other process, until the first one closes the line.
@@ -47,26 +52,28 @@ Twin::Twin(const std::function<Work()>& prepare)
     }
     close(ends[1]);
     line_ = ends[0];
-    work_ = prepare();
-    wait_for_word();
+    try {
+        work_ = prepare();
+        require(receive(line_));
+    } catch (...) {
+        end();
+        throw;
+    }
 }
 
-Twin::~Twin()
-{
-    close(line_);
-    waitpid(process_, nullptr, 0);
-}
+Twin::~Twin() { end(); }
 
 void Twin::run()
 {
-    send(line_);
+    require(send(line_));
     work_();
-    wait_for_word();
+    require(receive(line_));
 }
 
-void Twin::wait_for_word()
+void Twin::end() const
 {
-    if (!receive(line_)) throw std::runtime_error("the second process ended before its work");
+    close(line_);
+    waitpid(process_, nullptr, 0);
 }
 
 }  // namespace bench

@@ -20,7 +20,7 @@ public:
     void run();
 
 private:
-    void wait_for_word();
+    void end() const;
 
     int line_ = -1;  // to the other process: a byte to it starts its work, a byte from it says that it is ready
     int process_ = -1;

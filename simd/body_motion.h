@@ -65,41 +65,64 @@ SWIVEL_FLATTEN void move(const BodyBlock& block, const BodyLimb& limb)
     }
 }
 
-template <swivel_pose_form Form>
-SWIVEL_INLINE void carry_matrix(const Motion& motion, LaneValues lane, std::size_t at, const JointRows& out)
+// These take one joint of a pose in the body's space to where it moves.
+SWIVEL_FLATTEN [[gnu::noinline]] void carry_rotation(const swivel_pose& pose, const BodyBlock& block,
+                                                     const MovedJoint& joint)
 {
-    const MatrixParts m = read_parts<Form>(lane, at);
-    const Mask<T> none = motion.is_none();
-    for (std::uint32_t c = 0; c < 4; ++c) {
-        const Vector<T> was = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
-        const Vector<T> is = select(none, was, with_one_nan(c < 3 ? turned(motion.turn, was) : motion(was)));
-        const std::uint32_t first = Form == SWIVEL_MATRIX_ROWS ? c : 3 * c, step = Form == SWIVEL_MATRIX_ROWS ? 4 : 1;
-        out.set(first, is.template at<kE1>());
-        out.set(first + step, is.template at<kE2>());
-        out.set(first + 2 * step, is.template at<kE3>());
-    }
-}
-SWIVEL_FLATTEN void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint)
-{
-    const swivel_pose& pose = *plan.pose;
     const Bodies rotations(block, pose.rotations);
     const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
-    const bool translates = pose.translations.data != nullptr;
-    const Bodies translations = translates ? Bodies(block, pose.translations) : rotations;
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const Motion motion = Motion::at(block, joint.mover, lane);
+        const Rotor<T> was = rotor_of(load_values<T, 4>(rotations.lane + lane, at));
+        rows_of(block, 0, lane).set_rotor(kOutTurnRow, select(motion.is_none(), was, with_one_nan(motion.turn * was)));
+    }
+}
+SWIVEL_FLATTEN [[gnu::noinline]] void carry_translation(const swivel_pose& pose, const BodyBlock& block,
+                                                        const MovedJoint& joint)
+{
+    const Bodies translations(block, pose.translations);
+    const std::size_t at = offset_of(pose.translations, joint.skeleton_joint);
+    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+        const Motion motion = Motion::at(block, joint.mover, lane);
+        const Vector<T> was = vector_of(load_values<T, 3>(translations.lane + lane, at));
+        rows_of(block, 0, lane).set_vector(kOutPlaceRow, select(motion.is_none(), was, with_one_nan(motion(was))));
+    }
+}
+template <swivel_pose_form Form>
+SWIVEL_FLATTEN [[gnu::noinline]] void carry_matrix(const swivel_pose& pose, const BodyBlock& block,
+                                                   const MovedJoint& joint)
+{
+    constexpr bool by_rows = Form == SWIVEL_MATRIX_ROWS;
+    const Bodies matrices(block, pose.rotations);
+    const std::size_t at = offset_of(pose.rotations, joint.skeleton_joint);
+    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+        const Motion motion = Motion::at(block, joint.mover, lane);
+        const MatrixParts m = read_parts<Form>(matrices.lane + lane, at);
         const JointRows out = rows_of(block, 0, lane);
-        const LaneValues from = rotations.lane + lane;
-        if (pose.form == SWIVEL_MATRIX_ROWS) carry_matrix<SWIVEL_MATRIX_ROWS>(motion, from, at, out);
-        if (pose.form == SWIVEL_MATRIX_COLUMNS) carry_matrix<SWIVEL_MATRIX_COLUMNS>(motion, from, at, out);
-        if (pose.form == SWIVEL_MATRIX_COLUMNS3) carry_matrix<SWIVEL_MATRIX_COLUMNS3>(motion, from, at, out);
-        if (pose.form != SWIVEL_ROTATIONS) continue;
-        const Rotor<T> rotation = rotor_of(load_values<T, 4>(from, at));
-        out.set_rotor(kOutTurnRow, select(motion.is_none(), rotation, with_one_nan(motion.turn * rotation)));
-        if (!translates) continue;
-        const Vector<T> place =
-            vector_of(load_values<T, 3>(translations.lane + lane, offset_of(pose.translations, joint.skeleton_joint)));
-        out.set_vector(kOutPlaceRow, select(motion.is_none(), place, with_one_nan(motion(place))));
+        for (std::uint32_t c = 0; c < 4; ++c) {
+            const Vector<T> was = c < 3 ? axis_of<Form>(m, c) : vector_of(m.part[3]);
+            const Vector<T> is =
+                select(motion.is_none(), was, with_one_nan(c < 3 ? turned(motion.turn, was) : motion(was)));
+            const std::uint32_t first = by_rows ? c : 3 * c, step = by_rows ? 4 : 1;
+            out.set(first, is.template at<kE1>());
+            out.set(first + step, is.template at<kE2>());
+            out.set(first + 2 * step, is.template at<kE3>());
+        }
+    }
+}
+void carry(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint)
+{
+    const swivel_pose& pose = *plan.pose;
+    switch (pose.form) {
+        case SWIVEL_MATRIX_ROWS:
+            return carry_matrix<SWIVEL_MATRIX_ROWS>(pose, block, joint);
+        case SWIVEL_MATRIX_COLUMNS:
+            return carry_matrix<SWIVEL_MATRIX_COLUMNS>(pose, block, joint);
+        case SWIVEL_MATRIX_COLUMNS3:
+            return carry_matrix<SWIVEL_MATRIX_COLUMNS3>(pose, block, joint);
+        case SWIVEL_ROTATIONS:
+            carry_rotation(pose, block, joint);
+            if (pose.translations.data) carry_translation(pose, block, joint);
     }
 }
 

@@ -10,6 +10,23 @@
 
 namespace swivel::inline SWIVEL_ISA {
 
+// Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
+template <class S>
+SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const auto is_joint = [&](std::uint32_t joint) SWIVEL_INLINE_LAMBDA {
+        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
+               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
+               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
+    };
+    Mask<T> good = is_joint(limb.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
+        good = good & is_joint(limb.twist_bones[n]);
+    return good;
+}
+
 template <>
 struct StageBody<Stage::posed> {
     template <class S>
@@ -25,10 +42,7 @@ struct StageBody<Stage::posed> {
         const PosedLimb<T> posed{s.body_rotor(limb.parent + kTurnRow), s.body_rotor(limb.shoulder + kTurnRow),
                                  s.body_vector(limb.shoulder + kPlaceRow), s.body_vector(limb.elbow + kPlaceRow),
                                  s.body_vector(limb.wrist + kPlaceRow)};
-        // What is bad in a joint shows in all below it.
-        s.require(is_joint(s, limb.wrist));
-        for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
-            s.require(is_joint(s, limb.twist_bones[n]));
+        s.require(is_posed(s));
         Mask<T> stays = T(0) == T(1);
         if constexpr (which == BendNormal::either) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),
@@ -61,16 +75,6 @@ struct StageBody<Stage::posed> {
             set_from_arm(kElbowParentFromArmRow, limb.elbow_parent, seen.frames.upper);
         if (limb.wrist_parent != limb.elbow) set_from_arm(kWristParentFromArmRow, limb.wrist_parent, seen.frames.fore);
     }
-
-private:
-    template <class S>
-    SWIVEL_INLINE static Mask<typename S::T> is_joint(const S& s, std::uint32_t joint)
-    {
-        using T = typename S::T;
-        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
-               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
-               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
-    }
 };
 
 // Keeps what the pose gave, with the clavicle as turned. So the limb can be seen again as a free one.
@@ -98,7 +102,8 @@ struct StageBody<Stage::record> {
         out.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
         out.store_vector(SWIVEL_RECORD, with_one_nan(shoulder + s.body_vector(kRootRow)), kRecordShoulder);
         out.store_rotor(SWIVEL_RECORD, with_one_nan(arm), kRecordArm);
-        out.store(SWIVEL_RECORD, kRecordScale, with_one_nan(parent.scale));
+        // What else is bad in the pose shows in the scale.
+        out.store(SWIVEL_RECORD, kRecordScale, with_one_nan(select(is_posed(s), parent.scale, T(__builtin_nan("")))));
         out.store(SWIVEL_RECORD, kRecordLengths, with_one_nan(s.body_row(kLengthsRow)));
         out.store(SWIVEL_RECORD, kRecordLengths + 1, with_one_nan(s.body_row(kLengthsRow + 1)));
         out.store_rotor(SWIVEL_RECORD, with_one_nan(s.get_rotor(kIncomingRow)), kRecordIncoming);
@@ -117,7 +122,7 @@ SWIVEL_INLINE Rotor<typename S::T> turned_twist_bone(const S& s, std::uint32_t n
     const Rotor<T> from_arm = ~s.body_rotor(limb.twist_parents[n] + kTurnRow) * fore;
     const Rotor<T> turn = rotor(T(0), T(0), s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 2)),
                                 s.io.load_result(SWIVEL_TWIST_BONES, static_cast<int>(4 * n + 3)));
-    return from_arm * turn * ~from_arm * s.body_rotor(limb.twist_bones[n] + kLocalRow);
+    return unit_rotation(from_arm * turn * ~from_arm * s.body_rotor(limb.twist_bones[n] + kLocalRow));
 }
 
 // The rotations of the joints, in place of the incoming ones.
@@ -142,8 +147,7 @@ struct StageBody<Stage::correct> {
             s.set_body_rotor(joint + kLocalRow, select(kept, was, with_sign_of(side, q)));
         };
         const Hinge<T> elbow = hinge(s.io.load_result(SWIVEL_ELBOW, 0), -s.io.load_result(SWIVEL_ELBOW, 1));
-        const Rotor<T> shoulder = rotor(s.io.load_result(SWIVEL_SHOULDER, 0), s.io.load_result(SWIVEL_SHOULDER, 1),
-                                        s.io.load_result(SWIVEL_SHOULDER, 2), s.io.load_result(SWIVEL_SHOULDER, 3));
+        const Rotor<T> shoulder = load_result_rotor(s, SWIVEL_SHOULDER);
         store(limb.shoulder, broadcast<T>(bind.parent_from_arm) * shoulder * ~s.body_rotor(kUpperFromArmRow),
               b.shoulder_rest);
         store(limb.elbow, s.body_rotor(limb.elbow_parent_row()) * elbow * ~s.body_rotor(kForeFromArmRow), b.elbow_rest);
@@ -153,15 +157,19 @@ struct StageBody<Stage::correct> {
                   b.wrist_rest);
         if (s.has(SWIVEL_WITH_CLAVICLE))
             store(limb.parent,
-                  s.body_rotor(limb.parent + kLocalRow) *
-                      rotor(s.io.load_result(SWIVEL_CLAVICLE_TURN, 0), s.io.load_result(SWIVEL_CLAVICLE_TURN, 1),
-                            s.io.load_result(SWIVEL_CLAVICLE_TURN, 2), s.io.load_result(SWIVEL_CLAVICLE_TURN, 3)),
+                  unit_rotation(s.body_rotor(limb.parent + kLocalRow) * load_result_rotor(s, SWIVEL_CLAVICLE_TURN)),
                   limb.clavicle_rest);
         for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
             store(limb.twist_bones[n], turned_twist_bone(s, n), limb.twist_rest[n]);
     }
 
 private:
+    template <class S>
+    SWIVEL_INLINE static Rotor<typename S::T> load_result_rotor(const S& s, swivel_field field)
+    {
+        return rotor(s.io.load_result(field, 0), s.io.load_result(field, 1), s.io.load_result(field, 2),
+                     s.io.load_result(field, 3));
+    }
     // Turns the axes of a joint's matrix; those of bad input from the axes of no rotation.
     template <class S>
     SWIVEL_INLINE static void turn_axes(const S& s, std::uint32_t joint, const Rotor<typename S::T>& turn,
@@ -181,8 +189,8 @@ private:
             s.set_body(row(2), is.template at<kE3>());
         }
     }
-    // The lanes whose joints stay as they come: of bad input in groups that keep it, or where no rest pose is known, in
-    // the body's space; and where no weight asks for more.
+    // The lanes whose joints stay as they come. Those are of bad input, in groups that keep it and in the body's space,
+    // where no rest pose is known. And they are those where no weight asks for more.
     template <class S>
     SWIVEL_INLINE static Mask<typename S::T> kept_lanes(const S& s, const Mask<typename S::T>& valid)
     {

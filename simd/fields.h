@@ -92,18 +92,14 @@ struct FieldRow {
     std::uint32_t component_count;  // see field_row_count()
     swivel_field_kind kind;
     swivel_features needs = 0, excludes = 0;
-    const char* range = "";  // what a value must be to be in its range
-    float start[kMostComponents] =
-        {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
+    const char* range = "";         // what a value must be to be in its range
+    float start[kRecordSize] = {};  // what padding starts with, and limbs unless unknown; of results the arm at rest
     Start starts = Start::neutral;
     Place place = Place::no;
     UnitParts unit = {};
 
     // Component c of a value of any number of components: values of twist bones are many of the row's.
-    constexpr float start_of(std::uint32_t c) const
-    {
-        return c % component_count < kMostComponents ? start[c % component_count] : 0;
-    }
+    constexpr float start_of(std::uint32_t c) const { return start[c % component_count]; }
 };
 constexpr swivel_field_kind kInput = SWIVEL_FIELD_INPUT, kResult = SWIVEL_FIELD_RESULT, kCarried = SWIVEL_FIELD_CARRIED;
 constexpr const char kPlace[] = "no further than 1e15", kQuaternion[] = "a quaternion of length 1e-9 to 1e9",
@@ -173,7 +169,8 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_NORMAL, "normal", 3, kCarried, SWIVEL_WITH_MOST_SWIVEL},
     {SWIVEL_TWIST_BONES, "twist_bones", 4, kResult, SWIVEL_WITH_TWIST_BONES, 0, "", {0, 0, 0, 1}},
     {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
-    {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD},
+    {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0,
+                                                                                0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 

@@ -56,7 +56,7 @@ constexpr std::uint32_t result_row_count(swivel_features features)
 constexpr std::uint32_t packed_row_count(swivel_features features, swivel_field field)
 {
     const std::uint32_t rows = field_row_count(features, field);
-    if (row_of(field).kind != kResult) return 0;
+    if (row_of(field).kind != kResult || field == SWIVEL_RECORD) return 0;
     if (field == SWIVEL_FLAGS) return 2;
     return rows % 4 == 0 ? rows / 4 * 3 : rows;
 }

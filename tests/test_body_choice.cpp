@@ -163,3 +163,24 @@ TEST_CASE("bodies that are not chosen are neither read nor written, others are s
         solve_chosen(stage, job, in_blocks, groups);
     }
 }
+
+TEST_CASE("joints of a group that is not named are where they come")
+{
+    const BodyStage stage(13);
+    PoseLayout layout = layout_of(SWIVEL_ROTATIONS);
+    layout.in_body = GENERATE(true, false) ? &stage.skeleton : nullptr;
+    PoseBuffer poses(layout, stage.bodies);
+    std::vector<Float3> places(kStageBodies * poses.joint_count);
+    swivel_pose pose = poses.view();
+    pose.joint_places = {places.data(), poses.joint_count * sizeof(Float3), sizeof(Float3), nullptr};
+    constexpr std::array<std::uint32_t, 2> named = {0, 2};
+    Crowd crowd = stage.crowd();
+    crowd.solve({.groups = named, .pose = &pose});
+    for (std::uint32_t n = 0; n < kStageBodies; ++n) {
+        Body body = poses.read(n, stage.bodies[n]);
+        body.root_rotation = {0, 0, 0, 1}, body.root_scale = 1;
+        const std::vector<JointAt> at = joints_at(stage.skeleton, body);
+        for (const BodyLimbJoints& limb : stage.skeleton.limbs)
+            REQUIRE((vec(places[n * poses.joint_count + limb.wrist]) - at[limb.wrist].place).norm() <= 1e-5);
+    }
+}

@@ -6,6 +6,8 @@
 
 #include <rapidcheck/catch.h>
 
+#include <cstring>
+
 #include "tests/body_crowd.h"
 
 namespace {
@@ -157,4 +159,47 @@ TEST_CASE("where joints are after a solve")
             }
         }
     });
+}
+
+TEST_CASE("matrices that go elsewhere are whole")
+{
+    Random random{3};
+    const BodySkeleton skeleton = random_body_skeleton(random, {3, 2, 1, false});
+    std::vector<Body> bodies;
+    for (int n = 0; n < 20; ++n) bodies.push_back(random_body(random, skeleton, {true, true, false}));
+    PoseLayout layout;
+    layout.form = GENERATE(SWIVEL_MATRIX_ROWS, SWIVEL_MATRIX_COLUMNS, SWIVEL_MATRIX_COLUMNS3);
+    PoseBuffer in_place(layout, bodies), untouched(layout, bodies);
+    layout.gap = in_place.body_stride;  // each body's second half is for its results
+    PoseBuffer apart(layout, bodies);
+    swivel_pose pose = apart.view();
+    std::vector<std::size_t> offsets;
+    for (std::size_t joint = 0; joint < skeleton.size(); ++joint)
+        offsets.push_back(in_place.body_stride + joint * pose.rotations.joint_stride);
+    pose.results = pose.rotations, pose.results.offsets = offsets.data();
+    Crowd crowd = body_crowd(skeleton, SWIVEL_WITH_HAND, 20);
+    BodyGoals goals(2);
+    for (std::size_t limb = 0; limb < 2; ++limb)
+        for (const Body& body : bodies) goals[limb].push_back(random_goal(random, skeleton, body, limb));
+    write_goals(crowd, goals);
+    solve_poses(crowd, in_place.view());
+    solve_poses(crowd, pose);
+    for (std::size_t n = 0; n < bodies.size(); ++n) {
+        const unsigned char *const all = &apart.bytes[n * apart.body_stride], *const solved =
+                                                                                  &in_place
+                                                                                       .bytes[n * in_place.body_stride];
+        REQUIRE(std::equal(all, all + in_place.body_stride, &untouched.bytes[n * untouched.body_stride]));
+        for (std::uint32_t joint = 0; joint < skeleton.size(); ++joint) {
+            if (!is_limb_joint(skeleton, joint)) continue;
+            const std::size_t first = joint * pose.rotations.joint_stride;
+            const auto is_same = [&](std::size_t number) {
+                return std::memcmp(solved + first + 4 * number, all + offsets[joint] + 4 * number, 4) == 0;
+            };
+            for (std::size_t row = 0; row < 3; ++row)
+                for (std::size_t column = 0; column < 4; ++column)
+                    REQUIRE(is_same(layout.form == SWIVEL_MATRIX_ROWS      ? 4 * row + column
+                                    : layout.form == SWIVEL_MATRIX_COLUMNS ? 4 * column + row
+                                                                           : 3 * column + row));
+        }
+    }
 }

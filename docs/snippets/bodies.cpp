@@ -75,5 +75,74 @@ TEST_CASE("docs: bodies")
         CHECK((place_of(character, kFoot) - vec(character.foot_target)).norm() < 2e-6);
     }
     CHECK(characters[7].pose[kUpperArm] == before.pose[kUpperArm]);
+    // [places]
+    std::vector<std::array<Float3, kJoints>> places(characters.size());
+    pose.joint_places = {places.data(), sizeof places[0], sizeof(Float3), nullptr};
+    crowd.solve({.frames = {arms, legs}, .pose = &pose});
+    const Float3 foot_from_root = places[3][kFoot];  // in the root's frame
+    // [end]
+    const Eigen::Vector3d foot = vec(stands.place) + vec(foot_from_root);
+    CHECK((foot - vec(stands.foot_target)).norm() < 2e-6);
+    const std::vector<Character> still = characters;
+    for (Character& character : characters) character.hand_target[1] += 0.1f;
+    // [some]
+    crowd.solve({.limbs = std::array{3u, 5u}, .frames = {arms, legs}, .pose = &pose});
+    // [end]
+    CHECK((place_of(characters[5], kHand) - vec(characters[5].hand_target)).norm() <
+          2e-6);
+    CHECK(characters[4].pose == still[4].pose);
     CHECK((place_of(characters[7], kFoot) - vec(before.foot_target)).norm() < 2e-6);
+}
+
+TEST_CASE("docs: bodies in the body's space")
+{
+    constexpr std::array<std::int32_t, 5> parents = {-1, 0, 1, 2, 1};
+    constexpr std::array<Float3, 5> offsets = {
+        {{0, 1.4f, 0}, {0.3f, 0, 0}, {0.26f, 0, 0}, {0.08f, 0, 0}, {0.13f, 0, 0}}};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = swivel::stream(parents);
+    skeleton.translations = swivel::stream(offsets);
+    skeleton.joint_count = 5;
+    // [twist]
+    const std::uint32_t twist_bones[] = {4};  // between elbow and wrist
+    swivel_limb_joints arm = swivel_default_limb_joints(0, 1, 2);
+    arm.bend[2] = 1;
+    arm.twist_bones = twist_bones;
+    arm.twist_bone_count = 1;
+    const auto group = swivel::body_group(
+        arm, SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_RECORD);
+    // [end]
+    swivel::Crowd crowd(skeleton, 10, std::array{group});
+    // [model]
+    struct Model {  // each joint relative to the root
+        std::array<Float4, 5> rotations;
+        std::array<Float3, 5> places;
+    };
+    // [end]
+    Model rests{{},
+                {{{0, 1.4f, 0},
+                  {0.3f, 1.4f, 0},
+                  {0.56f, 1.4f, 0},
+                  {0.64f, 1.4f, 0},
+                  {0.43f, 1.4f, 0}}}};
+    rests.rotations.fill({0, 0, 0, 1});
+    std::vector<Model> models(10, rests);
+    crowd.write_all(SWIVEL_TARGET, 0, Float3{0.3f, 1.3f, 0.3f});
+    crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0, 0, 1});
+    // [whole]
+    swivel_pose pose = swivel_default_pose();
+    pose.space = SWIVEL_IN_BODY;
+    pose.rotations = {models[0].rotations.data(), sizeof(Model), sizeof(Float4),
+                      nullptr};
+    pose.translations = {models[0].places.data(), sizeof(Model), sizeof(Float3),
+                         nullptr};
+    crowd.solve({.pose = &pose});
+    // [end]
+    for (const Model& model : models) {
+        CHECK((vec(model.places[2]) - Eigen::Vector3d(0.3, 1.3, 0.3)).norm() < 2e-6);
+        CHECK(
+            (vec(model.places[3]) - vec(model.places[2]) - Eigen::Vector3d(0.08, 0, 0))
+                .norm() < 2e-6);
+    }
+    CHECK(crowd.explain(0, 3).starts_with("The target is reached"));
 }

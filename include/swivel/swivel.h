@@ -253,13 +253,12 @@ typedef enum swivel_field {
     //   shoulder then lies on the line from shoulder to target.
     // - If the elbow crosses that line between solves, the arm rolls over, whatever SWIVEL_MOST_SWIVEL says.
     SWIVEL_AIM,
-    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Of bodies the
-    // share alone: see swivel_pose. Give the parent's rotation as without this feature. The parent turns about its own
-    // origin, from which the shoulder's place
-    // is counted. It turns towards the target by about share * position weight * the angle between clavicle and
-    // target. Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the
-    // turn
-    // is continuous; it fades for targets on the other side of the body.
+    // 4, WITH_CLAVICLE: the shoulder's place in its parent joint's frame, in the bones' unit; a share. Give the
+    // parent's
+    // rotation as without this feature. The parent turns about its own origin, from which the shoulder's place is
+    // counted. It turns towards the target by about share * position weight * the angle between clavicle and target.
+    // Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is
+    // continuous; it fades for targets on the other side of the body. Of bodies 1, the share alone: see swivel_pose.
     SWIVEL_CLAVICLE,
     SWIVEL_INPUT_END,  // one past the last input of this release
 
@@ -294,7 +293,8 @@ typedef enum swivel_field {
     // 22, WITH_RECORD: how a body's limb came, from its pose and after the clavicle's turn. The shoulder's place, 3, in
     // the space of the target; the arm frame's rotation in the world, 4; the parent's scale; both lengths, as they
     // counted. Then the incoming pose, 4 each: the upper arm in the arm frame, the forearm relative to it, the hand
-    // relative to the forearm; WITH_AIM the hand that is aimed.
+    // relative to the forearm; WITH_AIM the hand that is aimed. It is written for bad input, too, also in groups that
+    // keep poses: then the scale is NaN where the pose is bad. Frames that a limb keeps do not get it.
     SWIVEL_RECORD,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
@@ -655,8 +655,8 @@ typedef struct swivel_joint_values {
 
 // The bodies' poses, as an engine keeps them. A job with a pose reads what it says of the joints that some group needs:
 // limbs, joints in between, and all above. It finds by forward kinematics where the limbs are and how long their bones
-// are, solves them, and writes the rotations of shoulders, elbows and, WITH_HAND, wrists; WITH_CLAVICLE and
-// WITH_TWIST_BONES of these joints, too. All else is left alone.
+// are. Then it solves them. It writes the rotations of shoulders and elbows, and WITH_HAND of wrists. WITH_CLAVICLE and
+// WITH_TWIST_BONES it writes those joints, too. In SWIVEL_IN_BODY it writes all that moves. The rest is left alone.
 //
 // - Targets, poles and hands are in the world. Positions in rows are too, unless the root is in doubles.
 // - A solve corrects the incoming pose: a joint turns by what carries the incoming bone to the solved one. So it keeps
@@ -664,20 +664,22 @@ typedef struct swivel_joint_values {
 //   gives the incoming pose back. A joint is then within 2e-6 + 4e-7 L^2 / (L1 L2 sin b) rad, if the target is as exact
 //   as that: L1 and L2 are the bones, L their sum, b the bend. Where all weights are 0, and the group has no limit,
 //   soft reach or step, the incoming bits stay.
-// - Without POLE_INCOMING poles must be written. Lengths that are written count instead of the pose's. Joints in
-//   between stay as they are posed.
+// - With POLE_INCOMING the swivel plane's normal stays the incoming one, made perpendicular to the new line from
+//   shoulder to wrist. Without it poles must be written. Lengths that are written count instead of the pose's. Joints
+//   in between stay as they are posed.
 // - Results in rows are the arm's: SHOULDER, ELBOW and WRIST as without JOINTS. Limits bound these, not the joints.
-// - Twist bones (WITH_TWIST_BONES, as many as the features have, named by the limb's joints) turn from their incoming
-//   rotations. Bone i of n turns by i / (n + 1) of how far the hand's twist changes.
-// - WITH_CLAVICLE the shoulder's parent turns from its incoming rotation, by its share of the angle from what goes to
-//   the target, as it comes, to the target. With WITH_AIM that is the point of the incoming ray which is as far away as
-//   the target. So an untouched goal does not turn it.
+// - Twist bones turn from their incoming rotations. Bone i of n turns by i / (n + 1) of how far the hand's twist
+//   changes. A limb whose joints name twist bones gets the feature by itself.
+// - WITH_CLAVICLE the shoulder's parent turns towards the target, by its share of the angle between the incoming end
+//   point and the target. The end point is the wrist or the effector. WITH_AIM it is the point of the incoming ray that
+//   is as far away as the target. So an untouched goal does not turn it.
 // - A rotation of no length or not finite is bad input, and so is a place beyond 1e15. The same holds for a scale that
 //   is not above 0 or not uniform within 1e-3, and for a matrix that is mirrored or slanted by more than 1e-3. Bad
 //   input makes all limbs with or below that joint SWIVEL_BAD_INPUT; that of the root all of the body. A root's place
 //   in doubles counts by the positions that it is subtracted from.
-// - A limb that keeps its pose (swivel_default_body_group_def()) has the incoming bits after bad input. With
-//   SWIVEL_REST_POSE matrices get rotations of scale 1. In SWIVEL_IN_BODY every limb keeps it.
+// - A limb that keeps its pose (swivel_default_body_group_def()) has the incoming bits after bad input, NaN too. With
+//   SWIVEL_REST_POSE matrices get rotations of scale 1. In SWIVEL_IN_BODY every limb keeps it. Joints that only move
+//   along, such as fingers, are not checked.
 // - Inputs are read before results are written, body by body. Results of a body must not overlap another's inputs.
 typedef struct swivel_pose {
     size_t size;  // sizeof(swivel_pose), set by swivel_default_pose()
@@ -686,9 +688,10 @@ typedef struct swivel_pose {
     // double. Positions in rows are then relative to the root.
     uint32_t root_is_double;
     swivel_joint_values rotations;     // or matrices, as form says; must be given
-    swivel_joint_values translations;  // 3 floats: the joint's place in its parent's frame; none: as the skeleton rests
-    swivel_joint_values scales;        // 3 floats; none: 1
-    // Where the joints that are solved go, in the same form; none: back to rotations. A matrix's last row is not
+    swivel_joint_values translations;  // 3 floats: the joint's place in its parent's frame, or in the body's space;
+                                       // none: as the skeleton rests
+    swivel_joint_values scales;        // 3 floats, to the parent's or in the body's space; none: 1
+    // Where the joints that are written go, in the same form; none: back to rotations. A matrix's last row is not
     // written.
     swivel_joint_values results;
     // Of each body, which the joints with parent -1 hang below. Null data: at the origin, not turned, scale 1.
@@ -698,11 +701,11 @@ typedef struct swivel_pose {
     swivel_pose_space space;
     uint32_t reserved;  // 0
     // In SWIVEL_IN_BODY with translations: where those of moved joints go; none: back to translations. Give it if
-    // results are given.
+    // results are given. Poses without translations have no places that could move.
     swivel_joint_values translation_results;
     // If given: where the joints are after the solve, relative to the root. Of those that some group needs: limbs,
-    // joints in between, and all above. x, y, z, w with w >= 0, and 3 floats. A limb with bad input has them as they
-    // come.
+    // joints in between, and all above. x, y, z, w with w >= 0, and 3 floats. A limb that keeps its pose has them as
+    // they come; what is bad in the pose is NaN.
     swivel_joint_values joint_rotations, joint_places;
 } swivel_pose;
 
@@ -874,7 +877,7 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // says that they are of the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not
 // from the blended one. limb is counted within the group. text gets at most size bytes, the 0 at its end among them.
 // For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
-// in three dots. Takes up to a millisecond; no allocation.
+// in three dots. Of bodies it needs WITH_RECORD. Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
@@ -887,7 +890,7 @@ typedef struct swivel_arc {
 
 // The swivels that the limits of a limb allow for its present inputs, as the next solve will use them. They are in
 // their order around the circle. At most capacity of them are stored, *arc_count says how many there are. None for bad
-// input. limb is counted within the group. Takes some microseconds; no allocation.
+// input. limb is counted within the group. Of bodies it needs WITH_RECORD. Takes some microseconds; no allocation.
 SWIVEL_API swivel_status swivel_allowed_arcs(const swivel_crowd* crowd, uint32_t group, uint32_t limb, swivel_arc* arcs,
                                              uint32_t capacity, uint32_t* arc_count);
 
@@ -935,12 +938,12 @@ SWIVEL_API swivel_status swivel_mirror(swivel_field field, swivel_euler_order or
 
 // Forward kinematics of the results, in double. Positions are in the space of the targets, after the clavicle's turn.
 // For each limb, elbow and wrist are 3 doubles, hand is a rotation of 4, with SWIVEL_WITH_HAND. Outputs whose data is
-// null are left out.
+// null are left out. Of bodies it needs WITH_RECORD.
 SWIVEL_API swivel_status swivel_forward(const swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
                                         swivel_out elbow, swivel_out wrist, swivel_out hand);
 // How far the wrist, or the effector, of each limb is from its target; with WITH_AIM, how far the target is from the
 // hand's ray. One double each, in arm lengths: upper + fore, scaled and stretched. 0 for a limb of no length, NaN for
-// one with bad input. Means nothing before the first solve.
+// one with bad input. Means nothing before the first solve. Of bodies it needs WITH_RECORD.
 SWIVEL_API swivel_status swivel_residuals(const swivel_crowd* crowd, uint32_t group, uint32_t first,
                                           uint32_t limb_count, swivel_out distance);
 
