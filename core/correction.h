@@ -71,6 +71,12 @@ SWIVEL_INLINE constexpr Rotor<T> bone_frame(const Vector<T>& line, const Vector<
 {
     return unit_frame(line, T(1), T(1), across(across(normal, line), line));
 }
+// The same for a normal of unit length that is orthogonal to the line but for rounding.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> own_frame(const Vector<T>& line, const Vector<T>& normal)
+{
+    return normalise(frame_along(line, across(normal, line)));
+}
 template <class T>
 SWIVEL_INLINE constexpr BoneFrames<T> bone_frames(const BoneLines<T>& bones, const Vector<T>& normal)
 {

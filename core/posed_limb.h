@@ -22,6 +22,8 @@ struct PosedLimb {
 
 template <class T>
 struct SeenLimb {
+    Rotor<T> arm;          // the arm frame, in the space of the joints
+    Turn<T> back;          // into the arm frame
     BoneLines<T> bones;    // in the arm frame
     BoneFrames<T> model;   // the same
     BoneFrames<T> frames;  // in the space of the joints
@@ -42,19 +44,19 @@ template <BendNormal which, class T>
 SWIVEL_INLINE constexpr SeenLimb<T> seen_limb(const PosedLimb<T>& posed, const Rotor<T>& parent_from_arm,
                                               const Vector<T>& hinge, const Mask<T>& stays)
 {
-    const Rotor<T> arm = posed.parent * parent_from_arm;  // the arm frame
+    const Rotor<T> arm = posed.parent * parent_from_arm;
     const Turn<T> back = turn_by(~arm);
     const BoneLines<T> bones =
         bone_lines(back(posed.elbow_place - posed.shoulder_place), back(posed.wrist_place - posed.elbow_place));
     const BendNormals<T> normals = bend_normals(bones, hinge_across(back(turned(posed.shoulder, hinge)), bones.upper));
     if constexpr (which == BendNormal::own) {
-        const Rotor<T> upper = bone_frame(bones.upper, normals.own), frame = arm * upper;
+        const Rotor<T> upper = own_frame(bones.upper, normals.own), frame = arm * upper;
         const Hinge<T> elbow = own_hinge(bones, normals.sine);
-        return {bones, {upper, upper * elbow}, {frame, frame * elbow}};
+        return {arm, back, bones, {upper, upper * elbow}, {frame, frame * elbow}};
     } else {
         const BoneFrames<T> model = bone_frames(
             bones, which == BendNormal::steady ? normals.steady : select(stays, normals.own, normals.steady));
-        return {bones, model, {arm * model.upper, arm * model.fore}};
+        return {arm, back, bones, model, {arm * model.upper, arm * model.fore}};
     }
 }
 

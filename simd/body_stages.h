@@ -58,8 +58,9 @@ struct StageBody<Stage::posed> {
                 s.set_body(kTwistInRow + 1, twist.sin);
             }
         }
-        // Lengths that were never written are NaN.
         const T per_scale = T(1) / s.body_row(limb.parent + kScaleRow);
+        see_goal(s, seen, posed.shoulder_place, per_scale);
+        // Lengths that were never written are NaN.
         const auto length = [&](int n, const T& posed_length) SWIVEL_INLINE_LAMBDA {
             const T given = s.io.load(SWIVEL_LENGTHS, n);
             return select(given == given, given, per_scale * posed_length);
@@ -75,6 +76,28 @@ struct StageBody<Stage::posed> {
             set_from_arm(kElbowParentFromArmRow, limb.elbow_parent, seen.frames.upper);
         if (limb.wrist_parent != limb.elbow) set_from_arm(kWristParentFromArmRow, limb.wrist_parent, seen.frames.fore);
     }
+
+private:
+    // The goal, as the parent sees it. Joints' places are from the root's.
+    template <class S>
+    SWIVEL_INLINE static void see_goal(const S& s, const SeenLimb<typename S::T>& seen,
+                                       const Vector<typename S::T>& shoulder, const typename S::T& per_scale)
+    {
+        using T = typename S::T;
+        const Vector<T> root = s.body_vector(kRootRow), target = s.io.load_vector(SWIVEL_TARGET);
+        s.require(len2(target) <= T(kHuge2));
+        s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
+        if constexpr (!S::is(SWIVEL_POLE_INCOMING)) {
+            const Vector<T> pole = s.io.load_vector(SWIVEL_POLE);
+            s.require(len2(pole) <= T(kHuge2));
+            s.set_vector(kPoleRow, per_scale * seen.back(pole_is_point(s) ? pole - root - shoulder : pole));
+        }
+        if constexpr (S::is(SWIVEL_WITH_HAND)) {
+            const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+            s.require(is_orientation(hand));
+            s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
+        }
+    }
 };
 
 // Keeps what the pose gave, with the clavicle as turned. So the limb can be seen again as a free one.
@@ -85,7 +108,7 @@ struct StageBody<Stage::record> {
     {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
-        const ParentFrame<T> parent = parent_frame(s);
+        const ParentFrame<T> parent = posed_parent(s);
         Rotor<T> arm = parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm);
         Vector<T> shoulder = parent.position;
         if (s.has(SWIVEL_WITH_CLAVICLE)) {

@@ -41,11 +41,10 @@ SWIVEL_INLINE bool is_bound(const S& s)
 {
     return s.has(SWIVEL_JOINTS) || s.has(SWIVEL_BODY);
 }
-// The parent's frame: a body's, or the one that the caller gave.
+// The parent's frame of a body's limb.
 template <class S>
-SWIVEL_INLINE ParentFrame<typename S::T> parent_frame(const S& s)
+SWIVEL_INLINE ParentFrame<typename S::T> posed_parent(const S& s)
 {
-    if (!s.has(SWIVEL_BODY)) return s.io.load_parent();
     const BodyLimb& limb = *s.strip.run.limb;
     return {s.body_vector(limb.shoulder + kPlaceRow), s.body_rotor(limb.parent + kTurnRow),
             s.body_row(limb.parent + kScaleRow)};
@@ -70,19 +69,13 @@ struct StageBody<Stage::see> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         using T = typename S::T;
-        Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
-        Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
-        if constexpr (S::is(SWIVEL_BODY)) {  // joints' places are from the root's
-            const Vector<T> root = s.body_vector(kRootRow);
-            target = target - root;
-            if (pole_is_point(s)) pole = pole - root;
-        }
-        const ParentFrame<T> parent = parent_frame(s);
+        const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
+        const Vector<T> pole = s.has(SWIVEL_POLE_INCOMING) ? vector(T(0), T(0), T(0)) : s.io.load_vector(SWIVEL_POLE);
+        const ParentFrame<T> parent = s.io.load_parent();
         s.require(is_valid(parent) & (len2(target) <= T(kHuge2)) & (len2(pole) <= T(kHuge2)));
         // The arm frame goes with the parent.
         Rotor<T> rotation = parent.rotation;
-        if constexpr (S::is(SWIVEL_JOINTS) || S::is(SWIVEL_BODY))
-            rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
+        if constexpr (S::is(SWIVEL_JOINTS)) rotation = rotation * broadcast<T>(s.strip.bind.parent_from_arm);
         const SeenGoal<T> seen =
             seen_by(ParentFrame<T>{parent.position, rotation, parent.scale}, target, pole, T(pole_is_point(s)));
         const T shrink = T(1) / seen.size;
@@ -116,7 +109,7 @@ SWIVEL_INLINE ClavicleEnds<typename S::T> posed_clavicle(const S& s)
 {
     using T = typename S::T;
     const BodyLimb& limb = *s.strip.run.limb;
-    const ParentFrame<T> parent = parent_frame(s);
+    const ParentFrame<T> parent = posed_parent(s);
     const Turn<T> back = turn_by(~(parent.rotation * broadcast<T>(s.strip.bind.parent_from_arm)));
     const Vector<T> clavicle = s.body_vector(limb.parent + kPlaceRow);
     const auto seen = [&](const Vector<T>& place)
@@ -143,13 +136,16 @@ struct StageBody<Stage::clavicle> {
         const ClavicleEnds<T> ends = is_posed ? posed_clavicle(s) : resting_clavicle(s);
         const Vector<T>& bone = ends.shoulder;
         const T share = s.io.load(SWIVEL_CLAVICLE, is_posed ? 0 : 3);
-        const Vector<T> target = s.get_vector(kWristRow) + bone, pole = s.get_vector(kPoleRow);
+        const Vector<T> target = s.get_vector(kWristRow) + bone;
         s.require((len2(bone) <= T(kHuge2)) & is_share(share));
         const Rotor<T> turn =
             clavicle_turn(ends.from, target, s.has(SWIVEL_WITH_WEIGHTS) ? share * s.io.load(SWIVEL_WEIGHTS, 0) : share);
         const Turn<T> back = turn_by(~turn);
         s.set_vector(kWristRow, back(target) - bone);
-        s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
+        if (!s.has(SWIVEL_POLE_INCOMING)) {
+            const Vector<T> pole = s.get_vector(kPoleRow);
+            s.set_vector(kPoleRow, pole_is_point(s) ? back(pole + bone) - bone : back(pole));
+        }
         if (s.has(SWIVEL_WITH_HAND) && !s.has(SWIVEL_WITH_AIM)) s.set_rotor(kHandRow, ~turn * s.get_rotor(kHandRow));
         s.set_rotor(kClavicleRow, turn);
     }

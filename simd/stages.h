@@ -17,9 +17,9 @@ namespace swivel {
 // In the order in which they run. place is bones and wish in one, for limbs that ask nothing special of either.
 enum class Stage : std::uint8_t {
     see,       // the goal, as the parent sees it
+    posed,     // the same of a body's limb, with the incoming pose, its bones and how its joints lie to them
     clavicle,  // turned by its share, and the goal turned back
     incoming,  // the incoming pose, in the arm frame
-    posed,     // the same of a body's limb, with its bones and how its joints lie to them
     record,    // what of it free limbs are given
     goal,      // the hand's orientation and the wrist's place
     place,
@@ -61,10 +61,10 @@ inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWI
                                  kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL,
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
-    {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_BODY, SWIVEL_WORLD, 0},
+    {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, SWIVEL_BODY},
+    {Stage::posed, SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_BODY, 0},
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
     {Stage::incoming, SWIVEL_JOINTS, SWIVEL_WITH_INCOMING, SWIVEL_BODY},
-    {Stage::posed, SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_BODY, 0},
     {Stage::record, 0, SWIVEL_WITH_RECORD, 0},
     {Stage::goal, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_HAND | SWIVEL_WITH_WEIGHTS, 0},
     {Stage::place, SWIVEL_POLE_NORMAL | SWIVEL_WITH_ANGLE, 0, kSpecial},

@@ -70,17 +70,14 @@ swivel::Vector<Counted> target_of(const Frames& frames, const BodyChain& chain, 
     return target;
 }
 
-// Its stages, from simd/goal_stages.h to body_stages.h.
+// Its stages, from `posed` to `correct` (simd/stages.h).
 void count_body_limb(const Frames& frames, const BodyChain& chain)
 {
     const Rotor<Counted> of_binding = rotor(0.1, 0.2, 0.3, 0.92736), local = rotor(0.1, 0.05, -0.1, 0.98867);
     const swivel::Vector<Counted> root = vector(1, 2, 3), target = target_of(frames, chain, root);
     const Frame &parent = frames[static_cast<std::size_t>(kBodyParents[chain.first])], &shoulder = frames[chain.first],
                 &elbow = frames[chain.middle], &wrist = frames[chain.last];
-    const Rotor<Counted> arm = parent.rotation * of_binding;
-    const swivel::Turn<Counted> to_arm = swivel::turn_by(~arm);
-    const Counted per_size = Counted(1.0) / (parent.scale * to_arm.length2), per_scale = Counted(1.0) / parent.scale;
-
+    const Counted per_scale = Counted(1.0) / parent.scale;
     const swivel::SeenLimb<Counted> seen = swivel::seen_limb<swivel::BendNormal::own>(
         swivel::PosedLimb<Counted>{parent.rotation, shoulder.rotation, shoulder.place, elbow.place, wrist.place},
         of_binding, vector(1, 0, 0), Counted(0.0) < Counted(0.0));
@@ -90,9 +87,9 @@ void count_body_limb(const Frames& frames, const BodyChain& chain)
     use.hand = use.incoming = true;
     use.wish = swivel::Wish::incoming;
     swivel::LimbGoal<Counted> goal;
-    goal.arm = {per_size * to_arm(target - root - shoulder.place), vector(0, 0, 0), per_scale * seen.bones.upper_length,
-                per_scale * seen.bones.fore_length};
-    goal.hand = ~arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
+    goal.arm = {per_scale * seen.back(target - root - shoulder.place), vector(0, 0, 0),
+                per_scale * seen.bones.upper_length, per_scale * seen.bones.fore_length};
+    goal.hand = ~seen.arm * rotor(0.3, 0.2, 0.1, 0.9) * ~of_binding;
     goal.incoming = {seen.model.upper, seen.model.upper, seen.model.upper};  // of which the first is used
     const swivel::SolvedLimb<Counted> solved = swivel::solve_limb<false>(use, goal, Counted(0.0) <= Counted(0.0));
 
