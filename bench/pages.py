@@ -7,14 +7,13 @@
     <!-- bench end -->
 
 becomes that table of tables.py, of bench/results/RESULT.json. Within a line, <!-- bench: SENTENCE RESULT -->...<!-- bench end --> becomes
-that sentence. The result "newest" is the one with the latest date. The pictures are drawn from the first result that the first page names.
+that sentence. The pictures are drawn from the first result that the first page names.
 
 usage: bench/pages.py [--check]
 """
 import argparse
 import re
 import sys
-from datetime import datetime
 from functools import lru_cache
 from pathlib import Path
 
@@ -30,15 +29,7 @@ BLOCK = re.compile(r"<!-- bench: (?P<what>\w+) (?P<result>[\w.-]+) -->(?P<text>.
 
 @lru_cache
 def read_result(name, folder):
-    if name != "newest":
-        return Result(*read_all(folder / f"{name}.json"))
-    results = [Result(*read_all(path)) for path in sorted(folder.glob("*.json"))]
-    if not results:
-        raise Refused(f"{folder} has no result")
-    try:
-        return max(results, key=lambda result: datetime.fromisoformat(result.context["date"]))
-    except KeyError as error:
-        raise Refused(f"a result in {folder} has no {error}") from error
+    return Result(*read_all(folder / f"{name}.json"))
 
 
 def filled(page, folder):
