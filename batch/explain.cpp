@@ -328,7 +328,9 @@ bool is_near(const LimbPose& a, const LimbPose& b)
 {
     constexpr double kShare = 1e-4;
     const double size2 = len2(b.elbow - b.shoulder) + len2(b.wrist - b.elbow);
-    return len2(a.elbow - b.elbow) + len2(a.wrist - b.wrist) <= kShare * kShare * size2;
+    const double cos_half = scalar_product(~a.hand, b.hand);
+    return len2(a.elbow - b.elbow) + len2(a.wrist - b.wrist) <= kShare * kShare * size2 &&
+           1 - cos_half * cos_half <= kShare * kShare;
 }
 
 }  // namespace

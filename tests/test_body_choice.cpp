@@ -171,8 +171,10 @@ TEST_CASE("joints of a group that is not named are where they come")
     layout.in_body = GENERATE(true, false) ? &stage.skeleton : nullptr;
     PoseBuffer poses(layout, stage.bodies);
     std::vector<Float3> places(kStageBodies * poses.joint_count);
+    std::vector<Float4> rotations(places.size());
     swivel_pose pose = poses.view();
     pose.joint_places = {places.data(), poses.joint_count * sizeof(Float3), sizeof(Float3), nullptr};
+    pose.joint_rotations = {rotations.data(), poses.joint_count * sizeof(Float4), sizeof(Float4), nullptr};
     constexpr std::array<std::uint32_t, 2> named = {0, 2};
     Crowd crowd = stage.crowd();
     crowd.solve({.groups = named, .pose = &pose});
@@ -180,7 +182,10 @@ TEST_CASE("joints of a group that is not named are where they come")
         Body body = poses.read(n, stage.bodies[n]);
         body.root_rotation = {0, 0, 0, 1}, body.root_scale = 1;
         const std::vector<JointAt> at = joints_at(stage.skeleton, body);
-        for (const BodyLimbJoints& limb : stage.skeleton.limbs)
-            REQUIRE((vec(places[n * poses.joint_count + limb.wrist]) - at[limb.wrist].place).norm() <= 1e-5);
+        for (const BodyLimbJoints& limb : stage.skeleton.limbs) {
+            const std::size_t wrist = n * poses.joint_count + limb.wrist;
+            REQUIRE((vec(places[wrist]) - at[limb.wrist].place).norm() <= 1e-5);
+            REQUIRE(quat(rotations[wrist]).angularDistance(at[limb.wrist].rotation) <= 1e-5);
+        }
     }
 }

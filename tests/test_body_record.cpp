@@ -108,6 +108,11 @@ TEST_CASE("explain says of a body's limb what happened")
     reached.solve();
     CHECK_THAT(reached.explained(4), Catch::StartsWith("Bad input: in the pose, a rotation"));
     CHECK(reached.explained(5).find("The target is reached") == 0);
+    RecordedBodies without_hands(random, SWIVEL_WITH_RECORD, true);
+    without_hands.bodies[4].rotations[without_hands.skeleton.limbs[0].wrist] = {0, 0, std::nanf(""), 0};
+    without_hands.poses.write(4, without_hands.bodies[4]);
+    without_hands.solve();
+    CHECK_THAT(without_hands.explained(4), Catch::StartsWith("Bad input: in the pose, a rotation"));
     const RecordedBodies missed(random, kRecorded, false);
     CHECK_THAT(missed.explained(3), Catch::Contains("out of reach"));
 }

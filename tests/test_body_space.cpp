@@ -31,6 +31,7 @@ struct SolvedPoses {
     std::vector<Body> was, is;
     BodyGoals goals;
     PoseBuffer poses;
+    std::vector<unsigned char> before;
     std::vector<std::vector<Float4>> joint_rotations;
     std::vector<std::vector<Float3>> joint_places;
 
@@ -50,6 +51,12 @@ struct SolvedPoses {
         }
         write_goals(crowd, goals);
         swivel_pose pose = poses.view();
+        if (bad < was.size()) {  // a finger's -0, which no product gives
+            constexpr float kMinusZero = -0.0f;
+            std::memcpy(&poses.bytes[bad * poses.body_stride + (skeleton.size() - 1) * pose.rotations.joint_stride],
+                        &kMinusZero, sizeof kMinusZero);
+        }
+        before = poses.bytes;
         joint_rotations.assign(was.size(), std::vector<Float4>(skeleton.size()));
         joint_places.assign(was.size(), std::vector<Float3>(skeleton.size()));
         for (std::size_t n = 0; n < was.size(); ++n) is.push_back({});
@@ -125,10 +132,10 @@ TEST_CASE("poses in the body's space")
     rc::prop("keep their bits where input is bad", [](std::uint64_t seed) {
         Random random{seed};
         const SolvedPoses solved(random, true, 7);
-        const PoseBuffer before(solved.layout, solved.was);
         const auto differ = [&](std::size_t n) {
-            return !std::equal(&before.bytes[n * before.body_stride], &before.bytes[(n + 1) * before.body_stride - 1],
-                               &solved.poses.bytes[n * before.body_stride]);
+            const std::size_t stride = solved.poses.body_stride;
+            return !std::equal(&solved.before[n * stride], &solved.before[n * stride] + stride,
+                               &solved.poses.bytes[n * stride]);
         };
         RC_ASSERT(!differ(7));
         RC_ASSERT(differ(6));
