@@ -185,6 +185,7 @@ TEST_CASE("joints of a group that is not named are where they come")
         for (const BodyLimbJoints& limb : stage.skeleton.limbs) {
             const std::size_t wrist = n * poses.joint_count + limb.wrist;
             REQUIRE((vec(places[wrist]) - at[limb.wrist].place).norm() <= 1e-5);
+            REQUIRE(std::fabs(quat(rotations[wrist]).norm() - 1) <= 1e-5);
             REQUIRE(quat(rotations[wrist]).angularDistance(at[limb.wrist].rotation) <= 1e-5);
         }
     }
