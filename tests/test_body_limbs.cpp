@@ -76,7 +76,8 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};
     values[SWIVEL_MOST_SWIVEL] = list(turn(random.between(0, 1)));
-    values[SWIVEL_FLEXION_LIMIT] = list(flexion(random.between(0, 1), random.between(1.5, 3)));
+    // Rounding decides whether a least flexion near 0 shortens the reach.
+    values[SWIVEL_FLEXION_LIMIT] = list(flexion(random.between(0.05, 1), random.between(1.5, 3)));
     const Float3 axis = direction();
     values[SWIVEL_AIM] = list(aim({axis[0], axis[1], axis[2]}, random.between(0.2, 2.5)));
     LimbLimits limits(random);
