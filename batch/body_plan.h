@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The plan of a crowd of bodies, made once: which joints of the skeleton some group needs, in an order in which parents
-// come first, which of them are a group's limb, and which joints move with them.
+// The plan of a crowd of bodies, made once. It lists the joints of the skeleton that some group needs, parents first.
+// It says which of them are a group's limb, and which joints move with them.
 #pragma once
 
 #include "batch/crowd.h"

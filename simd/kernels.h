@@ -98,8 +98,9 @@ struct BodyKernels {
     void (*forward)(const BodyPlan& plan, const BodyBlock& block);
     // Finds how a solved limb moves its joints and all below them (kMotionRow).
     void (*move)(const BodyBlock& block, const BodyLimb& limb);
-    // These fill in a block's rows for a joint to be written (OutRow), where the limbs have moved it to. carry: as it
-    // comes in a pose in the body's space. place: a needed joint's rotation and place, in the body's space.
+    // These fill in a block's rows for a joint to be written (OutRow), where the limbs have moved it to.
+    // - carry: any joint that moves, as a pose in the body's space has it.
+    // - place: a needed joint's rotation and place, in the body's space.
     void (*carry)(const BodyPlan& plan, const BodyBlock& block, const MovedJoint& joint);
     void (*place)(const BodyBlock& block, const BodyJoint& joint);
 };
