@@ -188,7 +188,7 @@ swivel_status swivel_solve(swivel_crowd* crowd, const swivel_job* given)
     const swivel_blocks blocks = job.blocks ? *job.blocks : swivel_blocks{0, crowd->block_count};
     if (status == SWIVEL_OK) status = check_groups(*crowd, job);
     if (status == SWIVEL_OK) status = check_choice(*crowd, job);
-    if (status == SWIVEL_OK) status = check_pose(*crowd, job.pose);
+    if (status == SWIVEL_OK) status = check_pose(*crowd, job.groups, job.pose);
     if (status == SWIVEL_OK && job.frames) status = check_frames(*crowd, job, blocks);
     if (status != SWIVEL_OK) return status;
     const Isa* const isa = usable_isa(status);

@@ -34,17 +34,24 @@ struct Runs {
     {
         const swivel_crowd& crowd = work.crowd;
         bool is_any_named = false;
-        for_each_group(crowd, work.groups, {run.first, run.count},
-                       [&](const Group&, GroupBlocks, std::uint32_t) { is_any_named = true; });
+        for_each_named(run, [&](const Group&, std::uint32_t) { is_any_named = true; });
         if (!is_any_named) return;
         const BodyPlan plan{crowd.joints, crowd.joint_count, &pose};
         for_each_block(run, [&](const BodyBlock& block) { work.kernels.bodies.forward(plan, block); });
-        for_each_group(
-            crowd, work.groups, {run.first, run.count}, [&](const Group& group, GroupBlocks, std::uint32_t n) {
-                solve_limbs(group, run, n);
-                for_each_block(run,
-                               [&](const BodyBlock& block) { pose_out(work.kernels.bodies, plan, group.limb, block); });
+        if (work.frames)
+            for_each_named(run, [&](const Group& group, std::uint32_t n) {
+                share(group, run, n, [&](const Share& of) { of.copy_in(work.mask, run); });
             });
+        for (const swivel_features kind : {swivel_features{0}, kNoLimb})  // what limbs ask for, before it is given
+            for_each_named(run, [&](const Group& group, std::uint32_t) {
+                if ((group.features & kNoLimb) == kind) prepare_group(work.kernels, group, run, strip, work.mask);
+            });
+        for_each_named(run, [&](const Group& group, std::uint32_t n) {
+            solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
+            if (work.frames) share(group, run, n, [&](const Share& of) { of.copy_out(work.mask, run); });
+            for_each_block(run,
+                           [&](const BodyBlock& block) { pose_out(work.kernels.bodies, plan, group.limb, block); });
+        });
         if (gives_joints(pose)) for_each_block(run, [&](const BodyBlock& block) { give_joints(plan, block); });
     }
 
@@ -55,17 +62,23 @@ private:
             if (!is_named(work.groups, g)) stay(work.crowd.groups[g].limb, block);
         joints_out(work.kernels.bodies, plan, block);
     }
-    void solve_limbs(const Group& group, GroupBlocks run, std::uint32_t n) const
+    // Calls take(group, n) for each group that is named; n counts them.
+    template <class Take>
+    void for_each_named(GroupBlocks run, const Take& take) const
     {
-        if (!work.frames) return solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
+        for_each_group(work.crowd, work.groups, {run.first, run.count},
+                       [&](const Group& group, GroupBlocks, std::uint32_t n) { take(group, n); });
+    }
+    // Calls copy(share) with the nth frame's part of a run.
+    template <class Copy>
+    void share(const Group& group, GroupBlocks run, std::uint32_t n, const Copy& copy) const
+    {
         swivel_frame frame = frame_at(work.frames, n);
         frame.origin = origin_of(pose);
         Stream streams[kMostStreams];
-        Share share;
-        share.set({&group, run, frame}, run.count, streams);
-        share.copy_in(work.mask, run);
-        solve_group(work.kernels, group, run, strip, work.from_memory, work.mask);
-        share.copy_out(work.mask, run);
+        Share of;
+        of.set({&group, run, frame}, run.count, streams);
+        copy(of);
     }
 };
 

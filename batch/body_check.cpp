@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <initializer_list>
 
 #include "batch/body_joints.h"
 #include "batch/body_plan.h"
 #include "batch/status.h"
+#include "core/arm.h"
 
 namespace swivel {
 
@@ -35,14 +38,83 @@ swivel_status check_turned(const swivel_skeleton& skeleton, const swivel_group_d
     return SWIVEL_OK;
 }
 
+struct Constant {
+    const char* name;
+    float value;
+    double most;
+};
+swivel_status check_constants(std::uint32_t g, const char* of, std::initializer_list<Constant> constants)
+{
+    for (const Constant& each : constants)
+        if (!(each.value >= 0 && each.value <= each.most))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s.%s is %g; it is 0 to %g", g, of, each.name,
+                        double(each.value), each.most);
+    return SWIVEL_OK;
+}
+swivel_status check_plant(std::uint32_t g, const swivel_plant& plant)
+{
+    constexpr double kMost = 1000;
+    const swivel_status status = check_constants(g, "plant",
+                                                 {{"lock", plant.lock, kMost},
+                                                  {"unlock", plant.unlock, kMost},
+                                                  {"stop", plant.stop, kMost},
+                                                  {"blend", plant.blend, kMost},
+                                                  {"again", plant.again, kMost},
+                                                  {"run", plant.run, 1},
+                                                  {"longest", plant.longest, kHuge},
+                                                  {"speed[0]", plant.speed[0], kMost},
+                                                  {"speed[1]", plant.speed[1], kMost}});
+    if (status != SWIVEL_OK) return status;
+    for (const float height : plant.height)
+        if (!(std::fabs(height) <= kMost))
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u, plant.height is %g; it is -%g to %g", g, double(height),
+                        kMost, kMost);
+    return SWIVEL_OK;
+}
+swivel_status check_fit(std::uint32_t g, const swivel_fit& fit)
+{
+    return check_constants(
+        g, "fit",
+        {{"drop", fit.drop, 1000}, {"rise", fit.rise, 1000}, {"half", fit.half, 1000}, {"ahead", fit.ahead, 1000}});
+}
+
+// Limbs that are to fit and what shifts the body for them go together.
+swivel_status check_fits(const swivel_crowd_def& def)
+{
+    std::uint32_t shifts = 0, limbs = 0, last = 0;
+    for (std::uint32_t g = 0; g < def.group_count; ++g) {
+        const swivel_features features = group_at(def, g).features;
+        if (features & SWIVEL_FIT && ++shifts > 1)
+            return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, and group %u too; a body has one shift", g,
+                        last);
+        if (features & (SWIVEL_FIT | SWIVEL_WITH_FIT)) last = g;
+        limbs += (features & SWIVEL_WITH_FIT) != 0;
+    }
+    if (shifts == 1 && limbs == 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, but no limb is SWIVEL_WITH_FIT; add it to one",
+                    last);
+    if (shifts == 0 && limbs > 0)
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_FIT, but no group is SWIVEL_FIT; add one", last);
+    const double length2 =
+        double(def.up[0]) * def.up[0] + double(def.up[1]) * def.up[1] + double(def.up[2]) * def.up[2];
+    if (!(length2 >= kTiny2 && length2 <= kHuge2))
+        return fail(SWIVEL_INVALID_ARGUMENT, "crowd def's up is %g, %g, %g; give an axis", double(def.up[0]),
+                    double(def.up[1]), double(def.up[2]));
+    return SWIVEL_OK;
+}
+
 swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skeleton& skeleton, std::uint32_t g)
 {
     const swivel_group_def group = group_at(def, g);
-    if (!group.joints)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each group does", g);
+    if (!(group.features & kNoLimb) == !group.joints)
+        return group.joints
+                   ? fail(SWIVEL_INVALID_ARGUMENT,
+                          "group %u is SWIVEL_FIT, which is no limb, but names joints; leave them out", g)
+                   : fail(SWIVEL_INVALID_ARGUMENT, "group %u names no joints; in a crowd of bodies each limb does", g);
     if (element(def.groups, g, swivel_default_group_def(0)).limb_count != 0 && group.limb_count != def.body_count)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u has %u limbs, but there are %u bodies; leave the count 0", g,
                     group.limb_count, def.body_count);
+    if (!group.joints) return check_fit(g, group.fit);
     RestLimb limb;
     swivel_binding binding = swivel_default_binding();
     swivel_status status = check_size<swivel_limb_joints>("limb joints", size_of(group.joints));
@@ -50,7 +122,7 @@ swivel_status check_group_joints(const swivel_crowd_def& def, const swivel_skele
     if (status == SWIVEL_OK) status = rest_limb(skeleton, joints_of(group), limb);
     if (status == SWIVEL_OK) status = bind("swivel_bind_joints", limb, binding);
     if (status == SWIVEL_OK) status = check_turned(skeleton, group);
-    if (status == SWIVEL_OK) return status;
+    if (status == SWIVEL_OK) return group.features & SWIVEL_WITH_PLANT ? check_plant(g, group.plant) : status;
     char name[24];
     std::snprintf(name, sizeof name, "group %u", g);
     return fail_in(name, status);
@@ -97,6 +169,7 @@ swivel_status check_bodies(const swivel_crowd_def& def)
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g)
         status = check_group_joints(def, skeleton, g);
     for (std::uint32_t g = 0; g < def.group_count && status == SWIVEL_OK; ++g) status = check_apart(def, skeleton, g);
+    if (status == SWIVEL_OK) status = check_fits(def);
     return status == SWIVEL_OK ? check_skeleton(def, skeleton) : status;
 }
 

@@ -29,6 +29,7 @@ struct TurnedJoints {
 
     TurnedJoints(const swivel_skeleton& skeleton, const swivel_group_def& group)
     {
+        if (!group.joints) return;  // no limb
         const swivel_limb_joints limb = joints_of(group);
         if (group.features & SWIVEL_WITH_CLAVICLE)
             joint[count++] = static_cast<std::uint32_t>(parent_of(skeleton, limb.shoulder));
@@ -57,7 +58,7 @@ void for_each_needed(const swivel_crowd_def& def, const swivel_skeleton& skeleto
     const auto is_needed = [&](std::uint32_t joint) {
         for (std::uint32_t g = 0; g < def.group_count; ++g) {
             const swivel_group_def group = group_at(def, g);
-            if (is_above(skeleton, joint, joints_of(group).wrist)) return true;
+            if (group.joints && is_above(skeleton, joint, joints_of(group).wrist)) return true;
             for (const std::uint32_t turned : TurnedJoints(skeleton, group))
                 if (is_above(skeleton, joint, turned)) return true;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/body_plan.h"
 
+#include <algorithm>
 #include <iterator>
 
 #include "batch/body_joints.h"
@@ -77,13 +78,16 @@ void plan_turned(const swivel_skeleton& skeleton, const TurnedJoints& turned, Pl
 BodySize body_size(const swivel_crowd_def& def)
 {
     const swivel_skeleton skeleton = skeleton_of(def);
-    BodySize size{1, kRootJoint + joint_row_count(false), 0};
+    BodySize size{1, kRootJoint + joint_row_count(false), 0, 0};
     for_each_needed(def, skeleton, [&](std::uint32_t joint) {
         ++size.joint_count;
         size.row_count += joint_row_count(mover_of(def, skeleton, joint) == static_cast<std::int32_t>(joint));
     });
     for (std::uint32_t joint = 0; joint < skeleton.joint_count; ++joint)
         size.moved_count += mover_of(def, skeleton, joint) >= 0;
+    size.first_goal = size.row_count;
+    for (std::uint32_t g = 0; g < def.group_count; ++g)
+        if (group_at(def, g).features & SWIVEL_WITH_PLANT) size.row_count += kGoalRows;
     return size;
 }
 
@@ -120,6 +124,8 @@ void plan_joints(const swivel_crowd_def& def, BodyJoint* joints)
 BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
                    PlannedJoints joints, MovedJoint* moved)
 {
+    BodyLimb limb{};
+    if (!group.joints) return limb;
     const swivel_skeleton skeleton = skeleton_of(def);
     const swivel_limb_joints of = joints_of(group);
     const TurnedJoints turned(skeleton, group);
@@ -127,7 +133,6 @@ BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, c
     const auto parent = [&](std::uint32_t joint) { return row_of(joints, parent_of(skeleton, joint)); };
     const float(&q)[4] = binding.upper_from_arm;
     const Vector<float> hinge = swivel::turned(rotor(q[0], q[1], q[2], q[3]), vector(1.0f, 0.0f, 0.0f));
-    BodyLimb limb{};
     limb.parent = parent(of.shoulder), limb.shoulder = row(of.shoulder);
     limb.elbow_parent = parent(of.elbow), limb.elbow = row(of.elbow);
     limb.wrist_parent = parent(of.wrist), limb.wrist = row(of.wrist);
@@ -144,6 +149,58 @@ BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, c
         if (const std::int32_t mover = mover_of(skeleton, turned, static_cast<std::int32_t>(joint)); mover >= 0)
             moved[limb.moved_count++] = {joint, row(static_cast<std::uint32_t>(mover))};
     return limb;
+}
+
+namespace {
+
+constexpr PlantRules plant_rules(const swivel_plant& of)
+{
+    const auto per = [](float time) { return 1 / (time > kShortestTime ? double(time) : kShortestTime); };
+    const double lock = of.lock;
+    return {
+        of.lock,
+        of.unlock,
+        of.again,
+        of.longest,
+        of.stop,
+        of.blend,
+        static_cast<float>(double(of.run) * of.stop / 3),
+        static_cast<float>(3 * lock * per(of.stop)),
+        static_cast<float>(6.75 * lock * per(of.blend)),  // an offset swings out by at most 4/27 of speed times time
+        static_cast<float>(per(of.stop)),
+        static_cast<float>(2 * per(of.blend)),
+        of.speed[0],
+        of.speed[1],
+        of.height[0],
+        of.height[1]};
+}
+
+// The first group with a feature; there is one.
+swivel_group_def first_with(const swivel_crowd_def& def, swivel_features feature)
+{
+    std::uint32_t g = 0;
+    while (!(group_at(def, g).features & feature)) ++g;
+    return group_at(def, g);
+}
+
+}  // namespace
+
+void plan_plant(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb)
+{
+    constexpr double kLongest = 1e15;
+    const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
+    for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
+    limb.rules = plant_rules(group.plant);
+    limb.fit = group.fit;
+    if (group.features & SWIVEL_WITH_COMING) {
+        const float ahead = first_with(def, SWIVEL_FIT).fit.ahead;
+        limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));
+    }
+    if (group.features & (SWIVEL_WITH_PLANT | SWIVEL_FIT)) {
+        const swivel_binding of =
+            body_binding(def, group.features & SWIVEL_FIT ? first_with(def, SWIVEL_WITH_FIT) : group);
+        limb.rest_length = of.lengths[0] + of.lengths[1];
+    }
 }
 
 swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group)

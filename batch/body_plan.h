@@ -14,6 +14,7 @@ swivel_status check_bodies(const swivel_crowd_def& def);
 // These take a def that is right.
 struct BodySize {
     std::uint32_t joint_count, row_count, moved_count;  // needed joints, the root among them; rows of a block
+    std::uint32_t first_goal;                           // the first row of the goals that are planted
 };
 BodySize body_size(const swivel_crowd_def& def);
 // Stores the needed joints of all groups, depth after depth. So those that follow each other seldom wait for each
@@ -26,6 +27,8 @@ struct PlannedJoints {
 };
 BodyLimb plan_limb(const swivel_crowd_def& def, const swivel_group_def& group, const swivel_binding& binding,
                    PlannedJoints joints, MovedJoint* moved);
+// Adds what plants and shifts take of a group, but for the row of its goal.
+void plan_plant(const swivel_crowd_def& def, const swivel_group_def& group, BodyLimb& limb);
 // How a group's limb lies to the arm frame at rest.
 swivel_binding body_binding(const swivel_crowd_def& def, const swivel_group_def& group);
 

@@ -98,7 +98,6 @@ swivel_status check(const swivel_crowd_def* given)
     if (def.workspace_count > kMostWorkspaces)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u workspaces, %u are the most; let jobs bring others",
                     def.workspace_count, kMostWorkspaces);
-    if (const swivel_status status = check_reserved("crowd def", def); status != SWIVEL_OK) return status;
     if (!def.skeleton && def.body_count > 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "crowd def has %u bodies, but no skeleton; give it", def.body_count);
     if (def.skeleton && def.body_count == 0)
@@ -161,8 +160,8 @@ swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel
 {
     if (const swivel_status status = check_field(field); status != SWIVEL_OK) return status;
     const FieldRow& row = row_of(field);
-    if (input && !is_input(field))
-        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes input fields", row.name);
+    if (input && row.kind == SWIVEL_FIELD_RESULT)
+        return fail(SWIVEL_INVALID_ARGUMENT, "%s is a result; swivel_write takes inputs and what is carried", row.name);
     const swivel_features features = crowd.groups[group].features;
     if (field_row_count(features, field) != 0) return SWIVEL_OK;
     if (features & row.excludes & SWIVEL_BODY)

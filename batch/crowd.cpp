@@ -89,8 +89,9 @@ void unknown_inputs(const Group& group)
     float unknown[kMostComponents];
     std::fill_n(unknown, kMostComponents, kUnknown);
     for (const FieldRow& row : kFields) {
-        const bool is_unknown =
-            row.starts == Start::unknown || (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY));
+        const bool is_unknown = row.starts == Start::unknown ||
+                                (row.field == SWIVEL_POLE && (group.features & SWIVEL_BODY)) ||
+                                (row.field == SWIVEL_HAND && (group.features & SWIVEL_WITH_PLANT));
         if (!is_unknown || field_row_count(group.features, row.field) == 0) continue;
         const bool is_bound = row.field == SWIVEL_LENGTHS && (group.features & SWIVEL_JOINTS);
         copy_in(rows_of(group, row.field), 0, group.limb_count, {is_bound ? group.binding.lengths : unknown, 0});
@@ -148,7 +149,8 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     group.limb_count = def.limb_count;
     group.features = def.features;
     group.keeps = def.on_bad_input == SWIVEL_KEEP_POSE;
-    group.stages = StageList(def.features);
+    group.prepare = StageList(def.features, Pass::prepare);
+    group.stages = StageList(def.features, Pass::solve);
     group.shoulder_order = def.shoulder_order;
     group.wrist_order = def.wrist_order;
     group.input_row_count = input_row_count(def.features);
@@ -158,7 +160,7 @@ void place_group(const swivel_crowd_def& crowd_def, const swivel_group_def& def,
     group.input = reinterpret_cast<float*>(rows);
     group.results = reinterpret_cast<float*>(rows + std::size_t{group.block_count} * group.input_row_count * kRowBytes);
     if (crowd_def.skeleton) {
-        group.binding = body_binding(crowd_def, def);
+        if (def.joints) group.binding = body_binding(crowd_def, def);
         group.limb = plan_limb(crowd_def, def, group.binding, {crowd.joints, crowd.joint_count}, moved);
         group.body_block_floats = std::size_t{crowd.body_row_count} * kLanes;
     } else {
@@ -217,11 +219,14 @@ swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
     }
     char* rows = base + layout.rows;
     auto* moved = reinterpret_cast<MovedJoint*>(base + layout.moved);
-    std::uint32_t first_block = 0;
+    std::uint32_t first_block = 0, goal = layout.bodies.first_goal;
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_group_def of = group_at(def, g);
-        place_group(def, of, *crowd, first_block, rows, moved, *new (crowd->groups + g) Group{});
-        moved += crowd->groups[g].limb.moved_count;
+        Group& group = *new (crowd->groups + g) Group{};
+        place_group(def, of, *crowd, first_block, rows, moved, group);
+        moved += group.limb.moved_count;
+        if (def.skeleton) plan_plant(def, of, group.limb);
+        if (of.features & SWIVEL_WITH_PLANT) group.limb.goal = goal, goal += kGoalRows;
         if (!def.skeleton) first_block += blocks_in(of);
         rows += row_bytes(of);
     }

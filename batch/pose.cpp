@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "batch/sized.h"
+#include "batch/solve.h"
 #include "batch/status.h"
 #include "simd/transpose.h"
 
@@ -68,6 +69,12 @@ swivel_status check_space(const swivel_pose& pose)
         return fail(SWIVEL_INVALID_ARGUMENT, "the pose's space is %u; it is SWIVEL_LOCAL or SWIVEL_IN_BODY", space);
     return check_reserved("pose", pose);
 }
+bool needs_time(const swivel_crowd& crowd, const std::uint32_t* groups)
+{
+    for (std::uint32_t g = 0; g < crowd.group_count; ++g)
+        if (is_named(groups, g) && crowd.groups[g].features & (SWIVEL_WITH_PLANT | SWIVEL_FIT)) return true;
+    return false;
+}
 // Where more than the turned joints' rotations go.
 swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
 {
@@ -92,7 +99,7 @@ swivel_status check_outputs(const swivel_crowd& crowd, const swivel_pose& pose)
 
 swivel_pose full_pose(const swivel_pose* given) { return element(given, 0, swivel_default_pose()); }
 
-swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
+swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given)
 {
     if (crowd.joint_count == 0)
         return given ? fail(SWIVEL_INVALID_ARGUMENT,
@@ -122,6 +129,14 @@ swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given)
         status = check_root("root_position", pose.root_position, pose.root_is_double ? 3 * sizeof(double) : float3);
     if (status == SWIVEL_OK) status = check_root("root_rotation", pose.root_rotation, 4 * sizeof(float));
     if (status == SWIVEL_OK) status = check_root("root_scale", pose.root_scale, sizeof(float));
+    const std::size_t position = pose.root_is_double ? 3 * sizeof(double) : float3;
+    if (status == SWIVEL_OK) status = check_root("time", pose.time, sizeof(float));
+    if (status == SWIVEL_OK) status = check_root("support_position", pose.support_position, position);
+    if (status == SWIVEL_OK) status = check_root("support_rotation", pose.support_rotation, 4 * sizeof(float));
+    if (status == SWIVEL_OK && !pose.time.data && needs_time(crowd, groups))
+        status = fail(SWIVEL_INVALID_ARGUMENT,
+                      "the pose has no time, which plants and shifts need; give the seconds since each body's last "
+                      "solve");
     if (status == SWIVEL_OK && pose.root_is_double && !pose.root_position.data)
         status = fail(SWIVEL_INVALID_ARGUMENT, "the pose's root is in doubles, but has no position; give it");
     return status;

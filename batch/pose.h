@@ -8,8 +8,8 @@
 
 namespace swivel {
 
-// What swivel_solve() promises of a pose, which may be null.
-swivel_status check_pose(const swivel_crowd& crowd, const swivel_pose* given);
+// What swivel_solve() promises of a pose, which may be null, for the groups that a job names.
+swivel_status check_pose(const swivel_crowd& crowd, const std::uint32_t* groups, const swivel_pose* given);
 // A pose that is right, and all of its members.
 swivel_pose full_pose(const swivel_pose* given);
 

@@ -54,6 +54,15 @@ void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks,
         kernels.arms.solve[run.features & kFormulaFeatures](run);
 }
 
+void prepare_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
+                   const std::uint32_t* mask)
+{
+    if (group.prepare.count == 0) return;
+    SolveRun run = run_of(group, blocks, strip, false, mask);
+    run.stages = &group.prepare;
+    kernels.limbs.solve(run);
+}
+
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         StripMemory strip, bool from_memory)
 {

@@ -21,6 +21,9 @@ struct GroupBlocks {
 // not fit the caches.
 void solve_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
                  bool from_memory = false, const std::uint32_t* mask = nullptr);
+// What a group of bodies does before any of their limbs is solved.
+void prepare_group(const Kernels& kernels, const Group& group, GroupBlocks blocks, StripMemory strip,
+                   const std::uint32_t* mask);
 // The limbs of a mask. Plain arms' blocks that are chosen whole are solved as if there were no mask, which is faster.
 void solve_chosen_group(const Kernels& kernels, const Group& group, const std::uint32_t* mask, GroupBlocks blocks,
                         StripMemory strip, bool from_memory = false);

@@ -31,6 +31,27 @@ SWIVEL_INLINE constexpr ReachRange<T> flexion_range(const FlexionLimit<T>& limit
             select(limit.cos_half_least < T(1), distance(limit.cos_half_least), far), T(0), T(0), T(1)};
 }
 
+// How far the wrist is from the shoulder in an incoming pose. elbow: of unit length.
+template <class T>
+SWIVEL_INLINE constexpr T incoming_reach(const Rotor<T>& elbow, const ArmGoal<T>& arm)
+{
+    const auto e3 = unit<T, kE3>();
+    return sqrt(len2(Vector<T>(arm.upper * e3 + arm.fore * sandwich(elbow, e3))));
+}
+
+// The farthest that a cap lets a limb reach, and how wide the eased zone before it is. The zone begins where the
+// incoming limb is, so a target no farther than that is met. most: what the bones allow. length: of both bones.
+template <class T>
+struct CappedReach {
+    T far, zone;
+};
+template <class T>
+SWIVEL_INLINE constexpr CappedReach<T> capped_reach(const Cap<T>& cap, const T& most, const T& length)
+{
+    const T from = lo(hi(cap.incoming, cap.least * length), most), far = lo(from + cap.margin * length, most);
+    return {far, hi(far - from, cap.zone * length)};
+}
+
 // wanted: the distance from shoulder to wrist, 0 or more.
 template <class T>
 SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use, const LimbGoal<T>& goal,
@@ -49,7 +70,15 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
         range.soft_near = goal.reach.soft_near * far;
         range.most_stretch = goal.reach.most_stretch;
     }
-    const SoftReach<T> reach = use.reach ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
+    if (use.cap) {
+        Cap<T> cap = goal.cap;
+        cap.incoming = cap.incoming * shrink;
+        const CappedReach<T> capped = capped_reach(cap, range.far, far);
+        range.far = hi(capped.far, range.near);
+        range.soft_far = capped.zone;
+    }
+    const SoftReach<T> reach =
+        use.reach || use.cap ? soft_reach(distance, range) : hard_reach(distance, range.near, range.far);
     const Mask<T> missed = reach.too_far | reach.too_near | reach.softened;
     Bits<T> flags = bits_where(reach.too_far, SWIVEL_CLAMPED_FAR) | bits_where(reach.too_near, SWIVEL_CLAMPED_NEAR) |
                     bits_where(reach.softened, SWIVEL_SOFTENED) | bits_where(reach.stretch > T(1), SWIVEL_STRETCHED) |

@@ -12,7 +12,7 @@ enum class Wish { pole, normal, incoming };  // what says where the elbow goes
 
 // What a group uses.
 struct LimbUse {
-    bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false,
+    bool hand = false, effector = false, angle = false, incoming = false, weights = false, reach = false, cap = false,
          continuity = false, aim = false;
     Wish wish = Wish::pole;
     LimitUse limits;
@@ -33,6 +33,13 @@ struct Weights {
 template <class T>
 struct ReachGoal {
     T soft_far, soft_near, most_stretch, least_distance;
+};
+
+// How far beyond the incoming pose a limb may reach. Fractions of the arm's length, but `incoming`, the distance from
+// shoulder to wrist in the incoming pose.
+template <class T>
+struct Cap {
+    T margin, least, zone, incoming;
 };
 
 template <class T>
@@ -58,6 +65,7 @@ struct LimbGoal {
     IncomingPose<T> incoming;
     Weights<T> weights;
     ReachGoal<T> reach;
+    Cap<T> cap;
     Continuity<T> continuity;
     AimGoal<T> aim;
     JointLimits<T> limits;
@@ -114,6 +122,11 @@ template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const Turned<T>& turned)
 {
     return is_within(turned.cos * turned.cos + turned.sin * turned.sin, 1e-18, 1e18);
+}
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> is_valid(const Cap<T>& cap)
+{
+    return is_share(cap.margin) & is_share(cap.least) & is_share(cap.zone);
 }
 template <class T>
 SWIVEL_INLINE constexpr Mask<T> is_valid(const IncomingPose<T>& incoming)

@@ -4,6 +4,7 @@
 // world frames, and how what was solved moves the joints.
 #include <cstring>
 
+#include "core/fit.h"
 #include "core/matrix_frame.h"
 #include "simd/body_motion.h"
 #include "simd/body_values.h"
@@ -95,6 +96,47 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const Body
     }
 }
 
+// Where the root is from the support, along the world's axes.
+template <class Number>
+SWIVEL_INLINE void read_root_from_support(const BodyBlock& block, const swivel_pose& pose)
+{
+    constexpr Number origin[3] = {};
+    const Bodies roots(block, pose.root_position.data ? pose.root_position : swivel_in{origin, 0});
+    const Bodies supports(block, pose.support_position.data ? pose.support_position : swivel_in{origin, 0});
+    float* const rows = block.rows + kRootFromSupportRow * kLanes;
+    for (std::uint32_t n = 0; n < kLanes; ++n) {
+        Number root[3], support[3];
+        std::memcpy(root, roots.lane[n], sizeof root);
+        std::memcpy(support, supports.lane[n], sizeof support);
+        for (std::uint32_t c = 0; c < 3; ++c) rows[c * kLanes + n] = static_cast<float>(root[c] - support[c]);
+    }
+}
+
+// What plants and shifts need of a body.
+SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan, const BodyBlock& block)
+{
+    const swivel_pose& pose = *plan.pose;
+    const Bodies times(block, pose.time);
+    for (std::uint32_t n = 0; n < kLanes; ++n)
+        std::memcpy(block.rows + kTimeRow * kLanes + n, times.lane[n], sizeof(float));
+    if (pose.root_is_double)
+        read_root_from_support<double>(block, pose);
+    else
+        read_root_from_support<float>(block, pose);
+    const Vector<T> none = vector(T(0), T(0), T(0));
+    const Bodies rotations = pose.support_rotation.data ? Bodies(block, pose.support_rotation) : Bodies();
+    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+        const JointRows at = rows_of(block, 0, lane);
+        at.set_rotor(kSupportRow, pose.support_rotation.data
+                                      ? unit_rotation(rotor_of(load_values<T, 4>(rotations.lane + lane, 0)))
+                                      : one<T>());
+        at.set(kSpanRow, T(-kAnyShift));
+        at.set(kSpanRow + 1, T(kAnyShift));
+        at.set(kSpanRow + 2, T(1));
+        at.set_vector(kShiftedRow, none);
+    }
+}
+
 // A joint of a pose in the body's space. Its place, where the pose has none, follows from the joint above. As along a
 // chain, what is bad in a joint shows in all below it.
 template <bool Translates>
@@ -134,6 +176,7 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_joints(const BodyPlan& plan, const Bo
 void forward(const BodyPlan& plan, const BodyBlock& block)
 {
     read_root(plan, block);
+    if (plan.pose->time.data) read_time_and_support(plan, block);
     const swivel_pose& pose = *plan.pose;
     switch (pose.form) {
         case SWIVEL_MATRIX_ROWS:

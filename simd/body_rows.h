@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/plant_rules.h"
 #include "simd/fields.h"
 
 namespace swivel {
@@ -31,8 +32,22 @@ enum PosedRow : std::uint32_t {
     kWristParentFromArmRow = kForeFromArmRow + 4,
     kTwistInRow = kWristParentFromArmRow + 4,  // the incoming hand's twist about the forearm: cos and sin of its half
     kKeptRow = kTwistInRow + 2,                // 1 where the limb keeps its pose, else 0
-    kRootRow = kKeptRow + 1,  // the root's place in the world; 0 where positions in rows are from the root
-    kPosedRows = kRootRow + 3
+    kReachRow = kKeptRow + 1,                  // from shoulder to wrist as it comes, in the parent's unit
+    // Of the body itself:
+    kRootRow,                 // the root's place in the world, as shifted; 0 where positions in rows are from the root
+    kTimeRow = kRootRow + 3,  // since the last solve
+    kRootFromSupportRow,      // the root's place from the support's, along the world's axes
+    kSupportRow = kRootFromSupportRow + 3,  // the support's rotation
+    kSpanRow = kSupportRow + 4,             // the shifts from which all limbs reach: low, high, and 1 if there are any
+    kShiftedRow = kSpanRow + 3,             // by what the root is shifted, in the world
+    kPosedRows = kShiftedRow + 3
+};
+// What a planted limb's first stage hands on to the others. They lie behind the rows of all joints.
+enum GoalRow : std::uint32_t {
+    kGoalPlaceRow,  // from the root's place before it is shifted
+    kGoalHandRow = kGoalPlaceRow + 3,
+    kGoalFlagsRow = kGoalHandRow + 4,  // bits
+    kGoalRows
 };
 // A block has the rows of the group that is being solved, then those of all joints: first the root's.
 inline constexpr std::uint32_t kRootJoint = kPosedRows;
@@ -70,6 +85,12 @@ struct BodyLimb {
     std::uint32_t turned_count;
     const MovedJoint* moved;  // these joints and all below them
     std::uint32_t moved_count;
+    std::uint32_t goal;  // the first row of its goal, where it is planted
+    float up[3];         // the crowd's, of unit length
+    float rest_length;   // of both bones at rest, where rules have shares of it; of a shift of the first limb's
+    float per_ahead;     // 1/s, of the crowd's fit
+    PlantRules rules;    // where it is planted
+    swivel_fit fit;      // where it is a shift
 
     // The rows of what carries the arm frame to the parents of elbow and wrist.
     std::uint32_t elbow_parent_row() const

@@ -6,26 +6,9 @@
 
 #include "core/forearm_twist.h"
 #include "core/posed_limb.h"
-#include "simd/goal_stages.h"
+#include "simd/plant_stages.h"
 
 namespace swivel::inline SWIVEL_ISA {
-
-// Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
-template <class S>
-SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
-{
-    using T = typename S::T;
-    const BodyLimb& limb = *s.strip.run.limb;
-    const auto is_joint = [&](std::uint32_t joint) SWIVEL_INLINE_LAMBDA {
-        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
-               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
-               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
-    };
-    Mask<T> good = is_joint(limb.wrist);
-    for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
-        good = good & is_joint(limb.twist_bones[n]);
-    return good;
-}
 
 template <>
 struct StageBody<Stage::posed> {
@@ -59,6 +42,8 @@ struct StageBody<Stage::posed> {
             }
         }
         const T per_scale = T(1) / s.body_row(limb.parent + kScaleRow);
+        if (s.has(SWIVEL_WITH_CAP))
+            s.set_body(kReachRow, per_scale * sqrt(len2(posed.wrist_place - posed.shoulder_place)));
         see_goal(s, seen, posed.shoulder_place, per_scale);
         // Lengths that were never written are NaN.
         const auto length = [&](int n, const T& posed_length) SWIVEL_INLINE_LAMBDA {
@@ -84,16 +69,20 @@ private:
                                        const Vector<typename S::T>& shoulder, const typename S::T& per_scale)
     {
         using T = typename S::T;
-        const Vector<T> root = s.body_vector(kRootRow), target = s.io.load_vector(SWIVEL_TARGET);
+        const bool is_planted = s.has(SWIVEL_WITH_PLANT);
+        const std::uint32_t goal = s.strip.run.limb->goal;
+        const Vector<T> root = s.body_vector(is_planted ? kShiftedRow : kRootRow),
+                        target = is_planted ? s.body_vector(goal + kGoalPlaceRow) : s.io.load_vector(SWIVEL_TARGET);
         s.require(len2(target) <= T(kHuge2));
         s.set_vector(kWristRow, per_scale * seen.back(target - root - shoulder));
         if constexpr (!S::is(SWIVEL_POLE_INCOMING)) {
             const Vector<T> pole = s.io.load_vector(SWIVEL_POLE);
             s.require(len2(pole) <= T(kHuge2));
-            s.set_vector(kPoleRow, per_scale * seen.back(pole_is_point(s) ? pole - root - shoulder : pole));
+            s.set_vector(kPoleRow,
+                         per_scale * seen.back(pole_is_point(s) ? pole - s.body_vector(kRootRow) - shoulder : pole));
         }
         if constexpr (S::is(SWIVEL_WITH_HAND)) {
-            const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
+            const Rotor<T> hand = is_planted ? s.body_rotor(goal + kGoalHandRow) : s.io.load_rotor(SWIVEL_HAND);
             s.require(is_orientation(hand));
             s.set_rotor(kHandRow, s.has(SWIVEL_WITH_AIM) ? hand : ~seen.arm * hand);
         }

@@ -56,6 +56,12 @@ SWIVEL_INLINE Laid<typename S::T> lay_reaching_bones(const S& s, const LimbUse& 
                       s.io.load(SWIVEL_REACH, 3)};
         s.require(is_valid(goal.reach));
     }
+    if (use.cap) {
+        goal.cap = {s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
+                    s.has(SWIVEL_BODY) ? s.body_row(kReachRow)
+                                       : incoming_reach(normalise(s.get_rotor(kIncomingRow + 4)), goal.arm)};
+        s.require(is_valid(goal.cap));
+    }
     if (use.limits.flexion) {
         goal.limits.flexion = {s.io.load(SWIVEL_FLEXION_LIMIT, 0), s.io.load(SWIVEL_FLEXION_LIMIT, 1)};
         s.require(is_valid(goal.limits.flexion));

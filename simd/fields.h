@@ -17,6 +17,8 @@ inline constexpr std::uint32_t kLanes = SWIVEL_LANES;  // limbs in a block
 inline constexpr swivel_features kTwistBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES,
                                  kHandLimits = SWIVEL_WITH_HAND_CONE | SWIVEL_WITH_FOREARM_TWIST |
                                                SWIVEL_WITH_HAND_TWIST | SWIVEL_WITH_WRIST_BOX;
+// What every group of bodies has, and what makes one no limb.
+inline constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING, kNoLimb = SWIVEL_FIT;
 struct FeatureRow {
     swivel_features feature;
     const char* name;
@@ -47,6 +49,13 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_CLAVICLE, "WITH_CLAVICLE", SWIVEL_WORLD},
     {SWIVEL_BODY, "BODY", SWIVEL_WORLD | SWIVEL_WITH_INCOMING, SWIVEL_JOINTS},
     {SWIVEL_WITH_RECORD, "WITH_RECORD", SWIVEL_BODY},
+    {SWIVEL_WITH_PLANT, "WITH_PLANT", SWIVEL_BODY, SWIVEL_WITH_AIM},
+    {SWIVEL_WITH_PLANT_TURN, "WITH_PLANT_TURN", SWIVEL_WITH_PLANT | SWIVEL_WITH_HAND},
+    {SWIVEL_PLANT_BY_MOTION, "PLANT_BY_MOTION", SWIVEL_WITH_PLANT},
+    {SWIVEL_WITH_CAP, "WITH_CAP", SWIVEL_WITH_INCOMING, SWIVEL_WITH_AIM | SWIVEL_WITH_REACH},
+    {SWIVEL_WITH_FIT, "WITH_FIT", SWIVEL_BODY, SWIVEL_WITH_AIM},
+    {SWIVEL_WITH_COMING, "WITH_COMING", SWIVEL_WITH_FIT},
+    {SWIVEL_FIT, "FIT", kOfBodies, ~(kOfBodies | SWIVEL_FIT)},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;
@@ -120,12 +129,13 @@ constexpr FieldRow input(swivel_field field, const char* name, swivel_features n
     for (std::size_t n = 0; n < count; ++n) row.start[n] = start[n];
     return row;
 }
-// One that a body's pose gives where there is one.
-constexpr FieldRow unless_posed(FieldRow row)
+constexpr FieldRow but_not(swivel_features features, FieldRow row)
 {
-    row.excludes |= SWIVEL_BODY;
+    row.excludes |= features;
     return row;
 }
+// One that a body's pose gives where there is one.
+constexpr FieldRow unless_posed(const FieldRow& row) { return but_not(SWIVEL_BODY, row); }
 constexpr float kIdentity[] = {0, 0, 0, 1}, kAnyCone[] = {0, 0, 1, -1};
 constexpr float kAnyRange[] = {1, 0, -1, 0};  // its middle 0, half its width pi
 constexpr float kAnyRanges[] = {1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0};
@@ -161,6 +171,12 @@ constexpr FieldRow kFields[] = {
           {3, 1}),
     input(SWIVEL_CLAVICLE, "clavicle", SWIVEL_WITH_CLAVICLE, "a place no further than 1e15 and a share of 0 to 1",
           {0, 0, 0, 0}),
+    but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, "0 to 1", {0})),
+    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, "0 to 1 each", {0.01f, 0, 0}),
+    input(SWIVEL_FIT_WEIGHT, "fit_weight", SWIVEL_WITH_FIT, "0 to 1", {1}),
+    place(SWIVEL_COMING, "coming", SWIVEL_WITH_COMING, 0, {0, 0, 0}, Start::neutral),
+    input(SWIVEL_COMING_TIME, "coming_time", SWIVEL_WITH_COMING, "0 to 1e15", {1e15f}),
+    input(SWIVEL_SHIFT_WISH, "shift_wish", SWIVEL_FIT, "no further than 1e15 from 0", {0}),
     {SWIVEL_SHOULDER, "shoulder", 4, kResult, 0, 0, "", {0, 0, 0, 1}},
     {SWIVEL_ELBOW, "elbow", 2, kResult, 0, 0, "", {1, 0}},
     {SWIVEL_WRIST, "wrist", 4, kResult, SWIVEL_WITH_HAND, 0, "", {0, 0, 0, 1}},
@@ -171,6 +187,11 @@ constexpr FieldRow kFields[] = {
     {SWIVEL_CLAVICLE_TURN, "clavicle_turn", 4, kResult, SWIVEL_WITH_CLAVICLE, 0, "", {0, 0, 0, 1}},
     {SWIVEL_RECORD, "record", kRecordSize, kResult, SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0,
                                                                                 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}},
+    {SWIVEL_PLANT, "plant", 11, kCarried, SWIVEL_WITH_PLANT},
+    {SWIVEL_PLANT_TURN, "plant_turn", 10, kCarried, SWIVEL_WITH_PLANT_TURN},
+    {SWIVEL_MOTION, "motion", 4, kCarried, SWIVEL_PLANT_BY_MOTION},
+    {SWIVEL_GOAL, "goal", 7, kResult, SWIVEL_WITH_PLANT | SWIVEL_WITH_RECORD, 0, "", {0, 0, 0, 0, 0, 0, 1}},
+    {SWIVEL_SHIFT, "shift", 3, kCarried, SWIVEL_FIT},
 };
 inline constexpr std::size_t kFieldCount = sizeof kFields / sizeof *kFields, kInputCount = SWIVEL_INPUT_END;
 
@@ -233,6 +254,10 @@ constexpr FlagRow kFlags[] = {
     {SWIVEL_LIMITED_STEP, "LIMITED_STEP"},
     {SWIVEL_INFEASIBLE, "INFEASIBLE"},
     {SWIVEL_JUMPED, "JUMPED"},
+    {SWIVEL_PLANTED, "PLANTED"},
+    {SWIVEL_RELEASED, "RELEASED"},
+    {SWIVEL_BROKE_AWAY, "BROKE_AWAY"},
+    {SWIVEL_CUT, "CUT"},
     {SWIVEL_BAD_INPUT, "BAD_INPUT"},
 };
 

@@ -24,6 +24,7 @@ SWIVEL_INLINE LimbUse use_of(const S& s)
     use.incoming = s.has(SWIVEL_WITH_INCOMING);
     use.weights = s.has(SWIVEL_WITH_WEIGHTS);
     use.reach = s.has(SWIVEL_WITH_REACH);
+    use.cap = s.has(SWIVEL_WITH_CAP);
     use.continuity = s.has(SWIVEL_WITH_MOST_SWIVEL);
     use.aim = s.has(SWIVEL_WITH_AIM);
     use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
@@ -49,6 +50,23 @@ SWIVEL_INLINE ParentFrame<typename S::T> posed_parent(const S& s)
     return {s.body_vector(limb.shoulder + kPlaceRow), s.body_rotor(limb.parent + kTurnRow),
             s.body_row(limb.parent + kScaleRow)};
 }
+// Whether the pose is good in all that a limb takes of it. What is bad in a joint shows in all below it.
+template <class S>
+SWIVEL_INLINE Mask<typename S::T> is_posed(const S& s)
+{
+    using T = typename S::T;
+    const BodyLimb& limb = *s.strip.run.limb;
+    const auto is_joint = [&](std::uint32_t joint) SWIVEL_INLINE_LAMBDA {
+        return is_within(len2(s.body_rotor(joint + kTurnRow)), 0.99, 1.01) &
+               (len2(s.body_vector(joint + kPlaceRow)) <= T(kHuge2)) &
+               is_within(s.body_row(joint + kScaleRow), kTiny, kHuge);
+    };
+    Mask<T> good = is_joint(limb.wrist);
+    for (std::uint32_t n = 0; n < twist_bone_count(s.strip.run.features); ++n)
+        good = good & is_joint(limb.twist_bones[n]);
+    return good;
+}
+
 // A bone's length.
 template <class S>
 SWIVEL_INLINE typename S::T length(const S& s, int bone)

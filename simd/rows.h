@@ -23,6 +23,7 @@ constexpr std::uint32_t field_row_count(swivel_features features, swivel_field f
     if (field == SWIVEL_TWIST_BONES) return 4 * twist_bone_count(features);
     if (field == SWIVEL_CLAVICLE && (features & SWIVEL_BODY)) return (features & SWIVEL_WITH_CLAVICLE) != 0;
     const FieldRow& row = row_of(field);
+    if ((features ^ row.needs) & kNoLimb && field != SWIVEL_FLAGS) return 0;
     return (features & row.needs) == row.needs && !(features & row.excludes) ? row.component_count : 0;
 }
 
@@ -56,7 +57,7 @@ constexpr std::uint32_t result_row_count(swivel_features features)
 constexpr std::uint32_t packed_row_count(swivel_features features, swivel_field field)
 {
     const std::uint32_t rows = field_row_count(features, field);
-    if (row_of(field).kind != kResult || field == SWIVEL_RECORD) return 0;
+    if (row_of(field).kind != kResult || field == SWIVEL_RECORD || field == SWIVEL_GOAL) return 0;
     if (field == SWIVEL_FLAGS) return 2;
     return rows % 4 == 0 ? rows / 4 * 3 : rows;
 }
@@ -75,10 +76,11 @@ struct RowPlan {
 };
 
 // The features with the most rows that a block can have.
-inline constexpr swivel_features kEveryFeature = ~(SWIVEL_POLE_INCOMING | SWIVEL_BODY);
+inline constexpr swivel_features kEveryFeature =
+    ~(SWIVEL_POLE_INCOMING | SWIVEL_BODY | SWIVEL_PLANT_BY_MOTION | kNoLimb);
 static_assert([] {
     for (const FieldRow& row : kFields)
-        if (field_row_count(kEveryFeature, row.field) == 0) return false;
+        if (field_row_count(kEveryFeature | row.needs, row.field) == 0) return false;
     return true;
 }());
 

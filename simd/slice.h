@@ -49,6 +49,15 @@ struct Rows {
     {
         return lanes(results, kPlan<Features>.result_count, row(field, component));
     }
+    SWIVEL_INLINE Vector<T> load_result_vector(swivel_field field, int first) const
+    {
+        return vector(load_result(field, first), load_result(field, first + 1), load_result(field, first + 2));
+    }
+    SWIVEL_INLINE Rotor<T> load_result_rotor(swivel_field field, int first) const
+    {
+        return rotor(load_result(field, first), load_result(field, first + 1), load_result(field, first + 2),
+                     load_result(field, first + 3));
+    }
     SWIVEL_INLINE static T lanes(const float* rows, std::uint32_t row_count, std::uint32_t row)
     {
         return load_lanes<T>([&](std::size_t lane)

@@ -16,6 +16,9 @@ namespace swivel {
 
 // In the order in which they run. place is bones and wish in one, for limbs that ask nothing special of either.
 enum class Stage : std::uint8_t {
+    plant,     // where a body's planted point goes
+    span,      // how a body's limb asks it to shift
+    fit,       // the shift
     see,       // the goal, as the parent sees it
     posed,     // the same of a body's limb, with the incoming pose, its bones and how its joints lie to them
     clavicle,  // turned by its share, and the goal turned back
@@ -51,16 +54,23 @@ inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVE
 inline constexpr swivel_features kBoundingFeatures =
     kLineFeatures | kBoxFeatures | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL;
 
+// All groups of a body prepare before the first is solved.
+enum class Pass : std::uint8_t { prepare, solve };
+
 struct StageRow {
     Stage stage;
     swivel_features knows;
     swivel_features needed_by;      // groups with any of these need it; 0: all groups
     swivel_features not_needed_by;  // but not those with any of these
+    Pass pass = Pass::solve;
 };
 inline constexpr swivel_features kSpecialBones = SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_AIM,
                                  kSpecialWish = SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL,
                                  kSpecial = kSpecialBones | kSpecialWish;
 inline constexpr StageRow kStages[] = {
+    {Stage::plant, 0, SWIVEL_WITH_PLANT, 0, Pass::prepare},
+    {Stage::span, 0, SWIVEL_WITH_FIT, 0, Pass::prepare},
+    {Stage::fit, 0, SWIVEL_FIT, 0, Pass::prepare},
     {Stage::see, SWIVEL_JOINTS | SWIVEL_WITH_HAND, SWIVEL_WORLD, SWIVEL_BODY},
     {Stage::posed, SWIVEL_WITH_HAND | SWIVEL_POLE_INCOMING | SWIVEL_WITH_WEIGHTS, SWIVEL_BODY, 0},
     {Stage::clavicle, 0, SWIVEL_WITH_CLAVICLE, 0},
@@ -133,10 +143,10 @@ struct StageList {
     std::uint32_t count = 0;
 
     constexpr StageList() = default;
-    constexpr explicit StageList(swivel_features features)
+    constexpr StageList(swivel_features features, Pass pass)
     {
         for (const StageRow& row : kStages)
-            if (needs(features, row))
+            if (row.pass == pass && needs(features, row) && (pass == Pass::prepare || !(features & kNoLimb)))
                 function[count++] =
                     static_cast<std::uint8_t>(first_function(row.stage) + function_of(row.stage, features));
     }

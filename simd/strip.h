@@ -85,7 +85,18 @@ struct StripSlice {
     {
         return vector(body_row(row), body_row(row + 1), body_row(row + 2));
     }
-    SWIVEL_INLINE void set_body(std::uint32_t row, const T& value) const { store_lanes(at(body, row), value); }
+    SWIVEL_INLINE Bits<T> body_flags(std::uint32_t row) const { return load_lane_bits<T>(at(body, row)); }
+    template <class Value>
+    SWIVEL_INLINE void set_body(std::uint32_t row, const Value& value) const
+    {
+        store_lanes(at(body, row), value);
+    }
+    SWIVEL_INLINE void set_body_vector(std::uint32_t row, const Vector<T>& v) const
+    {
+        set_body(row, v.template at<kE1>());
+        set_body(row + 1, v.template at<kE2>());
+        set_body(row + 2, v.template at<kE3>());
+    }
     SWIVEL_INLINE void set_body_rotor(std::uint32_t row, const Rotor<T>& q) const
     {
         set_body(row, q.template at<kI>());

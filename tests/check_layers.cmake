@@ -101,10 +101,10 @@ must_not_say(core "#[ \t]*include[ \t]*\"include/[^\n]*" "core/arm[.]h$" "formul
 may_include(simd "simd/lanes[.]h$" "${standard}|<xsimd/xsimd.hpp>|\"core/num[.]h\"")
 may_include(simd "simd/arm_kernels[.]cpp$" "${standard}|\"core/solve_arm[.]h\"|\"simd/(aside|pack|slice|strip_rows)[.]h\"")
 may_include(simd "simd/limb_kernels[.]cpp$" "${standard}|\"core/allowed_arcs[.]h\"|\"simd/(body|choose|store)_stages[.]h\"")
-may_include(simd "simd/body_(kernels[.]cpp|motion[.]h|values[.]h)$" "${standard}|\"core/(joint|matrix)_frame[.]h\"|\"simd/(body_motion|body_values|kernels|lanes|values)[.]h\"")
-may_include(simd "simd/[a-z]+_stages[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|goal|limit)_stages|strip)[.]h\"")
+may_include(simd "simd/body_(kernels[.]cpp|motion[.]h|values[.]h)$" "${standard}|\"core/(fit|(joint|matrix)_frame)[.]h\"|\"simd/(body_motion|body_values|kernels|lanes|values)[.]h\"")
+may_include(simd "simd/[a-z]+_stages[.]h$" "${standard}|\"core/[a-z_]+[.]h\"|\"simd/((bone|goal|limit|plant)_stages|strip)[.]h\"")
 may_include(simd "simd/strip[.]h$" "${standard}|\"simd/(slice|stages|strip_rows)[.]h\"")
-may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"simd/(fields|rows)[.]h\"")
+may_include(simd "simd/(stages|strip_rows|body_rows)[.]h$" "${standard}|\"core/plant_rules[.]h\"|\"simd/(fields|rows)[.]h\"")
 may_include(simd "simd/values[.]h$" "${standard}|\"simd/lanes[.]h\"")
 may_include(simd "simd/aside[.]h$" "${standard}|\"core/isa[.]h\"|\"simd/(kernels|rows)[.]h\"")
 may_include(simd "simd/slice[.]h$" "${standard}|\"core/(joint_limits|space)[.]h\"|\"simd/(kernels|lanes|rows)[.]h\"")
@@ -118,7 +118,7 @@ may_include(simd "simd/transpose[.]h$" "${standard}|<(emmintrin|arm_neon)[.]h>|\
 set(batch "${public}|\"batch/[a-z_]+[.]h\"|\"simd/(body_rows|dispatch|fields|kernels|rows|strip_rows|float_env|transpose)[.]h\"")
 may_include(batch "batch/(api|api_solve|api_pose|bodies|pose|share|sized|crowd|describe|digest|frame|lane_mask|overlap|solve|status|streams|use|workspace)[.](h|cpp)$" "${standard}|${batch}")
 may_include(batch "batch/schedule[.]cpp$" "${standard}|${batch}|<oneapi/tbb/[a-z_]+[.]h>")
-may_include(batch "batch/(rig|skeleton|body_(check|joints|plan)|angles|budget|check|explain|forward|joint_angles|one_limb|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
+may_include(batch "batch/(api_plant|rig|skeleton|body_(check|joints|plan)|angles|budget|check|explain|forward|joint_angles|one_limb|pack)[.](h|cpp)$" "${standard}|${batch}|\"core/[a-z_]+[.]h\"")
 may_include(batch "" "${standard}|${batch}|\"core/[a-z_]+[.]h\"|<oneapi/tbb/[a-z_]+[.]h>")
 
 # ---- lecture: formulas in double and the oracle; it needs no crowd

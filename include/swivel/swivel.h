@@ -114,15 +114,24 @@ typedef enum swivel_flag {
     SWIVEL_LIMITED_STEP = 1u << 14,  // the swivel wished for is further than SWIVEL_MOST_SWIVEL from the last solve's
     SWIVEL_INFEASIBLE = 1u << 15,    // no swivel is within the limits: this one violates them least
     SWIVEL_JUMPED = 1u << 16,        // joint limits made the swivel turn further than SWIVEL_MOST_SWIVEL
-    SWIVEL_BAD_INPUT = 1u << 30,     // an input is not valid or was never given: see swivel_on_bad_input
-    // bits 17 to 29 are kept for later releases and are 0
+    SWIVEL_PLANTED = 1u << 17,       // the point is locked to its support
+    SWIVEL_RELEASED = 1u << 18,      // this solve released it
+    SWIVEL_BROKE_AWAY = 1u << 19,    // by distance: the animated point is too far from it, though in contact
+    SWIVEL_CUT = 1u << 20,        // a speed too high to be eased away was cut at a lock or release, so the point jumps
+    SWIVEL_BAD_INPUT = 1u << 30,  // an input is not valid or was never given: see swivel_on_bad_input
+    // bits 21 to 29 are kept for later releases and are 0
 } swivel_flag;
 
 // The features of a group: a combination of these bits, fixed at creation. Whatever is off costs neither memory nor
 // time. SWIVEL_WITH_F adds the field F. SWIVEL_WITH_INCOMING adds the three fields of the incoming pose.
 // - POLE_DIRECTION and WITH_CLAVICLE need WORLD. POLE_INCOMING and WITH_WEIGHTS need WITH_INCOMING. WITH_EFFECTOR,
 //   WITH_TWIST_BONES and limits of the hand need WITH_HAND. At most one of the three kinds of pole is given.
-// - WITH_AIM excludes WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT and limits of the hand.
+// - WITH_AIM excludes WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT, limits of the hand, WITH_PLANT, WITH_CAP and
+//   WITH_FIT. WITH_CAP excludes WITH_REACH.
+// - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION need
+// WITH_PLANT.
+//   WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
+// - A group that is FIT is no limb: it has none of the other features and names no joints.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
@@ -149,6 +158,15 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)  // the shoulder's parent joint shares the reach
 #define SWIVEL_BODY (UINT64_C(1) << 23)  // limb i is body i's: groups of a crowd with a skeleton have it, and its needs
 #define SWIVEL_WITH_RECORD (UINT64_C(1) << 24)  // of bodies: keeps what the pose gave, which explain and others need
+#define SWIVEL_WITH_PLANT \
+    (UINT64_C(1) << 25)  // a point of the hand or foot stands while it is in contact: swivel_plant
+#define SWIVEL_WITH_PLANT_TURN (UINT64_C(1) << 26)  // the hand or foot keeps its rotation, too
+#define SWIVEL_PLANT_BY_MOTION \
+    (UINT64_C(1) << 27)  // no labels: the point's speed and height say where it is in contact
+#define SWIVEL_WITH_CAP (UINT64_C(1) << 28)
+#define SWIVEL_WITH_FIT (UINT64_C(1) << 29)          // a FIT group shifts the body so that this limb reaches
+#define SWIVEL_WITH_COMING (UINT64_C(1) << 30)       // it also prepares for where the limb goes next
+#define SWIVEL_FIT (UINT64_C(1) << 31)               // the group is each body's shift, not its limb: swivel_fit
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb
@@ -260,6 +278,24 @@ typedef enum swivel_field {
     // Limits, rotations and results of the arm are relative to the parent as turned. For shares below 1 the turn is
     // continuous; it fades for targets on the other side of the body. Of bodies 1, the share alone: see swivel_pose.
     SWIVEL_CLAVICLE,
+    // 1, WITH_PLANT without PLANT_BY_MOTION: the label of contact. Above 0.5 the point is in contact. 0..1.
+    SWIVEL_CONTACT,
+    // 3, WITH_CAP: how far the limb may reach, in shares of both bones' length, each 0..1. It reaches as far as the
+    // incoming pose has it, or least if that is more, and margin beyond. So no limb gets straighter than animated by
+    // more than that. An eased zone starts where the margin does, and is at least zone wide. The order is margin,
+    // least,
+    // zone. The start is 0.01, 0, 0.
+    SWIVEL_CAP,
+    // 1, WITH_FIT: how much the limb counts, 0..1. At 0 it does not, at 1 it must reach.
+    SWIVEL_FIT_WEIGHT,
+    // 3, WITH_COMING: where the wrist or effector goes next, such as a swinging foot's next step, in the space of the
+    // target.
+    SWIVEL_COMING,
+    // 1, WITH_COMING: the seconds until then, 0 or more. It counts the more the nearer it is: see swivel_fit. At the
+    // start 1e15, so it does not.
+    SWIVEL_COMING_TIME,
+    // 1, FIT: the shift that is wished for, at most 1e15 either way; 0 at the start.
+    SWIVEL_SHIFT_WISH,
     SWIVEL_INPUT_END,  // one past the last input of this release
 
     // 4: the shoulder's rotation. In the arm frame, or with JOINTS the joint's local one.
@@ -296,6 +332,23 @@ typedef enum swivel_field {
     // relative to the forearm; WITH_AIM the hand that is aimed. It is written for bad input, too, also in groups that
     // keep poses: then the scale is NaN where the pose is bad. Frames that a limb keeps do not get it.
     SWIVEL_RECORD,
+    // 11, WITH_PLANT: how the point stands, in the support's frame. Its anchor while it is locked, otherwise the last
+    // animated place, 3; the offset that fades, 3, and its velocity, 3; the seconds until it is gone; and 0 before the
+    // first solve, else 8, plus 1 if locked, 2 if the next label locks it, 4 if it was just released.
+    SWIVEL_PLANT,
+    // 10, WITH_PLANT_TURN: the same of the rotation: a quaternion, 4, then offset, 3, and velocity, 3, of the axis
+    // times
+    // the tangent of half the angle.
+    SWIVEL_PLANT_TURN,
+    // 4, PLANT_BY_MOTION: the point's last animated place in the support's frame, 3, and 1 if it was in contact.
+    SWIVEL_MOTION,
+    // 7, WITH_PLANT and WITH_RECORD: where the point was sent, 3, in the space of the target, and the hand's rotation
+    // in
+    // the world, 4.
+    SWIVEL_GOAL,
+    // 3, FIT: the shift of the body along the crowd's axis `up`, in the world's unit; its rate a second; and 1 once it
+    // has begun.
+    SWIVEL_SHIFT,
     SWIVEL_RESULT_END  // one past the last result of this release
 } swivel_field;
 
@@ -453,6 +506,54 @@ typedef enum swivel_on_bad_input {
     SWIVEL_KEEP_POSE,
 } swivel_on_bad_input;
 
+// How the limbs of a group with SWIVEL_WITH_PLANT stand. A point is planted: the effector, or without one the wrist.
+// The incoming pose says where it is, so no target and no hand is given; one that is written counts instead of the
+// pose's. While it is in contact, it is locked to its support, and moves by no bit in the support's frame. A label
+// makes it lock where it is. It comes to rest within `stop`. Without contact, or once the animation has left it by more
+// than `unlock`, it is released, and goes back to the animation within `blend`. Its way and its speed are continuous,
+// also where one change interrupts another. Without WITH_PLANT_TURN the hand or foot keeps its incoming rotation in the
+// world, with it that is planted, too.
+//
+// Lengths are in limb lengths: both bones of the skeleton at rest, times the root's scale. Times are in seconds.
+// Docs/howto/feet.md has pictures. The pose has the time and the support (swivel_pose). Source: our own, after D.
+// Holden, Inverse Kinematics and Foot Locking (2026).
+typedef struct swivel_plant {
+    float lock;    // it locks only within this of the animated point. A speed that is eased away adds at most as much
+    float unlock;  // it is released if the animated point is further than this from it
+    float stop;    // a point that locks is at rest after this time
+    float blend;   // a point that is released is with the animation again after this time
+    float again;   // limb lengths a second: after a release by distance it locks anew if it is slower; 0: never so
+    float run;     // 0: the anchor is where the point locks. 1: where it would come to rest by itself. 0.5 slides least
+    float longest;  // a body that was not solved for longer than this starts anew; 0: it never does
+    // With PLANT_BY_MOTION: the speed, in limb lengths a second, and the height of the point over the root, along `up`,
+    // that bound a contact. First to begin, then to go on. Below both it is in contact.
+    float speed[2], height[2];
+} swivel_plant;
+
+static inline swivel_plant swivel_default_plant(void)
+{
+    const swivel_plant plant = {0.12f, 0.24f, 0.1f, 0.2f, 0.06f, 0.5f, 0, {0.6f, 0.8f}, {0.08f, 0.1f}};
+    return plant;
+}
+
+// How a group with SWIVEL_FIT shifts a body along the crowd's axis `up`, such as the pelvis of a character, so that its
+// limbs WITH_FIT reach. The shift is the nearest to the wish from which all do. Where there is none, all are as far out
+// of reach. It is eased by a critically damped spring. The group's flags are REACHED where some shift within drop
+// and rise lets all limbs that count reach, and CLAMPED_FAR where none does. Limbs are solved for a root that is
+// shifted. The result SWIVEL_SHIFT says by how much: add it to the root's place along `up`, or to that of the pelvis.
+// Places of joints are from the shifted root. Limbs are of two bones; legs of more are not fitted.
+typedef struct swivel_fit {
+    float drop, rise;  // the most down and up, in limb lengths of the first group WITH_FIT: see swivel_plant
+    float half;        // s: the time in which about half of a distance is made up
+    float ahead;       // s: from when on a coming target counts. At 0 s it counts whole, before by a parabola
+} swivel_fit;
+
+static inline swivel_fit swivel_default_fit(void)
+{
+    const swivel_fit fit = {0.1f, 0.05f, 0.1f, 0.3f};
+    return fit;
+}
+
 // Limbs that share features and a binding, such as the left arms of one skeleton.
 typedef struct swivel_group_def {
     size_t size;               // sizeof(swivel_group_def), set by swivel_default_group_def()
@@ -462,6 +563,8 @@ typedef struct swivel_group_def {
     swivel_euler_order shoulder_order, wrist_order;  // of SWIVEL_SHOULDER_BOX and SWIVEL_WRIST_BOX
     swivel_binding binding;  // with SWIVEL_JOINTS every limb uses it, and starts with its lengths; ignored without
     const swivel_limb_joints* joints;  // of bodies: which joints the limb has. Null in crowds of free limbs; copied
+    swivel_plant plant;                // WITH_PLANT
+    swivel_fit fit;                    // FIT
 } swivel_group_def;
 
 // Plain limbs in the arm frame.
@@ -472,6 +575,8 @@ static inline swivel_group_def swivel_default_group_def(uint32_t limb_count)
     group.size = sizeof group;
     group.limb_count = limb_count;
     group.binding = swivel_default_binding();
+    group.plant = swivel_default_plant();
+    group.fit = swivel_default_fit();
     return group;
 }
 
@@ -482,6 +587,14 @@ static inline swivel_group_def swivel_default_body_group_def(const swivel_limb_j
     swivel_group_def group = swivel_default_group_def(0);
     group.joints = joints;
     group.on_bad_input = SWIVEL_KEEP_POSE;
+    return group;
+}
+
+// The shift of each body, which its limbs WITH_FIT ask for.
+static inline swivel_group_def swivel_default_fit_group_def(void)
+{
+    swivel_group_def group = swivel_default_body_group_def(NULL);
+    group.features = SWIVEL_FIT;
     return group;
 }
 
@@ -502,7 +615,7 @@ typedef struct swivel_crowd_def {
     // joints and has a limb of each body: see swivel_pose.
     const swivel_skeleton* skeleton;
     uint32_t body_count;  // with a skeleton 1 or more, else 0
-    uint32_t reserved;    // 0
+    float up[3];          // of bodies, in the root's frame, of any length but 0: the axis of heights and shifts
 } swivel_crowd_def;
 
 typedef struct swivel_crowd swivel_crowd;
@@ -526,7 +639,7 @@ SWIVEL_API const char* swivel_last_error(void);
 // One group must still be given; one workspace; the C library's memory.
 static inline swivel_crowd_def swivel_default_crowd_def(void)
 {
-    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 1, NULL, NULL, 0, NULL, NULL, NULL, NULL, 0, 0};
+    const swivel_crowd_def def = {sizeof(swivel_crowd_def), 0, 1, NULL, NULL, 0, NULL, NULL, NULL, NULL, 0, {0, 1, 0}};
     return def;
 }
 // Bytes of memory a crowd of this def takes, in one piece; 0 if the def is invalid.
@@ -575,9 +688,9 @@ SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group);
 
 // swivel_write() copies a field of limb_count limbs of one group from the caller's strided data; swivel_read() copies
 // it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write
-// takes input fields, read takes any. Values must not overlap the crowd's own memory. Copying all fields takes up to
-// about as long as a solve, less while the values are in cache. Writing to rows needs no copy, and a solve with frames
-// fetches each value once.
+// takes input fields and those that are carried, to set back what was read before. read takes any. Values must not
+// overlap the crowd's own memory. Copying all fields takes up to about as long as a solve, less while the values are in
+// cache. Writing to rows needs no copy, and a solve with frames fetches each value once.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
@@ -707,6 +820,14 @@ typedef struct swivel_pose {
     // joints in between, and all above. x, y, z, w with w >= 0, and 3 floats. A limb that keeps its pose has them as
     // they come; what is bad in the pose is NaN.
     swivel_joint_values joint_rotations, joint_places;
+    // Of each body, for groups WITH_PLANT or FIT: the seconds since its last solve, 1 float. It must be given where one
+    // of these is solved. 0 changes nothing that is carried. Less than 0, NaN and more than 1e15 are bad input.
+    swivel_in time;
+    // What planted points stand on: a platform, a ladder, or the ground. Null position: at the world's origin. Null
+    // rotation: not turned. For the ground give a position near the body, such as the origin of its tile, and change it
+    // seldom. What is planted moves along with a support. To change a support without a jump: swivel_change_support().
+    swivel_in support_position;  // 3 floats in the world, or doubles as the root's
+    swivel_in support_rotation;  // x, y, z, w
 } swivel_pose;
 
 // Rotations must still be given.
@@ -857,8 +978,9 @@ SWIVEL_API swivel_status swivel_choose(swivel_crowd* crowd, const swivel_in* pri
                                        uint32_t most_blocks, uint32_t* mask, uint32_t mask_word_count,
                                        uint32_t* chosen_count);
 
-// Clears the swivel that these limbs keep between solves. SWIVEL_MOST_SWIVEL then does not limit their next solve.
-// Nothing to do in groups without SWIVEL_WITH_MOST_SWIVEL.
+// Clears what these limbs carry from solve to solve. SWIVEL_MOST_SWIVEL then does not limit their next solve. Planted
+// points and shifts start anew, as in the first solve. Call it after a teleport, and where a body's place is used anew.
+// Nothing to do in groups without such fields.
 SWIVEL_API swivel_status swivel_reset(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count);
 
 // The first limb with any of these flags, looked for from limb *limb of group *group on, through all later groups.
@@ -974,6 +1096,18 @@ SWIVEL_API uint32_t swivel_packed_row(swivel_features features, swivel_field fie
 SWIVEL_API void swivel_unpack_rotation(const uint16_t* words, size_t word_stride, float xyzw[4]);
 // The value of any half float, exactly. Any thread.
 SWIVEL_API float swivel_unpack_half(uint16_t word);
+
+// Changes what planted points of some bodies stand on, from one support to another, without a jump: SWIVEL_PLANT and
+// SWIVEL_PLANT_TURN, which are in the support's frame, become those of the new one. Call it between two solves, and
+// give the next pose the new support. Both supports as they are now; how they move against each other is not known
+// here, so a point that fades does so in the new one. Best change it while a foot is in the air. first is the group's
+// first limb, that is body. Positions are 3 doubles, rotations x, y, z, w as floats of any length. Null positions: the
+// origin; null rotations: not turned. Fails for groups without WITH_PLANT. No allocation.
+typedef struct swivel_supports {
+    swivel_in position, rotation;
+} swivel_supports;
+SWIVEL_API swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_t first, uint32_t limb_count,
+                                               swivel_supports from, swivel_supports to);
 
 // A digest of all results, to compare machines by. Crowds with the same groups and equal results have equal digests. If
 // results differ, digests almost surely differ, also in their low 32 bits. Padding lanes do not count. Each of the

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// One shift of a body along an axis, such as its pelvis up or down, so that its limbs reach. Shifts are heights from
+// where the body is. Our own formulas.
+#pragma once
+
+#include "core/arm.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+inline constexpr double kAnyShift = 1e15;
+
+// The shifts from which a limb reaches, or all limbs of a body.
+template <class T>
+struct ShiftSpan {
+    T low, high;
+    Mask<T> reaches;  // false: some limb reaches from no shift
+};
+template <class T>
+SWIVEL_INLINE constexpr ShiftSpan<T> operator&(const ShiftSpan<T>& a, const ShiftSpan<T>& b)
+{
+    const Mask<T> reaches = a.reaches & b.reaches;
+    return {hi(a.low, b.low), lo(a.high, b.high), reaches};
+}
+
+// away: from the limb's target to its root. With b the height of the root over the target and k their distance across,
+// shifts from -b - r to -b + r bring the root into reach, r^2 = reach^2 - k^2. A limb that reaches from none has r = 0:
+// the shift where it comes closest. up: unit.
+template <class T>
+SWIVEL_INLINE constexpr ShiftSpan<T> shift_span(const Vector<T>& away, const Vector<T>& up, const T& reach)
+{
+    const T height = scalar_product(up, away), across2 = len2(away - height * up), room2 = reach * reach - across2;
+    const T room = sqrt(hi(room2, T(0)));
+    return {-height - room, room - height, room2 >= T(0)};
+}
+
+// The same, as far as it counts, a share of 0 to 1: an end that asks for a shift asks for its share of it, and one that
+// allows some allows more. A share of 0 asks for none and allows all.
+template <class T>
+SWIVEL_INLINE constexpr ShiftSpan<T> counted(const ShiftSpan<T>& span, const T& share)
+{
+    const T more = T(1) / hi(share, T(1e-15));
+    const auto end = [&](const T& x, const Mask<T>& asks) SWIVEL_INLINE_LAMBDA {
+        return lo(hi(select(asks, share, more) * x, T(-kAnyShift)), T(kAnyShift));
+    };
+    const Mask<T> counts = share > T(0), reaches = span.reaches | !counts;
+    return {select(counts, end(span.low, span.low > T(0)), T(-kAnyShift)),
+            select(counts, end(span.high, span.high < T(0)), T(kAnyShift)), reaches};
+}
+
+template <class T>
+struct FittedShift {
+    T shift;
+    Mask<T> all_reach;
+};
+// The shift nearest to the wish that all limbs reach from. Where there is none, the middle between the ends that
+// conflict: the greatest distance to a limb's span is then least. drop, rise: 0 or more.
+template <class T>
+SWIVEL_INLINE constexpr FittedShift<T> fitted_shift(const ShiftSpan<T>& span, const T& wish, const T& drop,
+                                                    const T& rise)
+{
+    const Mask<T> agree = span.low <= span.high;
+    const T free = select(agree, lo(hi(wish, span.low), span.high), T(0.5) * (span.low + span.high));
+    const T shift = lo(hi(free, -drop), rise);
+    const Mask<T> all_reach = agree & span.reaches & (shift >= span.low) & (shift <= span.high);
+    return {shift, all_reach};
+}
+
+// A critically damped spring.
+template <class T>
+struct Spring {
+    T at, rate;
+};
+// exp(-x) for x >= 0: (1 + y + y^2/2 + y^3/6 + y^4/24)^-4 with y = x/4.
+template <class T>
+SWIVEL_INLINE constexpr T falling(const T& x)
+{
+    const T y = T(0.25) * lo(x, T(60));
+    const T e = T(1) / (T(1) + y * (T(1) + y * (T(0.5) + y * (T(1.0 / 6) + y * T(1.0 / 24)))));
+    return (e * e) * (e * e);
+}
+// half: the time in which half of a distance from rest is made up, above 0.
+template <class T>
+SWIVEL_INLINE constexpr Spring<T> sprung(const Spring<T>& s, const T& goal, const T& time, float half)
+{
+    const T stiffness = T(1.678347 / double(half));  // (1 + x) exp(-x) = 1/2
+    const T share = falling(stiffness * time), way = s.at - goal, push = s.rate + stiffness * way;
+    return {goal + (way + push * time) * share, (s.rate - stiffness * push * time) * share};
+}
+
+}  // namespace swivel::inline SWIVEL_ISA

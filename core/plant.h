@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+//
+// A point that stands: while a label says contact, it is locked to its support, and what that leaves of the animation
+// fades away. Our own design, after D. Holden, "Inverse Kinematics and Foot Locking" (2026).
+//
+// All is in the support's frame, so what is carried moves with a platform. The point goes to (locked ? mark : animated
+// point) + offset. Offset and velocity are those of now. The cubic from them to rest in the time that is left, started
+// anew in every step, is one and the same curve. So a change only adds to them, also where it interrupts another.
+//
+// mark is the anchor while locked, else the animated point of the last step. Both are never needed at once, because a
+// release waits for the next step to see how fast the animation is.
+#pragma once
+
+#include "core/joint_frame.h"
+#include "core/plant_rules.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+template <class T>
+struct PlantState {
+    Vector<T> mark, offset, velocity;
+    T left;                                 // time until offset and velocity are gone
+    Mask<T> fresh, locked, armed, waiting;  // armed: it locks where it comes; waiting: a release, not yet fading
+};
+template <class T>
+struct PlantInput {
+    Vector<T> point;  // as animated, in the support's frame
+    Mask<T> label;    // contact
+    T time;           // since the last step, 0 or more
+    T length;         // of the limb: the unit of the rules' lengths
+};
+// What happened in a step. A rotation that locks with the point takes part in it (plant_turn.h).
+template <class T>
+struct PlantStep {
+    Mask<T> fresh, moves, fades, locks, releases;  // fades: a release of the last step begins to
+    T per_time;                                    // 0 where time stands still
+    T left, per_left, share;                       // of the cubic: the time that was left, and the share that goes by
+};
+template <class T>
+struct Planted {
+    Vector<T> target;
+    Mask<T> too_far, cut;  // released by distance; a velocity was cut, so it jumps
+    PlantStep<T> step;
+};
+
+// No longer than `most`, 0 or more. longer: where it was.
+template <class T>
+SWIVEL_INLINE constexpr Vector<T> at_most(const Vector<T>& v, const T& most, const Mask<T>& counts, Mask<T>& longer)
+{
+    const T length2 = len2(v);
+    const Mask<T> is_longer = counts & (length2 > most * most);
+    longer = longer | is_longer;
+    if (!any(is_longer)) return v;
+    return select(is_longer, (most / sqrt(select(is_longer, length2, T(1)))) * v, v);
+}
+
+// A step of the cubic that brings both to zero in the time that is left.
+template <class T>
+SWIVEL_INLINE constexpr void fade(Vector<T>& offset, Vector<T>& velocity, const PlantStep<T>& step)
+{
+    const T u = step.share, rest = T(1) - u;
+    const Vector<T> to = (rest * rest) * ((T(1) + u + u) * offset + (u * step.left) * velocity);
+    velocity = rest * ((T(1) - T(3) * u) * velocity - (T(6) * u * step.per_left) * offset);
+    offset = to;
+}
+
+// One step. State and input must be finite, the input within kHuge.
+template <class T>
+SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& in, const PlantRules& rules)
+{
+    const Vector<T> none = vector(T(0), T(0), T(0)), x = in.point;
+    const T lock = T(rules.lock) * in.length, unlock = T(rules.unlock) * in.length, again = T(rules.again) * in.length;
+    Planted<T> out;
+    out.cut = T(1) < T(0);
+    const Mask<T> fresh = rules.longest > 0 ? s.fresh | (in.time > T(rules.longest)) : s.fresh;
+    const Mask<T> moves = (in.time > T(0)) & !fresh, was_locked = s.locked & !fresh, acts = moves | fresh;
+    const T per_time = select(moves, T(1), T(0)) / select(moves, hi(in.time, T(kShortestTime)), T(1));
+    const Vector<T> mark = select(fresh, x, s.mark);
+    Vector<T> offset = select(fresh, none, s.offset), velocity = select(fresh, none, s.velocity);
+    T left = select(fresh, T(0), s.left);
+    Mask<T> waiting = s.waiting & !fresh;
+
+    // How fast the animated point is. That of an anchor does not count.
+    const Vector<T> speed = select(was_locked, none, per_time * (x - mark));
+    const Mask<T> fades = waiting & moves;
+    velocity = select(fades, at_most(velocity - speed, T(rules.fastest_out) * in.length, fades, out.cut), velocity);
+    left = select(fades, T(rules.blend), left);
+    waiting = waiting & !moves;
+
+    const Mask<T> is_left = left > T(kShortestTime);
+    const T per_left = T(1) / select(is_left, left, T(1));
+    const T share = select(moves, select(is_left, lo(in.time * per_left, T(1)), T(1)), T(0));
+    out.step = {fresh, moves, fades, fresh, fresh, per_time, left, per_left, share};
+    fade(offset, velocity, out.step);
+    left = hi(left - select(moves, in.time, T(0)), T(0));
+    out.target = select(was_locked, mark, x) + offset;  // nothing below moves it
+
+    const Mask<T> far = len2(x - mark) > unlock * unlock, releases = was_locked & moves & (far | !in.label);
+    const Mask<T> armed = s.armed | fresh | (acts & !in.label), rests = (again > T(0)) & (len2(speed) <= again * again);
+    const Mask<T> locks = acts & in.label & !was_locked & (armed | rests) & (len2(offset) <= lock * lock);
+    // Locked ahead, by the share `run` of the way that it comes to rest in by itself.
+    const Vector<T> entry =
+        select(fresh, none, at_most(speed + velocity, T(rules.fastest_in) * in.length, locks, out.cut));
+    const Vector<T> anchor = out.target + T(rules.ahead) * entry;
+
+    s.mark = select(locks, anchor, select(acts & (releases | !was_locked), x, mark));
+    s.offset = select(locks, out.target - anchor, select(releases, out.target - x, offset));
+    s.velocity = select(locks, entry, velocity);
+    s.left = select(locks, T(rules.stop), left);
+    s.fresh = T(1) < T(0);
+    s.locked = (was_locked & !releases) | locks;
+    s.armed = armed & !locks;
+    s.waiting = (waiting & !locks) | releases;
+    out.too_far = releases & in.label;
+    out.step.locks = locks;
+    out.step.releases = releases;
+    return out;
+}
+
+// Contact as a point's own motion shows it, where nobody labels it: slow and low, with a lower bar to stay than to
+// come.
+template <class T>
+struct MotionState {
+    Vector<T> place;  // in the support's frame, of the last step
+    Mask<T> contact;
+};
+// height: of the point, over the body's root. fresh: as the plant's state; nothing is known of the speed then.
+template <class T>
+SWIVEL_INLINE constexpr Mask<T> contact_by_motion(MotionState<T>& s, const Mask<T>& fresh, const PlantInput<T>& in,
+                                                  const T& height, const PlantRules& rules)
+{
+    const Mask<T> moves = (in.time > T(0)) & !fresh, was = s.contact & !fresh;
+    const auto bar = [&](float on, float off) SWIVEL_INLINE_LAMBDA { return select(was, T(off), T(on)) * in.length; };
+    const T way = bar(rules.speed_on, rules.speed_off) * in.time;
+    const Mask<T> is = (len2(in.point - s.place) <= way * way) & (height <= bar(rules.height_on, rules.height_off));
+    s.contact = (moves & is) | (was & !moves);
+    s.place = select(moves | fresh, in.point, s.place);
+    return s.contact;
+}
+
+}  // namespace swivel::inline SWIVEL_ISA
