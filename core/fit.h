@@ -39,6 +39,7 @@ SWIVEL_INLINE constexpr ShiftSpan<T> shift_span(const Vector<T>& away, const Vec
 template <class T>
 SWIVEL_INLINE constexpr ShiftSpan<T> counted(const ShiftSpan<T>& span, const T& share)
 {
+    if (all(share == T(1))) return span;
     const T more = T(1) / hi(share, T(1e-15));
     const auto end = [&](const T& x, const Mask<T>& asks) SWIVEL_INLINE_LAMBDA {
         return lo(hi(select(asks, share, more) * x, T(-kAnyShift)), T(kAnyShift));

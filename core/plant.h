@@ -75,9 +75,13 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     const Mask<T> fresh = rules.longest > 0 ? s.fresh | (in.time > T(rules.longest)) : s.fresh;
     const Mask<T> moves = (in.time > T(0)) & !fresh, was_locked = s.locked & !fresh, acts = moves | fresh;
     const T per_time = select(moves, T(1), T(0)) / select(moves, hi(in.time, T(kShortestTime)), T(1));
-    const Vector<T> mark = select(fresh, x, s.mark);
-    Vector<T> offset = select(fresh, none, s.offset), velocity = select(fresh, none, s.velocity);
-    T left = select(fresh, T(0), s.left);
+    Vector<T> mark = s.mark, offset = s.offset, velocity = s.velocity;
+    T left = s.left;
+    if (any(fresh)) {
+        mark = select(fresh, x, mark);
+        offset = select(fresh, none, offset), velocity = select(fresh, none, velocity);
+        left = select(fresh, T(0), left);
+    }
     Mask<T> waiting = s.waiting & !fresh;
 
     // How fast the animated point is. That of an anchor does not count.

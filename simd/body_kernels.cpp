@@ -96,19 +96,29 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_root(const BodyPlan& plan, const Body
     }
 }
 
-// Where the root is from the support, along the world's axes.
-template <class Number>
+// Where the root is from the support, along the world's axes: of doubles, and of floats once the root is read.
 SWIVEL_INLINE void read_root_from_support(const BodyBlock& block, const swivel_pose& pose)
 {
-    constexpr Number origin[3] = {};
-    const Bodies roots(block, pose.root_position.data ? pose.root_position : swivel_in{origin, 0});
+    constexpr double origin[3] = {};
+    const Bodies roots(block, pose.root_position);
     const Bodies supports(block, pose.support_position.data ? pose.support_position : swivel_in{origin, 0});
     float* const rows = block.rows + kRootFromSupportRow * kLanes;
     for (std::uint32_t n = 0; n < kLanes; ++n) {
-        Number root[3], support[3];
+        double root[3], support[3];
         std::memcpy(root, roots.lane[n], sizeof root);
         std::memcpy(support, supports.lane[n], sizeof support);
         for (std::uint32_t c = 0; c < 3; ++c) rows[c * kLanes + n] = static_cast<float>(root[c] - support[c]);
+    }
+}
+SWIVEL_INLINE void take_root_from_support(const BodyBlock& block, const swivel_pose& pose)
+{
+    const bool has_support = pose.support_position.data != nullptr;
+    const Bodies supports = has_support ? Bodies(block, pose.support_position) : Bodies();
+    for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
+        const JointRows at = rows_of(block, 0, lane);
+        Vector<T> from = at.get_vector(kRootRow);
+        if (has_support) from = from - vector_of(load_values<T, 3>(supports.lane + lane, 0));
+        at.set_vector(kRootFromSupportRow, from);
     }
 }
 
@@ -120,16 +130,15 @@ SWIVEL_FLATTEN [[gnu::noinline]] void read_time_and_support(const BodyPlan& plan
     for (std::uint32_t n = 0; n < kLanes; ++n)
         std::memcpy(block.rows + kTimeRow * kLanes + n, times.lane[n], sizeof(float));
     if (pose.root_is_double)
-        read_root_from_support<double>(block, pose);
+        read_root_from_support(block, pose);
     else
-        read_root_from_support<float>(block, pose);
+        take_root_from_support(block, pose);
     const Vector<T> none = vector(T(0), T(0), T(0));
     const Bodies rotations = pose.support_rotation.data ? Bodies(block, pose.support_rotation) : Bodies();
     for (std::uint32_t lane = 0; lane < kLanes; lane += lane_count<T>) {
         const JointRows at = rows_of(block, 0, lane);
-        at.set_rotor(kSupportRow, pose.support_rotation.data
-                                      ? unit_rotation(rotor_of(load_values<T, 4>(rotations.lane + lane, 0)))
-                                      : one<T>());
+        if (pose.support_rotation.data)
+            at.set_rotor(kSupportRow, unit_rotation(rotor_of(load_values<T, 4>(rotations.lane + lane, 0))));
         at.set(kSpanRow, T(-kAnyShift));
         at.set(kSpanRow + 1, T(kAnyShift));
         at.set(kSpanRow + 2, T(1));

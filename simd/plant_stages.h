@@ -32,16 +32,24 @@ SWIVEL_INLINE Vector<typename S::T> up_of(const S& s)
 // The frame that planted points are carried in, as the body's root sees it.
 template <class T>
 struct SupportFrame {
+    bool is_turned;  // of no body, if the pose has no rotations of supports
     Rotor<T> rotation;
     Vector<T> root;  // the root's place from the support's, along the world's axes
 
     template <class S>
     SWIVEL_INLINE static SupportFrame of(const S& s)
     {
-        return {s.body_rotor(kSupportRow), s.body_vector(kRootFromSupportRow)};
+        const bool is_turned = s.strip.run.strip.pose->support_rotation.data != nullptr;
+        return {is_turned, is_turned ? s.body_rotor(kSupportRow) : one<T>(), s.body_vector(kRootFromSupportRow)};
     }
-    SWIVEL_INLINE Vector<T> from_root(const Vector<T>& place) const { return turned(~rotation, place + root); }
-    SWIVEL_INLINE Vector<T> to_root(const Vector<T>& place) const { return turned(rotation, place) - root; }
+    SWIVEL_INLINE Vector<T> from_root(const Vector<T>& place) const
+    {
+        return is_turned ? turned(~rotation, place + root) : place + root;
+    }
+    SWIVEL_INLINE Vector<T> to_root(const Vector<T>& place) const
+    {
+        return (is_turned ? turned(rotation, place) : place) - root;
+    }
 };
 
 // A planted state in its row, besides its vectors: kBegun plus a bit each.
@@ -100,13 +108,15 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
             is.point + s.body_row(limb.parent + kScaleRow) * turned(is.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
     const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
     const T sum = target.template at<kE1>() + target.template at<kE2>() + target.template at<kE3>();
-    is.point = select(sum == sum, target - s.body_vector(kRootRow), is.point);
+    if (const Mask<T> is_given = sum == sum; any(is_given))
+        is.point = select(is_given, target - s.body_vector(kRootRow), is.point);
     if (s.has(SWIVEL_WITH_HAND)) {
         const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
         const T length2 = len2(hand);
-        const Mask<T> is_given = length2 == length2;
-        s.require(is_orientation(hand) | !is_given);
-        is.rotation = select(is_given, normalise(hand), is.rotation);
+        if (const Mask<T> is_given = length2 == length2; any(is_given)) {
+            s.require(is_orientation(hand) | !is_given);
+            is.rotation = select(is_given, normalise(hand), is.rotation);
+        }
     }
     return is;
 }

@@ -216,8 +216,8 @@ TEST_CASE("point pairs", "[dense]")
         const Multivector PP = dual(A ^ B);
         const Multivector plus = point_of_pair(PP, +1), minus = point_of_pair(PP, -1);
         // The formula divides by the distance of the points, and so does its rounding. Measured: at most 2.3e-11.
-        const double worst = std::min(std::max(distance(plus, A), distance(minus, B)),
-                                      std::max(distance(plus, B), distance(minus, A)));
+        const double worst =
+            std::min(std::max(distance(plus, A), distance(minus, B)), std::max(distance(plus, B), distance(minus, A)));
         RC_ASSERT(worst * (a - b).norm() < 1e-10);
     });
 }
