@@ -64,6 +64,13 @@ SWIVEL_INLINE constexpr void fade(Vector<T>& offset, Vector<T>& velocity, const 
     offset = to;
 }
 
+// A point that was not stepped for too long starts anew.
+template <class T>
+SWIVEL_INLINE constexpr void forget_old(PlantState<T>& s, const T& time, const PlantRules& rules)
+{
+    if (rules.longest > 0) s.fresh = s.fresh | (time > T(rules.longest));
+}
+
 // One step. State and input must be finite, the input within kHuge.
 template <class T>
 SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& in, const PlantRules& rules)
@@ -72,7 +79,7 @@ SWIVEL_INLINE constexpr Planted<T> plant(PlantState<T>& s, const PlantInput<T>& 
     const T lock = T(rules.lock) * in.length, unlock = T(rules.unlock) * in.length, again = T(rules.again) * in.length;
     Planted<T> out;
     out.cut = T(1) < T(0);
-    const Mask<T> fresh = rules.longest > 0 ? s.fresh | (in.time > T(rules.longest)) : s.fresh;
+    const Mask<T> fresh = s.fresh;
     const Mask<T> moves = (in.time > T(0)) & !fresh, was_locked = s.locked & !fresh, acts = moves | fresh;
     const T per_time = select(moves, T(1), T(0)) / select(moves, hi(in.time, T(kShortestTime)), T(1));
     Vector<T> mark = s.mark, offset = s.offset, velocity = s.velocity;

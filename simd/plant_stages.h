@@ -175,6 +175,7 @@ struct StageBody<Stage::plant> {
         in.time = s.body_row(kTimeRow);
         in.length = T(limb.rest_length) * s.body_row(kRootJoint + kScaleRow);
         s.require((len2(in.point) <= T(kHuge2)) & is_within(in.time, 0, kHuge));
+        forget_old(state, in.time, limb.rules);
         in.label = in_contact(s, state.fresh, in, animated.point);
         const Planted<T> planted = plant(state, in, limb.rules);
         const Vector<T> place = support.to_root(planted.target);

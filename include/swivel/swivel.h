@@ -821,7 +821,7 @@ typedef struct swivel_pose {
     // they come; what is bad in the pose is NaN.
     swivel_joint_values joint_rotations, joint_places;
     // Of each body, for groups WITH_PLANT or FIT: the seconds since its last solve, 1 float. It must be given where one
-    // of these is solved. 0 changes nothing that is carried. Less than 0, NaN and more than 1e15 are bad input.
+    // of these is solved. 0 changes nothing that has begun to be carried. Less than 0, NaN and more than 1e15 are bad input.
     swivel_in time;
     // What planted points stand on: a platform, a ladder, or the ground. Null position: at the world's origin. Null
     // rotation: not turned. For the ground give a position near the body, such as the origin of its tile, and change it
