@@ -41,12 +41,9 @@ SWIVEL_INLINE constexpr ShiftSpan<T> counted(const ShiftSpan<T>& span, const T& 
 {
     if (all(share == T(1))) return span;
     const T more = T(1) / hi(share, T(1e-15));
-    const auto end = [&](const T& x, const Mask<T>& asks) SWIVEL_INLINE_LAMBDA {
-        return lo(hi(select(asks, share, more) * x, T(-kAnyShift)), T(kAnyShift));
-    };
     const Mask<T> counts = share > T(0), reaches = span.reaches | !counts;
-    return {select(counts, end(span.low, span.low > T(0)), T(-kAnyShift)),
-            select(counts, end(span.high, span.high < T(0)), T(kAnyShift)), reaches};
+    return {select(counts, select(span.low > T(0), share, more) * span.low, T(-kAnyShift)),
+            select(counts, select(span.high < T(0), share, more) * span.high, T(kAnyShift)), reaches};
 }
 
 template <class T>
@@ -67,6 +64,8 @@ SWIVEL_INLINE constexpr FittedShift<T> fitted_shift(const ShiftSpan<T>& span, co
     return {shift, all_reach};
 }
 
+inline constexpr double kShortestHalf = 1e-4;  // s
+
 // A critically damped spring.
 template <class T>
 struct Spring {
@@ -80,11 +79,11 @@ SWIVEL_INLINE constexpr T falling(const T& x)
     const T e = T(1) / (T(1) + y * (T(1) + y * (T(0.5) + y * (T(1.0 / 6) + y * T(1.0 / 24)))));
     return (e * e) * (e * e);
 }
-// half: the time in which half of a distance from rest is made up, above 0.
+// half: the time in which half of a distance from rest is made up.
 template <class T>
 SWIVEL_INLINE constexpr Spring<T> sprung(const Spring<T>& s, const T& goal, const T& time, float half)
 {
-    const T stiffness = T(1.678347 / double(half));  // (1 + x) exp(-x) = 1/2
+    const T stiffness = T(1.678347 / (half > kShortestHalf ? double(half) : kShortestHalf));  // (1 + x) exp(-x) = 1/2
     const T share = falling(stiffness * time), way = s.at - goal, push = s.rate + stiffness * way;
     return {goal + (way + push * time) * share, (s.rate - stiffness * push * time) * share};
 }
