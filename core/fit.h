@@ -71,11 +71,12 @@ template <class T>
 struct Spring {
     T at, rate;
 };
-// exp(-x) for x >= 0: (1 + y + y^2/2 + y^3/6 + y^4/24)^-4 with y = x/4.
+// exp(-x) for x from 0 to kSettled: (1 + y + y^2/2 + y^3/6 + y^4/24)^-4 with y = x/4.
+inline constexpr double kSettled = 60;  // beyond it a spring rests, but for rounding
 template <class T>
 SWIVEL_INLINE constexpr T falling(const T& x)
 {
-    const T y = T(0.25) * lo(x, T(60));
+    const T y = T(0.25) * x;
     const T e = T(1) / (T(1) + y * (T(1) + y * (T(0.5) + y * (T(1.0 / 6) + y * T(1.0 / 24)))));
     return (e * e) * (e * e);
 }
@@ -83,9 +84,10 @@ SWIVEL_INLINE constexpr T falling(const T& x)
 template <class T>
 SWIVEL_INLINE constexpr Spring<T> sprung(const Spring<T>& s, const T& goal, const T& time, float half)
 {
-    const T stiffness = T(1.678347 / (half > kShortestHalf ? double(half) : kShortestHalf));  // (1 + x) exp(-x) = 1/2
-    const T share = falling(stiffness * time), way = s.at - goal, push = s.rate + stiffness * way;
-    return {goal + (way + push * time) * share, (s.rate - stiffness * push * time) * share};
+    const double per_time = 1.678347 / (half > kShortestHalf ? double(half) : kShortestHalf);  // (1 + x) exp(-x) = 1/2
+    const T stiffness = T(per_time), t = lo(time, T(kSettled / per_time));
+    const T share = falling(stiffness * t), way = s.at - goal, push = s.rate + stiffness * way;
+    return {goal + (way + push * t) * share, (s.rate - stiffness * push * t) * share};
 }
 
 }  // namespace swivel::inline SWIVEL_ISA
