@@ -167,7 +167,7 @@ struct StageBody<Stage::plant> {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
         const SupportFrame<T> support = SupportFrame<T>::of(s);
-        s.require(is_posed(s));
+        s.require(is_posed(s) & is_within(len2(support.rotation), 0.99, 1.01));
         const AnimatedHand<T> animated = animated_hand(s);
         PlantState<T> state = load_plant(s);
         PlantInput<T> in;
