@@ -38,7 +38,8 @@ using swivel::corpus::recipes_of;
 void solve(Crowd& crowd, const Job& job) { crowd.solve(job); }
 
 // Crowds for the promises that batching keeps and no kernel does: threads and chunks. They are plain arms with
-// and without every feature, whole limbs, some of which keep their swivel from frame to frame, and bodies.
+// and without every feature, whole limbs, some of which keep their swivel from frame to frame, and bodies, some of
+// which stand.
 std::vector<const Recipe*> few_crowds()
 {
     return {&recipe_of(Part::ordinary, "world-joints-hand"),
@@ -46,12 +47,13 @@ std::vector<const Recipe*> few_crowds()
             &recipe_of(Part::hard, "world-joints-hand-direction"),
             &recipe_of(Part::limbs, "set-world-joints-normal-angle-step"),
             &recipe_of(Part::limbs, "set-all-limits"),
-            &recipe_of(Part::bodies, "set-all-limits")};
+            &recipe_of(Part::bodies, "set-all-limits"),
+            &recipe_of(Part::standing, "palms-by-motion")};
 }
 // Limbs enough for several chunks of any of them.
 std::uint32_t large(const Recipe& recipe)
 {
-    return recipe.part == Part::bodies ? 300 : recipe.part == Part::limbs ? 1000 : 8000;
+    return corpus::is_of_bodies(recipe.part) ? 300 : recipe.part == Part::limbs ? 1000 : 8000;
 }
 
 // What the scalar build gives for crowds of these sizes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The promise: the corpus is what it says. Whole limbs have every flag, and so have bodies. Names and seeds are unique,
-// and golden.h has each crowd once.
+// The promise: the corpus is what it says. Whole limbs have every flag of theirs, and so have bodies; those that stand
+// have the others. Names and seeds are unique, and golden.h has each crowd once.
 #include "tools/corpus/corpus.h"
 
 #include <algorithm>
@@ -32,13 +32,15 @@ std::uint32_t flags_of(Part part)
 
 }  // namespace
 
-TEST_CASE("ordinary arms are reached, too far and too near; whole limbs and bodies have every flag")
+TEST_CASE("ordinary arms are reached, too far and too near; limbs, bodies and those that stand have every flag")
 {
     constexpr std::uint32_t reach = kReached | kClampedFar | kClampedNear;
     CHECK(flags_of(Part::ordinary) == reach);
     CHECK(flags_of(Part::hard) == (reach | kSwivelUndefined | kBadInput));
-    CHECK(flags_of(Part::limbs) == kEveryFlag);
-    CHECK(flags_of(Part::bodies) == kEveryFlag);
+    CHECK(flags_of(Part::limbs) == (kEveryFlag & ~kPlantFlags));
+    CHECK(flags_of(Part::bodies) == (kEveryFlag & ~kPlantFlags));
+    constexpr std::uint32_t stand = reach | kPlantFlags | kSoftened | kLimitedFlexion | kBadInput;
+    CHECK(flags_of(Part::standing) == stand);
 }
 
 TEST_CASE("limbs have the same numbers in crowds of any size")

@@ -68,10 +68,23 @@ constexpr Recipe kBodies[] = {
          kShoulderCone | kHumeralTwist | kShoulderBox | kHandCone | kForearmTwist | kHandTwist | kWristBox | kClavicle
          | kRecord, kTranslations | kScales | kRoots | kBetween | kFar | kInBody | kAllJoints, Form::rotations, 3),
 };
+constexpr Recipe standing(const char* name, std::uint64_t seed, std::uint32_t features, std::uint32_t pose)
+{
+    return {Part::standing, name, seed, kPlant | features, 0, Order::zyx, Order::xzy, Form::rotations, kRoots | pose};
+}
+constexpr Recipe kStanding[] = {
+    standing("feet", 0x2b8f6b1ddc2f4a93u, kPoleIncoming | kCap | kFit | kComing, 0),
+    standing("feet-by-motion", 0xe17c0e39a5b64d08u, kPoleIncoming | kByMotion | kCap | kFit, kFar | kSupports),
+    standing("palms", 0x94d3a7f0167be25cu, kHand | kEffector | kPlantTurn | kPoleIncoming | kStep | kWeights,
+             kTranslations | kSupports | kRests),
+    standing("palms-by-motion", 0x5a02cf7be8913d64u, kHand | kPlantTurn | kByMotion | kPoleIncoming | kFit | kComing |
+             kRecord | kFlexion | kClavicle, kBetween | kFar | kSupports | kAllJoints),
+};
 // clang-format on
 
 }  // namespace
 
 std::span<const Recipe> body_recipes() { return kBodies; }
+std::span<const Recipe> standing_recipes() { return kStanding; }
 
 }  // namespace swivel::corpus

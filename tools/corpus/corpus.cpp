@@ -140,7 +140,7 @@ void check_rows(const Recipe& recipe, const Crowd& crowd)
 
 const char* name_of(Part part)
 {
-    constexpr const char* names[] = {"ordinary", "hard", "limbs", "bodies"};
+    constexpr const char* names[] = {"ordinary", "hard", "limbs", "bodies", "standing"};
     return names[static_cast<std::size_t>(part)];
 }
 std::string full_name(const Recipe& recipe) { return std::string(name_of(recipe.part)) + " " + recipe.name; }
@@ -156,6 +156,8 @@ std::span<const Recipe> recipes_of(Part part)
             return limb_recipes();
         case Part::bodies:
             return body_recipes();
+        case Part::standing:
+            return standing_recipes();
     }
     return {};
 }
@@ -166,16 +168,27 @@ const Recipe& recipe_of(Part part, std::string_view name)
     throw std::out_of_range("corpus: part " + std::string(name_of(part)) + " has no crowd " + std::string(name));
 }
 
-std::uint32_t own_limb_count(Part part) { return part == Part::bodies ? 200 : part == Part::limbs ? 600 : 1000; }
-std::uint32_t frame_count(Part part) { return part == Part::limbs || part == Part::bodies ? 3 : 1; }
+std::uint32_t own_limb_count(Part part)
+{
+    constexpr std::uint32_t counts[] = {1000, 1000, 600, 200, 16};
+    return counts[static_cast<std::size_t>(part)];
+}
+std::uint32_t frame_count(Part part)
+{
+    constexpr std::uint32_t counts[] = {1, 1, 3, 3, 50};
+    return counts[static_cast<std::size_t>(part)];
+}
 
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count)
 {
-    const LimbCounts counts = recipe.part == Part::bodies ? LimbCounts{limb_count, limb_count, limb_count}
-                                                          : LimbCounts{limb_count, limb_count / 2 + 1, 7};
+    const LimbCounts counts = is_of_bodies(recipe.part) ? LimbCounts{limb_count, limb_count, limb_count}
+                                                        : LimbCounts{limb_count, limb_count / 2 + 1, 7};
     Crowd crowd = create_crowd(recipe, counts);
     check_rows(recipe, crowd);
-    write_inputs(crowd, recipe, counts, 0, [](Field) { return true; });
+    if (recipe.part == Part::standing)
+        Standing(recipe, limb_count).write_constants(crowd);
+    else
+        write_inputs(crowd, recipe, counts, 0, [](Field) { return true; });
     return crowd;
 }
 void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
@@ -183,10 +196,15 @@ void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
     write_inputs(crowd, recipe, limb_counts(crowd), frame, changes_with_frames);
 }
 
-Poses poses_of(const Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
+Poses poses_of(Crowd& crowd, const Recipe& recipe, std::uint32_t frame)
 {
-    if (recipe.part != Part::bodies) return {};
+    if (!is_of_bodies(recipe.part)) return {};
     const std::uint32_t body_count = limb_counts(crowd)[0];
+    if (recipe.part == Part::standing) {
+        Standing standing(recipe, body_count);
+        standing.go_to(frame, crowd);
+        return standing.poses();
+    }
     Poses poses = make_poses(recipe, body_count, frame);
     for (std::uint32_t group = 0; (recipe.pose & kFar) && group < kGroupCount; ++group) {
         const std::vector<Arm> arms = arms_of(recipe, group, good_arms(recipe, group, body_count, frame), frame);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The crowds that the promise of equal bits is checked on, in four parts, and their digests. Frozen: a crowd's
+// The crowds that the promise of equal bits is checked on, in five parts, and their digests. Frozen: a crowd's
 // numbers are its own, whatever the library's names, defaults and orders are. golden.h has what the digests must be.
 #pragma once
 
@@ -11,6 +11,7 @@
 
 #include "tools/corpus/interface.h"
 #include "tools/corpus/recipes.h"
+#include "tools/corpus/standing.h"
 
 namespace swivel::corpus {
 
@@ -28,12 +29,14 @@ std::uint32_t own_limb_count(Part part);
 // std::logic_error where the library has other inputs or results than the recipe's features bring here.
 Crowd make_crowd(const Recipe& recipe, std::uint32_t limb_count);
 
-// How many times a crowd is solved, with other goals and poses each time. Some crowds carry things on.
+// How many times a crowd is solved, with other goals and poses each time. Some crowds carry things on. Bodies that
+// stand do nothing else, and at their own size they do it for longer.
 std::uint32_t frame_count(Part part);
+inline constexpr std::uint32_t kStandingFrames = 10000;
 // Writes the goals of frame 1, 2...; make_crowd() wrote those of frame 0.
 void write_goals(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
-// The poses of a frame; those of free limbs are empty.
-Poses poses_of(const Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
+// The poses of a frame; those of free limbs are empty. Bodies that stand get their other inputs here, too.
+Poses poses_of(Crowd& crowd, const Recipe& recipe, std::uint32_t frame);
 
 // FNV-1a (64 bits) of the words of all limbs' results, field by field as the recipe lists them, group by group.
 inline constexpr std::uint64_t kDigestStart = 0xcbf29ce484222325u;
@@ -50,6 +53,15 @@ std::uint64_t digest_of(const Recipe& recipe, Solve&& solve, std::uint32_t limb_
 {
     Crowd crowd = make_crowd(recipe, limb_count == 0 ? own_limb_count(recipe.part) : limb_count);
     std::uint64_t hash = kDigestStart;
+    if (recipe.part == Part::standing) {
+        Standing standing(recipe, limb_counts(crowd)[0]);
+        for (std::uint32_t frame = 0; frame < (limb_count == 0 ? kStandingFrames : frame_count(recipe.part)); ++frame) {
+            standing.go_to(frame, crowd);
+            with_job(standing.poses(), [&](const Job& job) { solve(crowd, job); });
+            hash = digest_poses(standing.poses(), fold(hash, crowd.digest()));
+        }
+        return hash;
+    }
     for (std::uint32_t frame = 0; frame < frame_count(recipe.part); ++frame) {
         if (frame > 0) write_goals(crowd, recipe, frame);
         Poses poses = poses_of(crowd, recipe, frame);

@@ -41,18 +41,24 @@ constexpr FeatureName kFeatures[] = {
     {kAim, SWIVEL_WITH_AIM},
     {kClavicle, SWIVEL_WITH_CLAVICLE},
     {kRecord, SWIVEL_WITH_RECORD},
+    {kPlant, SWIVEL_WITH_PLANT},
+    {kPlantTurn, SWIVEL_WITH_PLANT_TURN},
+    {kByMotion, SWIVEL_PLANT_BY_MOTION},
+    {kCap, SWIVEL_WITH_CAP},
+    {kFit, SWIVEL_WITH_FIT},
+    {kComing, SWIVEL_WITH_COMING},
 };
 
 struct FieldName {
     Field field;
     swivel_field library;
     std::uint32_t components;
-    std::uint32_t needs = 0;  // the features that bring it
+    std::uint32_t needs = 0, excludes = 0;  // the features that bring it, and those that take it away
 };
 // In the order of enum Field.
 constexpr FieldName kFields[] = {
     {Field::target, SWIVEL_TARGET, 3},
-    {Field::pole, SWIVEL_POLE, 3},
+    {Field::pole, SWIVEL_POLE, 3, 0, kPoleIncoming},
     {Field::lengths, SWIVEL_LENGTHS, 2},
     {Field::parent_position, SWIVEL_SHOULDER_POSITION, 3, kWorld},
     {Field::parent_rotation, SWIVEL_PARENT_ROTATION, 4, kWorld},
@@ -76,6 +82,11 @@ constexpr FieldName kFields[] = {
     {Field::wrist_box, SWIVEL_WRIST_BOX, 12, kWristBox},
     {Field::aim, SWIVEL_AIM, 5, kAim},
     {Field::clavicle, SWIVEL_CLAVICLE, 4, kClavicle},  // 1 of bodies
+    {Field::contact, SWIVEL_CONTACT, 1, kPlant, kByMotion},
+    {Field::cap, SWIVEL_CAP, 3, kCap},
+    {Field::fit_weight, SWIVEL_FIT_WEIGHT, 1, kFit},
+    {Field::coming, SWIVEL_COMING, 3, kComing},
+    {Field::coming_time, SWIVEL_COMING_TIME, 1, kComing},
     {Field::shoulder, SWIVEL_SHOULDER, 4},
     {Field::elbow, SWIVEL_ELBOW, 2},  // 4 with joints
     {Field::wrist, SWIVEL_WRIST, 4, kHand},
@@ -85,6 +96,10 @@ constexpr FieldName kFields[] = {
     {Field::twist, SWIVEL_TWIST_BONES, 4},  // for each bone
     {Field::clavicle_turn, SWIVEL_CLAVICLE_TURN, 4, kClavicle},
     {Field::record, SWIVEL_RECORD, 22, kRecord},
+    {Field::plant, SWIVEL_PLANT, 11, kPlant},
+    {Field::plant_turn, SWIVEL_PLANT_TURN, 10, kPlantTurn},
+    {Field::plant_motion, SWIVEL_MOTION, 4, kByMotion},
+    {Field::goal, SWIVEL_GOAL, 7, kPlant | kRecord},
 };
 
 struct FlagName {
@@ -110,6 +125,10 @@ constexpr FlagName kFlags[] = {
     {kInfeasible, SWIVEL_INFEASIBLE},
     {kJumped, SWIVEL_JUMPED},
     {kBadInput, SWIVEL_BAD_INPUT},
+    {kPlanted, SWIVEL_PLANTED},
+    {kReleased, SWIVEL_RELEASED},
+    {kBrokeAway, SWIVEL_BROKE_AWAY},
+    {kCut, SWIVEL_CUT},
 };
 
 // In the order of enum Order.
@@ -130,7 +149,7 @@ std::vector<Field> fields_of(const Recipe& recipe, bool are_results)
     std::vector<Field> fields;
     for (const FieldName& name : kFields) {
         if ((name.field >= Field::shoulder) != are_results || (recipe.features & name.needs) != name.needs) continue;
-        if (name.field == Field::pole && (recipe.features & kPoleIncoming)) continue;
+        if (recipe.features & name.excludes) continue;
         if (name.field == Field::twist && recipe.twist_bones == 0) continue;
         fields.push_back(name.field);
     }
@@ -188,6 +207,14 @@ swivel_in in(const std::vector<Value>& values)
 {
     return {values.data(), sizeof values[0]};
 }
+// How limbs stand, group by group, and how bodies shift.
+constexpr swivel_plant kPlants[kGroupCount] = {
+    {0.12f, 0.24f, 0.1f, 0.2f, 0.06f, 0.5f, 0, {0.6f, 0.8f}, {0.08f, 0.1f}},
+    {0.3f, 0.5f, 0.05f, 0.3f, 0.5f, 1, 1, {1, 1.5f}, {0.5f, 1}},
+    {0.02f, 0.05f, 0, 0, 0, 0, 0.5f, {2, 4}, {10, 10}},
+};
+constexpr swivel_fit kShifts = {0.3f, 0.2f, 0.15f, 0.3f};
+
 Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<swivel_group_def> groups)
 {
     const Skeleton own = skeleton_of(recipe);
@@ -205,8 +232,19 @@ Crowd create_bodies(const Recipe& recipe, std::uint32_t body_count, std::span<sw
         joints[g].twist_bone_count = recipe.twist_bones;
         groups[g].joints = &joints[g];
         groups[g].on_bad_input = recipe.pose & kRests ? SWIVEL_REST_POSE : SWIVEL_KEEP_POSE;
+        groups[g].plant = kPlants[g];
     }
-    return Crowd(skeleton, body_count, groups);
+    swivel_group_def all[kGroupCount + 1];
+    std::copy(groups.begin(), groups.end(), all);
+    all[kGroupCount] = swivel_default_fit_group_def();
+    all[kGroupCount].fit = kShifts;
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.skeleton = &skeleton;
+    def.body_count = body_count;
+    def.groups = all;
+    def.group_count = kGroupCount + (recipe.features & kFit ? 1 : 0);
+    def.up[0] = 1, def.up[1] = 3, def.up[2] = -2;
+    return Crowd(def);
 }
 
 // Values of bodies; none where they are empty.
@@ -239,6 +277,10 @@ swivel_pose library_pose(Poses& poses)
         pose.root_is_double ? body_values(poses, poses.far_roots) : body_values(poses, poses.root_positions);
     pose.root_rotation = body_values(poses, poses.root_rotations);
     pose.root_scale = body_values(poses, poses.root_scales);
+    pose.time = body_values(poses, poses.times);
+    pose.support_position =
+        pose.root_is_double ? body_values(poses, poses.far_supports) : body_values(poses, poses.support_positions);
+    pose.support_rotation = body_values(poses, poses.support_rotations);
     return pose;
 }
 
@@ -260,7 +302,7 @@ Crowd create_crowd(const Recipe& recipe, const LimbCounts& limb_counts)
         groups[g].shoulder_order = kOrders[static_cast<std::size_t>(recipe.shoulder_order)];
         groups[g].wrist_order = kOrders[static_cast<std::size_t>(recipe.wrist_order)];
     }
-    if (recipe.part == Part::bodies) return create_bodies(recipe, limb_counts[0], groups);
+    if (is_of_bodies(recipe.part)) return create_bodies(recipe, limb_counts[0], groups);
     return Crowd(groups);
 }
 
@@ -282,7 +324,7 @@ std::uint32_t component_count(const Recipe& recipe, Field field)
 {
     const std::uint32_t components = name_of(field).components;
     if (field == Field::elbow && (recipe.features & kJoints)) return 4;
-    if (field == Field::clavicle && recipe.part == Part::bodies) return 1;
+    if (field == Field::clavicle && is_of_bodies(recipe.part)) return 1;
     return field == Field::twist ? components * recipe.twist_bones : components;
 }
 
@@ -306,17 +348,34 @@ std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, 
     return words;
 }
 
+void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb)
+{
+    check(swivel_reset(crowd.get(), group, limb, 1));
+}
+void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to)
+{
+    const auto view = [](const Support& of) { return swivel_supports{{&of.position, 0}, {&of.rotation, 0}}; };
+    check(swivel_change_support(crowd.get(), group, body, 1, view(from), view(to)));
+}
+void write_shift_wishes(Crowd& crowd, std::span<const float> wishes)
+{
+    crowd.write(SWIVEL_SHIFT_WISH, kGroupCount, wishes);
+}
+
 void with_job(Poses& poses, const std::function<void(const Job&)>& take)
 {
     if (poses.body_count == 0) return take({});
     const swivel_pose pose = library_pose(poses);
     Job job{.pose = &pose};
-    std::array<Frame, kGroupCount> frames;
+    if (!poses.mask.empty()) job.mask = poses.mask;
+    std::array<Frame, kGroupCount + 1> frames;
     for (std::size_t g = 0; g < kGroupCount; ++g) {
         if (!poses.far_targets[g].empty()) frames[g].in(SWIVEL_TARGET, body_values(poses, poses.far_targets[g]));
         if (!poses.far_poles[g].empty()) frames[g].in(SWIVEL_POLE, body_values(poses, poses.far_poles[g]));
+        if (!poses.far_comings[g].empty()) frames[g].in(SWIVEL_COMING, body_values(poses, poses.far_comings[g]));
     }
-    if (pose.root_is_double) job.frames = frames;
+    const std::span<Frame> given = std::span(frames).first(kGroupCount + (poses.has_shift ? 1 : 0));
+    if (pose.root_is_double) job.frames = given;
     take(job);
 }
 

@@ -43,6 +43,16 @@ void write_field(Crowd& crowd, Field field, std::uint32_t group, std::span<const
 // words have the corpus's bits.
 std::vector<std::uint32_t> read_field(const Crowd& crowd, const Recipe& recipe, Field field, std::uint32_t group);
 
+// Clears what a limb carries. The group after the limbs' is the shift.
+void reset_limb(Crowd& crowd, std::uint32_t group, std::uint32_t limb);
+// Changes what a body's limb of one group stands on.
+struct Support {
+    std::array<double, 3> position;
+    std::array<float, 4> rotation;
+};
+void change_support(Crowd& crowd, std::uint32_t group, std::uint32_t body, const Support& from, const Support& to);
+void write_shift_wishes(Crowd& crowd, std::span<const float> wishes);
+
 // Calls take(job) with a job that solves all, and brings the poses.
 void with_job(Poses& poses, const std::function<void(const Job&)>& take);
 

@@ -23,8 +23,15 @@ struct Poses {
     std::vector<float> joint_rotations, joint_places;
     std::vector<std::size_t> offsets;  // of each joint's rotation from its body's first; empty: in the joints' order
     std::vector<float> root_positions, root_rotations, root_scales;
-    std::vector<double> far_roots;                                        // in place of root_positions
-    std::array<std::vector<double>, kGroupCount> far_targets, far_poles;  // of each group, in place of rows
+    std::vector<double> far_roots;  // in place of root_positions
+    std::array<std::vector<double>, kGroupCount> far_targets, far_poles,
+        far_comings;  // of each group, in place of rows
+
+    // Of bodies that stand.
+    bool has_shift = false;  // a group more
+    std::vector<float> times, support_positions, support_rotations;
+    std::vector<double> far_supports;  // in place of support_positions
+    std::vector<std::uint32_t> mask;   // of bodies that are solved; empty: all
 
     std::uint32_t rotation_floats() const;
     // What a solve wrote, and what it did not write beside it.

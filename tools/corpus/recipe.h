@@ -13,8 +13,10 @@ enum class Part : std::uint8_t {
     hard,      // plain arms of bad numbers, degenerate poles, straight, folded, of every size
     limbs,     // whole limbs: each feature alone, and many together
     bodies,    // poses of bodies go in and out
+    standing,  // bodies over many frames: plants, caps and shifts, which start from what the last frame left
 };
-inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs, Part::bodies};
+inline constexpr Part kParts[] = {Part::ordinary, Part::hard, Part::limbs, Part::bodies, Part::standing};
+constexpr bool is_of_bodies(Part part) { return part == Part::bodies || part == Part::standing; }
 
 enum Feature : std::uint32_t {
     kWorld = 1u << 0,
@@ -41,6 +43,12 @@ enum Feature : std::uint32_t {
     kAim = 1u << 21,
     kClavicle = 1u << 22,
     kRecord = 1u << 23,
+    kPlant = 1u << 24,
+    kPlantTurn = 1u << 25,
+    kByMotion = 1u << 26,
+    kCap = 1u << 27,
+    kFit = 1u << 28,  // and a group more, which is the shift
+    kComing = 1u << 29,
 };
 
 // Random numbers of a field depend on its number here.
@@ -71,6 +79,11 @@ enum class Field : std::uint8_t {
     wrist_box = 23,
     aim = 24,
     clavicle = 25,
+    contact = 26,
+    cap = 27,
+    fit_weight = 28,
+    coming = 29,
+    coming_time = 30,
     // of bodies, which have no rows of them
     skeleton = 32,
     joint_rotation = 33,
@@ -80,6 +93,7 @@ enum class Field : std::uint8_t {
     root_position = 37,
     root_rotation = 38,
     root_scale = 39,
+    motion = 40,  // all that changes from frame to frame
     // results
     shoulder = 64,
     elbow = 65,
@@ -90,6 +104,10 @@ enum class Field : std::uint8_t {
     twist = 70,
     clavicle_turn = 71,
     record = 72,
+    plant = 73,
+    plant_turn = 74,
+    plant_motion = 75,
+    goal = 76,
 };
 
 // Bits of the flag words that are digested.
@@ -112,9 +130,13 @@ enum Flag : std::uint32_t {
     kInfeasible = 1u << 15,
     kJumped = 1u << 16,
     kBadInput = 1u << 17,
+    kPlanted = 1u << 18,
+    kReleased = 1u << 19,
+    kBrokeAway = 1u << 20,
+    kCut = 1u << 21,
     kUnknownFlag = 1u << 31,  // the library set a bit that the corpus does not know
 };
-inline constexpr std::uint32_t kEveryFlag = (1u << 18) - 1;
+inline constexpr std::uint32_t kPlantFlags = kPlanted | kReleased | kBrokeAway | kCut, kEveryFlag = (1u << 22) - 1;
 
 enum class Order : std::uint8_t { xyz, xzy, yzx, yxz, zxy, zyx };
 
@@ -134,6 +156,7 @@ enum PoseFeature : std::uint32_t {
     kRests = 1u << 8,         // bad input gets the rest pose
     kInBody = 1u << 9,        // joints are relative to the root, and all below a limb's move with it
     kAllJoints = 1u << 10,    // where all needed joints are comes out, too
+    kSupports = 1u << 11,     // what they stand on moves and turns, and is changed now and then
 };
 
 struct Recipe {

@@ -16,5 +16,7 @@ std::span<const Recipe> hard_recipes();
 std::span<const Recipe> limb_recipes();
 // Each form of poses, and each thing that they may have; the features of limbs, many together.
 std::span<const Recipe> body_recipes();
+// Bodies of a few joints' movements, for the features that carry something from frame to frame.
+std::span<const Recipe> standing_recipes();
 
 }  // namespace swivel::corpus

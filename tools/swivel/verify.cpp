@@ -60,7 +60,8 @@ PartDigests large_digests(Solve solve)
     return {corpus::digest_of(corpus::recipe_of(Part::ordinary, "world-joints-hand"), solve, 20'000),
             corpus::digest_of(corpus::recipe_of(Part::hard, "world-joints-hand"), solve, 20'000),
             corpus::digest_of(corpus::recipe_of(Part::limbs, "set-all-limits"), solve, 2'000),
-            corpus::digest_of(corpus::recipe_of(Part::bodies, "set-all-limits"), solve, 2'000)};
+            corpus::digest_of(corpus::recipe_of(Part::bodies, "set-all-limits"), solve, 2'000),
+            corpus::digest_of(corpus::recipe_of(Part::standing, "palms-by-motion"), solve, 2'000)};
 }
 
 void solve_in_chunks(Crowd& crowd, Job job, std::uint32_t chunk)
