@@ -13,6 +13,7 @@
 #error "swivel.hpp is C++20 (-std=c++20); older C++ and C programs use swivel.h"
 #else
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <concepts>
@@ -85,6 +86,13 @@ inline swivel_group_def body_group(const swivel_limb_joints& joints, swivel_feat
     return made;
 }
 swivel_group_def body_group(const swivel_limb_joints&& joints, swivel_features features = 0) = delete;
+// The shift of each body, for its limbs WITH_FIT.
+inline swivel_group_def fit_group(const swivel_fit& fit = swivel_default_fit())
+{
+    swivel_group_def made = swivel_default_fit_group_def();
+    made.fit = fit;
+    return made;
+}
 
 // A limb's alignments and bone lengths from its rest pose: swivel_bind(), swivel_bind_joints().
 inline swivel_binding bind(const swivel_chain& chain)
@@ -177,6 +185,15 @@ concept FieldRange = std::ranges::contiguous_range<Range> && FieldValue<std::ran
 template <class Range>
 concept DoubleRange = std::ranges::contiguous_range<Range> && DoubleValue<std::ranges::range_value_t<Range>>;
 
+// Whether a field may be given in doubles.
+inline bool is_position(swivel_field field)
+{
+    swivel_field_info info;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if (info.field == field) return info.is_position != 0;
+    return false;
+}
+
 // Refuses an array of more than four floats for a field of at most four: a matrix is no rotation. Other larger values
 // are stepped over by their size.
 template <class Value>
@@ -184,7 +201,7 @@ void check_value(swivel_field field)
 {
     constexpr bool is_list = std::is_array_v<Value> || requires { typename Value::value_type; };
     if constexpr (is_list && sizeof(Value) > 4 * sizeof(float) && FieldValue<Value>)
-        if (swivel_component_count(field, ~swivel_features{0}) <= 4)
+        if (swivel_component_count(field, ~SWIVEL_FIT) <= 4)  // the fields of a FIT group have at most three
             fail(SWIVEL_INVALID_ARGUMENT, "an array of " + std::to_string(sizeof(Value) / sizeof(float)) +
                                               " floats is no value of field " + std::to_string(field));
 }
@@ -250,7 +267,7 @@ public:
     {
         check_value<std::remove_cv_t<Value>>(field);
         if constexpr (!FieldValue<Value>) {
-            if (field != SWIVEL_TARGET && field != SWIVEL_POLE && field != SWIVEL_SHOULDER_POSITION)
+            if (!is_position(field))
                 fail(SWIVEL_INVALID_ARGUMENT, "field " + std::to_string(field) + " is no position; give it floats");
             has_doubles_ = true;
         }
@@ -362,14 +379,16 @@ public:
     Crowd(std::initializer_list<const swivel_group_def*> groups) = delete;
     explicit Crowd(const swivel_group_def& group) : Crowd(std::span(&group, 1)) {}
     explicit Crowd(const swivel_crowd_def& def) { check(swivel_crowd_create(&def, &crowd_)); }
-    // Bodies of one skeleton, with a group for each limb.
-    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const swivel_group_def> groups)
+    // Bodies of one skeleton, with a group for each limb, and perhaps one for their shift. up: see swivel_crowd_def.
+    Crowd(const swivel_skeleton& skeleton, std::uint32_t body_count, std::span<const swivel_group_def> groups,
+          const std::array<float, 3>& up = {0, 1, 0})
     {
         swivel_crowd_def def = swivel_default_crowd_def();
         def.skeleton = &skeleton;
         def.body_count = body_count;
         def.group_count = static_cast<std::uint32_t>(groups.size());
         def.groups = groups.data();
+        std::copy(up.begin(), up.end(), def.up);
         check(swivel_crowd_create(&def, &crowd_));
     }
     Crowd(Crowd&& other) noexcept : crowd_(std::exchange(other.crowd_, nullptr)) {}
@@ -478,6 +497,12 @@ public:
     }
 
     void reset(std::uint32_t group) { check(swivel_reset(crowd_, group, 0, swivel_group_limb_count(crowd_, group))); }
+    // swivel_change_support(), of some bodies from `first` on: {.position = {&place, 0}} is one support for all.
+    void change_support(std::uint32_t group, std::uint32_t first, std::uint32_t body_count, const swivel_supports& from,
+                        const swivel_supports& to)
+    {
+        check(swivel_change_support(crowd_, group, first, body_count, from, to));
+    }
     std::vector<swivel_arc> allowed_arcs(std::uint32_t group, std::uint32_t limb) const
     {
         std::uint32_t arc_count = 0;
