@@ -118,7 +118,6 @@ void spread(float* rows, std::uint32_t row_count, std::uint32_t block_count)
 // solved have no flag.
 void rest(Group& group)
 {
-    const FloatEnv env;
     const bool keeps = std::exchange(group.keeps, false);
     const Kernels& scalar = find_isa("scalar")->kernels;
     if (group.features & kLimbFeatures)
@@ -193,6 +192,7 @@ std::uint64_t crowd_bytes(const swivel_crowd_def& def) { return Layout(def).end;
 
 swivel_crowd* place_crowd(const swivel_crowd_def& def, void* arena)
 {
+    const FloatEnv env;
     const Layout layout(def);
     char* const base = static_cast<char*>(arena);
     std::memset(base, 0, static_cast<std::size_t>(layout.end));
