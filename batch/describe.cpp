@@ -20,7 +20,8 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 {
     if (index >= std::size(kFields) || !info) return 0;
     const FieldRow& row = kFields[index];
-    *info = {row.field, row.kind, row.name, row.range, row.needs, row.excludes, is_position(row.field), 0};
+    const swivel_features others = row.field == SWIVEL_FLAGS ? 0 : kNoLimb & ~row.needs;  // those that are no limbs
+    *info = {row.field, row.kind, row.name, row.range, row.needs, row.excludes | others, is_position(row.field), 0};
     return 1;
 }
 

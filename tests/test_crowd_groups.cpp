@@ -29,6 +29,20 @@ constexpr swivel_features kPlainLeg = SWIVEL_WORLD | SWIVEL_JOINTS, kPlainArm = 
                               kPlainArm | SWIVEL_WITH_INCOMING | SWIVEL_POLE_INCOMING,
 };
 
+// And those of bodies, of which one is their shift.
+constexpr swivel_features kOfBodies = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
+                          kBodies[] = {
+                              kOfBodies | SWIVEL_WITH_PLANT | SWIVEL_WITH_CAP | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING,
+                              kOfBodies | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN |
+                                  SWIVEL_PLANT_BY_MOTION | SWIVEL_WITH_RECORD,
+                              kOfBodies | SWIVEL_FIT,
+};
+
+bool is_of(const swivel_field_info& field, swivel_features features)
+{
+    return (features & field.needs) == field.needs && !(features & field.excludes);
+}
+
 template <std::size_t Size>
 void put_value(Crowd& crowd, swivel_field field, std::uint32_t group, std::uint32_t n,
                const std::array<float, Size>& value)
@@ -150,22 +164,23 @@ TEST_CASE("the library describes the fields, features and flags that the header 
         got.push_back(field.name);
         const bool is_input = field.field < SWIVEL_INPUT_END;
         CHECK((field.kind == SWIVEL_FIELD_INPUT) == is_input);
-        CHECK((field.kind == SWIVEL_FIELD_CARRIED) == (field.field == SWIVEL_NORMAL));
+        constexpr std::array carried = {SWIVEL_NORMAL, SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION, SWIVEL_SHIFT};
+        CHECK((field.kind == SWIVEL_FIELD_CARRIED) == (std::ranges::find(carried, field.field) != carried.end()));
         CHECK((*field.range != 0) == is_input);
         // A group has the field just if it has what the field needs and lacks what it excludes.
         for (const swivel_features features : kKinds) {
             const Crowd crowd({group(1, group_of(1).binding, features)});
-            const std::uint32_t count = swivel_component_count(field.field, features);
-            const bool has = (features & field.needs) == field.needs && !(features & field.excludes);
-            CHECK((swivel_field_row_count(crowd.get(), 0, field.field) > 0) == has);
-            CHECK((count > 0) == has);
+            CHECK((swivel_field_row_count(crowd.get(), 0, field.field) > 0) == is_of(field, features));
+            CHECK((swivel_component_count(field.field, features) > 0) == is_of(field, features));
         }
+        for (const swivel_features features : kBodies)
+            CHECK((swivel_component_count(field.field, features) > 0) == is_of(field, features));
     }
     CHECK(got == wanted);
     got.clear();
     swivel_feature_info feature;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &feature); ++n) got.push_back(feature.name);
-    CHECK(got == names_in(header, std::regex(R"(\n#define SWIVEL_(\w+) \(UINT64_C\()")));
+    CHECK(got == names_in(header, std::regex(R"(\n#define SWIVEL_(\w+)[ \\\n]+\(UINT64_C\()")));
     std::vector<std::string> flags;
     for (std::uint32_t bit = 0; bit < 32; ++bit)
         if (const char* const name = swivel_flag_name(1u << bit)) flags.push_back(name);
