@@ -21,8 +21,8 @@ using namespace swivel::test;
 constexpr std::uint32_t kPosedBodies = 16, kTwins = 8;
 constexpr swivel_features kPosed = SWIVEL_BODY | SWIVEL_WORLD | SWIVEL_WITH_INCOMING,
                           kOtherwise =  // what bodies do in another way, or alone
-                          SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_RECORD |
-                          SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
+                          SWIVEL_JOINTS | SWIVEL_WITH_CLAVICLE | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT |
+                          SWIVEL_WITH_FIT | SWIVEL_FIT | SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
 // Nearly straight bones and narrow ranges have few floats, so rounding makes steps of up to about 1e-4.
 constexpr double kSame = 3e-4;
 using Values = std::map<swivel_field, std::vector<float>>;  // of a limb's inputs
@@ -76,6 +76,7 @@ Values random_values(Random& random, const BodyGoal& goal, swivel_features featu
     values[SWIVEL_WEIGHTS] = {number(0, 1), number(0, 1), random.below(2) ? number(0.1, 1) : 0};
     values[SWIVEL_REACH] = {number(0, 0.2), number(0, 0.2), number(1, 1.3), number(0, 0.2)};
     values[SWIVEL_MOST_SWIVEL] = list(turn(random.between(0, 1)));
+    values[SWIVEL_CAP] = {number(0, 0.2), number(0, 0.9), number(0, 0.2)};
     // Rounding decides whether a least flexion near 0 shortens the reach.
     values[SWIVEL_FLEXION_LIMIT] = list(flexion(random.between(0.05, 1), random.between(1.5, 3)));
     const Float3 axis = direction();

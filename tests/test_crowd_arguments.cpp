@@ -203,7 +203,8 @@ TEST_CASE("errors name group and field")
     says(swivel_write(c, SWIVEL_POLE, 0, 0, 1, {nullptr, 12}), "group 0, pole: data is null");
     says(swivel_write(c, SWIVEL_PARENT_SCALE, 1, 0, 1, {value, 0}),
          "group 1, parent_scale: not part of this group; create it with SWIVEL_WORLD");
-    says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}), "flags is a result; swivel_write takes input fields");
+    says(swivel_write(c, SWIVEL_FLAGS, 0, 0, 1, {value, 0}),
+         "flags is a result; swivel_write takes inputs and what is carried");
     says(swivel_write(c, SWIVEL_INPUT_END, 0, 0, 1, {value, 0}),
          "there is no field " + std::to_string(SWIVEL_INPUT_END));
     says(swivel_read(c, SWIVEL_WRIST, 0, 0, 1, {value, 16}),

@@ -205,6 +205,47 @@ void use_crowd(const CallInputs& in, Record& to)
     to.add(urgency);
 }
 
+// A body that stands, in frames of any length, on supports that may be none.
+void stand(const CallInputs& in, Record& to)
+{
+    constexpr std::int32_t parents[] = {-1, 0, 1, 2};
+    constexpr float translations[][3] = {{0, 0, 0}, {0.1f, 0, 0}, {0, -0.4f, 0.1f}, {0, -0.4f, -0.1f}};
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = {parents, sizeof parents[0]};
+    skeleton.translations = {translations, sizeof translations[0]};
+    skeleton.joint_count = 4;
+    swivel_limb_joints joints = swivel_default_limb_joints(1, 2, 3);
+    joints.bend[2] = -1;
+    swivel_group_def groups[] = {swivel_default_body_group_def(&joints), swivel_default_fit_group_def()};
+    groups[0].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN |
+                         SWIVEL_WITH_CAP | SWIVEL_WITH_FIT;
+    groups[0].plant.lock = std::fabs(in.values[0]);
+    swivel_crowd_def def = swivel_default_crowd_def();
+    def.groups = groups, def.group_count = 2;
+    def.skeleton = &skeleton, def.body_count = 1;
+    std::copy_n(&in.values[1], 3, def.up);
+    swivel_crowd* crowd = nullptr;
+    to.add(swivel_crowd_create(&def, &crowd));
+    if (!crowd) return;
+    const float contact = 1, support[4] = {0.1f, 0.2f, 0.3f, 0.9f};
+    to.add(swivel_write(crowd, SWIVEL_CONTACT, 0, 0, 1, {&contact, 0}));
+    for (std::size_t frame = 0; frame < 5; ++frame) {
+        float rotations[4][4];
+        std::memcpy(rotations, &in.values[4 + 4 * frame], sizeof rotations);
+        swivel_pose pose = swivel_default_pose();
+        pose.rotations = {rotations, sizeof rotations, sizeof rotations[0], nullptr};
+        pose.time = {&in.values[30 + frame], 0};
+        pose.support_rotation = {support, 0};
+        swivel_job job = swivel_default_job();
+        job.pose = &pose;
+        to.add(swivel_solve(crowd, &job)), to.add(swivel_digest(crowd)), to.add(rotations);
+        to.add(swivel_change_support(crowd, 0, 0, 1, {{}, {support, 0}},
+                                     {{in.far.data(), 0}, {&in.values[40 + 4 * (frame % 4)], 0}}));
+        to.add(swivel_digest(crowd));
+    }
+    swivel_crowd_destroy(crowd);
+}
+
 void write_far(const CallInputs& in, Record& to)
 {
     Crowd crowd = crowd_of(0, kLimbs);
@@ -231,6 +272,7 @@ constexpr Calls kCalls[] = {
     {"values from angles", 200, make_values},
     {"bindings and defs", 200, bind_limbs},
     {"a crowd", 30, use_crowd},
+    {"a body that stands", 200, stand},
     {"doubles", 200, write_far},
     {"swivel_verify", 1, verify},
 };
