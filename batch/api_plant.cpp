@@ -3,6 +3,7 @@
 // The C entry point that changes what planted points stand on.
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 
 #include "batch/check.h"
 #include "batch/status.h"
@@ -38,17 +39,27 @@ public:
         : at_(group.results + row_offset(limb, group.result_row_count, field_first_row(group.features, field) + first))
     {
     }
-    template <BladeSet S, class Change>
+    template <class Change>
     void change(const Change& change) const
     {
-        Mv<double, S> value;
-        for (std::size_t c = 0; c < value.count; ++c) value.c[c] = at_[c * kLanes];
-        const Mv<double, S> is = change(value);
-        for (std::size_t c = 0; c < value.count; ++c) at_[c * kLanes] = static_cast<float>(is.c[c]);
+        const Vector<double> is = change(vector<double>(at_[0], at_[kLanes], at_[2 * kLanes]));
+        set({is.at<kE1>(), is.at<kE2>(), is.at<kE3>()});
+    }
+    // A rotation's.
+    void turn(const Rotor<double>& by) const
+    {
+        const Rotor<double> is = by * rotor<double>(at_[0], at_[kLanes], at_[2 * kLanes], at_[3 * kLanes]);
+        set({is.at<kI>(), is.at<kJ>(), is.at<kK>(), is.at<kScalar>()});
     }
 
 private:
     float* at_;
+
+    void set(std::initializer_list<double> numbers) const
+    {
+        float* to = at_;
+        for (const double x : numbers) *to = static_cast<float>(x), to += kLanes;
+    }
 };
 
 swivel_status check_supports(std::uint32_t limb_count, const swivel_supports& supports)
@@ -90,7 +101,6 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
                     group);
     for (const swivel_supports& supports : {from, to})
         if (const swivel_status status = check_supports(limb_count, supports); status != SWIVEL_OK) return status;
-    constexpr BladeSet kVector = Vector<double>::set, kRotor = Rotor<double>::set;
     for (std::uint32_t n = 0; n < limb_count; ++n) {
         const Support was = support_at(from, n), is = support_at(to, n);
         const Rotor<double> turn = ~is.rotation * was.rotation;
@@ -99,14 +109,14 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
             return sandwich(~is.rotation, sandwich(was.rotation, v) + (was.position - is.position));
         };
         const std::uint32_t limb = first + n;
-        Carried(of, limb, SWIVEL_PLANT, 0).change<kVector>(place);
-        Carried(of, limb, SWIVEL_PLANT, 3).change<kVector>(along);
-        Carried(of, limb, SWIVEL_PLANT, 6).change<kVector>(along);
-        if (of.features & SWIVEL_PLANT_BY_MOTION) Carried(of, limb, SWIVEL_MOTION, 0).change<kVector>(place);
+        Carried(of, limb, SWIVEL_PLANT, 0).change(place);
+        Carried(of, limb, SWIVEL_PLANT, 3).change(along);
+        Carried(of, limb, SWIVEL_PLANT, 6).change(along);
+        if (of.features & SWIVEL_PLANT_BY_MOTION) Carried(of, limb, SWIVEL_MOTION, 0).change(place);
         if (!(of.features & SWIVEL_WITH_PLANT_TURN)) continue;
-        Carried(of, limb, SWIVEL_PLANT_TURN, 0).change<kRotor>([&](const Rotor<double>& q) { return turn * q; });
-        Carried(of, limb, SWIVEL_PLANT_TURN, 4).change<kVector>(along);
-        Carried(of, limb, SWIVEL_PLANT_TURN, 7).change<kVector>(along);
+        Carried(of, limb, SWIVEL_PLANT_TURN, 0).turn(turn);
+        Carried(of, limb, SWIVEL_PLANT_TURN, 4).change(along);
+        Carried(of, limb, SWIVEL_PLANT_TURN, 7).change(along);
     }
     return SWIVEL_OK;
 }
