@@ -70,6 +70,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
         range.soft_near = goal.reach.soft_near * far;
         range.most_stretch = goal.reach.most_stretch;
     }
+    const T uncapped = range.far;
     if (use.cap) {
         Cap<T> cap = goal.cap;
         cap.incoming = cap.incoming * shrink;
@@ -84,7 +85,7 @@ SWIVEL_INLINE constexpr PlacedBones<T, Hinge<T>> place_bones(const LimbUse& use,
                     bits_where(reach.softened, SWIVEL_SOFTENED) | bits_where(reach.stretch > T(1), SWIVEL_STRETCHED) |
                     bits_where(!missed, SWIVEL_REACHED);
     if (use.limits.flexion) {
-        const Mask<T> too_straight = (distance > range.far) & (range.far < far),
+        const Mask<T> too_straight = (distance > range.far) & (range.far < far) & (range.far >= uncapped),
                       too_bent = (distance < range.near) & (range.near > near);
         flags = flags | bits_where(missed & (too_straight | too_bent), SWIVEL_LIMITED_FLEXION);
     }
