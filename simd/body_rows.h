@@ -46,8 +46,9 @@ enum PosedRow : std::uint32_t {
 enum GoalRow : std::uint32_t {
     kGoalPlaceRow,  // from the root's place before it is shifted
     kGoalHandRow = kGoalPlaceRow + 3,
-    kGoalFlagsRow = kGoalHandRow + 4,  // bits
-    kGoalRows
+    kGoalFlagsRow = kGoalHandRow + 4,     // bits
+    kGoalResultsRow = kGoalFlagsRow + 1,  // the results that stand only if no later stage finds bad input
+    kGoalRows = kGoalResultsRow + 32
 };
 // A block has the rows of the group that is being solved, then those of all joints: first the root's.
 inline constexpr std::uint32_t kRootJoint = kPosedRows;

@@ -26,6 +26,7 @@ struct StageBody<Stage::posed> {
                                  s.body_vector(limb.shoulder + kPlaceRow), s.body_vector(limb.elbow + kPlaceRow),
                                  s.body_vector(limb.wrist + kPlaceRow)};
         s.require(is_posed(s));
+        if (s.has(SWIVEL_WITH_FIT)) s.require(FitWish<S>(s).is_valid());
         Mask<T> stays = T(0) == T(1);
         if constexpr (which == BendNormal::either) stays = s.io.load(SWIVEL_WEIGHTS, 2) == T(0);
         const SeenLimb<T> seen = seen_limb<which>(posed, broadcast<T>(s.strip.bind.parent_from_arm),

@@ -4,6 +4,8 @@
 // shift, and the shift.
 #pragma once
 
+#include <cstddef>
+
 #include "core/fit.h"
 #include "core/limb_bones.h"
 #include "core/plant_turn.h"
@@ -17,6 +19,23 @@ SWIVEL_INLINE Rows<typename S::T, kTold> good_rows(const S& s)
 {
     Rows<typename S::T, kTold> rows = s.io;
     rows.chosen = s.good() == S::kEvery ? kEveryLane : s.good();
+    return rows;
+}
+
+// The results of a planted limb that it has before all of its input is known to be good. Their rows lie side by side.
+inline constexpr swivel_field kPlantResults[] = {SWIVEL_PLANT, SWIVEL_PLANT_TURN, SWIVEL_MOTION, SWIVEL_GOAL};
+static_assert([] {
+    std::uint32_t count = 0;
+    for (const swivel_field field : kPlantResults) count += row_of(field).component_count;
+    return kGoalResultsRow + count == kGoalRows;
+}());
+// The same rows, where they wait for that.
+template <class S>
+SWIVEL_INLINE Rows<typename S::T, kTold> waiting_rows(const S& s)
+{
+    Rows<typename S::T, kTold> rows = s.io;
+    const std::ptrdiff_t from = s.strip.run.limb->goal + kGoalResultsRow, first = rows.row(SWIVEL_PLANT, 0);
+    rows.results = s.body + (from - first) * std::ptrdiff_t{kLanes};
     return rows;
 }
 
@@ -135,7 +154,7 @@ SWIVEL_INLINE Mask<typename S::T> in_contact(const S& s, const Mask<typename S::
     const BodyLimb& limb = *s.strip.run.limb;
     MotionState<T> motion{s.io.load_result_vector(SWIVEL_MOTION, 0), s.io.load_result(SWIVEL_MOTION, 3) > T(0.5)};
     const Mask<T> is = contact_by_motion(motion, fresh, in, scalar_product(up_of(s), point), limb.rules);
-    const Rows<T, kTold> out = good_rows(s);
+    const Rows<T, kTold> out = waiting_rows(s);
     out.store_vector(SWIVEL_MOTION, motion.place);
     out.store(SWIVEL_MOTION, 3, select(motion.contact, T(1), T(0)));
     return is;
@@ -152,7 +171,7 @@ SWIVEL_INLINE Rotor<typename S::T> planted_turn(const S& s, const PlantStep<type
                       s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnOffset),
                       s.io.load_result_vector(SWIVEL_PLANT_TURN, kTurnVelocity)};
     const Rotor<T> is = plant_turn(turn, step, locked, unit_rotation(~support * hand), s.strip.run.limb->rules);
-    const Rows<T, kTold> out = good_rows(s);
+    const Rows<T, kTold> out = waiting_rows(s);
     out.store_rotor(SWIVEL_PLANT_TURN, turn.mark, kTurnMark);
     out.store_vector(SWIVEL_PLANT_TURN, turn.offset, kTurnOffset);
     out.store_vector(SWIVEL_PLANT_TURN, turn.velocity, kTurnVelocity);
@@ -183,7 +202,7 @@ struct StageBody<Stage::plant> {
         const Rotor<T> hand = s.has(SWIVEL_WITH_PLANT_TURN)
                                   ? planted_turn(s, planted.step, state.locked, support.rotation, animated.rotation)
                                   : animated.rotation;
-        const Rows<T, kTold> out = good_rows(s);
+        const Rows<T, kTold> out = waiting_rows(s);
         store_plant(out, state);
         // The limb finds bad input here.
         const T nan = T(__builtin_nan(""));
@@ -200,6 +219,46 @@ struct StageBody<Stage::plant> {
     }
 };
 
+// Stores what waited. Bad input keeps what is carried, or clears it where limbs go to rest.
+template <>
+struct StageBody<Stage::stand> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const Rows<T, kTold> from = waiting_rows(s), out = good_rows(s);
+        Rows<T, kTold> cleared = s.io;
+        cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
+        for (const swivel_field field : kPlantResults) {
+            const FieldRow& row = row_of(field);
+            if ((s.strip.run.features & row.needs) != row.needs) continue;
+            for (int c = 0; c < static_cast<int>(row.component_count); ++c) {
+                out.store(field, c, from.load_result(field, c));
+                if (cleared.chosen != 0 && row.kind == SWIVEL_FIELD_CARRIED) cleared.store(field, c, T(0));
+            }
+        }
+    }
+};
+
+// What a limb that is to fit asks for beside its goal.
+template <class S>
+struct FitWish {
+    using T = typename S::T;
+    T weight, time = T(0);
+    Vector<T> coming = vector(T(0), T(0), T(0));
+
+    SWIVEL_INLINE explicit FitWish(const S& s) : weight(s.io.load(SWIVEL_FIT_WEIGHT, 0))
+    {
+        if (!s.has(SWIVEL_WITH_COMING)) return;
+        coming = s.io.load_vector(SWIVEL_COMING);
+        time = s.io.load(SWIVEL_COMING_TIME, 0);
+    }
+    SWIVEL_INLINE Mask<T> is_valid() const
+    {
+        return is_share(weight) & (len2(coming) <= T(kHuge2)) & is_within(time, 0, kHuge);
+    }
+};
+
 // How a limb asks its body to shift.
 template <>
 struct StageBody<Stage::span> {
@@ -208,7 +267,8 @@ struct StageBody<Stage::span> {
     {
         using T = typename S::T;
         const BodyLimb& limb = *s.strip.run.limb;
-        const T weight = s.io.load(SWIVEL_FIT_WEIGHT, 0), scale = s.body_row(limb.parent + kScaleRow);
+        const FitWish<S> wish(s);
+        const T scale = s.body_row(limb.parent + kScaleRow);
         const Vector<T> up = up_of(s);
         const Vector<T> shoulder = s.body_vector(limb.shoulder + kPlaceRow), root = s.body_vector(kRootRow);
         const bool is_planted = s.has(SWIVEL_WITH_PLANT);
@@ -225,15 +285,13 @@ struct StageBody<Stage::span> {
             return counted(shift_span(shoulder + from_wrist - place, up, reach), share);
         };
         ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
-        ShiftSpan<T> is = span & asks(target, weight);
-        Mask<T> counts = is_posed(s) & is_share(weight) & (len2(target) <= T(kHuge2));
+        ShiftSpan<T> is = span & asks(target, wish.weight);
         if (s.has(SWIVEL_WITH_COMING)) {
-            const Vector<T> coming = s.io.load_vector(SWIVEL_COMING) - root;
-            const T time = s.io.load(SWIVEL_COMING_TIME, 0), near = hi(T(1) - time * T(limb.per_ahead), T(0));
-            s.require((len2(coming) <= T(kHuge2)) & is_within(time, 0, kHuge));
-            is = is & asks(coming, weight * (near * near));
-            counts = counts & (len2(coming) <= T(kHuge2)) & is_within(time, 0, kHuge);
+            const T near = hi(T(1) - wish.time * T(limb.per_ahead), T(0));
+            is = is & asks(wish.coming - root, wish.weight * (near * near));
         }
+        s.require(is_posed(s) & wish.is_valid() & (len2(target) <= T(kHuge2)) & (len2(from_wrist) <= T(kHuge2)));
+        const Mask<T> counts = lanes_where<T>(s.good());  // bad input asks for nothing
         s.set_body(kSpanRow, select(counts, is.low, span.low));
         s.set_body(kSpanRow + 1, select(counts, is.high, span.high));
         s.set_body(kSpanRow + 2, select(is.reaches | !counts, s.body_row(kSpanRow + 2), T(0)));
@@ -250,12 +308,14 @@ private:
         const Vector<T> elbow = s.body_vector(limb.elbow + kPlaceRow), wrist = s.body_vector(limb.wrist + kPlaceRow);
         const auto length = [&](int bone, const Vector<T>& posed) SWIVEL_INLINE_LAMBDA {
             const T given = s.io.load(SWIVEL_LENGTHS, bone);
+            s.require(is_length(given) | !(given == given));
             return select(given == given, scale * given, sqrt(len2(posed)));
         };
         const T bones = length(0, elbow - shoulder) + length(1, wrist - elbow);
         if (!s.has(SWIVEL_WITH_CAP)) return bones;
         const Cap<T> cap{s.io.load(SWIVEL_CAP, 0), s.io.load(SWIVEL_CAP, 1), s.io.load(SWIVEL_CAP, 2),
                          sqrt(len2(wrist - shoulder))};
+        s.require(is_valid(cap));
         return capped_reach(cap, bones, bones).far;
     }
 };

@@ -41,6 +41,7 @@ enum class Stage : std::uint8_t {
     store,          // lifts the arm, and stores the results
     twist_bones,
     correct,  // a body's joints
+    stand,    // how a planted limb stands
     count
 };
 
@@ -93,6 +94,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::store, SWIVEL_JOINTS | SWIVEL_WITH_HAND | SWIVEL_WITH_AIM, 0, 0},
     {Stage::twist_bones, 0, kTwistBones, 0},
     {Stage::correct, SWIVEL_WITH_HAND, SWIVEL_BODY, 0},
+    {Stage::stand, 0, SWIVEL_WITH_PLANT, 0},
 };
 constexpr const StageRow& row_of(Stage stage) { return kStages[static_cast<std::size_t>(stage)]; }
 constexpr bool needs(swivel_features features, const StageRow& row)
