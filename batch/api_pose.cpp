@@ -32,9 +32,16 @@ void store(const swivel_out& out, std::size_t n, const Rotor<double>& q)
     if (out.data) std::memcpy(static_cast<char*>(out.data) + n * out.stride, xyzw, sizeof xyzw);
 }
 
+swivel_status check_limbs(const swivel_crowd& crowd, std::uint32_t group, const char* call)
+{
+    if (!(crowd.groups[group].features & kNoLimb)) return SWIVEL_OK;
+    return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is SWIVEL_FIT, a shift and no limb; name a group of limbs", call,
+                group);
+}
 // What bodies' poses gave is known if it is kept.
 swivel_status check_kept(const swivel_crowd& crowd, std::uint32_t group, const char* call)
 {
+    if (const swivel_status status = check_limbs(crowd, group, call); status != SWIVEL_OK) return status;
     if (crowd.joint_count == 0 || crowd.groups[group].features & SWIVEL_WITH_RECORD) return SWIVEL_OK;
     return fail(SWIVEL_INVALID_ARGUMENT, "%s: group %u is of bodies; create it with SWIVEL_WITH_RECORD", call, group);
 }
@@ -83,7 +90,9 @@ swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, limb, 1); status != SWIVEL_OK) return status;
-    if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK) return status;
+    if (!(crowd->groups[group].features & kNoLimb))
+        if (const swivel_status status = check_kept(*crowd, group, "swivel_explain"); status != SWIVEL_OK)
+            return status;
     if (!text || size == 0) return fail(SWIVEL_INVALID_ARGUMENT, "swivel_explain: text is null or of no size");
     explain(crowd->groups[group], limb, {text, size});
     return SWIVEL_OK;
@@ -124,6 +133,8 @@ swivel_status swivel_joint_angles(const swivel_crowd* crowd, uint32_t group, uin
     const FloatEnv env;
     const Use use(crowd, Sharing::shared);
     if (const swivel_status status = use.of(group, first, limb_count); status != SWIVEL_OK) return status;
+    if (const swivel_status status = check_limbs(*crowd, group, "swivel_joint_angles"); status != SWIVEL_OK)
+        return status;
     for (const auto& [order, name] :
          {std::pair{shoulder_order, "shoulder_order"}, std::pair{wrist_order, "wrist_order"}})
         if (static_cast<unsigned>(order) > SWIVEL_ZYX)

@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
 #include <initializer_list>
 #include <numbers>
 
+#include "batch/explain_plant.h"
 #include "batch/forward.h"
 #include "batch/joint_angles.h"
 #include "batch/one_limb.h"
@@ -25,34 +24,6 @@
 namespace swivel {
 
 namespace {
-
-// Text as far as there is room, always with a 0 at its end. A text that was cut ends in three dots.
-class Text {
-public:
-    explicit Text(std::span<char> room) : room_(room) { room_[0] = 0; }
-
-#if defined(__GNUC__)
-    [[gnu::format(printf, 2, 3)]]
-#endif
-    void
-    add(const char* format, ...)
-    {
-        std::va_list arguments;
-        va_start(arguments, format);
-        const std::size_t left = room_.size() - used_;
-        const int length = std::vsnprintf(room_.data() + used_, left, format, arguments);
-        va_end(arguments);
-        if (length < 0) return;
-        used_ += std::min(static_cast<std::size_t>(length), left - 1);
-        if (static_cast<std::size_t>(length) < left) return;
-        for (std::size_t at = used_ - std::min(used_, std::size_t{3}); at < used_; ++at) room_[at] = '.';
-    }
-    bool is_empty() const { return used_ == 0; }
-
-private:
-    std::span<char> room_;
-    std::size_t used_ = 0;
-};
 
 // A limb that is solved alone. With its strip it takes three fifths of the stack that a call may take. So there is one,
 // which takes the limb again for each question.
@@ -74,6 +45,8 @@ public:
     }
     double missed() const { return distance_missed(group(), 0); }
     double missed_share() const { return residual(group(), 0); }
+    // Of both bones, as they count.
+    double length() const { return length_of(group(), 0); }
     bool is(swivel_field field, std::initializer_list<float> wanted) const
     {
         std::uint32_t c = 0;
@@ -107,14 +80,18 @@ public:
         }
         return true;
     }
+    // The same as the caller gave it: a body's limb is seen otherwise.
+    std::uint32_t given_count(swivel_field field) const { return field_row_count(of_.features, field); }
+    float given(swivel_field field, std::uint32_t component) const
+    {
+        return of_.input[row_offset(limb_, of_.input_row_count, field_first_row(of_.features, field) + component)];
+    }
     bool is_of_body() const { return of_.features & SWIVEL_BODY; }
     // Whether a body's pose gave the field, and not the caller.
     bool is_posed(swivel_field field) const
     {
         if (!is_of_body()) return false;
-        const std::size_t lengths =
-            row_offset(limb_, of_.input_row_count, field_first_row(of_.features, SWIVEL_LENGTHS));
-        return row_of(field).excludes & SWIVEL_BODY || (field == SWIVEL_LENGTHS && std::isnan(of_.input[lengths]));
+        return row_of(field).excludes & SWIVEL_BODY || (field == SWIVEL_LENGTHS && std::isnan(given(field, 0)));
     }
     // Makes the field ask for nothing. It gets the padding's value, from an ordinary arm without limits.
     void give_up(swivel_field field)
@@ -154,43 +131,59 @@ void explain_lengths(const Probe& probe, swivel_field field, Text& text)
                      double{probe.value(field, c + 1)}, std::sqrt(double{pair2}));
 }
 
+// Names an input and says why it is bad.
+void explain_bad_value(const Probe& probe, swivel_field field, Text& text)
+{
+    text.add("%s (", name_of(field));
+    bool is_number = true, is_given = false;
+    for (std::uint32_t c = 0; c < probe.given_count(field); ++c) {
+        const double x = double{probe.given(field, c)};
+        text.add("%s%g", c == 0 ? "" : ", ", x);
+        is_number = is_number && !std::isnan(x);
+        is_given = is_given || !std::isnan(x);
+    }
+    if (is_number) {
+        text.add(") is out of its range, %s", row_of(field).range);
+        explain_lengths(probe, field, text);
+    } else {
+        text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
+    }
+}
+
 // Inputs that are bad whatever the others are.
-void explain_bad_input(Probe& probe, bool keeps, Text& text)
+void explain_bad_input(Probe& probe, const Group& group, std::uint32_t limb, Text& text)
 {
     text.add("Bad input: ");
     bool is_found = false, is_pose_bad = false;
+    const auto found = [&](swivel_field field) {
+        text.add("%s", is_found ? "; " : "");
+        explain_bad_value(probe, field, text);
+        is_found = true;
+    };
     for (const FieldRow& row : kFields) {
         const swivel_field field = row.field;
-        if (row.kind != SWIVEL_FIELD_INPUT || probe.component_count(field) == 0) continue;
+        if (row.kind != SWIVEL_FIELD_INPUT) continue;
+        if (is_bad_in_body(group, limb, field)) found(field);
+        if (probe.component_count(field) == 0) continue;
         probe.take();
         probe.give_up_all_but(field);
         if (!(probe.solve() & SWIVEL_BAD_INPUT)) continue;
         is_pose_bad = is_pose_bad || probe.is_posed(field);
-        if (probe.is_posed(field)) continue;
-        text.add("%s%s (", is_found ? "; " : "", row.name);
-        bool is_number = true, is_given = false;
-        for (std::uint32_t c = 0; c < probe.component_count(field); ++c) {
-            const double x = double{probe.value(field, c)};
-            text.add("%s%g", c == 0 ? "" : ", ", x);
-            is_number = is_number && !std::isnan(x);
-            is_given = is_given || !std::isnan(x);
-        }
-        is_found = true;
-        if (is_number) {
-            text.add(") is out of its range, %s", row.range);
-            explain_lengths(probe, field, text);
-        } else {
-            text.add(") is not a number%s", is_given ? "" : ": it may never have been written");
-        }
+        if (!probe.is_posed(field)) found(field);
     }
-    if (is_pose_bad || (!is_found && probe.is_of_body()))
+    const bool is_planted = group.features & SWIVEL_WITH_PLANT;
+    if (is_pose_bad || (!is_found && probe.is_of_body() && !is_planted))
         text.add(
             "%sin the pose, a rotation, place or scale of the limb's joints, of those above or of the root is not a "
             "number or out of its range",
             is_found ? "; " : "");
+    else if (!is_found && is_planted)
+        text.add(
+            "in the pose, its time or support was not a number or out of its range, unless an input has been written "
+            "since");
     else if (!is_found)
         text.add("each input is in its range, but not as the parent's rotation and scale have it");
-    text.add(". The limb %s.", !keeps               ? "has its rest pose"
+    text.add(". The limb %s.", !group.keeps         ? "has its rest pose"
                                : probe.is_of_body() ? "keeps its incoming pose"
                                                     : "keeps the pose it had");
 }
@@ -202,6 +195,11 @@ const char* end_of(const Probe& solved)
     return has_effector ? "effector" : "wrist";
 }
 
+const char* zone_of(const Probe& solved)
+{
+    return solved.component_count(SWIVEL_CAP) > 0 ? "The eased zone of its cap" : "A soft zone of reach";
+}
+
 // reached: how far the wrist is from the shoulder; by: what keeps it there. missed() is from the target itself.
 void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reached, const char* by, Text& text)
 {
@@ -210,7 +208,7 @@ void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reac
         text.add("The blended target is %s: the wrist is %.4g from the shoulder, as %s as %s let it.",
                  is_far ? "out of reach" : "too near", reached, is_far ? "far" : "near", by);
     } else if (flags & SWIVEL_SOFTENED) {
-        text.add("A soft zone of reach keeps the %s from its blended target.", end_of(solved));
+        text.add("%s keeps the %s from its blended target.", zone_of(solved), end_of(solved));
     } else {
         text.add("The blended target is reached.");
     }
@@ -218,16 +216,24 @@ void explain_blended_reach(const Probe& solved, std::uint32_t flags, double reac
              double{solved.value(SWIVEL_WEIGHTS, 0)}, end_of(solved), solved.missed());
 }
 
+// What keeps the wrist so far from the shoulder, or so near.
+const char* bound_of(const Probe& solved, std::uint32_t flags, double reached)
+{
+    if (solved.is(SWIVEL_LENGTHS, {0, 0})) return "bones of no length";
+    if (flags & SWIVEL_LIMITED_FLEXION) return "its bones and its flexion limit";
+    const bool is_straight = reached >= (1 - 1e-4) * solved.length();  // a thousand times rounding
+    return flags & SWIVEL_CLAMPED_FAR && solved.component_count(SWIVEL_CAP) > 0 && !is_straight ? "its cap"
+                                                                                                : "its bones";
+}
+
 void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
 {
     const double missed = solved.missed();
     const LimbPose pose = solved.pose();
     const double reached = std::sqrt(len2(pose.wrist - pose.shoulder));
-    const bool aims = solved.component_count(SWIVEL_AIM) > 0, has_length = !solved.is(SWIVEL_LENGTHS, {0, 0});
+    const bool aims = solved.component_count(SWIVEL_AIM) > 0;
     const bool blends = solved.component_count(SWIVEL_WEIGHTS) > 0 && solved.value(SWIVEL_WEIGHTS, 0) < 1;
-    const char* const by = !has_length                      ? "bones of no length"
-                           : flags & SWIVEL_LIMITED_FLEXION ? "its bones and its flexion limit"
-                                                            : "its bones";
+    const char* const by = bound_of(solved, flags, reached);
     if (blends)
         explain_blended_reach(solved, flags, reached, by, text);
     else if (aims && flags & SWIVEL_CLAMPED_NEAR)
@@ -241,7 +247,7 @@ void explain_reach(const Probe& solved, std::uint32_t flags, Text& text)
         text.add("The target is %.4g too near: the wrist is %.4g from the shoulder, as near as %s let it.", missed,
                  reached, by);
     else if (flags & SWIVEL_SOFTENED)
-        text.add("A soft zone of reach keeps the %s %.4g from its target.", end_of(solved), missed);
+        text.add("%s keeps the %s %.4g from its target.", zone_of(solved), end_of(solved), missed);
     else
         text.add("The target is reached, to within %.2g of the limb's length.", solved.missed_share());
     if (flags & SWIVEL_STRETCHED) text.add(" The bones are stretched for it.");
@@ -338,8 +344,10 @@ bool is_near(const LimbPose& a, const LimbPose& b)
 void explain(const Group& group, std::uint32_t limb, std::span<char> room)
 {
     Text text(room);
+    if (group.features & kNoLimb) return explain_shift(group, limb, text);
     Probe probe(group, limb);
-    if (probe.is_of_body() && probe.flags() == 0) return text.add("It was never solved, so no pose of it is known.");
+    const std::uint32_t flags_were = probe.flags();
+    if (probe.is_of_body() && flags_were == 0) return text.add("It was never solved, so no pose of it is known.");
     const LimbPose was = probe.pose();
     const std::uint32_t flags = probe.solve();
     const bool is_kept = group.keeps && flags & SWIVEL_BAD_INPUT;
@@ -347,7 +355,11 @@ void explain(const Group& group, std::uint32_t limb, std::span<char> room)
     // A step's results are not those of the next one, and results that are kept are those of earlier inputs.
     if (!(group.features & kCarryingFeatures) && !is_kept && !is_same)
         text.add("Its inputs changed since it was solved, or it never was. As they are now: ");
-    if (flags & SWIVEL_BAD_INPUT) return explain_bad_input(probe, group.keeps, text);
+    const bool is_planted = group.features & SWIVEL_WITH_PLANT;
+    // A planted limb's goal is that of its last good solve.
+    if (flags & SWIVEL_BAD_INPUT || (is_planted && flags_were & SWIVEL_BAD_INPUT) || is_bad_in_body(group, limb))
+        return explain_bad_input(probe, group, limb, text);
+    if (is_planted) explain_plant(group, limb, flags_were, text);
     explain_reach(probe, flags, text);
     explain_limits(probe, probe.pose(), flags, text);
     if (flags & SWIVEL_JUMPED)

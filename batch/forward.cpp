@@ -118,11 +118,15 @@ double distance_missed(const Group& group, std::size_t limb)
     return std::sqrt(len2(miss));
 }
 
+double length_of(const Group& group, std::size_t limb)
+{
+    const Bones bones = bones_of(group, limb);
+    return bones.upper + bones.fore;
+}
+
 double residual(const Group& group, std::size_t limb)
 {
-    const double missed = distance_missed(group, limb);
-    const Bones bones = bones_of(group, limb);
-    const double length = bones.upper + bones.fore;
+    const double missed = distance_missed(group, limb), length = length_of(group, limb);
     return length > 0 || std::isnan(missed) ? missed / length : 0;
 }
 

@@ -22,6 +22,9 @@ struct ArmRotors {
 };
 ArmRotors arm_rotors(const Group& group, std::size_t limb);
 
+// Both bones' length in the space of the targets, scaled and stretched.
+double length_of(const Group& group, std::size_t limb);
+
 // How far the wrist, or the effector, is from the target, or with an aim the target from the hand's ray. residual() is
 // that over both bones' length, scaled and stretched: 0 for a limb of no length. NaN for a limb with bad input.
 double distance_missed(const Group& group, std::size_t limb);

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: swivel_explain() says of a planted limb why it stands or slides, with numbers that the animation and the
+// places of its target confirm. Of a shift it says where it goes; calls that need a limb refuse one.
+#include "tests/test_arm.h"
+#include "tests/test_crowd.h"
+
+using namespace swivel;
+using namespace swivel::test;
+
+namespace {
+
+constexpr std::array<std::int32_t, 4> kParents = {-1, 0, 1, 2};  // hips, thigh, shin, foot
+constexpr std::array<Float3, 4> kOffsets = {{{0, 1, 0}, {0.1f, 0, 0}, {0, -0.5f, 0}, {0, -0.4f, 0}}};
+constexpr double kLength = 0.9;
+constexpr float kFrame = 0.02f;
+constexpr swivel_features kPlants = SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT;
+
+swivel_skeleton legs()
+{
+    swivel_skeleton skeleton = swivel_default_skeleton();
+    skeleton.parents = stream(kParents);
+    skeleton.translations = stream(kOffsets);
+    skeleton.joint_count = 4;
+    return skeleton;
+}
+swivel_limb_joints leg()
+{
+    swivel_limb_joints joints = swivel_default_limb_joints(1, 2, 3);
+    joints.bend[2] = -1;
+    return joints;
+}
+
+// One body, whose root glides while its leg keeps its pose.
+struct Glider {
+    swivel_limb_joints joints = leg();
+    std::vector<swivel_group_def> groups;
+    Crowd crowd;
+    std::array<Float4, 4> rotations{};
+    Float3 root{}, support{};
+    float time = kFrame;
+    std::vector<Vector3d> sent;  // the target of each frame
+
+    explicit Glider(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant())
+        : groups(groups_of(joints, features, plant)), crowd(legs(), 1, groups)
+    {
+        rotations.fill({0, 0, 0, 1});
+        rotations[1] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
+        rotations[2] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
+    }
+    // The ankle as the pose has it, in the world.
+    Vector3d animated() const
+    {
+        const Quaterniond thigh = quat(rotations[1]), shin = thigh * quat(rotations[2]);
+        return vec(root) + Vector3d(0.1, 1, 0) + thigh * Vector3d(0, -0.5, 0) + shin * Vector3d(0, -0.4, 0);
+    }
+    void solve()
+    {
+        std::array<Float4, 4> solved = rotations;
+        swivel_pose pose = swivel_default_pose();
+        pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
+        pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
+        pose.root_position = {&root, 0};
+        pose.support_position = {&support, 0};
+        pose.time = {&time, 0};
+        crowd.solve({.pose = &pose});
+        if (!(swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_PLANT)) return;
+        std::array<float, 7> goal;
+        crowd.read(SWIVEL_GOAL, 0, std::span(&goal, 1));
+        sent.emplace_back(goal[0], goal[1], goal[2]);
+    }
+    // Frames in which the root glides along x.
+    void glide(float label, double speed, int frames = 1)
+    {
+        if (swivel_field_row_count(crowd.get(), 0, SWIVEL_CONTACT))
+            crowd.write_all(SWIVEL_CONTACT, 0, std::array{label});
+        for (int n = 0; n < frames; ++n) {
+            root[0] += static_cast<float>(speed * double{time});
+            solve();
+        }
+    }
+    std::string text(std::uint32_t group = 0) const { return crowd.explain(group, 0); }
+    std::uint32_t flags() const
+    {
+        std::uint32_t flags = 0;
+        crowd.read(SWIVEL_FLAGS, 0, std::span(&flags, 1));
+        return flags;
+    }
+
+private:
+    static std::vector<swivel_group_def> groups_of(const swivel_limb_joints& joints, swivel_features features,
+                                                   const swivel_plant& plant)
+    {
+        std::vector<swivel_group_def> groups = {body_group(joints, features)};
+        groups[0].plant = plant;
+        if (features & SWIVEL_WITH_FIT) groups.push_back(swivel_default_fit_group_def());
+        return groups;
+    }
+};
+
+// The first number after these words.
+double number_after(const std::string& text, const std::string& words)
+{
+    const std::size_t at = text.find(words);
+    INFO(text << " lacks " << words);
+    REQUIRE(at != std::string::npos);
+    return std::stod(text.substr(at + words.size()));
+}
+bool has(const std::string& text, const std::string& part)
+{
+    INFO(text);
+    return text.find(part) != std::string::npos;
+}
+Catch::Detail::Approx four_digits(double x) { return Approx(x).epsilon(6e-4).margin(2e-6); }
+
+swivel_plant with(float swivel_plant::*member, float value)
+{
+    swivel_plant plant = swivel_default_plant();
+    plant.*member = value;
+    return plant;
+}
+
+}  // namespace
+
+TEST_CASE("explain says that a planted point runs in, for how long and how far, and then that it stands")
+{
+    Glider leg;
+    leg.glide(0, 0.5, 3);
+    leg.glide(1, 0.5);
+    std::vector<std::string> texts = {leg.text()};
+    for (int n = 0; n < 8; ++n) {
+        leg.glide(1, 0);
+        texts.push_back(leg.text());
+    }
+    const Vector3d anchor = leg.sent.back();
+    for (std::size_t n = 0; n < 5; ++n) {
+        const std::string& text = texts[n];
+        const double since = 1000 * double{kFrame} * static_cast<double>(n);
+        CHECK(number_after(text, "it locked ") == Approx(since));
+        CHECK(number_after(text, "comes to rest in ") == Approx(100 - since));
+        CHECK(number_after(text, " ms, ") == four_digits((leg.sent[3 + n] - anchor).norm()));
+    }
+    CHECK(number_after(texts[0], " ms, ") > 5e-3);
+    for (std::size_t n = 5; n < 9; ++n)
+        CHECK(texts[n].starts_with("It is planted, and its target stands. The target is"));
+    leg.crowd.write_all(SWIVEL_CONTACT, 0, std::array{0.4f});
+    CHECK(has(leg.text(), "Its label of contact is 0.4 by now: the next solve releases it."));
+}
+
+TEST_CASE("explain says why a point is not locked: by its label, or by its motion and its bars")
+{
+    Glider leg;
+    leg.glide(0.3f, 0.5, 3);
+    CHECK(
+        leg.text().starts_with("Its target is the animated point. It is not in contact: its label is 0.3, not above "
+                               "0.5. The target is reached"));
+    leg.crowd.write_all(SWIVEL_CONTACT, 0, std::array{0.9f});
+    CHECK(has(leg.text(), "It is in contact by now: the next solve locks it."));
+    leg.glide(0.9f, 0.5);
+    CHECK(leg.text().starts_with("It is planted"));
+
+    swivel_plant low = with(&swivel_plant::again, 0.07f);
+    low.speed[0] = 0.55f, low.height[0] = 0.45f, low.height[1] = 0.5f;  // the ankle is 0.14 over the root
+    Glider moves(kPlants | SWIVEL_PLANT_BY_MOTION, low);
+    moves.glide(0, 0.8, 3);
+    CHECK(number_after(moves.text(), "Its motion shows no contact, which begins below ") == Approx(0.55));
+    CHECK(number_after(moves.text(), "limb lengths a second and ") == Approx(0.45));
+    moves.glide(0, 0.1, 9);
+    CHECK(moves.text().starts_with("It is planted, and its target stands."));
+    moves.glide(0, 0.8);
+    CHECK(moves.text().starts_with("It was just released, because its contact ended: the animated point is 0.0"));
+    CHECK(number_after(moves.text(), "Its motion ends it above ") == Approx(0.8));
+    CHECK(number_after(moves.text(), "limb lengths a second or ") == Approx(0.5));
+}
+
+TEST_CASE("explain says that a point was released, how far it is from the animation, and how it fades back")
+{
+    Glider leg;
+    leg.glide(1, 0, 10);
+    leg.glide(1, 0.4, 5);
+    leg.glide(0, 0.4);
+    CHECK((leg.flags() & SWIVEL_RELEASED) != 0);
+    CHECK((leg.animated() - leg.sent.back()).norm() > 0.03);
+    CHECK(number_after(leg.text(), "It was just released, because its contact ended: the animated point is ") ==
+          four_digits((leg.animated() - leg.sent.back()).norm()));
+    CHECK(number_after(leg.text(), "fades back, within ") == Approx(200));
+    for (int n = 1; n <= 9; ++n) {
+        leg.glide(0, 0.4);
+        CHECK(number_after(leg.text(), "Its target fades back to the animated point: ") ==
+              four_digits((leg.animated() - leg.sent.back()).norm()));
+        CHECK(number_after(leg.text(), "is left, for ") == Approx(200 - 20 * n));
+    }
+    leg.glide(0, 0.4, 2);
+    CHECK(leg.text().starts_with("Its target is the animated point. It is not in contact"));
+    CHECK((leg.animated() - leg.sent.back()).norm() < 1e-6);
+}
+
+TEST_CASE("explain says that a point broke away by distance, and what it waits for")
+{
+    for (const float again : {0.06f, 0.0f}) {
+        Glider leg(kPlants, with(&swivel_plant::again, again));
+        leg.glide(1, 0, 10);
+        while (!(leg.flags() & SWIVEL_RELEASED)) leg.glide(1, 0.5);
+        const double distance = (leg.animated() - leg.sent.back()).norm();
+        CHECK(distance > 0.24 * kLength);
+        const std::string broke = leg.text();
+        CHECK(number_after(broke, "It broke away, though in contact: the animated point is ") == four_digits(distance));
+        CHECK(number_after(broke, "from where it stood, ") == Approx(distance / kLength).epsilon(6e-3));
+        CHECK(number_after(broke, "no further than unlock, ") == Approx(0.24));
+        leg.glide(1, 0.5, 2);
+        const std::string waits = leg.text();
+        CHECK(has(waits, "It broke away and is still in contact, so it waits to lock until"));
+        CHECK(has(waits, " contact ends and begins anew."));
+        CHECK(has(waits, "slower than again, 0.06 limb lengths a second, or") == (again > 0));
+        CHECK(number_after(waits, "It cannot lock: ") ==
+              Approx((leg.animated() - leg.sent.back()).norm() / kLength).epsilon(6e-3));
+        CHECK(number_after(waits, "more than lock, ") == Approx(0.12));
+        leg.glide(1, 0, 20);
+        CHECK(leg.text().starts_with("It is planted") == (again > 0));
+    }
+}
+
+TEST_CASE("explain says that an offset is too long to lock, and that a speed was cut")
+{
+    Glider leg;
+    leg.glide(1, 0, 10);
+    while (!(leg.flags() & SWIVEL_RELEASED)) leg.glide(1, 0.5);
+    leg.glide(0, 0.5);
+    leg.glide(1, 0.5);
+    CHECK(!has(leg.text(), "waits"));
+    CHECK(number_after(leg.text(), "It cannot lock: ") > 0.12);
+    Glider fast;
+    fast.glide(0, 8, 3);
+    CHECK(!has(fast.text(), "was cut"));
+    fast.glide(1, 8);
+    CHECK((fast.flags() & SWIVEL_CUT) != 0);
+    CHECK(has(fast.text(), "Its speed was too high to be eased away and was cut, so its target jumps."));
+}
+
+TEST_CASE("explain says whether bones or a cap keep a limb from its planted point, and by how much")
+{
+    for (const swivel_features cap : {swivel_features{0}, SWIVEL_WITH_CAP}) {
+        Glider leg(kPlants | cap, with(&swivel_plant::unlock, 5));
+        leg.glide(1, 0, 3);
+        leg.root[1] += 0.3f;
+        leg.solve();
+        const Vector3d hip = vec(leg.root) + Vector3d(0.1, 1, 0);
+        const double posed = (leg.animated() - hip).norm(),
+                     reach = cap ? posed + 0.01 * kLength : kLength,  // the margin that it starts with
+            missed = (leg.sent.back() - hip).norm() - reach;
+        CHECK(posed < 0.9);
+        CHECK(leg.text().starts_with("It is planted, and its target stands. The target is "));
+        CHECK(number_after(leg.text(), "The target is ") == four_digits(missed));
+        CHECK(number_after(leg.text(), "the wrist is ") == four_digits(reach));
+        CHECK(has(leg.text(), cap ? "as far as its cap let" : "as far as its bones let"));
+        if (!cap) continue;
+        leg.crowd.write_all(SWIVEL_CAP, 0, Float3{0.01f, 1, 0});  // as far as the bones reach
+        leg.solve();
+        CHECK(has(leg.text(), "as far as its bones let"));
+    }
+}
+
+TEST_CASE("explain says how far weights take a limb from its planted point")
+{
+    Glider leg(kPlants | SWIVEL_WITH_WEIGHTS);
+    leg.crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.25f, 1, 1});
+    leg.glide(1, 0, 10);
+    leg.glide(1, 0.5, 5);
+    const double missed = 0.75 * (leg.animated() - leg.sent.back()).norm();
+    CHECK(leg.text().starts_with("It is planted, and its target stands. The blended target is reached."));
+    CHECK(number_after(leg.text(), "With a position weight of 0.25, the wrist is ") == Approx(missed).epsilon(2e-3));
+}
+
+TEST_CASE("explain names what is bad of a planted limb: labels, what is given, and what only the pose has")
+{
+    Glider leg(kPlants | SWIVEL_WITH_HAND);
+    const auto says = [&](const std::string& part) {
+        leg.solve();
+        CHECK((leg.flags() & SWIVEL_BAD_INPUT) != 0);
+        return has(leg.text(), "Bad input: " + part) && has(leg.text(), "The limb keeps its incoming pose.");
+    };
+    leg.glide(1, 0, 3);
+    CHECK(leg.text().starts_with("It is planted"));
+    leg.crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.5f});
+    CHECK(leg.text().starts_with("Bad input: contact (1.5) is out of its range, 0 to 1."));  // before it is solved
+    CHECK(says("contact (1.5) is out of its range, 0 to 1."));
+    leg.crowd.write_all(SWIVEL_CONTACT, 0, std::array{kNan});
+    CHECK(says("contact (nan) is not a number"));
+    leg.crowd.write_all(SWIVEL_CONTACT, 0, std::array{1.0f});
+    leg.crowd.write_all(SWIVEL_HAND, 0, Float4{0, 0, 0, 0});
+    CHECK(says("hand (0, 0, 0, 0) is out of its range, a quaternion of length 1e-9 to 1e9"));
+    leg.crowd.write_all(SWIVEL_HAND, 0, Float4{kNan, kNan, kNan, kNan});
+    leg.crowd.write_all(SWIVEL_TARGET, 0, Float3{kInf, 0, 0});
+    CHECK(says("target (inf, 0, 0) is out of its range, no further than 1e15"));
+    leg.crowd.write_all(SWIVEL_TARGET, 0, Float3{kNan, kNan, kNan});
+    for (const float time : {-0.1f, kNan, 1e16f}) {
+        leg.time = time;
+        CHECK(says("in the pose, its time or support was not a number or out of its range, unless"));
+    }
+    leg.time = kFrame;
+    leg.support[2] = kNan;
+    CHECK(says("in the pose, its time or support was not a number or out of its range, unless"));
+    leg.support[2] = 0;
+    const Float4 thigh = std::exchange(leg.rotations[1], Float4{0, 0, 0, 0});
+    CHECK(says("in the pose, a rotation, place or scale of the limb's joints"));
+    leg.rotations[1] = thigh;
+    leg.solve();
+    CHECK(leg.text().starts_with("It is planted"));
+    CHECK(swivel_reset(leg.crowd.get(), 0, 0, 1) == SWIVEL_OK);
+    CHECK(leg.text().starts_with("It was reset, so its planted point starts anew."));
+}
+
+TEST_CASE("explain names what is bad of a limb that fits")
+{
+    Glider leg(kPlants | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING);
+    leg.glide(1, 0, 3);
+    const auto says = [&](swivel_field field, const auto& value, const auto& good, const std::string& part) {
+        leg.crowd.write_all(field, 0, value);
+        leg.solve();
+        CHECK((leg.flags() & SWIVEL_BAD_INPUT) != 0);
+        const bool is_said = has(leg.text(), "Bad input: " + part);
+        leg.crowd.write_all(field, 0, good);
+        return is_said;
+    };
+    CHECK(says(SWIVEL_FIT_WEIGHT, std::array{1.5f}, std::array{1.0f}, "fit_weight (1.5) is out of its range, 0 to 1."));
+    CHECK(says(SWIVEL_COMING, Float3{0, kNan, 0}, Float3{0, 0, 0}, "coming (0, nan, 0) is not a number."));
+    CHECK(says(SWIVEL_COMING_TIME, std::array{-1.0f}, std::array{1.0f},
+               "coming_time (-1) is out of its range, 0 to 1e15."));
+}
+
+TEST_CASE("explain names the share of a body's clavicle")
+{
+    Glider limb(SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_CLAVICLE);
+    limb.crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.2f, 0.1f});
+    limb.crowd.write_all(SWIVEL_CLAVICLE, 0, std::array{1.5f});
+    limb.solve();
+    CHECK(has(limb.text(), "Bad input: clavicle (1.5) is out of its range"));
+    CHECK(!has(limb.text(), "in the pose"));
+}
+
+TEST_CASE("a cap that binds is no limit of the flexion")
+{
+    Glider leg(kPlants | SWIVEL_WITH_CAP | SWIVEL_WITH_FLEXION_LIMIT, with(&swivel_plant::unlock, 5));
+    leg.glide(1, 0, 3);
+    leg.root[1] += 0.3f;
+    leg.solve();
+    CHECK((leg.flags() & SWIVEL_CLAMPED_FAR) != 0);
+    CHECK((leg.flags() & SWIVEL_LIMITED_FLEXION) == 0);  // it is wide open
+    CHECK(has(leg.text(), "as far as its cap let"));
+}
+
+TEST_CASE("explain says where a shift goes and whether all limbs reach there")
+{
+    Glider leg(kPlants | SWIVEL_WITH_FIT, with(&swivel_plant::unlock, 5));
+    CHECK(leg.text(1) == "It was never solved, so it has no shift.");
+    leg.glide(1, 0, 3);
+    CHECK(leg.text(1) == "The body is shifted by 0 along up, at 0 a second. All limbs that count reach from its goal.");
+    const auto shift = [&] {
+        std::array<float, 3> is;
+        leg.crowd.read(SWIVEL_SHIFT, 1, std::span(&is, 1));
+        return is;
+    };
+    leg.root[1] += 0.15f;
+    leg.solve();
+    CHECK(shift()[0] < -1e-3f);
+    CHECK(number_after(leg.text(1), "The body is shifted by ") == four_digits(double{shift()[0]}));
+    CHECK(number_after(leg.text(1), "along up, at ") == four_digits(double{shift()[1]}));
+    CHECK(has(leg.text(1), "All limbs that count reach"));
+    leg.root[1] += 0.5f;
+    leg.crowd.write_all(SWIVEL_SHIFT_WISH, 1, std::array{0.03f});
+    leg.solve();
+    CHECK(has(leg.text(1),
+              "No shift from 0.1 limb lengths down to 0.05 up lets all limbs that count reach: its goal, the "
+              "nearest to the wish of 0.03."));
+    leg.time = kNan;
+    leg.solve();
+    CHECK(has(leg.text(1), "Bad input: in the pose, its time, or the root's rotation or scale, was not a number"));
+    leg.time = kFrame;
+    leg.crowd.write_all(SWIVEL_SHIFT_WISH, 1, std::array{kInf});
+    CHECK(leg.text(1) ==
+          "Bad input: shift_wish (inf) is out of its range, no further than 1e15 from 0. The shift stays as "
+          "it was.");
+    std::array<char, 1> room;
+    CHECK(swivel_explain(leg.crowd.get(), 1, 0, room.data(), 1) == SWIVEL_OK);
+    CHECK(room[0] == 0);
+}
+
+TEST_CASE("what needs a limb refuses a shift in one line")
+{
+    Glider leg(kPlants | SWIVEL_WITH_FIT);
+    leg.glide(1, 0, 3);
+    std::array<double, 8> room{};
+    swivel_arc arc;
+    std::uint32_t count = 7;
+    const swivel_out out = {room.data(), sizeof room}, none = {nullptr, 0};
+    const auto is_named = [](const char* call) {
+        return has(swivel_last_error(), std::string(call) + ": group 1 is SWIVEL_FIT, a shift and no limb");
+    };
+    CHECK_REFUSED(swivel_residuals(leg.crowd.get(), 1, 0, 1, out), SWIVEL_INVALID_ARGUMENT);
+    CHECK(is_named("swivel_residuals"));
+    CHECK_REFUSED(swivel_forward(leg.crowd.get(), 1, 0, 1, out, none, none), SWIVEL_INVALID_ARGUMENT);
+    CHECK(is_named("swivel_forward"));
+    CHECK_REFUSED(swivel_allowed_arcs(leg.crowd.get(), 1, 0, &arc, 1, &count), SWIVEL_INVALID_ARGUMENT);
+    CHECK(is_named("swivel_allowed_arcs"));
+    CHECK_REFUSED(swivel_joint_angles(leg.crowd.get(), 1, 0, 1, SWIVEL_XYZ, SWIVEL_XYZ, 0, out),
+                  SWIVEL_INVALID_ARGUMENT);
+    CHECK(is_named("swivel_joint_angles"));
+    CHECK(count == 7);
+    CHECK(room == std::array<double, 8>{});
+}
