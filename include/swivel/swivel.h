@@ -158,11 +158,9 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_CLAVICLE (UINT64_C(1) << 22)  // the shoulder's parent joint shares the reach
 #define SWIVEL_BODY (UINT64_C(1) << 23)  // limb i is body i's: groups of a crowd with a skeleton have it, and its needs
 #define SWIVEL_WITH_RECORD (UINT64_C(1) << 24)  // of bodies: keeps what the pose gave, which explain and others need
-#define SWIVEL_WITH_PLANT \
-    (UINT64_C(1) << 25)  // a point of the hand or foot stands while it is in contact: swivel_plant
+#define SWIVEL_WITH_PLANT (UINT64_C(1) << 25)   // a point of the hand or foot stands where it touches: swivel_plant
 #define SWIVEL_WITH_PLANT_TURN (UINT64_C(1) << 26)  // the hand or foot keeps its rotation, too
-#define SWIVEL_PLANT_BY_MOTION \
-    (UINT64_C(1) << 27)  // no labels: the point's speed and height say where it is in contact
+#define SWIVEL_PLANT_BY_MOTION (UINT64_C(1) << 27)  // no labels: the point's speed and height show its contact
 #define SWIVEL_WITH_CAP (UINT64_C(1) << 28)
 #define SWIVEL_WITH_FIT (UINT64_C(1) << 29)          // a FIT group shifts the body so that this limb reaches
 #define SWIVEL_WITH_COMING (UINT64_C(1) << 30)       // it also prepares for where the limb goes next
