@@ -113,7 +113,7 @@ swivel_status check(const swivel_crowd_def* given)
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         if (const swivel_status status = check_element("group def", def.groups, g); status != SWIVEL_OK) return status;
         const swivel_group_def group = group_at(def, g);
-        if (!def.skeleton && (group.features & SWIVEL_BODY || group.joints))
+        if (!def.skeleton && (group.features & (SWIVEL_BODY | kNoLimb) || group.joints))
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u is of bodies, but the crowd def has no skeleton; give it",
                         g);
         if (const swivel_status status = check_group(g, group); status != SWIVEL_OK) return status;
