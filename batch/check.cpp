@@ -169,7 +169,7 @@ swivel_status check_field(const swivel_crowd& crowd, std::uint32_t group, swivel
                     row.name);
     const swivel_features missing = row.needs & ~features;
     return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: not part of this group; create it with%s SWIVEL_%s", group,
-                row.name, missing ? "" : "out", feature_name(missing ? missing : row.excludes));
+                row.name, missing ? "" : "out", feature_name(missing ? missing : excludes_of(row) & features));
 }
 
 swivel_status check_values(const swivel_crowd& crowd, std::uint32_t group, swivel_field field, std::uint32_t limb_count,

@@ -3,7 +3,7 @@
 // The C entry points that describe features, fields and flags: rows of the table in simd/fields.h.
 #include <iterator>
 
-#include "include/swivel/swivel.h"
+#include "batch/check.h"
 #include "simd/rows.h"
 
 using namespace swivel;
@@ -20,8 +20,7 @@ int swivel_describe_field(uint32_t index, swivel_field_info* info)
 {
     if (index >= std::size(kFields) || !info) return 0;
     const FieldRow& row = kFields[index];
-    const swivel_features others = row.field == SWIVEL_FLAGS ? 0 : kNoLimb & ~row.needs;  // those that are no limbs
-    *info = {row.field, row.kind, row.name, row.range, row.needs, row.excludes | others, is_position(row.field), 0};
+    *info = {row.field, row.kind, row.name, row.range, row.needs, excludes_of(row), is_position(row.field), 0};
     return 1;
 }
 
