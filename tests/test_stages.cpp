@@ -71,6 +71,11 @@ SolvedLimb<float> solved(const Inputs& in, swivel_features features, const corpu
         goal.weights = {in(SWIVEL_WEIGHTS, 0), in(SWIVEL_WEIGHTS, 1), in(SWIVEL_WEIGHTS, 2)};
     if ((use.reach = has(SWIVEL_WITH_REACH)))
         goal.reach = {in(SWIVEL_REACH, 0), in(SWIVEL_REACH, 1), in(SWIVEL_REACH, 2), in(SWIVEL_REACH, 3)};
+    if ((use.cap = has(SWIVEL_WITH_CAP))) {
+        goal.cap = {in(SWIVEL_CAP, 0), in(SWIVEL_CAP, 1), in(SWIVEL_CAP, 2),
+                    incoming_reach(normalise(goal.incoming.elbow), goal.arm)};
+        good = good && is_valid(goal.cap);
+    }
     if ((use.continuity = has(SWIVEL_WITH_MOST_SWIVEL)))
         goal.continuity = {in.vector_of(SWIVEL_NORMAL), in.turned_of(SWIVEL_MOST_SWIVEL)};
     if ((use.aim = has(SWIVEL_WITH_AIM))) {
@@ -112,6 +117,12 @@ bool is_either(const Rotor<float>& a, const Rotor<float>& b)
     return bits(a) == bits(b) || bits(a) == bits(-b);
 }
 
+// Limbs that the corpus does not have.
+constexpr corpus::Recipe kCapped[] = {
+    {corpus::Part::limbs, "cap", 0x3b1f6f3a51c0d9e7u, corpus::kIncoming | corpus::kCap},
+    {corpus::Part::limbs, "cap-limits", 0x8e5c02d74fa9b316u,
+     corpus::kIncoming | corpus::kHand | corpus::kWeights | corpus::kFlexion | corpus::kStep | corpus::kCap}};
+
 }  // namespace
 
 TEST_CASE("the stages give the bits of the whole formula")
@@ -119,7 +130,10 @@ TEST_CASE("the stages give the bits of the whole formula")
     constexpr swivel_features other_frames = SWIVEL_WORLD | SWIVEL_JOINTS;
     constexpr std::uint32_t limbs = 500;
     int checked = 0;
-    for (const corpus::Recipe& recipe : corpus::limb_recipes()) {
+    const std::span<const corpus::Recipe> frozen = corpus::limb_recipes();
+    std::vector<corpus::Recipe> recipes(frozen.begin(), frozen.end());
+    recipes.insert(recipes.end(), std::begin(kCapped), std::end(kCapped));
+    for (const corpus::Recipe& recipe : recipes) {
         Crowd crowd = corpus::make_crowd(recipe, limbs);
         const swivel_features features = swivel_group_features(crowd.get(), 0);
         if (features & other_frames) continue;

@@ -37,9 +37,38 @@ BodyDef::BodyDef(Bytes& bytes, std::uint32_t most_bodies)
         groups[g].wrist_order = static_cast<swivel_euler_order>(bytes.below(6));
         if (bytes.one_in(2)) groups[g].on_bad_input = SWIVEL_REST_POSE;
     }
+    add_shift();
+    if (bytes.one_in(2)) take_constants(bytes);
     if (!bytes.one_in(4)) return;
     is_sound = false;
     for (std::uint32_t n = 1 + bytes.below(3); n > 0; --n) spoil(bytes);
+}
+
+// The group that limbs which are to fit need.
+void BodyDef::add_shift()
+{
+    if (std::ranges::any_of(groups, [](const auto& group) { return group.features & SWIVEL_WITH_FIT; }))
+        groups.push_back(swivel_default_fit_group_def());
+}
+
+// How limbs stand and bodies shift, in steps from nothing to much.
+void BodyDef::take_constants(Bytes& bytes)
+{
+    const auto number = [&](float most) { return most * static_cast<float>(bytes.below(9)) / 8; };
+    for (swivel_group_def& group : groups) {
+        group.plant = {number(1),
+                       number(1),
+                       number(0.4f),
+                       number(0.4f),
+                       number(2),
+                       number(1),
+                       number(2),
+                       {number(4), number(4)},
+                       {number(2) - 1, number(2) - 1}};
+        group.fit = {number(1), number(1), number(0.4f), number(1)};
+    }
+    for (float& x : up) x = number(2) - 1;
+    up[1] = 1;
 }
 
 std::int32_t BodyDef::add(Random& random, std::int32_t parent)
@@ -75,9 +104,9 @@ void BodyDef::take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swive
 void BodyDef::spoil(Bytes& bytes)
 {
     const std::uint32_t joint = bytes.below(joint_count()), any_joint = bytes.below(joint_count() + 2);
-    const std::size_t g = bytes.below(static_cast<std::uint32_t>(groups.size()));
+    const std::size_t g = bytes.below(static_cast<std::uint32_t>(joints.size()));
     swivel_limb_joints& limb = joints[g];
-    switch (bytes.take<std::uint8_t>() % 12) {
+    switch (bytes.take<std::uint8_t>() % 15) {
         case 0:  // also in a circle
             parents[joint] = static_cast<std::int32_t>(any_joint) - 1;
             break;
@@ -88,7 +117,7 @@ void BodyDef::spoil(Bytes& bytes)
             *std::array{&limb.shoulder, &limb.elbow, &limb.wrist}[bytes.below(3)] = any_joint;
             break;
         case 3:  // the limb of another group
-            limb = joints[bytes.below(static_cast<std::uint32_t>(groups.size()))];
+            limb = joints[bytes.below(static_cast<std::uint32_t>(joints.size()))];
             break;
         case 4:
             translations[std::size_t{3} * joint + bytes.below(3)] = bytes.any_float();
@@ -111,6 +140,16 @@ void BodyDef::spoil(Bytes& bytes)
         case 10:
             (bytes.one_in(2) ? skeleton.joint_count : skeleton.reserved) = joint;
             break;
+        case 11:
+            *std::array{&groups[g].plant.lock, &groups[g].plant.run, &groups[g].plant.longest,
+                        &groups[g].plant.height[1], &groups.back().fit.half}[bytes.below(5)] = bytes.any_float();
+            break;
+        case 12:
+            up[1] = bytes.any_float();
+            break;
+        case 13:  // also a second shift
+            groups.push_back(swivel_default_fit_group_def());
+            break;
         default:
             groups[g].joints = nullptr;
     }
@@ -125,6 +164,7 @@ swivel_crowd_def BodyDef::crowd_def(std::uint32_t bodies)
     def.group_count = static_cast<std::uint32_t>(groups.size());
     def.skeleton = &skeleton;
     def.body_count = bodies;
+    std::ranges::copy(up, def.up);
     return def;
 }
 
@@ -144,7 +184,7 @@ bool BodyDef::is_above(std::uint32_t joint, std::uint32_t below) const
 
 bool BodyDef::is_needed(std::uint32_t joint) const
 {
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+    for (std::uint32_t g = 0; g < joints.size(); ++g) {
         if (is_above(joint, limb_of(g).wrist)) return true;
         for (const std::uint32_t turned : turned_joints(g))
             if (is_above(joint, turned)) return true;
@@ -154,6 +194,7 @@ bool BodyDef::is_needed(std::uint32_t joint) const
 
 std::vector<std::uint32_t> BodyDef::turned_joints(std::uint32_t group) const
 {
+    if (group >= joints.size()) return {};  // a shift turns none
     const swivel_limb_joints limb = limb_of(group);
     const swivel_features features = groups[group].features;
     std::vector<std::uint32_t> turned = {limb.shoulder, limb.elbow};

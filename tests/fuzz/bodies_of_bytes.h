@@ -14,11 +14,12 @@ namespace swivel::fuzz {
 struct BodyDef {
     std::vector<std::int32_t> parents = {};
     std::vector<float> rotations = {}, translations = {};
-    std::vector<swivel_limb_joints> joints = {};  // of each group
+    std::vector<swivel_limb_joints> joints = {};  // of each group that is no shift
     std::vector<std::vector<std::uint32_t>> twist_bones = {};
     swivel_skeleton skeleton = swivel_default_skeleton();
     std::vector<swivel_group_def> groups = {};
     std::uint32_t body_count = 0;
+    std::array<float, 3> up = {0, 1, 0};
     bool is_sound = true;
 
     BodyDef(Bytes& bytes, std::uint32_t most_bodies);
@@ -40,6 +41,8 @@ private:
     std::int32_t add(Random& random, std::int32_t parent);
     bool is_above(std::uint32_t joint, std::uint32_t below) const;
     void take_limb(Bytes& bytes, Random& random, std::uint32_t trunk, swivel_features features);
+    void add_shift();
+    void take_constants(Bytes& bytes);
     void spoil(Bytes& bytes);
 };
 

@@ -79,6 +79,10 @@ void make_ordinary(Random& random, swivel_field field, std::span<float> value)
             for (float& x : value) x = std::abs(x) + 0.01f;
             break;
         case SWIVEL_WEIGHTS:
+        case SWIVEL_CONTACT:
+        case SWIVEL_CAP:
+        case SWIVEL_FIT_WEIGHT:
+        case SWIVEL_COMING_TIME:
             for (float& x : value) x = std::abs(x);
             break;
         case SWIVEL_REACH:
@@ -131,6 +135,21 @@ swivel_binding binding_of(Random random)
     return binding;
 }
 
+// A feature with all that it needs, which may need others, and what these exclude.
+struct Whole {
+    swivel_features features, excludes = 0;
+
+    explicit Whole(const swivel_feature_info& of) : features(of.feature)
+    {
+        swivel_feature_info info;
+        for (swivel_features before = 0; before != features;) {
+            before = features;
+            for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n)
+                if (features & info.feature) features |= info.needs, excludes |= info.excludes;
+        }
+    }
+};
+
 // Those that go with these and with each other, and need none that is excluded.
 swivel_features features_with(swivel_features features, swivel_features excluded, Bytes& bytes)
 {
@@ -142,9 +161,10 @@ swivel_features features_with(swivel_features features, swivel_features excluded
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info); ++n) {
         const bool is_counted = info.feature == SWIVEL_WITH_TWIST_BONES;
         const swivel_features all = is_counted ? SWIVEL_MOST_TWIST_BONES * info.feature : info.feature;
-        if (!(wanted & all) || (excluded & (all | info.needs)) || (features & info.excludes)) continue;
-        features |= (wanted & all) | info.needs;
-        excluded |= info.excludes;
+        const Whole whole(info);
+        if (!(wanted & all) || (excluded & (all | whole.features)) || (features & whole.excludes)) continue;
+        features |= (wanted & all) | (whole.features & ~all);
+        excluded |= whole.excludes;
     }
     return features;
 }
@@ -165,7 +185,7 @@ swivel_features body_features_of(Bytes& bytes)
 {
     swivel_feature_info info;
     for (std::uint32_t n = 0; swivel_describe_feature(n, &info) && info.feature != SWIVEL_BODY;) ++n;
-    return features_with(info.feature | info.needs, info.excludes, bytes);
+    return features_with(info.feature | info.needs, info.excludes | SWIVEL_FIT, bytes);
 }
 
 std::vector<swivel_group_def> groups_of(Bytes& bytes, std::uint32_t most_limbs)

@@ -65,7 +65,7 @@ void run(Session session, swivel_crowd_def def, bool must_be, std::size_t isa)
     const swivel_status status = swivel_crowd_create(&def, &session.crowd);
     SWIVEL_REQUIRE((status == SWIVEL_OK) == (needed > 0) && (session.crowd != nullptr) == (needed > 0));
     if (!session.crowd) return;
-    session.is_solved = session.limbs_that(false);
+    session.is_solved = session.is_overwritten = session.limbs_that(false);
     session.alone.resize(def.group_count);
     choose_isa(isa);
     for (int n = 0; n < kMostCalls && !session.bytes.is_empty(); ++n) call_one(session);

@@ -26,6 +26,12 @@ constexpr swivel_joint_values swivel_pose::*kArrays[] = {
     &swivel_pose::rotations,           &swivel_pose::translations,    &swivel_pose::scales,      &swivel_pose::results,
     &swivel_pose::translation_results, &swivel_pose::joint_rotations, &swivel_pose::joint_places};
 
+// Its values of bodies.
+enum Root : std::size_t { kRootPosition, kRootRotation, kRootScale, kTime, kSupportPosition, kSupportRotation };
+constexpr swivel_in swivel_pose::*kRoots[] = {&swivel_pose::root_position,    &swivel_pose::root_rotation,
+                                              &swivel_pose::root_scale,       &swivel_pose::time,
+                                              &swivel_pose::support_position, &swivel_pose::support_rotation};
+
 // Bytes of a rotation or a matrix, as far as a solve may touch them.
 std::size_t rotation_bytes(swivel_pose_form form)
 {
@@ -131,9 +137,15 @@ Pose::Pose(Session& session)
     if (bytes.one_in(4)) take_out(kJointRotations, four);
     if (bytes.one_in(4)) take_out(kJointPlaces, three);
     const std::size_t each = given.root_is_double ? sizeof(double) : sizeof(float);
-    take_root(session, root_position, given.root_position, SWIVEL_TARGET, 3, each);
-    take_root(session, root_rotation, given.root_rotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
-    take_root(session, root_scale, given.root_scale, SWIVEL_PARENT_SCALE, 1, sizeof(float));
+    const auto take_one = [&](Root n, swivel_field likeness, std::size_t count, std::size_t number) {
+        take_root(session, roots[n], given.*kRoots[n], likeness, count, number);
+    };
+    take_one(kRootPosition, SWIVEL_TARGET, 3, each);
+    take_one(kRootRotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
+    take_one(kRootScale, SWIVEL_PARENT_SCALE, 1, sizeof(float));
+    take_one(kTime, SWIVEL_COMING_TIME, 1, sizeof(float));
+    take_one(kSupportPosition, SWIVEL_TARGET, 3, each);
+    take_one(kSupportRotation, SWIVEL_INCOMING_SHOULDER, 4, sizeof(float));
     if (bytes.one_in(32)) given.size = bytes.below(sizeof given + 9);
     if (bytes.one_in(64)) given.reserved = bytes.below(9);
     if (bytes.one_in(64)) {  // C lets it be any number
@@ -150,7 +162,7 @@ swivel_pose Pose::seen() const
     return pose;
 }
 
-bool Pose::is_valid(const Session& session) const
+bool Pose::is_valid(const Session& session, const std::vector<bool>& named) const
 {
     const swivel_pose pose = seen();
     std::uint32_t form, space;
@@ -162,7 +174,11 @@ bool Pose::is_valid(const Session& session) const
     if (pose.form != SWIVEL_ROTATIONS && (pose.translations.data || pose.scales.data)) return false;
     const bool moves = pose.space == SWIVEL_IN_BODY && pose.translations.data;
     if (pose.translation_results.data ? !moves : moves && pose.results.data) return false;
-    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float), four = 4 * sizeof(float);
+    const std::size_t bytes = rotation_bytes(pose.form), three = 3 * sizeof(float), four = 4 * sizeof(float),
+                      place = pose.root_is_double ? 2 * three : three;
+    bool needs_time = false;
+    for (std::uint32_t group = 0; group < session.group_count; ++group)
+        needs_time = needs_time || (named[group] && has_features(session, group, SWIVEL_WITH_PLANT | SWIVEL_FIT));
     const auto are_right = [&](const swivel_joint_values& values, std::size_t size, bool is_written) {
         return are_valid(values, size, !is_written, session.bodies->body_count);
     };
@@ -170,9 +186,10 @@ bool Pose::is_valid(const Session& session) const
            are_right(pose.translations, three, moves && !pose.translation_results.data) &&
            are_right(pose.scales, three, false) && are_right(pose.translation_results, three, true) &&
            are_right(pose.joint_rotations, four, true) && are_right(pose.joint_places, three, true) &&
-           is_valid_root(pose.root_position, pose.root_is_double ? 2 * three : three) &&
-           is_valid_root(pose.root_rotation, four) && is_valid_root(pose.root_scale, sizeof(float)) &&
-           (pose.root_position.data || !pose.root_is_double);
+           is_valid_root(pose.root_position, place) && is_valid_root(pose.root_rotation, four) &&
+           is_valid_root(pose.root_scale, sizeof(float)) && is_valid_root(pose.time, sizeof(float)) &&
+           is_valid_root(pose.support_position, place) && is_valid_root(pose.support_rotation, four) &&
+           (pose.root_position.data || !pose.root_is_double) && (pose.time.data || !needs_time);
 }
 
 template <class Take>
@@ -197,8 +214,8 @@ void Pose::check_all() const
 {
     for (const std::optional<JointArray>& values : arrays)
         if (values) values->check();
-    for (const auto* values : {&root_position, &root_rotation, &root_scale})
-        if (*values) (*values)->check_gaps(false);
+    for (const auto& values : roots)
+        if (values) values->check_gaps(false);
 }
 
 swivel_pose Pose::of_body(std::uint32_t body, std::array<std::vector<char>, 7>& memory) const
@@ -209,12 +226,8 @@ swivel_pose Pose::of_body(std::uint32_t body, std::array<std::vector<char>, 7>& 
         memory[n] = arrays[n]->values_of(body);
         pose.*kArrays[n] = {memory[n].data(), memory[n].size(), arrays[n]->value_bytes(), nullptr};
     }
-    const auto put_root = [&](swivel_in& view, const std::optional<Strided>& values) {
-        if (view.data) view.data = values->at(body);
-    };
-    put_root(pose.root_position, root_position);
-    put_root(pose.root_rotation, root_rotation);
-    put_root(pose.root_scale, root_scale);
+    for (std::size_t n = 0; n < roots.size(); ++n)
+        if ((pose.*kRoots[n]).data) (pose.*kRoots[n]).data = roots[n]->at(body);
     return pose;
 }
 
@@ -240,7 +253,8 @@ void Pose::check_body(Session& session, const SomeLimbs& chosen, std::uint32_t b
         if (!chosen[group][body]) continue;
         check_equal(session, group, body, alone, group);
         for_each_written(session, group, [&](Array n, std::uint32_t joint) {
-            arrays[n]->expect(body, joint, &memory[n][joint * arrays[n]->value_bytes()]);
+            const char* const value = &memory[n][joint * arrays[n]->value_bytes()];
+            arrays[n]->expect(body, joint, is_overwritten(session, group, body) ? nullptr : value);
         });
     }
 }

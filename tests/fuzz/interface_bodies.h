@@ -17,14 +17,17 @@ struct Pose {
     swivel_pose given = swivel_default_pose();
     // In the order of kArrays; some are not given.
     std::array<std::optional<JointArray>, 7> arrays = {};
-    std::optional<Strided> root_position = {}, root_rotation = {}, root_scale = {};
+    // In the order of kRoots; some are not given.
+    std::array<std::optional<Strided>, 6> roots = {};
 
     explicit Pose(Session& session);
     Pose(const Pose&) = delete;  // its view points to its arrays
 
     // As the library sees it: members beyond its size are left out.
     swivel_pose seen() const;
-    bool is_valid(const Session& session) const;
+    // named: the groups that are solved.
+    bool is_valid(const Session& session, const std::vector<bool>& named) const;
+    const std::optional<Strided>& root_position() const { return roots[0]; }
     // Chosen limbs have the pose and the results of their body alone. All other bytes are as they were.
     void check(Session& session, const SomeLimbs& chosen);
     // The same where it is not known which limbs were chosen: those that might be may have changed.

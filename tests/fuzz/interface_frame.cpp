@@ -58,8 +58,7 @@ void Frame::add(const Session& session, std::uint32_t group, swivel_field field,
 
 void Frame::take_input(Session& session, std::uint32_t group, swivel_field field)
 {
-    const bool is_position = field == SWIVEL_TARGET || field == SWIVEL_POLE || field == SWIVEL_SHOULDER_POSITION;
-    const std::size_t each = (origin.data || root) && is_position ? sizeof(double) : sizeof(float),
+    const std::size_t each = (origin.data || root) && is_position(field) ? sizeof(double) : sizeof(float),
                       components = std::max(component_count(session, group, field), 1u);
     const std::uint32_t kind = session.bytes.take<std::uint8_t>();
     Random random{session.bytes.take<std::uint16_t>()};

@@ -177,11 +177,48 @@ bool are_solved(const Session& session, const Limbs& limbs)
 
 void call_reset(Session& session)
 {
+    if (session.bodies && session.bytes.one_in(2)) return call_change_support(session);
     const Limbs limbs = take_limbs(session);
     check_status(session, swivel_reset(session.crowd, limbs.group, limbs.first, limbs.count), limbs.is_valid);
     for (std::uint32_t n = 0;
          limbs.is_valid && n < limbs.count && has_features(session, limbs.group, SWIVEL_WITH_MOST_SWIVEL); ++n)
         session.is_solved[limbs.group][limbs.first + n] = false;  // their normal is none
+    for (std::uint32_t n = 0; limbs.is_valid && n < limbs.count; ++n)
+        session.is_overwritten[limbs.group][limbs.first + n] = false;
+}
+
+void call_change_support(Session& session)
+{
+    const Limbs limbs = take_limbs(session);
+    Bytes& bytes = session.bytes;
+    const std::size_t count = limbs.is_valid ? limbs.count : 1;
+    std::array<Strided, 4> values = {Strided(bytes, count, 24, true), Strided(bytes, count, 16, true),
+                                     Strided(bytes, count, 24, true), Strided(bytes, count, 16, true)};
+    const bool any_bits = bytes.one_in(8);
+    Random random{bytes.take<std::uint16_t>()};
+    for (const std::size_t n : {0u, 2u})
+        values[n].fill([&](std::size_t, char* at) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double x = any_bits ? std::bit_cast<double>(random.bits()) : 1e6 + double{random.share()};
+                std::memcpy(at + c * sizeof x, &x, sizeof x);
+            }
+        });
+    for (const std::size_t n : {1u, 3u})
+        values[n].fill([&](std::size_t, char* at) {
+            std::array<float, 4> q;
+            make_value(random, SWIVEL_HAND, any_bits ? 7 : 0, q);
+            std::memcpy(at, q.data(), sizeof q);
+        });
+    const swivel_status status =
+        swivel_change_support(session.crowd, limbs.group, limbs.first, limbs.count, {values[0].in(), values[1].in()},
+                              {values[2].in(), values[3].in()});
+    const auto is_sound = [](const Strided& in) { return in.is_null() || in.is_valid(); };
+    const bool may_be = limbs.is_valid && has_features(session, limbs.group, SWIVEL_WITH_PLANT) &&
+                        std::ranges::all_of(values, is_sound);
+    // Whether numbers of any bits are supports is the library's to say.
+    if (!any_bits || !may_be || status != SWIVEL_OK) check_status(session, status, may_be && !any_bits);
+    for (std::uint32_t n = 0; status == SWIVEL_OK && any_bits && n < limbs.count; ++n)
+        session.is_overwritten[limbs.group][limbs.first + n] = true;
 }
 
 void call_allowed_arcs(Session& session)
@@ -213,9 +250,9 @@ void call_joint_angles(Session& session)
     Strided angles(session.bytes, limbs.is_valid ? limbs.count : 1, 7 * sizeof(double), false);
     const swivel_status status = swivel_joint_angles(session.crowd, limbs.group, limbs.first, limbs.count,
                                                      shoulder_order, wrist_order, family, angles.out());
-    check_status(
-        session, status,
-        limbs.is_valid && shoulder_order <= SWIVEL_ZYX && wrist_order <= SWIVEL_ZYX && family < 2 && angles.is_valid());
+    check_status(session, status,
+                 limbs.is_valid && !has_features(session, limbs.group, SWIVEL_FIT) && shoulder_order <= SWIVEL_ZYX &&
+                     wrist_order <= SWIVEL_ZYX && family < 2 && angles.is_valid());
     angles.check_gaps(status != SWIVEL_OK);
     if (status != SWIVEL_OK || !are_solved(session, limbs)) return;
     for (std::size_t n = 0; n < limbs.count; ++n) {

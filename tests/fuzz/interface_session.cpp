@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/interface_session.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
 
@@ -53,6 +54,7 @@ bool has_features(const Session& session, std::uint32_t group, swivel_features f
 
 bool is_known(const Session& session, std::uint32_t group)
 {
+    if (has_features(session, group, SWIVEL_FIT)) return false;  // which is no limb
     return !session.bodies || has_features(session, group, SWIVEL_WITH_RECORD);
 }
 
@@ -62,6 +64,24 @@ bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb)
     swivel_read(session.crowd, SWIVEL_FLAGS, group, limb, 1, {&flags, sizeof flags});
     return session.groups[group].on_bad_input == SWIVEL_KEEP_POSE && flags == SWIVEL_BAD_INPUT;
 }
+
+bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t limb)
+{
+    if (!session.bodies) return session.is_overwritten[group][limb];
+    return std::ranges::any_of(session.is_overwritten, [&](const auto& of) { return of[limb]; });
+}
+
+namespace {
+swivel_field_info described(swivel_field field)
+{
+    swivel_field_info info;
+    for (std::uint32_t n = 0; swivel_describe_field(n, &info); ++n)
+        if (info.field == field) return info;
+    return {};
+}
+}  // namespace
+bool is_position(swivel_field field) { return described(field).is_position != 0; }
+bool is_carried(swivel_field field) { return described(field).kind == SWIVEL_FIELD_CARRIED; }
 
 void check_status(const Session& session, swivel_status status, bool expected)
 {
@@ -80,7 +100,7 @@ void check_solved(Session& session, const SomeLimbs& chosen)
         for (std::uint32_t limb = 0; limb < chosen[group].size(); ++limb) {
             if (!chosen[group][limb]) continue;
             session.is_solved[group][limb] = true;
-            check_results(session, group, limb);
+            if (!is_overwritten(session, group, limb)) check_results(session, group, limb);
             if (!session.bodies) check_alone(session, group, limb);
         }
     check_others(session, chosen);

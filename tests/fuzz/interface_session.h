@@ -22,6 +22,7 @@ struct Session {
     std::span<const char> arena = {};     // all of the crowd's memory
     std::vector<char> arena_before = {};  // as it was before the call at hand
     SomeLimbs is_solved = {};
+    SomeLimbs is_overwritten = {};  // with any bits in what they carry, so nothing is said of their results
     std::span<const swivel_group_def> groups = {};
     std::vector<swivel_crowd*> alone = {};  // for one limb of each group; of bodies the first is for one body
     bool has_workspace = true;
@@ -48,6 +49,12 @@ bool is_known(const Session& session, std::uint32_t group);
 // Whether a limb has bad input and keeps its results.
 bool is_kept(const Session& session, std::uint32_t group, std::uint32_t limb);
 
+// Whether a limb carries any bits; of bodies any limb of its body.
+bool is_overwritten(const Session& session, std::uint32_t group, std::uint32_t limb);
+// Whether a field may be given in doubles, and what becomes of it.
+bool is_position(swivel_field field);
+bool is_carried(swivel_field field);
+
 // A call was to succeed or not, and did so; if not, it has changed nothing.
 void check_status(const Session& session, swivel_status status, bool expected);
 // Chosen limbs were solved, results of all others are the bits they were.
@@ -60,6 +67,7 @@ void call_read(Session& session);
 void call_solve(Session& session);
 void call_choose(Session& session);
 void call_reset(Session& session);
+void call_change_support(Session& session);  // by call_reset(), of bodies
 void call_allowed_arcs(Session& session);
 void call_joint_angles(Session& session);
 void call_forward(Session& session);

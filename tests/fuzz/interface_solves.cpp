@@ -199,7 +199,9 @@ private:
     {
         pose = std::make_unique<Pose>(session);
         job.pose = session.bytes.one_in(64) ? nullptr : &pose->given;
-        if (!job.pose || !pose->is_valid(session)) is_valid = false;
+        std::vector<bool> is_solved;
+        for (std::uint32_t group = 0; group < session.group_count; ++group) is_solved.push_back(is_named(group));
+        if (!job.pose || !pose->is_valid(session, is_solved)) is_valid = false;
     }
     void take_workspace()
     {
@@ -253,8 +255,8 @@ private:
     {
         for (std::uint32_t group = 0; group < session.group_count; ++group) {
             if (!is_named(group)) continue;
-            const bool is_far = job.pose && pose->seen().root_is_double && pose->root_position;
-            frames.emplace_back(session, group, is_far ? &*pose->root_position : nullptr);
+            const bool is_far = job.pose && pose->seen().root_is_double && pose->root_position();
+            frames.emplace_back(session, group, is_far ? &*pose->root_position() : nullptr);
             framed_groups.push_back(group);
             const std::uint32_t from = swivel_group_first_limb(session.crowd, group) / SWIVEL_LANES,
                                 to = from + (swivel_group_limb_count(session.crowd, group) - 1) / SWIVEL_LANES;

@@ -64,6 +64,8 @@ void shape(Field field, double* v, std::uint32_t count, double length)
             return make_shares(v, 3, 1);
         case Field::reach:
             return make_reach(v);
+        case Field::cap:
+            return make_shares(v, 3, 0.5);
         case Field::most_swivel:
             return make_half(v);
         case Field::flexion_limit:
