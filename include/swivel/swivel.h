@@ -131,7 +131,8 @@ typedef enum swivel_flag {
 // - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION need
 // WITH_PLANT.
 //   WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
-// - A group that is FIT is no limb: it has none of the other features and names no joints.
+// - A group that is FIT is no limb: it has none of the other features and names no joints. Calls that need a limb
+//   refuse it.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
 typedef uint64_t swivel_features;
 #define SWIVEL_WORLD (UINT64_C(1) << 0)           // targets, poles and hands are in the world; limbs have parents
@@ -997,7 +998,8 @@ enum { SWIVEL_EXPLANATION_BYTES = 8192 };  // as many hold every text of swivel_
 // says that they are of the limb's length. With WITH_WEIGHTS it says how far the limb is from the target itself, not
 // from the blended one. limb is counted within the group. text gets at most size bytes, the 0 at its end among them.
 // For people and logs: the words may change, and the last digits differ between C libraries. A text that was cut ends
-// in three dots. Of bodies it needs WITH_RECORD. Takes up to a millisecond; no allocation.
+// in three dots. Of bodies it needs WITH_RECORD. Then it also says why a planted point stands or slides. Of a group
+// that is FIT it needs none, and says how the body is shifted. Takes up to a millisecond; no allocation.
 SWIVEL_API swivel_status swivel_explain(const swivel_crowd* crowd, uint32_t group, uint32_t limb, char* text,
                                         size_t size);
 
