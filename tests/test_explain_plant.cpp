@@ -2,101 +2,17 @@
 //
 // The promise: swivel_explain() says of a planted limb why it stands or slides, with numbers that the animation and the
 // places of its target confirm. Of a shift it says where it goes; calls that need a limb refuse one.
-#include "tests/test_arm.h"
-#include "tests/test_crowd.h"
+#include "tests/gliding_leg.h"
+#include "tests/test_random.h"
 
 using namespace swivel;
 using namespace swivel::test;
 
 namespace {
 
-constexpr std::array<std::int32_t, 4> kParents = {-1, 0, 1, 2};  // hips, thigh, shin, foot
-constexpr std::array<Float3, 4> kOffsets = {{{0, 1, 0}, {0.1f, 0, 0}, {0, -0.5f, 0}, {0, -0.4f, 0}}};
-constexpr double kLength = 0.9;
-constexpr float kFrame = 0.02f;
-constexpr swivel_features kPlants = SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_PLANT;
-
-swivel_skeleton legs()
-{
-    swivel_skeleton skeleton = swivel_default_skeleton();
-    skeleton.parents = stream(kParents);
-    skeleton.translations = stream(kOffsets);
-    skeleton.joint_count = 4;
-    return skeleton;
-}
-swivel_limb_joints leg()
-{
-    swivel_limb_joints joints = swivel_default_limb_joints(1, 2, 3);
-    joints.bend[2] = -1;
-    return joints;
-}
-
-// One body, whose root glides while its leg keeps its pose.
-struct Glider {
-    swivel_limb_joints joints = leg();
-    std::vector<swivel_group_def> groups;
-    Crowd crowd;
-    std::array<Float4, 4> rotations{};
-    Float3 root{}, support{};
-    float time = kFrame;
-    std::vector<Vector3d> sent;  // the target of each frame
-
-    explicit Glider(swivel_features features = kPlants, swivel_plant plant = swivel_default_plant())
-        : groups(groups_of(joints, features, plant)), crowd(legs(), 1, groups)
-    {
-        rotations.fill({0, 0, 0, 1});
-        rotations[1] = {-std::sin(0.2f), 0, 0, std::cos(0.2f)};
-        rotations[2] = {std::sin(0.4f), 0, 0, std::cos(0.4f)};
-    }
-    // The ankle as the pose has it, in the world.
-    Vector3d animated() const
-    {
-        const Quaterniond thigh = quat(rotations[1]), shin = thigh * quat(rotations[2]);
-        return vec(root) + Vector3d(0.1, 1, 0) + thigh * Vector3d(0, -0.5, 0) + shin * Vector3d(0, -0.4, 0);
-    }
-    void solve()
-    {
-        std::array<Float4, 4> solved = rotations;
-        swivel_pose pose = swivel_default_pose();
-        pose.rotations = {rotations.data(), sizeof rotations, sizeof rotations[0], nullptr};
-        pose.results = {solved.data(), sizeof solved, sizeof solved[0], nullptr};
-        pose.root_position = {&root, 0};
-        pose.support_position = {&support, 0};
-        pose.time = {&time, 0};
-        crowd.solve({.pose = &pose});
-        if (!(swivel_group_features(crowd.get(), 0) & SWIVEL_WITH_PLANT)) return;
-        std::array<float, 7> goal;
-        crowd.read(SWIVEL_GOAL, 0, std::span(&goal, 1));
-        sent.emplace_back(goal[0], goal[1], goal[2]);
-    }
-    // Frames in which the root glides along x.
-    void glide(float label, double speed, int frames = 1)
-    {
-        if (swivel_field_row_count(crowd.get(), 0, SWIVEL_CONTACT))
-            crowd.write_all(SWIVEL_CONTACT, 0, std::array{label});
-        for (int n = 0; n < frames; ++n) {
-            root[0] += static_cast<float>(speed * double{time});
-            solve();
-        }
-    }
-    std::string text(std::uint32_t group = 0) const { return crowd.explain(group, 0); }
-    std::uint32_t flags() const
-    {
-        std::uint32_t flags = 0;
-        crowd.read(SWIVEL_FLAGS, 0, std::span(&flags, 1));
-        return flags;
-    }
-
-private:
-    static std::vector<swivel_group_def> groups_of(const swivel_limb_joints& joints, swivel_features features,
-                                                   const swivel_plant& plant)
-    {
-        std::vector<swivel_group_def> groups = {body_group(joints, features)};
-        groups[0].plant = plant;
-        if (features & SWIVEL_WITH_FIT) groups.push_back(swivel_default_fit_group_def());
-        return groups;
-    }
-};
+constexpr double kLength = GlidingLeg::kLength;
+constexpr float kFrame = GlidingLeg::kFrame;
+constexpr swivel_features kPlants = GlidingLeg::kPlants;
 
 // The first number after these words.
 double number_after(const std::string& text, const std::string& words)
@@ -124,7 +40,7 @@ swivel_plant with(float swivel_plant::*member, float value)
 
 TEST_CASE("explain says that a planted point runs in, for how long and how far, and then that it stands")
 {
-    Glider leg;
+    GlidingLeg leg;
     leg.glide(0, 0.5, 3);
     leg.glide(1, 0.5);
     std::vector<std::string> texts = {leg.text()};
@@ -149,7 +65,7 @@ TEST_CASE("explain says that a planted point runs in, for how long and how far, 
 
 TEST_CASE("explain says why a point is not locked: by its label, or by its motion and its bars")
 {
-    Glider leg;
+    GlidingLeg leg;
     leg.glide(0.3f, 0.5, 3);
     CHECK(
         leg.text().starts_with("Its target is the animated point. It is not in contact: its label is 0.3, not above "
@@ -161,7 +77,7 @@ TEST_CASE("explain says why a point is not locked: by its label, or by its motio
 
     swivel_plant low = with(&swivel_plant::again, 0.07f);
     low.speed[0] = 0.55f, low.height[0] = 0.45f, low.height[1] = 0.5f;  // the ankle is 0.14 over the root
-    Glider moves(kPlants | SWIVEL_PLANT_BY_MOTION, low);
+    GlidingLeg moves(kPlants | SWIVEL_PLANT_BY_MOTION, low);
     moves.glide(0, 0.8, 3);
     CHECK(number_after(moves.text(), "Its motion shows no contact, which begins below ") == Approx(0.55));
     CHECK(number_after(moves.text(), "limb lengths a second and ") == Approx(0.45));
@@ -175,7 +91,7 @@ TEST_CASE("explain says why a point is not locked: by its label, or by its motio
 
 TEST_CASE("explain says that a point was released, how far it is from the animation, and how it fades back")
 {
-    Glider leg;
+    GlidingLeg leg;
     leg.glide(1, 0, 10);
     leg.glide(1, 0.4, 5);
     leg.glide(0, 0.4);
@@ -197,23 +113,25 @@ TEST_CASE("explain says that a point was released, how far it is from the animat
 
 TEST_CASE("explain says that a point broke away by distance, and what it waits for")
 {
-    for (const float again : {0.06f, 0.0f}) {
-        Glider leg(kPlants, with(&swivel_plant::again, again));
+    for (const auto& [again, scale] : {std::pair{0.06f, 1.0f}, {0.0f, 1.0f}, {0.06f, 2.5f}}) {
+        GlidingLeg leg(kPlants, with(&swivel_plant::again, again));
+        leg.scale = scale;
+        const double length = kLength * double{scale}, speed = 0.5 * double{scale};
         leg.glide(1, 0, 10);
-        while (!(leg.flags() & SWIVEL_RELEASED)) leg.glide(1, 0.5);
+        while (!(leg.flags() & SWIVEL_RELEASED)) leg.glide(1, speed);
         const double distance = (leg.animated() - leg.sent.back()).norm();
-        CHECK(distance > 0.24 * kLength);
+        CHECK(distance > 0.24 * length);
         const std::string broke = leg.text();
         CHECK(number_after(broke, "It broke away, though in contact: the animated point is ") == four_digits(distance));
-        CHECK(number_after(broke, "from where it stood, ") == Approx(distance / kLength).epsilon(6e-3));
+        CHECK(number_after(broke, "from where it stood, ") == Approx(distance / length).epsilon(6e-3));
         CHECK(number_after(broke, "no further than unlock, ") == Approx(0.24));
-        leg.glide(1, 0.5, 2);
+        leg.glide(1, speed, 2);
         const std::string waits = leg.text();
         CHECK(has(waits, "It broke away and is still in contact, so it waits to lock until"));
         CHECK(has(waits, " contact ends and begins anew."));
         CHECK(has(waits, "slower than again, 0.06 limb lengths a second, or") == (again > 0));
         CHECK(number_after(waits, "It cannot lock: ") ==
-              Approx((leg.animated() - leg.sent.back()).norm() / kLength).epsilon(6e-3));
+              Approx((leg.animated() - leg.sent.back()).norm() / length).epsilon(6e-3));
         CHECK(number_after(waits, "more than lock, ") == Approx(0.12));
         leg.glide(1, 0, 20);
         CHECK(leg.text().starts_with("It is planted") == (again > 0));
@@ -222,14 +140,14 @@ TEST_CASE("explain says that a point broke away by distance, and what it waits f
 
 TEST_CASE("explain says that an offset is too long to lock, and that a speed was cut")
 {
-    Glider leg;
+    GlidingLeg leg;
     leg.glide(1, 0, 10);
     while (!(leg.flags() & SWIVEL_RELEASED)) leg.glide(1, 0.5);
     leg.glide(0, 0.5);
     leg.glide(1, 0.5);
     CHECK(!has(leg.text(), "waits"));
     CHECK(number_after(leg.text(), "It cannot lock: ") > 0.12);
-    Glider fast;
+    GlidingLeg fast;
     fast.glide(0, 8, 3);
     CHECK(!has(fast.text(), "was cut"));
     fast.glide(1, 8);
@@ -237,10 +155,46 @@ TEST_CASE("explain says that an offset is too long to lock, and that a speed was
     CHECK(has(fast.text(), "Its speed was too high to be eased away and was cut, so its target jumps."));
 }
 
+TEST_CASE("whatever happens, what explain says is what the flags say")
+{
+    Random random{3};
+    int planted = 0, released = 0, broke = 0, cut = 0, free = 0;
+    for (int n = 0; n < 60; ++n) {
+        swivel_features features = kPlants;
+        for (const swivel_features each :
+             {SWIVEL_WITH_HAND, SWIVEL_PLANT_BY_MOTION, SWIVEL_WITH_WEIGHTS, SWIVEL_WITH_CAP, SWIVEL_WITH_FIT})
+            if (random.below(2)) features |= each;
+        if (features & SWIVEL_WITH_HAND && random.below(2)) features |= SWIVEL_WITH_PLANT_TURN;
+        swivel_plant plant = with(&swivel_plant::run, static_cast<float>(random.unit()));
+        plant.height[0] = plant.height[1] = 1;
+        GlidingLeg leg(features, plant);
+        for (int step = 0; step < 60; ++step) {
+            const double speed = random.below(4) ? random.between(-1, 1) : random.between(-9, 9);
+            leg.glide(random.below(5) ? 0.9f : 0.1f, speed, 1 + static_cast<int>(random.below(6)));
+            const std::string text = leg.text();
+            INFO(text);
+            const std::uint32_t flags = leg.flags();
+            const auto says = [&](const char* part) { return text.find(part) != std::string::npos; };
+            CHECK((flags & SWIVEL_BAD_INPUT) == 0);
+            CHECK(text.starts_with("It is planted") == ((flags & SWIVEL_PLANTED) != 0));
+            CHECK(text.starts_with("It broke away") == ((flags & SWIVEL_BROKE_AWAY) != 0));
+            CHECK((says("It was just released") || says("It broke away, though")) == ((flags & SWIVEL_RELEASED) != 0));
+            CHECK(says("was cut") == ((flags & SWIVEL_CUT) != 0));
+            CHECK(text.starts_with("Its target ") == ((flags & (SWIVEL_PLANTED | SWIVEL_RELEASED)) == 0));
+            CHECK(!says("nan"));
+            CHECK(text.ends_with("."));
+            planted += (flags & SWIVEL_PLANTED) != 0, released += (flags & SWIVEL_RELEASED) != 0;
+            broke += (flags & SWIVEL_BROKE_AWAY) != 0, cut += (flags & SWIVEL_CUT) != 0;
+            free += text.starts_with("Its target ");
+        }
+    }
+    CHECK(std::min({planted, released, broke, cut, free}) > 30);
+}
+
 TEST_CASE("explain says whether bones or a cap keep a limb from its planted point, and by how much")
 {
     for (const swivel_features cap : {swivel_features{0}, SWIVEL_WITH_CAP}) {
-        Glider leg(kPlants | cap, with(&swivel_plant::unlock, 5));
+        GlidingLeg leg(kPlants | cap, with(&swivel_plant::unlock, 5));
         leg.glide(1, 0, 3);
         leg.root[1] += 0.3f;
         leg.solve();
@@ -262,7 +216,7 @@ TEST_CASE("explain says whether bones or a cap keep a limb from its planted poin
 
 TEST_CASE("explain says how far weights take a limb from its planted point")
 {
-    Glider leg(kPlants | SWIVEL_WITH_WEIGHTS);
+    GlidingLeg leg(kPlants | SWIVEL_WITH_WEIGHTS);
     leg.crowd.write_all(SWIVEL_WEIGHTS, 0, Float3{0.25f, 1, 1});
     leg.glide(1, 0, 10);
     leg.glide(1, 0.5, 5);
@@ -273,7 +227,7 @@ TEST_CASE("explain says how far weights take a limb from its planted point")
 
 TEST_CASE("explain names what is bad of a planted limb: labels, what is given, and what only the pose has")
 {
-    Glider leg(kPlants | SWIVEL_WITH_HAND);
+    GlidingLeg leg(kPlants | SWIVEL_WITH_HAND);
     const auto says = [&](const std::string& part) {
         leg.solve();
         CHECK((leg.flags() & SWIVEL_BAD_INPUT) != 0);
@@ -312,7 +266,7 @@ TEST_CASE("explain names what is bad of a planted limb: labels, what is given, a
 
 TEST_CASE("explain names what is bad of a limb that fits")
 {
-    Glider leg(kPlants | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING);
+    GlidingLeg leg(kPlants | SWIVEL_WITH_FIT | SWIVEL_WITH_COMING);
     leg.glide(1, 0, 3);
     const auto says = [&](swivel_field field, const auto& value, const auto& good, const std::string& part) {
         leg.crowd.write_all(field, 0, value);
@@ -330,7 +284,7 @@ TEST_CASE("explain names what is bad of a limb that fits")
 
 TEST_CASE("explain names the share of a body's clavicle")
 {
-    Glider limb(SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_CLAVICLE);
+    GlidingLeg limb(SWIVEL_POLE_INCOMING | SWIVEL_WITH_RECORD | SWIVEL_WITH_CLAVICLE);
     limb.crowd.write_all(SWIVEL_TARGET, 0, Float3{0, 0.2f, 0.1f});
     limb.crowd.write_all(SWIVEL_CLAVICLE, 0, std::array{1.5f});
     limb.solve();
@@ -340,7 +294,7 @@ TEST_CASE("explain names the share of a body's clavicle")
 
 TEST_CASE("a cap that binds is no limit of the flexion")
 {
-    Glider leg(kPlants | SWIVEL_WITH_CAP | SWIVEL_WITH_FLEXION_LIMIT, with(&swivel_plant::unlock, 5));
+    GlidingLeg leg(kPlants | SWIVEL_WITH_CAP | SWIVEL_WITH_FLEXION_LIMIT, with(&swivel_plant::unlock, 5));
     leg.glide(1, 0, 3);
     leg.root[1] += 0.3f;
     leg.solve();
@@ -351,7 +305,7 @@ TEST_CASE("a cap that binds is no limit of the flexion")
 
 TEST_CASE("explain says where a shift goes and whether all limbs reach there")
 {
-    Glider leg(kPlants | SWIVEL_WITH_FIT, with(&swivel_plant::unlock, 5));
+    GlidingLeg leg(kPlants | SWIVEL_WITH_FIT, with(&swivel_plant::unlock, 5));
     CHECK(leg.text(1) == "It was never solved, so it has no shift.");
     leg.glide(1, 0, 3);
     CHECK(leg.text(1) == "The body is shifted by 0 along up, at 0 a second. All limbs that count reach from its goal.");
@@ -387,7 +341,7 @@ TEST_CASE("explain says where a shift goes and whether all limbs reach there")
 
 TEST_CASE("what needs a limb refuses a shift in one line")
 {
-    Glider leg(kPlants | SWIVEL_WITH_FIT);
+    GlidingLeg leg(kPlants | SWIVEL_WITH_FIT);
     leg.glide(1, 0, 3);
     std::array<double, 8> room{};
     swivel_arc arc;
