@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// A point on a random way, with labels of contact, and what becomes of it where it is planted: a machine of plain
+// states, in double. It keeps each change's curve from its beginning and looks it up at the time since then. Knows none
+// of the library's formulas.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "core/plant_turn.h"
+#include "swivel/swivel.h"
+#include "tests/formula_limb.h"
+
+namespace swivel::test {
+
+// swivel.h's words: no speed may add more than `lock` to a point's way.
+inline PlantRules rules_of(const swivel_plant& plant)
+{
+    const double lock = plant.lock, stop = std::max<double>(plant.stop, kShortestTime),
+                 blend = std::max<double>(plant.blend, kShortestTime);
+    return {plant.lock,
+            plant.unlock,
+            plant.again,
+            plant.longest,
+            plant.stop,
+            plant.blend,
+            static_cast<float>(double{plant.run} * plant.stop / 3),
+            static_cast<float>(3 * lock / stop),
+            static_cast<float>(6.75 * lock / blend),
+            static_cast<float>(1 / stop),
+            static_cast<float>(2 / blend),
+            plant.speed[0],
+            plant.speed[1],
+            plant.height[0],
+            plant.height[1]};
+}
+
+// A smooth way of a point that turns, with speeds to 1.5 m/s and accelerations to 15 m/s^2.
+class Way {
+public:
+    explicit Way(Random& random, double most_speed = 1.5)
+    {
+        double speed = 0;
+        for (Wave& wave : waves_) {
+            wave = {random.direction(), random.between(4, 10), random.between(0, 6.28)};
+            speed += 1;
+        }
+        for (Wave& wave : waves_) wave.size *= most_speed / (speed * wave.pace);
+        axis_ = random.direction();
+    }
+    Vector3d place(double t) const
+    {
+        Vector3d at = Vector3d::Zero();
+        for (const Wave& wave : waves_) at += std::sin(wave.pace * t + wave.start) * wave.size;
+        return at;
+    }
+    Quaterniond rotation(double t) const
+    {
+        const Vector3d at = place(t);
+        return Eigen::AngleAxisd(2 * at.x() + 3 * at.y(), axis_) *
+               Quaterniond(Eigen::AngleAxisd(3 * at.z(), Vector3d::UnitX()));
+    }
+
+private:
+    struct Wave {
+        Vector3d size;
+        double pace, start;
+    };
+    std::array<Wave, 3> waves_;
+    Vector3d axis_;
+};
+
+// A cubic from an offset and a velocity to rest.
+struct Transition {
+    Vector3d offset = Vector3d::Zero(), velocity = Vector3d::Zero();
+    double lasts = 0, since = 0;
+
+    Vector3d place() const
+    {
+        if (since >= lasts) return Vector3d::Zero();
+        const double s = since / lasts;
+        return (2 * s * s * s - 3 * s * s + 1) * offset + (s * s * s - 2 * s * s + s) * lasts * velocity;
+    }
+    Vector3d speed() const
+    {
+        if (since >= lasts) return Vector3d::Zero();
+        const double s = since / lasts;
+        return (6 * s * s - 6 * s) / lasts * offset + (3 * s * s - 4 * s + 1) * velocity;
+    }
+};
+
+class PlantMachine {
+public:
+    enum class Stands { starts, follows, releases, locked };  // releases: until its speed is known
+    Stands stands = Stands::starts;
+    bool is_cut = false, is_fresh = false;  // of the last step
+    double clearance = 1;  // the least distance of a decision from its threshold so far, as a share of it
+    Vector3d anchor = Vector3d::Zero();
+    Transition transition;
+
+    explicit PlantMachine(const PlantRules& rules) : rules_(rules) {}
+
+    // Where the point goes.
+    Vector3d step(const Vector3d& x, bool label, double time, double length)
+    {
+        is_cut = is_fresh = false;
+        if (rules_.longest > 0 && time > rules_.longest) stands = Stands::starts;
+        if (stands == Stands::starts) {
+            is_fresh = true;
+            transition = {};
+            last_ = anchor = x;
+            stands = label ? Stands::locked : Stands::follows;
+            transition.lasts = label ? rules_.stop : 0;
+            is_armed_ = !label;
+            return x;
+        }
+        if (!(time > 0)) return base(x) + transition.place();
+        const bool was_locked = stands == Stands::locked;
+        const Vector3d speed = was_locked ? Vector3d(Vector3d::Zero()) : Vector3d((x - last_) / time);
+        if (stands == Stands::releases) {
+            begin(transition.place(), shortened(transition.speed() - speed, rules_.fastest_out * length), rules_.blend);
+            stands = Stands::follows;
+        }
+        transition.since += time;
+        const Vector3d to = base(x) + transition.place();
+        is_armed_ |= !label;
+        if (was_locked) {
+            const bool is_far = is_over((x - anchor).norm(), rules_.unlock * length);
+            if (label && !is_far) return to;
+            stands = Stands::releases;
+            begin(to - x, transition.speed(), 1);  // stands still until the speed is known
+            last_ = x;
+            return to;
+        }
+        last_ = x;
+        if (!label || is_over(transition.place().norm(), rules_.lock * length)) return to;
+        if (!is_armed_ && (rules_.again == 0 || is_over(speed.norm(), rules_.again * length))) return to;
+        const Vector3d entry = shortened(speed + transition.speed(), rules_.fastest_in * length);
+        anchor = to + rules_.ahead * entry;
+        begin(to - anchor, entry, rules_.stop);
+        stands = Stands::locked;
+        is_armed_ = false;
+        return to;
+    }
+
+private:
+    PlantRules rules_;
+    Vector3d last_ = Vector3d::Zero();
+    bool is_armed_ = false;
+
+    Vector3d base(const Vector3d& x) const { return stands == Stands::locked ? anchor : x; }
+    void begin(const Vector3d& offset, const Vector3d& velocity, double lasts)
+    {
+        transition = {offset, velocity, lasts, 0};
+    }
+    bool is_over(double value, double threshold)
+    {
+        clearance = std::min(clearance, std::fabs(value - threshold) / std::max(threshold, 1e-9));
+        return value > threshold;
+    }
+    Vector3d shortened(const Vector3d& v, double most)
+    {
+        if (v.norm() <= most) return v;
+        is_cut = true;
+        return most / v.norm() * v;
+    }
+};
+
+// A point planted by the library's formula, over any number type.
+template <class T>
+struct PlantedPoint {
+    PlantState<T> state{};
+    PlantRules rules;
+    Planted<T> last{};
+
+    explicit PlantedPoint(const PlantRules& of) : rules(of) { state.fresh = true; }
+    Vector3d step(const Vector3d& x, bool label, double time, double length = 1)
+    {
+        last = plant(state, {mv<T>(x), label, static_cast<T>(time), static_cast<T>(length)}, rules);
+        return eigen(last.target);
+    }
+};
+
+// A time of a frame, off its usual one by up to 30%.
+inline double jittered(Random& random, double per_second) { return random.between(0.7, 1.3) / per_second; }
+
+// Labels that change at random times.
+struct RandomLabels {
+    bool is = false;
+    double left = 0;
+
+    bool next(Random& random, double time, double longest = 0.6)
+    {
+        left -= time;
+        if (left > 0) return is;
+        left = random.between(0.01, longest);
+        return is = !is;
+    }
+};
+
+}  // namespace swivel::test

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+//
+// The promise: a point that is labelled stands, moves by no bit, and comes and goes without a jump, as a plain machine
+// of states says.
+#include <catch2/catch.hpp>
+
+#include <cstring>
+
+#include <rapidcheck/catch.h>
+
+#include "tests/plant_story.h"
+
+namespace {
+
+using namespace swivel;
+using namespace swivel::test;
+
+template <class T>
+bool is_same(const Vector<T>& a, const Vector<T>& b)
+{
+    return std::memcmp(a.c, b.c, sizeof a.c) == 0;
+}
+template <class T>
+bool is_equal(const Vector<T>& a, const Vector<T>& b)  // -0 and 0 are
+{
+    return a.c[0] == b.c[0] && a.c[1] == b.c[1] && a.c[2] == b.c[2];
+}
+
+PlantRules random_rules(Random& random)
+{
+    swivel_plant plant = swivel_default_plant();
+    if (random.below(3) == 0) return rules_of(plant);
+    plant.lock = static_cast<float>(random.between(0.02, 0.3));
+    plant.unlock = static_cast<float>(random.between(0.05, 0.6));
+    plant.stop = random.below(5) ? static_cast<float>(random.between(0.02, 0.4)) : 0;
+    plant.blend = random.below(5) ? static_cast<float>(random.between(0.02, 0.4)) : 0;
+    plant.again = random.below(3) ? static_cast<float>(random.between(0.02, 0.8)) : 0;
+    plant.run = static_cast<float>(random.unit());
+    plant.longest = random.below(2) ? 0.5f : 0;
+    return rules_of(plant);
+}
+double random_time(Random& random, double per_second)
+{
+    const std::uint32_t n = random.below(100);
+    return n == 0 ? 0 : n == 1 ? 0.6 : jittered(random, per_second);
+}
+
+// The worst distance from the machine, in 4 seconds, as long as no decision is a matter of rounding.
+template <class T>
+double strayed_from_machine(std::uint64_t seed, double clearance)
+{
+    Random random{seed};
+    const PlantRules rules = random_rules(random);
+    const Way way(random);
+    const double length = static_cast<T>(random.spread(0.3, 3)), per_second = random.spread(15, 1000);
+    PlantMachine machine(rules);
+    PlantedPoint<T> point(rules);
+    RandomLabels labels;
+    double t = 0, worst = 0;
+    while (t < 4) {
+        const double time = static_cast<T>(random_time(random, per_second));
+        t += time;
+        const Vector3d x = eigen(mv<T>(way.place(t)));
+        const bool label = labels.next(random, time);
+        const Vector3d want = machine.step(x, label, time, length), got = point.step(x, label, time, length);
+        if (machine.clearance < clearance) break;
+        if ((machine.stands == PlantMachine::Stands::locked) != point.state.locked) return 1;
+        if (machine.is_cut != point.last.cut) return 2;
+        worst = std::max(worst, (got - want).norm());
+    }
+    return worst;
+}
+
+// Calls look(before, point, x, label, time, length) after each step of a random point.
+template <class T, class Look>
+void for_each_step(std::uint64_t seed, const Look& look)
+{
+    Random random{seed};
+    const PlantRules rules = random_rules(random);
+    const Way way(random);
+    const double length = random.spread(0.3, 3), per_second = random.spread(15, 1000);
+    PlantedPoint<T> point(rules);
+    RandomLabels labels;
+    for (double t = 0; t < 4;) {
+        const double time = random_time(random, per_second);
+        t += time;
+        const bool label = labels.next(random, time);
+        const PlantState<T> before = point.state;
+        const Vector3d x = way.place(t);
+        point.step(x, label, time, length);
+        look(before, point, x, label, time, length);
+    }
+}
+
+// A point that stands, labelled, on a way that has brought it to a speed.
+PlantedPoint<float> standing(const PlantRules& rules, double speed)
+{
+    PlantedPoint<float> point(rules);
+    for (int n = 0; n < 40; ++n) point.step({speed * n / 60, 0, 0}, n == 39, 1 / 60.0);
+    return point;
+}
+
+}  // namespace
+
+TEST_CASE("a planted point is where a machine of states has it")
+{
+    rc::prop("in double to rounding", [](std::uint64_t seed) {
+        for (std::uint64_t n = 0; n < 10; ++n) RC_ASSERT(strayed_from_machine<double>(seed * 10 + n, 1e-11) <= 1e-12);
+    });
+    rc::prop("in float to 2e-6", [](std::uint64_t seed) {
+        for (std::uint64_t n = 0; n < 10; ++n) RC_ASSERT(strayed_from_machine<float>(seed * 10 + n, 1e-4) <= 2e-6);
+    });
+}
+
+TEST_CASE("a locked point moves by no bit, and stands on its mark once it has stopped")
+{
+    rc::prop("in float", [](std::uint64_t seed) {
+        double locked_for = 0;
+        for_each_step<float>(seed, [&](const PlantState<float>& before, const PlantedPoint<float>& point,
+                                       const Vector3d&, bool, double time, double) {
+            const Planted<float>& is = point.last;
+            const bool stood = before.locked && !is.step.fresh;
+            locked_for = stood ? locked_for + time : 0;
+            if (stood && point.state.locked) RC_ASSERT(is_same(point.state.mark, before.mark));
+            if (stood && locked_for > point.rules.stop + 1e-5) {
+                RC_ASSERT(is_equal(is.target, before.mark));
+                RC_ASSERT(point.state.left == 0);
+            }
+            RC_ASSERT(!(is.step.locks && is.step.releases));
+            RC_ASSERT(point.state.locked == ((before.locked && !is.step.fresh && !is.step.releases) || is.step.locks));
+        });
+    });
+}
+
+TEST_CASE("a released point is with the animation again after its time to blend")
+{
+    rc::prop("exactly", [](std::uint64_t seed) {
+        double free_for = 0;
+        for_each_step<float>(seed, [&](const PlantState<float>&, const PlantedPoint<float>& point, const Vector3d& x,
+                                       bool, double time, double) {
+            free_for = point.last.step.fades ? time : point.state.locked || point.state.waiting ? 0 : free_for + time;
+            if (free_for > point.rules.blend + 1e-5 && !point.last.step.releases)
+                RC_ASSERT(is_equal(point.last.target, mv<float>(x)));
+        });
+    });
+}
+
+TEST_CASE("no decision moves the point in the step that takes it")
+{
+    rc::prop("any label gives the same target", [](std::uint64_t seed) {
+        for_each_step<float>(seed, [](const PlantState<float>& before, const PlantedPoint<float>& point,
+                                      const Vector3d& x, bool label, double time, double length) {
+            PlantedPoint<float> other(point.rules);
+            other.state = before;
+            other.step(x, !label, time, length);
+            RC_ASSERT(is_same(other.last.target, point.last.target));
+        });
+    });
+}
+
+TEST_CASE("without time nothing that is carried changes")
+{
+    rc::prop("whatever the label", [](std::uint64_t seed) {
+        for_each_step<float>(seed, [](const PlantState<float>&, const PlantedPoint<float>& point, const Vector3d& x,
+                                      bool label, double, double length) {
+            PlantedPoint<float> still = point;
+            still.step(x + Vector3d(0.3, -0.2, 0.1), !label, 0, length);
+            RC_ASSERT(is_same(still.state.mark, point.state.mark));
+            RC_ASSERT(is_equal(still.state.offset, point.state.offset));
+            RC_ASSERT(is_equal(still.state.velocity, point.state.velocity));
+            RC_ASSERT(still.state.left == point.state.left && still.state.fresh == point.state.fresh);
+            RC_ASSERT(still.state.locked == point.state.locked && still.state.armed == point.state.armed);
+            RC_ASSERT(still.state.waiting == point.state.waiting);
+        });
+    });
+}
+
+TEST_CASE("a point is released by its label or by distance, and says which")
+{
+    const PlantRules rules = rules_of(swivel_default_plant());
+    PlantedPoint<float> point = standing(rules, 0);
+    REQUIRE(point.state.locked);
+    SECTION("by its label")
+    {
+        point.step({0.1, 0, 0}, false, 1 / 60.0);
+        CHECK(point.last.step.releases);
+        CHECK_FALSE(point.last.too_far);
+    }
+    SECTION("by distance")
+    {
+        point.step({0.239, 0, 0}, true, 1 / 60.0);
+        CHECK(point.state.locked);
+        point.step({0.241, 0, 0}, true, 1 / 60.0);
+        CHECK(point.last.step.releases);
+        CHECK(point.last.too_far);
+    }
+    SECTION("a limb twice as long has twice the distance")
+    {
+        point.step({0.47, 0, 0}, true, 1 / 60.0, 2);
+        CHECK(point.state.locked);
+        point.step({0.49, 0, 0}, true, 1 / 60.0, 2);
+        CHECK(point.last.too_far);
+    }
+}
+
+TEST_CASE("a point that shuffles under one label locks first, and again when it rests")
+{
+    PlantedPoint<float> point(rules_of(swivel_default_plant()));
+    int lock_count = 0;
+    double x = 0;
+    for (int n = 0; n < 60 * 12; ++n) {
+        x += (n < 600 ? 0.3 : 0) / 60;
+        point.step({x, 0, 0}, true, 1 / 60.0);
+        lock_count += point.last.step.locks;
+        if (n == 599) CHECK(lock_count == 1);
+    }
+    CHECK(lock_count == 2);
+    CHECK(point.state.locked);
+    // With no such speed it stays free under that label, and locks at the next.
+    swivel_plant plant = swivel_default_plant();
+    plant.again = 0;
+    point = PlantedPoint<float>(rules_of(plant));
+    for (int n = 0; n < 60 * 12; ++n) point.step({0.3 / 60 * std::min(n, 600), 0, 0}, true, 1 / 60.0);
+    CHECK_FALSE(point.state.locked);
+    point.step({3, 0, 0}, false, 1 / 60.0);
+    point.step({3, 0, 0}, true, 1 / 60.0);
+    CHECK(point.state.locked);
+}
+
+TEST_CASE("a point locks within `lock` of the animation only")
+{
+    const PlantRules rules = rules_of(swivel_default_plant());
+    PlantedPoint<float> point = standing(rules, 0);
+    point.step({0.2, 0, 0}, false, 1 / 60.0);  // released, 0.2 away
+    while (true) {
+        point.step({0.2, 0, 0}, true, 1 / 60.0);
+        const double offset = (eigen(point.last.target) - Vector3d(0.2, 0, 0)).norm();
+        CHECK(point.state.locked == (offset <= 0.12));
+        if (point.state.locked) break;
+    }
+}
+
+TEST_CASE("a body that was not solved for longer than `longest`, or is reset, starts anew")
+{
+    swivel_plant plant = swivel_default_plant();
+    plant.longest = 0.5f;
+    PlantedPoint<float> point = standing(rules_of(plant), 1);
+    const bool is_reset = GENERATE(true, false), label = GENERATE(true, false);
+    if (is_reset) point.state.fresh = true;
+    const Vector3d x(7, 8, 9);
+    point.step(x, label, is_reset ? 1 / 60.0 : 0.51);
+    CHECK(point.last.step.fresh);
+    CHECK(eigen(point.last.target) == x);
+    CHECK(point.state.locked == label);
+    CHECK_FALSE(point.last.cut);
+    point.step(x + Vector3d(0.1, 0, 0), label, 1 / 60.0);
+    CHECK(eigen(point.last.target) == (label ? x : Vector3d(eigen(mv<float>(x + Vector3d(0.1, 0, 0))))));
+}
+
+TEST_CASE("a point that locks goes on at its speed to its anchor, and never past it where `run` is 1")
+{
+    for (const double run : {0.0, 0.5, 1.0}) {
+        swivel_plant plant = swivel_default_plant();
+        plant.run = static_cast<float>(run);
+        PlantedPoint<double> point(rules_of(plant));
+        for (int n = 0; n < 2000; ++n) point.step({0.5 * n / 2000, 0, 0}, n == 1999, 1 / 2000.0);
+        const double at = point.last.target.c[0], anchor = point.state.mark.c[0];
+        CHECK(anchor - at == Approx(run * 0.5 * 0.1 / 3).margin(1e-9));
+        double most = 0;
+        for (int n = 0; n < 200; ++n) most = std::max(most, point.step({0.5, 0, 0}, true, 1 / 2000.0).x() - anchor);
+        // The offset's cubic swings out by most at the root of its derivative.
+        CHECK(most == Approx(run == 0 ? 4.0 / 27 * 0.5 * 0.1 : run == 1 ? 0 : 0.00207).margin(3e-5));
+    }
+}
+
+TEST_CASE("a speed that is too high to be eased away is cut, and flagged")
+{
+    const swivel_plant plant = swivel_default_plant();
+    for (const double speed : {3.5, 3.7}) {  // 3 lock / stop is 3.6
+        PlantedPoint<float> point = standing(rules_of(plant), speed);
+        CHECK(point.last.cut == (speed > 3.6));
+        CHECK(eigen(point.state.velocity).norm() == Approx(std::min(speed, 3.6)).epsilon(1e-3));
+    }
+    for (const double speed : {4.0, 4.1}) {  // 6.75 lock / blend is 4.05
+        PlantedPoint<float> point = standing(rules_of(plant), 0);
+        for (int n = 0; n < 20; ++n) point.step({0, 0, 0}, true, 1 / 60.0);
+        point.step({0, 0, 0}, false, 1 / 60.0);
+        point.step({speed / 60, 0, 0}, false, 1 / 60.0);
+        CHECK(point.last.cut == (speed > 4.05));
+    }
+}
