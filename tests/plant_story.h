@@ -177,6 +177,7 @@ struct PlantedPoint {
     explicit PlantedPoint(const PlantRules& of) : rules(of) { state.fresh = true; }
     Vector3d step(const Vector3d& x, bool label, double time, double length = 1)
     {
+        forget_old(state, static_cast<T>(time), rules);
         last = plant(state, {mv<T>(x), label, static_cast<T>(time), static_cast<T>(length)}, rules);
         return eigen(last.target);
     }

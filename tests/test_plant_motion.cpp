@@ -141,8 +141,9 @@ TEST_CASE("no finite input makes a planted point or rotation less than a number"
             const float length = random.below(4) ? random_size(random, 2) : random_size(random, 1e15f);
             const Vector<float> x =
                 vector(random_float(random, 5e14f), random_float(random, 5e14f), random_float(random, 5e14f));
-            const Planted<float> is =
-                plant(state, {x, random.below(2) == 1, random_size(random, 1e15f), length}, rules);
+            const float time = random_size(random, 1e15f);
+            forget_old(state, time, rules);
+            const Planted<float> is = plant(state, {x, random.below(2) == 1, time, length}, rules);
             const Rotor<float> rotation = plant_turn(turn, is.step, state.locked, mv<float>(random.rotation()), rules);
             RC_ASSERT(is_finite(is.target) && is_finite(state.mark) && is_finite(state.offset));
             RC_ASSERT(!is_nan(state.velocity) && std::isfinite(state.left));
