@@ -13,9 +13,10 @@ TURNED = [joint for limb in LIMBS for joint in limb]
 
 
 def crowd_of(n, features=0):
-    """An arm and a leg of n bodies."""
+    """An arm and a leg of n bodies, and their shift if they fit."""
     groups = [swivel.BodyGroup(*limb, bend=(0, 0, side)) for limb, side in zip(LIMBS, (1, -1))]
-    return swivel.Crowd(groups, features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
+    shifts = [swivel.FitGroup()] * bool(features & swivel.Feature.WITH_FIT)
+    return swivel.Crowd([*groups, *shifts], features, skeleton=swivel.Skeleton(PARENTS, PLACES), body_count=n)
 
 
 def angles(a, b):

@@ -19,7 +19,7 @@ class Documentation(unittest.TestCase):
     def test_programs_run(self):
         text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        self.assertEqual(len(programs), 9)
+        self.assertEqual(len(programs), 10)
         names, printed = {}, io.StringIO()
         with contextlib.redirect_stdout(printed):
             for program in programs:
@@ -45,6 +45,11 @@ class Documentation(unittest.TestCase):
         self.assertTrue(np.all(knees[:100, 2] > 0.1))  # forwards
         np.testing.assert_allclose(names["arm"].lengths, (0.30, 0.26), rtol=1e-6)
         self.assertEqual(names["arm"].twist_from_arm.shape, (1, 4))
+
+        self.assertTrue(np.all(names["planted"]))
+        at, _ = forward(names["walk"], names["skeleton"].translations, root=names["drawn_at"], parents=names["skeleton"].parents)
+        locked = names["saved"][0][:, :3]
+        np.testing.assert_allclose(at[:, names["FOOT"]], locked, atol=2e-4)  # floats a kilometre off
 
     def test_the_program_of_bodies_runs(self):
         text = (ROOT / "docs" / "howto" / "bodies.md").read_text(encoding="utf-8")

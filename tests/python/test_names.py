@@ -43,8 +43,10 @@ def header_enum(name):
 
 
 def crowd_with(features):
-    """Of one limb, or of one body for what bodies alone have."""
-    return crowd_of(1, features) if features & Feature.BODY else swivel.Crowd(1, features)
+    """Of one limb, or of one body for what bodies alone have; and the number of the group with these features."""
+    if features & Feature.FIT:
+        return crowd_of(1, Feature.WITH_FIT), 2
+    return (crowd_of(1, features) if features & Feature.BODY else swivel.Crowd(1, features)), 0
 
 
 def public(node):
@@ -99,25 +101,36 @@ class Names(unittest.TestCase):
     def test_every_member_of_bodies_structures(self):
         for name, has, others in (("swivel_skeleton", swivel.Skeleton, {"joint_count"}),
                                   ("swivel_limb_joints", swivel.BodyGroup, {"twist_bone_count"}),
+                                  ("swivel_plant", swivel.Plant, set()), ("swivel_fit", swivel.FitGroup, set()),
+                                  ("swivel_supports", swivel.Support, set()),
                                   ("swivel_pose", swivel.Pose, {"form", "root_is_double", "results", "translation_results"})):
             members = set(re.findall(r"(\w+)(?:\[\d+\])?[,;]", body_of("struct", name))) - {"size", "reserved"}
             self.assertEqual(members - set(has._fields), others, f"swivel.{has.__name__} beside {name}")
 
-    def test_every_result_has_a_place_in_arms(self):
-        self.assertLessEqual({field.name.lower() for field in Field if field >= Field.SHOULDER}, set(swivel.Arms._fields))
-        optional = {field.name.lower() for field in Field if field >= Field.SHOULDER and swivel.needed_features(field)}
-        self.assertEqual(set(swivel.Arms._field_defaults), optional)
+    def test_constants_start_as_in_the_header(self):
+        for name, has in (("swivel_plant", swivel.Plant()), ("swivel_fit", swivel.FitGroup()[:4])):
+            [numbers] = re.findall(rf"const {name} \w+ = (\{{.*?\}});", HEADER, re.DOTALL)
+            wanted = eval(re.sub(r"(?<=\d)f", "", numbers).replace("{", "(").replace("}", ")"))
+            self.assertEqual(tuple(has), wanted, name)
+
+    def test_every_result_of_arms_has_a_place_in_arms(self):
+        results = {field.name.lower(): swivel.needed_features(field) for field in Field if field >= Field.SHOULDER}
+        of_arms = {name for name, needed in results.items() if Feature.BODY not in needed}
+        self.assertEqual(of_arms, set(results) & set(swivel.Arms._fields))
+        self.assertEqual(set(swivel.Arms._field_defaults), {name for name in of_arms if results[name]})
 
     def test_needed_features_bring_the_field_and_none_is_too_many(self):
         for field in Field:
             needed = swivel.needed_features(field)
-            self.assertGreater(crowd_with(needed).component_count(field), 0)
+            crowd, group = crowd_with(needed)
+            self.assertGreater(crowd.component_count(field, group), 0)
             for one in needed:
                 try:
-                    crowd = crowd_with(needed & ~one)
+                    crowd, group = crowd_with(needed & ~one)
                 except ValueError:
                     continue  # what is left does not go together
-                self.assertEqual(crowd.component_count(field) > 0, bool(crowd.features() & one))  # bodies add some by themselves
+                has_one = bool(crowd.features(group) & one)  # bodies add some by themselves
+                self.assertEqual(crowd.component_count(field, group) > 0, has_one)
 
 
 class Stub(unittest.TestCase):
@@ -125,7 +138,7 @@ class Stub(unittest.TestCase):
         core = sys.modules["swivel._core"]
         names = {node.name for node in STUB.body if public(node)} | {"LANES"}
         self.assertEqual(names, {name for name in vars(core) if name[0] != "_"})
-        self.assertEqual(names | {"BodyGroup", "Group", "Pose", "Skeleton", "solve"}, set(swivel.__all__))
+        self.assertEqual(names | {"BodyGroup", "FitGroup", "Group", "Plant", "Pose", "Skeleton", "Support", "solve"}, set(swivel.__all__))
         for node in STUB.body:
             if isinstance(node, ast.ClassDef) and not issubclass(getattr(swivel, node.name), (int, tuple)):
                 wanted = {name for name in vars(getattr(swivel, node.name)) if name[0] != "_"}
@@ -197,10 +210,10 @@ class Words(unittest.TestCase):
         rows = dict(re.findall(r"^\| `(\w+)` \| `\((.*?)\)`", DOCS, re.MULTILINE))
         self.assertEqual(list(rows), [field.name.lower() for field in Field])
         for field in Field:
-            crowd = crowd_with(swivel.needed_features(field))
+            crowd, group = crowd_with(swivel.needed_features(field))
             shape = {"n,": 1, **{f"n, {k}": k for k in range(2, 23)}, "n, 4 b": 4}[rows[field.name.lower()]]
-            self.assertEqual(shape, crowd.component_count(field), field.name)
-            self.assertEqual(np.ndim(crowd.read(field)), 1 if shape == 1 else 2)
+            self.assertEqual(shape, crowd.component_count(field, group), field.name)
+            self.assertEqual(np.ndim(crowd.read(field, group)), 1 if shape == 1 else 2)
 
 
 if __name__ == "__main__":

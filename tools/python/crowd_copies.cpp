@@ -21,7 +21,7 @@ void write(HeldCrowd& held, std::int64_t number, const py::object& values, std::
     const swivel_field field = field_of(number);
     const Limbs limbs = limbs_of(held, group, first, count);
     const float none = 0;
-    check(swivel_write(held.crowd.get(), field, limbs.group, 0, 0, {&none, 0}));  // an input that this group has
+    check(swivel_write(held.crowd.get(), field, limbs.group, 0, 0, {&none, 0}));  // what this group takes
     const Input in = input(values_of(held, field, limbs), values, py::dtype::of<float>(), true, held.rows);
     run(held, Way::kAlone,
         [&] { check(swivel_write(held.crowd.get(), field, limbs.group, limbs.first, limbs.count, in.values)); });
@@ -62,15 +62,17 @@ void add_copies(CrowdClass& crowd)
     crowd.def(
         "write", &write, py::arg("field"), py::arg("values"), py::arg("group") = 0, py::arg("first") = 0,
         py::arg("count") = py::none(),
-        "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n\n"
+        "Copies an input field in, of `count` limbs of a group from `first` on; None: to the group's end.\n"
+        "Or sets back what read() gave of a field that is carried: NORMAL, PLANT, PLANT_TURN, MOTION, SHIFT.\n\n"
         "values has shape (count, k), or (count,) for fields of one number, or is one value (k,) for all of\n"
         "them; k is component_count(field, group). float32 whose k numbers lie side by side is read where it is,\n"
         "with any stride from limb to limb, read-only or not; everything else that NumPy takes for real\n"
-        "numbers is converted first. ValueError for another shape, for results, for limbs that the crowd\n"
+        "numbers is converted first. ValueError for another shape, for other results, for limbs that the crowd\n"
         "does not have and fields that the group does not have.");
     crowd.def("write_doubles", &write_doubles, py::arg("field"), py::arg("values"), py::arg("origins") = py::none(),
               py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-              "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION.\n\n"
+              "The same for positions far from the origin: Field.TARGET, Field.POLE, Field.SHOULDER_POSITION, "
+              "Field.COMING.\n\n"
               "values and origins have shape (count, 3), or (3,) for all limbs, float64. origins are subtracted in\n"
               "double, then the difference is rounded once to float32; None subtracts nothing. All positions of a\n"
               "limb must come from the same origin.");

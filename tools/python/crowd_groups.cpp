@@ -12,6 +12,7 @@
 
 #include "tools/python/crowd.h"
 #include "tools/python/names.h"
+#include "tools/python/plants.h"
 #include "tools/python/skeletons.h"
 
 namespace py = pybind11;
@@ -27,7 +28,9 @@ constexpr const char* kCrowdText =
     "binding). Feature.JOINTS needs the binding that bind() gave. features, on_bad_input and the orders are\n"
     "for groups without their own. The orders are those of Field.SHOULDER_BOX and Field.WRIST_BOX.\n\n"
     "With a skeleton it is a crowd of body_count bodies, whose groups are BodyGroups: limb i of each is body i's.\n"
-    "solve() then takes their pose, and on_bad_input None is OnBadInput.KEEP_POSE instead of REST_POSE.\n\n"
+    "A FitGroup among them shifts the bodies. solve() then takes their pose, and on_bad_input None is\n"
+    "OnBadInput.KEEP_POSE instead of REST_POSE. up, of any length but 0, is the axis of heights and shifts in\n"
+    "the root's frame.\n\n"
     "Targets and shoulder positions start as NaN, lengths as the binding's, or NaN: a limb that never gets them has\n"
     "Flag.BAD_INPUT. Parents and hands start as the identity, without limits; results as the rest pose. After\n"
     "creation the library allocates nothing.\n\n"
@@ -56,6 +59,8 @@ void set_options(swivel_group_def& def, py::handle features, py::handle on_bad_i
     if (const auto given = shoulder_order.cast<Number>()) def.shoulder_order = order_of(*given);
     if (const auto given = wrist_order.cast<Number>()) def.wrist_order = order_of(*given);
 }
+
+bool is_a(const char* type, py::handle object) { return py::isinstance(object, package(type)); }
 
 [[noreturn]] void refuse(const char* expected, py::handle entry)
 {
@@ -97,10 +102,25 @@ swivel_group_def body_group_of(py::handle entry, const swivel_group_def& usual, 
     } catch (const py::cast_error&) {
         refuse("whole numbers in a BodyGroup", entry);
     }
+    def.plant = plant_of(entry.attr("plant"));
     // Who names twist bones wants them to turn. Too many are for the library to refuse.
     constexpr swivel_features kAnyBones = SWIVEL_MOST_TWIST_BONES * SWIVEL_WITH_TWIST_BONES;
     if (!(def.features & kAnyBones))
         def.features |= std::min(joints.twist_bones.size() * SWIVEL_WITH_TWIST_BONES, kAnyBones);
+    return def;
+}
+
+// A swivel.FitGroup, which has no features but its own.
+swivel_group_def fit_group_of(py::handle entry, const swivel_group_def& usual)
+{
+    swivel_group_def def = swivel_default_fit_group_def();
+    def.on_bad_input = usual.on_bad_input;
+    def.fit = fit_of(entry);
+    try {
+        set_options(def, py::none(), entry.attr("on_bad_input"), py::none(), py::none());
+    } catch (const py::cast_error&) {
+        refuse("a member of OnBadInput in a FitGroup", entry);
+    }
     return def;
 }
 
@@ -126,7 +146,7 @@ Memory memory_of(swivel_crowd* crowd)
 
 std::vector<py::object> entries_of(const py::object& groups)
 {
-    const bool is_one = py::isinstance(groups, package("Group")) || py::isinstance(groups, package("BodyGroup"));
+    const bool is_one = is_a("Group", groups) || is_a("BodyGroup", groups) || is_a("FitGroup", groups);
     if (is_one || is_number(groups) || !py::isinstance<py::iterable>(groups)) return {groups};
     std::vector<py::object> entries;
     for (const py::handle entry : groups) entries.push_back(py::reinterpret_borrow<py::object>(entry));
@@ -134,7 +154,8 @@ std::vector<py::object> entries_of(const py::object& groups)
 }
 
 HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t shoulder_order, std::int64_t wrist_order,
-               std::optional<std::int64_t> on_bad_input, const py::object& skeleton, std::int64_t body_count)
+               std::optional<std::int64_t> on_bad_input, const py::object& skeleton, std::int64_t body_count,
+               const py::object& up)
 {
     swivel_group_def usual = swivel_default_group_def(0);
     if (!skeleton.is_none()) usual.on_bad_input = SWIVEL_KEEP_POSE;
@@ -146,16 +167,17 @@ HeldCrowd make(const py::object& groups, std::int64_t features, std::int64_t sho
     std::vector<LimbJoints> joints(entries.size());
     std::vector<swivel_group_def> groups_of_crowd;
     for (std::size_t n = 0; n < entries.size(); ++n)
-        groups_of_crowd.push_back(py::isinstance(entries[n], package("BodyGroup"))
-                                      ? body_group_of(entries[n], usual, joints[n])
-                                      : group_of(entries[n], usual));
+        groups_of_crowd.push_back(is_a("FitGroup", entries[n])    ? fit_group_of(entries[n], usual)
+                                  : is_a("BodyGroup", entries[n]) ? body_group_of(entries[n], usual, joints[n])
+                                                                  : group_of(entries[n], usual));
     swivel_crowd_def def = swivel_default_crowd_def();
     def.groups = groups_of_crowd.data();
     def.group_count = count_of("number of groups", static_cast<std::int64_t>(groups_of_crowd.size()));
     def.body_count = count_of("body_count", body_count);
+    copy("up", up, def.up);
     SkeletonArrays bones{};
     if (!skeleton.is_none()) {
-        if (!py::isinstance(skeleton, package("Skeleton")))
+        if (!is_a("Skeleton", skeleton))
             throw py::type_error("skeleton: expected a Skeleton, got " + std::string(py::repr(skeleton)));
         bones = skeleton_of(skeleton.attr("parents"), skeleton.attr("translations"), skeleton.attr("rotations"));
         def.skeleton = &bones.view;
@@ -172,7 +194,8 @@ void add_creation(CrowdClass& crowd)
     crowd.doc() = kCrowdText;
     crowd.def(py::init(&make), py::arg("groups"), py::arg("features") = 0, py::arg("shoulder_order") = 0,
               py::arg("wrist_order") = 0, py::arg("on_bad_input") = py::none(), py::kw_only(),
-              py::arg("skeleton") = py::none(), py::arg("body_count") = 0, "See the class.");
+              py::arg("skeleton") = py::none(), py::arg("body_count") = 0, py::arg("up") = py::make_tuple(0, 1, 0),
+              "See the class.");
 }
 
 }  // namespace swivel::python

@@ -4,12 +4,14 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <numeric>
 #include <span>
 #include <string>
 
 #include "tools/python/crowd.h"
 #include "tools/python/frames.h"
+#include "tools/python/plants.h"
 #include "tools/python/poses.h"
 
 namespace py = pybind11;
@@ -133,10 +135,15 @@ void require_direct(const Frames& frames)
                 "frames: where not all limbs are solved, outputs need the numbers of a value side by side");
 }
 
-// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know.
-void require_frames(const PoseArrays& pose, const py::object& frames)
+// A root in doubles makes positions in rows the root's. Whoever writes them to rows alone may not know. Planted limbs
+// need none.
+void require_frames(const HeldCrowd& held, const std::vector<std::uint32_t>& groups, const PoseArrays& pose,
+                    const py::object& frames)
 {
-    if (pose.view.root_is_double && frames.is_none())
+    const bool has_targets = std::any_of(groups.begin(), groups.end(), [&](std::uint32_t group) {
+        return !(swivel_group_features(held.crowd.get(), group) & (SWIVEL_WITH_PLANT | SWIVEL_FIT));
+    });
+    if (pose.view.root_is_double && has_targets && frames.is_none())
         throw py::value_error(
             "root_position is float64, so targets are, too, and come in frames; give these, or a root_position of "
             "float32");
@@ -175,7 +182,7 @@ std::uint32_t solve(HeldCrowd& held, const Blocks& blocks, const Groups& groups,
     job.urgency = urgency_of(held, urgency);
     const PoseArrays poses = pose.is_none() ? PoseArrays() : pose_of(held, pose);
     if (!pose.is_none()) job.pose = &poses.view;
-    require_frames(poses, frames);
+    require_frames(held, named, poses, frames);
     const Frames arrays = frames.is_none() ? Frames() : frames_of(held, frames, named, poses.view.root_is_double != 0);
     if (blocks || !mask.is_none() || !limbs.is_none() || !priorities.is_none()) require_direct(arrays);
     const std::vector<swivel_frame> views(arrays.frames.begin(), arrays.frames.end());
@@ -202,6 +209,15 @@ void reset(HeldCrowd& held, std::int64_t group, std::int64_t first, std::optiona
 {
     const Limbs limbs = limbs_of(held, group, first, count);
     run(held, Way::kAlone, [&] { check(swivel_reset(held.crowd.get(), limbs.group, limbs.first, limbs.count)); });
+}
+
+void change_support(HeldCrowd& held, const py::object& was, const py::object& is, std::int64_t group,
+                    std::int64_t first, std::optional<std::int64_t> count)
+{
+    const Limbs limbs = limbs_of(held, group, first, count);
+    const SupportArrays from = supports_of("was", was, limbs.count), to = supports_of("now", is, limbs.count);
+    run(held, Way::kAlone,
+        [&] { held.crowd.change_support(limbs.group, limbs.first, limbs.count, from.view(), to.view()); });
 }
 
 }  // namespace
@@ -245,7 +261,12 @@ void add_solving(CrowdClass& crowd)
               "picked, so none starves. Only its magnitude counts. None: priorities alone decide. Gives a mask for\n"
               "solve(), which chooses and solves in one if it gets the priorities.");
     crowd.def("reset", &reset, py::arg("group") = 0, py::arg("first") = 0, py::arg("count") = py::none(),
-              "Forgets the swivel carried from solve to solve with Feature.WITH_MOST_SWIVEL, after a teleport.");
+              "Forgets what is carried from solve to solve: swivels, planted points and shifts. After a teleport.");
+    crowd.def("change_support", &change_support, py::arg("was"), py::arg("now"), py::arg("group") = 0,
+              py::arg("first") = 0, py::arg("count") = py::none(),
+              "Changes what planted points of `count` bodies from `first` on stand on, without a jump.\n\n"
+              "was and now are Supports, as they are at this moment. Call it between two solves, best while a foot is\n"
+              "in the air, and give the next Pose the new support. ValueError for a group without Feature.WITH_PLANT.");
 }
 
 }  // namespace swivel::python

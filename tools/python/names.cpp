@@ -130,12 +130,14 @@ Wanted member_of(const char* enum_name, const char* what, std::int64_t number)
     return static_cast<Wanted>(number);
 }
 
-// The named tuple that swivel.solve() gives: the results that all arms have, positions, and the others or None.
+// The named tuple that swivel.solve() gives: the results that all arms have, positions, and the others or None. What
+// bodies alone have is none of them.
 void add_arms(py::module_& module)
 {
     py::list names, more;
     for (const swivel_field_info& info : fields())
-        if (info.kind != SWIVEL_FIELD_INPUT) (info.needs ? more : names).append(info.name);
+        if (info.kind != SWIVEL_FIELD_INPUT && !(needed_features(info.field) & SWIVEL_BODY))
+            (info.needs ? more : names).append(info.name);
     for (const char* name : {"elbow_position", "wrist_position", "residual"}) names.append(name);
     const py::object nones = py::make_tuple(py::none()) * py::int_(more.size());
     const py::object made =

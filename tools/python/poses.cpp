@@ -12,7 +12,7 @@ namespace swivel::python {
 
 namespace {
 
-// Members of swivel.Pose beside the rotations: floats for each joint, and for each root.
+// Members of swivel.Pose beside the rotations: floats for each joint, and for each body.
 struct JointMember {
     const char* name;
     swivel_joint_values swivel_pose::*values;
@@ -24,14 +24,18 @@ constexpr JointMember kJointMembers[] = {{"translations", &swivel_pose::translat
                                          {"out_translations", &swivel_pose::translation_results, 3, true},
                                          {"joint_rotations", &swivel_pose::joint_rotations, 4, true},
                                          {"joint_places", &swivel_pose::joint_places, 3, true}};
-struct RootMember {
+struct BodyMember {
     const char* name;
     swivel_in swivel_pose::*values;
     std::size_t component_count;
+    bool is_position = false;  // in doubles if the root is
 };
-constexpr RootMember kRootMembers[] = {{"root_position", &swivel_pose::root_position, 3},
+constexpr BodyMember kBodyMembers[] = {{"root_position", &swivel_pose::root_position, 3, true},
                                        {"root_rotation", &swivel_pose::root_rotation, 4},
-                                       {"root_scale", &swivel_pose::root_scale, 1}};
+                                       {"root_scale", &swivel_pose::root_scale, 1},
+                                       {"time", &swivel_pose::time, 1},
+                                       {"support_position", &swivel_pose::support_position, 3, true},
+                                       {"support_rotation", &swivel_pose::support_rotation, 4}};
 
 bool is_doubles(const py::object& given)
 {
@@ -119,10 +123,10 @@ PoseArrays pose_of(const HeldCrowd& held, const py::object& given)
     add_rotations(held, given, {"", body_count, held.joint_count, {}}, made);
     add_joint_members(held, given, body_count, made);
     made.view.root_is_double = is_doubles(given.attr("root_position"));
-    for (const RootMember& member : kRootMembers) {
+    for (const BodyMember& member : kBodyMembers) {
         const py::object values = given.attr(member.name);
         if (values.is_none()) continue;
-        const bool doubles = made.view.root_is_double && member.values == &swivel_pose::root_position;
+        const bool doubles = made.view.root_is_double && member.is_position;
         const Input in = input({member.name, body_count, member.component_count, "bodies"}, values,
                                doubles ? py::dtype::of<double>() : py::dtype::of<float>(), true, held.rows);
         made.view.*member.values = in.values;

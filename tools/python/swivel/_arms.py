@@ -9,10 +9,15 @@ from ._core import Arms, Binding, Crowd, EulerOrder, Feature, Field, needed_feat
 from ._groups import Group
 
 
+def _is_input(field: Field) -> bool:
+    """Of arms, which are no bodies."""
+    return field < Field.SHOULDER and Feature.BODY not in needed_features(field)
+
+
 def _field(name: str) -> Field:
     field = Field.__members__.get(name.upper())
-    if field is None or not name.islower() or field >= Field.SHOULDER:
-        inputs = ", ".join(each.name.lower() for each in Field if each < Field.SHOULDER)
+    if field is None or not name.islower() or not _is_input(field):
+        inputs = ", ".join(each.name.lower() for each in Field if _is_input(each))
         raise TypeError(f"solve() got an unexpected keyword argument '{name}'; beside its own it takes the input fields {inputs}")
     return field
 

@@ -21,8 +21,35 @@ class Skeleton(NamedTuple):
     rotations: Optional[npt.ArrayLike] = None
 
 
+class Plant(NamedTuple):
+    """How the limbs of a BodyGroup with Feature.WITH_PLANT stand: each plants its effector, or without one its wrist.
+
+    Lengths are in limb lengths: both bones of the skeleton at rest, times the root's scale. Times are in seconds.
+
+    lock     a point locks only within this of where it is animated
+    unlock   a locked point is released if the animation has it further away
+    stop     a point that locks is at rest after this time
+    blend    a point that is released is with the animation again after this time
+    again    lengths a second: after a release by distance a slower point locks anew; 0: none does
+    run      0: it is anchored where it locks, 1: where it would come to rest by itself; 0.5 slides least
+    longest  a body that was not solved for longer than this starts anew; 0: none does
+    speed    with Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on
+    height   the same of the height over the root, along the crowd's `up`
+    """
+
+    lock: float = 0.12
+    unlock: float = 0.24
+    stop: float = 0.1
+    blend: float = 0.2
+    again: float = 0.06
+    run: float = 0.5
+    longest: float = 0
+    speed: Sequence[float] = (0.6, 0.8)
+    height: Sequence[float] = (0.08, 0.1)
+
+
 class BodyGroup(NamedTuple):
-    """A limb of each body, for a Crowd with a skeleton. The last four: None is as the crowd says for all of its groups.
+    """A limb of each body, for a Crowd with a skeleton. Features, on_bad_input and orders: None is as the crowd says for all groups.
 
     shoulder        joint of the skeleton; the elbow is below it, the wrist below the elbow
     elbow           joints in between keep their own rotations
@@ -33,6 +60,7 @@ class BodyGroup(NamedTuple):
     on_bad_input    what a limb with bad input gets
     shoulder_order  of Field.SHOULDER_BOX
     wrist_order     of Field.WRIST_BOX
+    plant           for Feature.WITH_PLANT
     """
 
     shoulder: int
@@ -44,6 +72,37 @@ class BodyGroup(NamedTuple):
     on_bad_input: Optional[OnBadInput] = None
     shoulder_order: Optional[EulerOrder] = None
     wrist_order: Optional[EulerOrder] = None
+    plant: Plant = Plant()
+
+
+class FitGroup(NamedTuple):
+    """The shift of each body along the crowd's `up`, so that its limbs with Feature.WITH_FIT reach. One of a Crowd's groups.
+
+    It names no joints, and its one feature is Feature.FIT. Field.SHIFT[0] is by how much the root, or the pelvis, moves.
+
+    drop          the most down, in lengths of the first limb with Feature.WITH_FIT (see Plant)
+    rise          the most up
+    half          seconds in which about half of a distance is made up
+    ahead         seconds from when on Field.COMING counts; at 0 seconds it counts whole
+    on_bad_input  what a body with bad input gets; None: as the crowd says
+    """
+
+    drop: float = 0.1
+    rise: float = 0.05
+    half: float = 0.1
+    ahead: float = 0.3
+    on_bad_input: Optional[OnBadInput] = None
+
+
+class Support(NamedTuple):
+    """What planted points stand on, for Crowd.change_support(): a platform, a ladder, the ground.
+
+    position  (bodies, 3), or (3,) for all, float64, in the world; None: the origin
+    rotation  (bodies, 4), or (4,) for all; None: not turned
+    """
+
+    position: Optional[npt.ArrayLike] = None
+    rotation: Optional[npt.ArrayLike] = None
 
 
 class Pose(NamedTuple):
@@ -61,6 +120,9 @@ class Pose(NamedTuple):
     out_translations  in the body's space: where translations of moved joints go; None: back to translations
     joint_rotations   (bodies, joints, 4) to write: how joints are turned after the solve, relative to the root
     joint_places      (bodies, joints, 3) to write: where they are then
+    time              (bodies,) seconds since the body's last solve; planted limbs and shifts need it
+    support_position  (bodies, 3) of what planted points stand on, in the world; None: the origin
+    support_rotation  (bodies, 4) None: not turned
 
     Values that are the same for all bodies may lack the first axis. What is written is an array of float32, with the numbers of
     a value side by side and any distances between joints and bodies. Matrices may also be transposed views of such. Joints that
@@ -70,7 +132,7 @@ class Pose(NamedTuple):
     In the body's space all joints below a limb's move with it, and are written, too, translations among them. joint_rotations
     and joint_places get the joints that some limb needs: its own, those in between, and all above. Others keep their numbers.
 
-    A root_position that is an array of float64 makes all positions in frames float64. The root is subtracted in double, for
+    A root_position that is an array of float64 makes support_position and all positions in frames float64. The root is subtracted in double, for
     crowds kilometres from the origin. Positions that frames leave out are then counted from the root.
     """
 
@@ -86,3 +148,6 @@ class Pose(NamedTuple):
     out_translations: Optional[npt.NDArray[np.float32]] = None
     joint_rotations: Optional[npt.NDArray[np.float32]] = None
     joint_places: Optional[npt.NDArray[np.float32]] = None
+    time: Optional[npt.ArrayLike] = None
+    support_position: Optional[npt.ArrayLike] = None
+    support_rotation: Optional[npt.ArrayLike] = None

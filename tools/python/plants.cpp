@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "tools/python/plants.h"
+
+#include <string>
+
+#include "tools/python/names.h"
+
+namespace py = pybind11;
+
+namespace swivel::python {
+
+namespace {
+
+float number_of(const char* of, const char* name, const py::handle& given)
+{
+    const py::object value = given.attr(name);
+    try {
+        return value.cast<float>();
+    } catch (const py::cast_error&) {
+        throw py::type_error(std::string(of) + "." + name + ": expected a number, got " + std::string(py::repr(value)));
+    }
+}
+
+void require(const char* name, const char* type, const py::object& given)
+{
+    if (!py::isinstance(given, package(type)))
+        throw py::type_error(std::string(name) + ": expected a " + type + ", got " + std::string(py::repr(given)));
+}
+
+}  // namespace
+
+swivel_plant plant_of(const py::object& given)
+{
+    require("plant", "Plant", given);
+    const auto number = [&](const char* name) { return number_of("plant", name, given); };
+    swivel_plant made{number("lock"),
+                      number("unlock"),
+                      number("stop"),
+                      number("blend"),
+                      number("again"),
+                      number("run"),
+                      number("longest"),
+                      {},
+                      {}};
+    copy("plant.speed", given.attr("speed"), made.speed);
+    copy("plant.height", given.attr("height"), made.height);
+    return made;
+}
+
+swivel_fit fit_of(const py::handle& group)
+{
+    const auto number = [&](const char* name) { return number_of("fit", name, group); };
+    return {number("drop"), number("rise"), number("half"), number("ahead")};
+}
+
+SupportArrays supports_of(const char* name, const py::object& given, std::size_t body_count)
+{
+    require(name, "Support", given);
+    const auto take = [&](const char* member, std::size_t component_count, const py::dtype& type) {
+        const py::object values = given.attr(member);
+        const std::string what = std::string(name) + "." + member;
+        return values.is_none() ? Input{} : input({what, body_count, component_count, "bodies"}, values, type, true);
+    };
+    return {take("position", 3, py::dtype::of<double>()), take("rotation", 4, py::dtype::of<float>())};
+}
+
+}  // namespace swivel::python
