@@ -20,6 +20,7 @@
 #include "core/limb_bones.h"
 #include "core/wish.h"
 #include "core/wrist_goal.h"
+#include "core/yielding_hand.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -60,9 +61,14 @@ template <bool Aims, class T>
 SWIVEL_INLINE constexpr SolvedLimb<T> solve_limb(const LimbUse& use, const LimbGoal<T>& goal, const Mask<T>& good)
 {
     const Mask<T> valid = good & is_valid(use, goal);
-    const WristGoal<T> wrist = wrist_goal(use, goal);
+    WristGoal<T> wrist = wrist_goal(use, goal);
     const WristLine<T> to = wrist_line(wrist.place);
     const auto bones = bones_for<Aims>(use, goal, wrist.hand, to.wanted);
+    if (use.yields) {
+        const T upper = bones.stretch * goal.arm.upper, fore = bones.stretch * goal.arm.fore;
+        const Vector<T> achieved = bent_reach(upper, fore, bones.cos_half) * to.line;
+        wrist.hand = yielding_hand(wrist.hand, goal.effector, wrist.place - achieved, upper + fore);
+    }
     const LimbNormal<T> wish = limb_normal(use, goal, to.line);
     const Hinge<T> elbow = hinge(bones.cos_half, -bones.sin_half);
     Vector<T> normal = wish.normal;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/aim.h"
+#include "core/yielding_hand.h"
 #include "simd/goal_stages.h"
 
 namespace swivel::inline SWIVEL_ISA {
@@ -140,6 +141,19 @@ struct StageBody<Stage::wish> {
     SWIVEL_INLINE static void slice(const S& s)
     {
         wish_for_normal(s, use_of(s), Laid<typename S::T>{s.get_vector(kLineRow), s.get_flags()});
+    }
+};
+
+template <>
+struct StageBody<Stage::yield> {
+    template <class S>
+    SWIVEL_INLINE static void slice(const S& s)
+    {
+        using T = typename S::T;
+        const T stretch = s.get(kStretchRow), upper = stretch * length(s, 0), fore = stretch * length(s, 1);
+        const Vector<T> achieved = bent_reach(upper, fore, s.get(kFlexionRow)) * s.get_vector(kLineRow);
+        s.set_rotor(kHandRow, yielding_hand(s.get_rotor(kHandRow), in_hand(s, s.io.load_vector(SWIVEL_EFFECTOR)),
+                                            s.get_vector(kWristRow) - achieved, upper + fore));
     }
 };
 

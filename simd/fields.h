@@ -56,6 +56,7 @@ constexpr FeatureRow kFeatures[] = {
     {SWIVEL_WITH_FIT, "WITH_FIT", SWIVEL_BODY, SWIVEL_WITH_AIM},
     {SWIVEL_WITH_COMING, "WITH_COMING", SWIVEL_WITH_FIT},
     {SWIVEL_FIT, "FIT", kOfBodies, ~(kOfBodies | SWIVEL_FIT)},
+    {SWIVEL_HAND_YIELDS, "HAND_YIELDS", SWIVEL_WITH_EFFECTOR, SWIVEL_WITH_AIM},
     {SWIVEL_WITH_TWIST_BONES, "WITH_TWIST_BONES", SWIVEL_WITH_HAND},
 };
 inline constexpr std::size_t kFeatureCount = sizeof kFeatures / sizeof *kFeatures;

@@ -27,6 +27,7 @@ SWIVEL_INLINE LimbUse use_of(const S& s)
     use.cap = s.has(SWIVEL_WITH_CAP);
     use.continuity = s.has(SWIVEL_WITH_MOST_SWIVEL);
     use.aim = s.has(SWIVEL_WITH_AIM);
+    use.yields = s.has(SWIVEL_HAND_YIELDS);
     use.wish = s.has(SWIVEL_POLE_INCOMING) ? Wish::incoming : s.has(SWIVEL_POLE_NORMAL) ? Wish::normal : Wish::pole;
     use.limits.flexion = s.has(SWIVEL_WITH_FLEXION_LIMIT);
     return use;

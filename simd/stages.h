@@ -29,6 +29,7 @@ enum class Stage : std::uint8_t {
     bones,  // the line to the wrist, the flexion and the lift
     aim,    // the same, for a line of the hand that goes through the target
     wish,   // the swivel plane's normal
+    yield,  // the hand, turned to where the wrist does not get
     shoulder_cone,
     humeral_twist,
     hand_cone,
@@ -82,6 +83,7 @@ inline constexpr StageRow kStages[] = {
     {Stage::bones, SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH, kSpecial, SWIVEL_WITH_AIM},
     {Stage::aim, 0, SWIVEL_WITH_AIM, 0},
     {Stage::wish, SWIVEL_WITH_INCOMING | SWIVEL_WITH_MOST_SWIVEL, kSpecial, 0},
+    {Stage::yield, 0, SWIVEL_HAND_YIELDS, 0},
     {Stage::shoulder_cone, SWIVEL_WITH_AIM, SWIVEL_WITH_SHOULDER_CONE, 0},
     {Stage::humeral_twist, SWIVEL_WITH_AIM, SWIVEL_WITH_HUMERAL_TWIST, 0},
     {Stage::hand_cone, 0, SWIVEL_WITH_HAND_CONE, 0},

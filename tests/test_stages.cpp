@@ -57,6 +57,7 @@ SolvedLimb<float> solved(const Inputs& in, swivel_features features, const corpu
         goal.hand = in.rotor_of(SWIVEL_HAND);
         good = good && is_orientation(goal.hand);
     }
+    use.yields = has(SWIVEL_HAND_YIELDS);
     if ((use.effector = has(SWIVEL_WITH_EFFECTOR))) goal.effector = in.vector_of(SWIVEL_EFFECTOR);
     if ((use.angle = has(SWIVEL_WITH_ANGLE))) goal.angle = in.turned_of(SWIVEL_ANGLE);
     const auto incoming = [&](swivel_field field) {

@@ -131,6 +131,7 @@ typedef enum swivel_flag {
 // - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION need
 // WITH_PLANT.
 //   WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
+// - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM.
 // - A group that is FIT is no limb: it has none of the other features and names no joints. Calls that need a limb
 //   refuse it.
 // Creating a crowd against these rules is SWIVEL_INVALID_ARGUMENT.
@@ -163,9 +164,12 @@ typedef uint64_t swivel_features;
 #define SWIVEL_WITH_PLANT_TURN (UINT64_C(1) << 26)  // the hand or foot keeps its rotation, too
 #define SWIVEL_PLANT_BY_MOTION (UINT64_C(1) << 27)  // no labels: the point's speed and height show its contact
 #define SWIVEL_WITH_CAP (UINT64_C(1) << 28)
-#define SWIVEL_WITH_FIT (UINT64_C(1) << 29)          // a FIT group shifts the body so that this limb reaches
-#define SWIVEL_WITH_COMING (UINT64_C(1) << 30)       // it also prepares for where the limb goes next
-#define SWIVEL_FIT (UINT64_C(1) << 31)               // the group is each body's shift, not its limb: swivel_fit
+#define SWIVEL_WITH_FIT (UINT64_C(1) << 29)     // a FIT group shifts the body so that this limb reaches
+#define SWIVEL_WITH_COMING (UINT64_C(1) << 30)  // it also prepares for where the limb goes next
+#define SWIVEL_FIT (UINT64_C(1) << 31)          // the group is each body's shift, not its limb: swivel_fit
+// Where the wrist misses its place, the hand turns about it, no further than it must, to bring the effector nearest to
+// its target. So a heel lifts where the leg is too short for the toe.
+#define SWIVEL_HAND_YIELDS (UINT64_C(1) << 32)
 #define SWIVEL_WITH_TWIST_BONES (UINT64_C(1) << 40)  // times the number of twist bones, 1 to 7
 
 // The inputs and results of a limb. Each comment starts with the number of floats and the feature required. Every limb

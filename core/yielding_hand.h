@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// A hand that yields. Where the wrist misses its place, the hand turns about it, to bring the effector nearest to its
+// target. So a heel lifts where the leg is too short for the toe. Our own.
+#pragma once
+
+#include "core/clavicle.h"
+
+namespace swivel::inline SWIVEL_ISA {
+
+// How far the wrist is from the shoulder once the elbow is bent: d^2 = (L1-L2)^2 + 4 L1 L2 cos^2(theta/2).
+template <class T>
+SWIVEL_INLINE constexpr T bent_reach(const T& upper, const T& fore, const T& cos_half)
+{
+    const T difference = upper - fore;
+    return sqrt(difference * difference + T(4) * (upper * fore) * (cos_half * cos_half));
+}
+
+// 1e-6: of the limb's length, within which a wrist is at its place (SWIVEL_REACHED).
+inline constexpr double kAtItsPlace = 1e-6;
+
+// The hand after the least turn that carries the effector onto the line from the wrist to its target.
+// hand: of unit length. missing: from where the wrist is to its place. length: of the limb.
+// Where the target is straight behind, no way round is shorter, and nothing turns.
+template <class T>
+SWIVEL_INLINE constexpr Rotor<T> yielding_hand(const Rotor<T>& hand, const Vector<T>& effector,
+                                               const Vector<T>& missing, const T& length)
+{
+    const T least = T(kAtItsPlace) * length;
+    const Mask<T> misses = len2(missing) > least * least;
+    if (!any(misses)) return hand;
+    const Vector<T> from_wrist = sandwich(hand, effector);
+    return select(misses, clavicle_turn(from_wrist, from_wrist + missing, T(1)) * hand, hand);
+}
+
+}  // namespace swivel::inline SWIVEL_ISA
