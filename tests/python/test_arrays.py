@@ -158,7 +158,7 @@ class Mistakes(unittest.TestCase):
 
     def test_the_librarys_own_words(self):
         crowd = swivel.Crowd(N)
-        self.fails(ValueError, "shoulder is a result; write takes input fields", crowd.write, Field.SHOULDER, 0)
+        self.fails(ValueError, "shoulder is a result; write takes inputs and what is carried", crowd.write, Field.SHOULDER, 0)
         self.fails(ValueError, "group 0, hand: not part of this group; create it with Feature.WITH_HAND", crowd.read, Field.HAND)
         self.fails(ValueError, "hand: not part of this group", crowd.rows, Field.HAND)
         self.fails(ValueError, "group 0: Feature.POLE_DIRECTION needs Feature.WORLD; add it", swivel.Crowd, 1, Feature.POLE_DIRECTION)

@@ -123,14 +123,13 @@ class Standing(unittest.TestCase):
         self.check_standing(Walkers(far=(2.0**33, -(2.0**32), 2.0**30)))
 
     def test_a_plant_of_its_own(self):
-        """One that never locks, because no foot is within 0 of itself."""
-        walkers = Walkers(plant=Plant(lock=0.0, unlock=0))
-        for frame in range(60):
-            walkers.solve(frame)
-        usual = Walkers()
-        for frame in range(60):
-            usual.solve(frame)
-        self.assertLess(walkers.stand().sum(), usual.stand().sum())
+        """The longest time that is left to a point is the one that its plant says."""
+        for plant, most in ((Plant(), 0.2 - 1 / SECOND), (Plant(stop=0.35), 0.35), (Plant(blend=0.45), 0.45 - 1 / SECOND)):
+            walkers, left = Walkers(plant=plant), 0
+            for frame in range(60):
+                walkers.solve(frame)
+                left = max(left, walkers.plant[:, 9].max())
+            self.assertAlmostEqual(left, most, 6)
 
 
 class State(unittest.TestCase):
