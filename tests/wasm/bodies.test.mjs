@@ -148,13 +148,13 @@ test('some bodies, some groups, and results elsewhere', () => {
 test('what is wrong with bodies is refused in one line', () => {
   const bodies = (given) => swivel.bodies({ skeleton, bodyCount, groups, ...given });
   refuses(() => bodies({ features: 1 }), 'features is 1; give a BigInt');
-  refuses(() => bodies({ joints: 1 }), 'bodies() takes skeleton, bodyCount, groups, features, form, space, rootIsDouble, not joints');
+  refuses(() => bodies({ joints: 1 }), 'bodies() takes skeleton, bodyCount, groups, features, form, space, rootIsDouble, up, not joints');
   refuses(() => bodies({ form: 4 }), 'form is 4; give one of PoseForm');
   refuses(() => bodies({ space: 2 }), 'space is 2; give one of PoseSpace');
   refuses(() => bodies({ bodyCount: 1.5 }), 'bodyCount is 1.5');
   refuses(() => bodies({ bodyCount: 0 }), 'no bodies; give at least one');
   refuses(() => bodies({ groups: 8 }), 'groups is 8; give a list, such as [{ joints: ');
-  refuses(() => bodies({ groups: [{ limbCount: 3 }] }), 'a group of bodies takes joints, features, shoulderOrder, wristOrder, onBadInput, not limbCount');
+  refuses(() => bodies({ groups: [{ limbCount: 3 }] }), 'a group of bodies takes joints, features, shoulderOrder, wristOrder, onBadInput, plant, not limbCount');
   refuses(() => bodies({ groups: [{}] }), "a limb's joints takes shoulder");
   refuses(() => bodies({ groups: [{ joints: { ...arm, wrist: 9 } }] }), 'group 0: ');
   refuses(() => bodies({ groups: [{ joints: arm }, { joints: { ...arm, shoulder: 2 } }] }), "a body's limbs hang beside each other");
@@ -162,7 +162,7 @@ test('what is wrong with bodies is refused in one line', () => {
   refuses(() => bodies({ skeleton: { ...skeleton, translations: [0] } }), 'translations has 1 numbers; give 24');
   refuses(() => swivel.crowd([{ limbCount: 1, joints: arm }]), 'not joints');
   const crowd = bodies();
-  refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, not "rotation"');
+  refuses(() => crowd.pose('rotation'), 'poses have rotations, translations, scales, results, translationResults, jointRotations, jointPlaces, rootPosition, rootRotation, rootScale, time, supportPosition, supportRotation, not "rotation"');
   refuses(() => crowd.pose('translationResults'), "only translations in the body's space change");
   crowd.dispose();
   for (const call of [() => crowd.pose('rotations'), () => crowd.pose('scales'), () => crowd.solve()]) refuses(call, 'this crowd is disposed of');

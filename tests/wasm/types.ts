@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The promise: the types of the package for the web allow what works, and refuse what does not. tsc reads this, nothing runs it.
-import { type Binding, type Bodies, type BodyGroup, type Crowd, Feature, Field, Flag, type Group, load, OnBadInput, Order, PoseForm, PoseSpace, type Swivel, SwivelError } from 'swivel-wasm';
+import { type Binding, type Bodies, type BodyGroup, type Crowd, defaultPlant, Feature, Field, type Fit, type FitGroup, Flag, type Group, load, OnBadInput, Order, type Plant, PoseForm, PoseSpace, type Support, type Swivel, SwivelError } from 'swivel-wasm';
 
 const swivel: Swivel = await load({ megabytes: 4 });
 const binding: Binding = swivel.bind({ elbowOffset: [0, 0, 1], wristOffset: new Float32Array([0, 0, 1]), bend: [0, 1, 0] });
@@ -15,8 +15,12 @@ const place: { group: number; limb: number } | undefined = crowd.find(Flag.BAD_I
 const arm: BodyGroup = { joints: { shoulder: 1, elbow: 2, wrist: 3 }, features: Feature.WITH_HAND, onBadInput: OnBadInput.REST_POSE };
 const skeleton = { parents: [-1, 0, 1, 2], translations: new Float32Array(12) };
 const bodies: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], form: PoseForm.MATRIX_ROWS, space: PoseSpace.IN_BODY });
-const near: Float32Array[] = [bodies.pose('rotations'), bodies.pose('rootPosition'), bodies.positions(Field.TARGET)];
-const far: Float64Array[] = [swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], rootIsDouble: true }).pose('rootPosition')];
+const plant: Plant = { ...defaultPlant, lock: 0.1, speed: [0.5, 0.7] }, fit: Fit = { drop: 0.2 }, shift: FitGroup = { fit, onBadInput: OnBadInput.KEEP_POSE };
+const standing: Bodies = swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, plant }, shift], up: [0, 0, 1] });
+const support: Support = { position: new Float64Array(3), rotation: [0, 0, 0, 1] };
+standing.changeSupport(support, {}, { first: 1 });
+const near: Float32Array[] = [bodies.pose('rotations'), bodies.pose('rootPosition'), bodies.pose('supportPosition'), bodies.pose('time'), bodies.positions(Field.TARGET)];
+const far: Float64Array[] = [swivel.bodies({ skeleton, bodyCount: 3, groups: [arm], rootIsDouble: true }).pose('supportPosition')];
 export { closing, far, near, digest, flags, place, shoulders, solved, SwivelError };
 
 // @ts-expect-error: features are BigInts
@@ -39,4 +43,6 @@ crowd.write(Field.POLE, [0, 0, 0], 1);
 bodies.pose('rotation');
 // @ts-expect-error: limbs of bodies are as many as these
 swivel.bodies({ skeleton, bodyCount: 3, groups: [{ limbCount: 3 }] });
+// @ts-expect-error: plants have no such constant
+swivel.bodies({ skeleton, bodyCount: 3, groups: [{ ...arm, plant: { look: 1 } }] });
 export { floats };

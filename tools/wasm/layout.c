@@ -14,9 +14,14 @@
 #define OFFSET(structure, name) printf(" %s: %zu,", #name, offsetof(structure, name))
 #define BEGIN(structure) printf("    %s: { bytes: %zu,", #structure, sizeof(structure))
 #define END() printf(" },\n")
+#define CONSTANT(of, name) printf("    %s: %g,\n", #name, (double)of.name)
+#define PAIR(of, name) printf("    %s: [%g, %g],\n", #name, (double)of.name[0], (double)of.name[1])
 
 _Static_assert(sizeof(swivel_frame_field) == 12, "rows.ts writes it as three words");
 _Static_assert(sizeof(swivel_joint_values) == 16, "bodies.ts writes it as four words");
+_Static_assert(sizeof(swivel_supports) == 16, "bodies.ts writes it as four words");
+_Static_assert(sizeof(swivel_plant) == 11 * sizeof(float), "groups.ts writes it as floats");
+_Static_assert(sizeof(swivel_fit) == 4 * sizeof(float), "groups.ts writes it as floats");
 
 static void print_features(void)
 {
@@ -78,6 +83,19 @@ static void print_enumerations(void)
     printf("} as const;\n");
 }
 
+/* As short as the header has them; they become floats again. */
+static void print_constants(void)
+{
+    const swivel_plant plant = swivel_default_plant();
+    const swivel_fit fit = swivel_default_fit();
+    printf("\nexport const defaultPlant = {\n");
+    CONSTANT(plant, lock), CONSTANT(plant, unlock), CONSTANT(plant, stop), CONSTANT(plant, blend);
+    CONSTANT(plant, again), CONSTANT(plant, run), CONSTANT(plant, longest), PAIR(plant, speed), PAIR(plant, height);
+    printf("} as const;\n\nexport const defaultFit = {\n");
+    CONSTANT(fit, drop), CONSTANT(fit, rise), CONSTANT(fit, half), CONSTANT(fit, ahead);
+    printf("} as const;\n");
+}
+
 static void print_structures(void)
 {
     printf("\n// In bytes: the size of each structure, and where its members start.\nexport const layout = {\n");
@@ -102,10 +120,11 @@ static void print_structures(void)
     BEGIN(swivel_group_def), OFFSET(swivel_group_def, size), OFFSET(swivel_group_def, features);
     OFFSET(swivel_group_def, limb_count), OFFSET(swivel_group_def, on_bad_input);
     OFFSET(swivel_group_def, shoulder_order), OFFSET(swivel_group_def, wrist_order);
-    OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), END();
+    OFFSET(swivel_group_def, binding), OFFSET(swivel_group_def, joints), OFFSET(swivel_group_def, plant);
+    OFFSET(swivel_group_def, fit), END();
     BEGIN(swivel_crowd_def), OFFSET(swivel_crowd_def, size), OFFSET(swivel_crowd_def, group_count);
     OFFSET(swivel_crowd_def, workspace_count), OFFSET(swivel_crowd_def, groups);
-    OFFSET(swivel_crowd_def, skeleton), OFFSET(swivel_crowd_def, body_count), END();
+    OFFSET(swivel_crowd_def, skeleton), OFFSET(swivel_crowd_def, body_count), OFFSET(swivel_crowd_def, up), END();
     BEGIN(swivel_job), OFFSET(swivel_job, size), OFFSET(swivel_job, blocks), OFFSET(swivel_job, groups);
     OFFSET(swivel_job, group_word_count), OFFSET(swivel_job, mask), OFFSET(swivel_job, mask_word_count);
     OFFSET(swivel_job, limbs), OFFSET(swivel_job, priorities), OFFSET(swivel_job, urgency);
@@ -117,7 +136,8 @@ static void print_structures(void)
     OFFSET(swivel_pose, rotations), OFFSET(swivel_pose, translations), OFFSET(swivel_pose, scales);
     OFFSET(swivel_pose, results), OFFSET(swivel_pose, root_position), OFFSET(swivel_pose, root_rotation);
     OFFSET(swivel_pose, root_scale), OFFSET(swivel_pose, space), OFFSET(swivel_pose, translation_results);
-    OFFSET(swivel_pose, joint_rotations), OFFSET(swivel_pose, joint_places), END();
+    OFFSET(swivel_pose, joint_rotations), OFFSET(swivel_pose, joint_places), OFFSET(swivel_pose, time);
+    OFFSET(swivel_pose, support_position), OFFSET(swivel_pose, support_rotation), END();
     printf("} as const;\n\nexport const LANES = %d;\nexport const MOST_TWIST_BONES = %d;\n", SWIVEL_LANES,
            SWIVEL_MOST_TWIST_BONES);
     printf("export const ENTITY_COUNT = %d;\n", SWIVEL_ENTITY_COUNT);
@@ -133,5 +153,6 @@ int main(void)
     print_fields();
     print_flags();
     print_enumerations();
+    print_constants();
     print_structures();
 }

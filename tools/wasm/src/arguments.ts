@@ -29,6 +29,12 @@ export function whole(name: string, number: number, most = 0xffffffff): number {
     return number;
 }
 
+/** One number. */
+export function real(name: string, number: number): number {
+    if (typeof number !== "number") refuse(`${name} is ${shown(number)}; give a number`);
+    return number;
+}
+
 /** An array of numbers, of the given length if there is one. */
 export function numbers(name: string, values: Numbers, count = values?.length): Numbers {
     if (typeof values !== "object" || typeof values?.length !== "number") refuse(`${name} is ${shown(values)}; give an array of numbers`);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
 // Crowds of bodies. Their poses lie in swivel's own memory, where solves read and write them.
-import { FieldNumber, nameOf, options, refuse, shown } from "./arguments.js";
+import { FieldNumber, nameOf, Numbers, numbers, options, refuse, shown } from "./arguments.js";
 import { Crowd } from "./crowd.js";
-import { BodyGroup, bodyGroups, SharedSkeleton } from "./groups.js";
-import { layout, PoseForm, PoseSpace } from "./layout.js";
-import { Memory, Structure } from "./memory.js";
+import { BodyGroup, bodyGroups, FitGroup, SharedSkeleton } from "./groups.js";
+import { carried, layout, PoseForm, PoseSpace } from "./layout.js";
+import { Borrowed, Memory, Structure } from "./memory.js";
 import { copyOf, inBody, Rest, rotationOf, valueOf } from "./rest.js";
-import { isPosition } from "./rows.js";
+import { isPosition, Limbs } from "./rows.js";
 
 export interface BodiesOptions extends SharedSkeleton {
-    /** Each is one limb of every body. */
-    groups: readonly BodyGroup[];
-    /** Of groups that give none of their own. */
+    /** Each is one limb of every body, or its shift. */
+    groups: readonly (BodyGroup | FitGroup)[];
+    /** Of groups of limbs that give none of their own. */
     features?: bigint;
     /** What the rotations of poses are, from PoseForm. Left out: ROTATIONS. */
     form?: number;
@@ -25,9 +25,12 @@ export interface BodiesOptions extends SharedSkeleton {
 interface Part {
     /** Of swivel_pose. */
     member: keyof typeof layout.swivel_pose;
-    /** What a joint starts with, or the root. */
+    /** What a joint starts with, or a body. */
     start: (rest: Rest, joint: number) => number[];
-    isRoot?: boolean;
+    /** A body has one, not each of its joints. */
+    isBodys?: boolean;
+    /** It is in doubles if the root is. */
+    isPlace?: boolean;
     /** Whether matrices hold it. */
     inMatrices?: boolean;
 }
@@ -40,9 +43,12 @@ const parts = named({
     translationResults: { member: "translation_results", start: translationOf, inMatrices: true },
     jointRotations: { member: "joint_rotations", start: () => [NaN, NaN, NaN, NaN] },
     jointPlaces: { member: "joint_places", start: () => [NaN, NaN, NaN] },
-    rootPosition: { member: "root_position", start: () => [0, 0, 0], isRoot: true },
-    rootRotation: { member: "root_rotation", start: () => [0, 0, 0, 1], isRoot: true },
-    rootScale: { member: "root_scale", start: () => [1], isRoot: true },
+    rootPosition: { member: "root_position", start: () => [0, 0, 0], isBodys: true, isPlace: true },
+    rootRotation: { member: "root_rotation", start: () => [0, 0, 0, 1], isBodys: true },
+    rootScale: { member: "root_scale", start: () => [1], isBodys: true },
+    time: { member: "time", start: () => [0], isBodys: true },
+    supportPosition: { member: "support_position", start: () => [0, 0, 0], isBodys: true, isPlace: true },
+    supportRotation: { member: "support_rotation", start: () => [0, 0, 0, 1], isBodys: true },
 });
 /**
  * A part of poses, as swivel_pose. Each joint has a rotation relative to its parent: x, y, z, w, or by the form 12 numbers of a matrix, of
@@ -50,8 +56,19 @@ const parts = named({
  *
  * Solves write jointRotations, x, y, z, w, and jointPlaces: where the joints that some limb needs are then, relative to the root. Those of
  * others stay NaN. In the body's space they also write translations, or translationResults if these are asked for.
+ *
+ * Planted limbs and shifts need time: the seconds since each body's last solve. supportPosition and supportRotation are of what planted
+ * points stand on, in the world.
  */
 export type PosePart = keyof typeof parts;
+
+/** What planted points of some bodies stand on: one for all, or one for each. Left out: the world's origin, not turned. */
+export interface Support {
+    /** Three numbers, which are doubles. */
+    position?: Numbers;
+    /** x, y, z, w. */
+    rotation?: Numbers;
+}
 
 function translationOf({ skeleton }: Rest, joint: number): number[] { return valueOf(skeleton.translations, 3, joint); }
 
@@ -65,11 +82,11 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
 
     /** @internal */
     constructor(memory: Memory, given: BodiesOptions) {
-        const { skeleton, bodyCount, groups, features = 0n, form = PoseForm.ROTATIONS, space = PoseSpace.LOCAL, rootIsDouble = false } =
-            options("bodies()", given, "skeleton", "bodyCount", "groups", "features", "form", "space", "rootIsDouble");
+        const { skeleton, bodyCount, groups, features = 0n, form = PoseForm.ROTATIONS, space = PoseSpace.LOCAL, rootIsDouble = false, up } =
+            options("bodies()", given, "skeleton", "bodyCount", "groups", "features", "form", "space", "rootIsDouble", "up");
         if (!Object.values<unknown>(PoseForm).includes(form)) refuse(`form is ${shown(form)}; give one of PoseForm`);
         if (!Object.values<unknown>(PoseSpace).includes(space)) refuse(`space is ${shown(space)}; give one of PoseSpace`);
-        super(memory, bodyGroups(groups, features, bodyCount), { skeleton, bodyCount });
+        super(memory, bodyGroups(groups, features, bodyCount), { skeleton, bodyCount, up });
         this.isInBody = space === PoseSpace.IN_BODY;
         this.rest = { skeleton: this.isInBody ? inBody(copyOf(skeleton)) : copyOf(skeleton), form };
         this.isDouble = Boolean(rootIsDouble);
@@ -87,11 +104,11 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
      * From the first call on, solves read it from here, and write solved joints to rotations, or to results if these are asked for. The
      * view stays valid until dispose().
      */
-    pose(part: "rootPosition"): Positions;
-    pose(part: Exclude<PosePart, "rootPosition">): Float32Array;
+    pose(part: "rootPosition" | "supportPosition"): Positions;
+    pose(part: Exclude<PosePart, "rootPosition" | "supportPosition">): Float32Array;
     pose(part: PosePart): Float32Array | Float64Array {
         if (!Object.keys(parts).includes(part)) refuse(`poses have ${Object.keys(parts).join(", ")}, not ${shown(part)}`);
-        const { member, start, isRoot, inMatrices } = parts[part], { memory, rest } = this;
+        const { member, start, isBodys, isPlace, inMatrices } = parts[part], { memory, rest } = this;
         const held = this.crowd && this.parts.get(part);
         if (held) return held;
         if (inMatrices && rest.form !== PoseForm.ROTATIONS) refuse(`the pose's matrices hold ${part}; give them there`);
@@ -99,12 +116,12 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
             if (!this.isInBody) refuse("only translations in the body's space change; give bodies() the space PoseSpace.IN_BODY");
             this.pose("translations");
         }
-        const count = isRoot ? 1 : rest.skeleton.parents.length, ofBody = Array.from({ length: count }, (_, n) => start(rest, n)).flat();
-        const bytes = this.isDouble && part === "rootPosition" ? 8 : 4, length = ofBody.length * this.limbCount();
+        const count = isBodys ? 1 : rest.skeleton.parents.length, ofBody = Array.from({ length: count }, (_, n) => start(rest, n)).flat();
+        const bytes = this.isDouble && isPlace ? 8 : 4, length = ofBody.length * this.limbCount();
         const at = this.own(bytes * length), stride = bytes * ofBody.length;
         const values = bytes === 8 ? memory.doubles(at, length) : memory.floats(at, length);
         for (let n = 0; n < length; n += ofBody.length) values.set(ofBody, n);
-        memory.words(this.posed + layout.swivel_pose[member], isRoot ? 2 : 4).set(isRoot ? [at, stride] : [at, stride, stride / count, 0]);
+        memory.words(this.posed + layout.swivel_pose[member], isBodys ? 2 : 4).set(isBodys ? [at, stride] : [at, stride, stride / count, 0]);
         this.parts.set(part, values);
         return values;
     }
@@ -121,4 +138,30 @@ export class Bodies<Positions extends Float32Array | Float64Array = Float32Array
         this.doubles[group].set(field, values);
         return values as Positions;
     }
+
+    /**
+     * Changes what planted points of a group stand on, without a jump. Both supports are as they are now. Call it between two solves, best
+     * while a foot is in the air, and give the pose's parts the new support.
+     */
+    changeSupport(was: Support, now: Support, limbs: Limbs = {}): void {
+        const { group, first, count } = this.place(limbs), { memory } = this;
+        memory.borrow((borrowed) => {
+            const [from, to] = [putSupports("was", was, count, borrowed), putSupports("now", now, count, borrowed)];
+            memory.check(memory.calls.swivel_change_support(this.crowd, group, first, count, from, to));
+        });
+        for (const field of carried) this.refresh(field, group);
+    }
+}
+
+/** Supports as swivel_supports: two streams of a place and a stride. */
+function putSupports(name: string, given: Support, count: number, borrowed: Borrowed): number {
+    const { position, rotation } = options(name, given, "position", "rotation");
+    const stream = (of: string, values: Numbers | undefined, components: number, bytes: number, put: (values: Numbers) => number): number[] => {
+        if (values === undefined) return [0, 0];
+        const { length } = numbers(`${name}.${of}`, values), isOne = length === components;
+        if (!isOne && length !== components * count)
+            refuse(`${length} numbers for ${name}.${of} of ${count} bodies; give ${components}, or ${components} for each body`);
+        return [put(values), isOne ? 0 : bytes * components];
+    };
+    return borrowed.words([...stream("position", position, 3, 8, borrowed.doubles), ...stream("rotation", rotation, 4, 4, borrowed.floats)]);
 }

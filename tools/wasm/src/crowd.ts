@@ -4,7 +4,7 @@ import { carried, EXPLANATION_BYTES } from "./layout.js";
 import type { Borrowed, Structure } from "./memory.js";
 import { CrowdRows, Limbs } from "./rows.js";
 
-export type { BodyGroup, Group, GroupOptions } from "./groups.js";
+export type { BodyGroup, Fit, FitGroup, Group, GroupOptions, Plant } from "./groups.js";
 export type { Limbs } from "./rows.js";
 
 /**
@@ -110,7 +110,7 @@ export class Crowd extends CrowdRows {
         to.words("priorities", borrowed.words(streams.flat())).words("most_blocks", whole("mostBlocks", mostBlocks as number));
     }
 
-    /** Forgets the swivels that a group with Feature.WITH_MOST_SWIVEL keeps between solves. */
+    /** Forgets what limbs carry from solve to solve: swivels, planted points and shifts. */
     reset(limbs: Limbs = {}): void {
         const { group, first, count } = this.place(limbs);
         this.memory.check(this.memory.calls.swivel_reset(this.crowd, group, first, count));

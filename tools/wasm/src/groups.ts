@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The groups of a crowd as they are given, and the library's crowd that is made of them.
-import { options, refuse, shown, whole } from "./arguments.js";
+import { Numbers, numbers, options, real, refuse, shown, whole } from "./arguments.js";
 import { Binding, LimbJoints, putJoints, putSkeleton, Skeleton } from "./binding.js";
-import { Feature, layout, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
+import { defaultFit, defaultPlant, Feature, layout, MOST_TWIST_BONES, OnBadInput } from "./layout.js";
 import { Memory, Structure } from "./memory.js";
 
 /** What groups of free limbs and of bodies have. */
@@ -24,11 +24,53 @@ export interface GroupOptions extends LimbOptions {
 }
 /** A number alone: that many limbs. */
 export type Group = number | GroupOptions;
+/**
+ * How the limbs of a group with Feature.WITH_PLANT stand, as swivel_plant: lengths in limb lengths, times in seconds. What is left out is
+ * as defaultPlant has it.
+ */
+export interface Plant {
+    /** A point locks only within this of where it is animated. */
+    lock?: number;
+    /** A locked point is released if the animation has it further away. */
+    unlock?: number;
+    /** A point that locks is at rest after this time. */
+    stop?: number;
+    /** A point that is released is with the animation again after this time. */
+    blend?: number;
+    /** Lengths a second: after a release by distance a slower point locks anew. 0: none does. */
+    again?: number;
+    /** 0: it is anchored where it locks. 1: where it would come to rest by itself. 0.5 slides least. */
+    run?: number;
+    /** A body that was not solved for longer than this starts anew. 0: none does. */
+    longest?: number;
+    /** With Feature.PLANT_BY_MOTION: lengths a second below which a contact begins, and goes on. */
+    speed?: Numbers;
+    /** The same of the height over the root, along `up`. */
+    height?: Numbers;
+}
+/** How bodies are shifted along `up`, as swivel_fit. What is left out is as defaultFit has it. */
+export interface Fit {
+    /** The most down and up, in lengths of the first limb with Feature.WITH_FIT: see Plant. */
+    drop?: number;
+    rise?: number;
+    /** Seconds in which about half of a distance is made up. */
+    half?: number;
+    /** Seconds from when on Field.COMING counts. At 0 seconds it counts whole. */
+    ahead?: number;
+}
 /** The limb of each body that has these joints. */
 export interface BodyGroup extends LimbOptions {
     /** Its features get the number of twistBones, unless they have one. */
     joints: LimbJoints;
     /** As GroupOptions'. Left out: it keeps its incoming pose. */
+    onBadInput?: number;
+    /** With Feature.WITH_PLANT. */
+    plant?: Plant;
+}
+/** The shift of each body, so that its limbs with Feature.WITH_FIT reach. It has Feature.FIT and no other, and no joints. */
+export interface FitGroup {
+    fit: Fit;
+    /** As BodyGroup's. */
     onBadInput?: number;
 }
 
@@ -36,12 +78,16 @@ export interface BodyGroup extends LimbOptions {
 export interface SharedSkeleton {
     skeleton: Skeleton;
     bodyCount: number;
+    /** The axis of heights and shifts in the root's frame, of any length but 0. Left out: +y. */
+    up?: Numbers;
 }
 
 /** A group, checked. */
 export interface CheckedGroup extends GroupOptions {
     features: bigint;
     joints?: LimbJoints;
+    plant?: Plant;
+    fit?: Fit;
 }
 
 function checkedFeatures(features: bigint): bigint {
@@ -68,27 +114,41 @@ function withTwistBones(group: CheckedGroup): CheckedGroup {
     if (group.features & (most * Feature.WITH_TWIST_BONES)) return group;
     return { ...group, features: group.features | (count < most ? count : most) * Feature.WITH_TWIST_BONES };
 }
-export function bodyGroups(groups: readonly BodyGroup[], features: bigint, bodyCount: number): CheckedGroup[] {
+function isFit(group: BodyGroup | FitGroup): group is FitGroup { return typeof group === "object" && group !== null && "fit" in group; }
+export function bodyGroups(groups: readonly (BodyGroup | FitGroup)[], features: bigint, bodyCount: number): CheckedGroup[] {
     const limbCount = whole("bodyCount", bodyCount);
     return checkedList(groups, features, "[{ joints: { shoulder: 1, elbow: 2, wrist: 3 } }]", (group) => {
-        const given = options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput");
+        const given = isFit(group) ? { ...options("a group of shifts", group, "fit", "onBadInput"), features: Feature.FIT } :
+            options("a group of bodies", group, "joints", "features", "shoulderOrder", "wristOrder", "onBadInput", "plant");
         return { ...given, onBadInput: given.onBadInput ?? OnBadInput.KEEP_POSE, limbCount };
     }).map(withTwistBones);
+}
+/** The floats of a structure of constants. */
+function constants(of: string, given: Plant | Fit, start: Record<string, number | Numbers>): number[] {
+    const all = { ...start, ...options(of, given as typeof start, ...Object.keys(start)) };
+    return Object.entries(start).flatMap(([name, usual]) => {
+        const value = all[name], member = `${of}.${name}`;
+        return typeof usual === "number" ? real(member, value as number) : Array.from(numbers(member, value as Numbers, usual.length));
+    });
 }
 
 /** Makes the library's crowd. Without a skeleton its limbs are free. */
 export function create(memory: Memory, groups: readonly CheckedGroup[], bodies?: SharedSkeleton): number {
     return memory.borrow((borrowed) => {
         const size = layout.swivel_group_def.bytes, list = borrowed.bytes(size * groups.length), crowd = borrowed.bytes(4);
-        groups.forEach(({ limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0 }, n) => {
+        groups.forEach(({ limbCount, features, binding, joints, shoulderOrder = 0, wristOrder = 0, onBadInput = 0, plant = {}, fit = {} }, n) => {
             const def = new Structure(memory, "swivel_group_def", list + n * size).wide("features", features);
             def.words("limb_count", limbCount).words("on_bad_input", whole("onBadInput", onBadInput));
             def.words("shoulder_order", whole("shoulderOrder", shoulderOrder)).words("wrist_order", whole("wristOrder", wristOrder));
             if (binding) def.copy("binding", binding.bytes);
-            if (bodies) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
+            def.floats("plant", constants("plant", plant, defaultPlant)).floats("fit", constants("fit", fit, defaultFit));
+            if (bodies && !(features & Feature.FIT)) def.words("joints", putJoints(joints as LimbJoints, borrowed).at);
         });
         const def = borrowed.structure("swivel_crowd_def").words("group_count", groups.length).words("workspace_count", 1).words("groups", list);
-        if (bodies) def.words("skeleton", putSkeleton(bodies.skeleton, borrowed).at).words("body_count", bodies.bodyCount);
+        if (bodies) {
+            def.words("skeleton", putSkeleton(bodies.skeleton, borrowed).at).words("body_count", bodies.bodyCount);
+            def.floats("up", numbers("up", bodies.up ?? [0, 1, 0], 3));
+        }
         memory.check(memory.calls.swivel_crowd_create(def.at, crowd));
         return memory.words(crowd, 1)[0];
     });

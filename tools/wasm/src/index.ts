@@ -7,9 +7,11 @@ import { Swivel } from "./swivel.js";
 export { SwivelError } from "./arguments.js";
 export type { FieldNumber, Numbers } from "./arguments.js";
 export type { Binding, Chain, LimbJoints, Skeleton } from "./binding.js";
-export type { Bodies, BodiesOptions, PosePart } from "./bodies.js";
-export type { Arc, BodyGroup, Crowd, Group, GroupOptions, JointAngles, Job, Limbs, Place } from "./crowd.js";
-export { Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION } from "./layout.js";
+export type { Bodies, BodiesOptions, PosePart, Support } from "./bodies.js";
+export type { Arc, BodyGroup, Crowd, Fit, FitGroup, Group, GroupOptions, JointAngles, Job, Limbs, Place, Plant } from "./crowd.js";
+export {
+    defaultFit, defaultPlant, Feature, featureRules, Field, Flag, LANES, MOST_TWIST_BONES, OnBadInput, Order, PoseForm, PoseSpace, Status, VERSION,
+} from "./layout.js";
 export type { LoadOptions } from "./instantiate.js";
 export type { Entity, Swivel } from "./swivel.js";
 

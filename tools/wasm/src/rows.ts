@@ -110,7 +110,7 @@ export class CrowdRows {
         return values;
     }
 
-    /** Sets an input: one value for all these limbs, or one for each. */
+    /** Sets an input, or sets back what read() gave of a result that is carried: one value for all these limbs, or one for each. */
     write(field: FieldNumber, values: Numbers, limbs: Limbs = {}): void {
         const at = this.place(limbs);
         const components = this.componentCount(field, at.group), { length } = numbers(nameOf(field), values);
