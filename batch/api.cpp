@@ -210,7 +210,7 @@ swivel_status swivel_write_doubles(swivel_crowd* crowd, swivel_field field, uint
     const Group& of = crowd->groups[group];
     if (!is_position(field))
         return fail(SWIVEL_INVALID_ARGUMENT,
-                    "group %u, %s: not a position; doubles are for target, pole and shoulder_position", group,
+                    "group %u, %s: not a position; doubles are for target, pole, shoulder_position and coming", group,
                     name_of(field));
     if (origins.data && !has_origin(of.features, field))
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u, %s: it is a direction here, which has no origin; give null",

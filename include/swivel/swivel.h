@@ -128,9 +128,8 @@ typedef enum swivel_flag {
 //   WITH_TWIST_BONES and limits of the hand need WITH_HAND. At most one of the three kinds of pole is given.
 // - WITH_AIM excludes WITH_WEIGHTS, WITH_REACH, WITH_FLEXION_LIMIT, limits of the hand, WITH_PLANT, WITH_CAP and
 //   WITH_FIT. WITH_CAP excludes WITH_REACH.
-// - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION need
-// WITH_PLANT.
-//   WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
+// - WITH_CAP needs WITH_INCOMING. What is WITH_PLANT or WITH_FIT is of bodies. WITH_PLANT_TURN and PLANT_BY_MOTION
+//   need WITH_PLANT. WITH_PLANT_TURN needs WITH_HAND, too. WITH_COMING needs WITH_FIT.
 // - HAND_YIELDS needs WITH_EFFECTOR and excludes WITH_AIM.
 // - A group that is FIT is no limb: it has none of the other features and names no joints. Calls that need a limb
 //   refuse it.
@@ -518,8 +517,8 @@ typedef enum swivel_on_bad_input {
 // world, with it that is planted, too.
 //
 // Lengths are in limb lengths: both bones of the skeleton at rest, times the root's scale. Times are in seconds.
-// Docs/howto/feet.md has pictures. The pose has the time and the support (swivel_pose). Source: our own, after D.
-// Holden, Inverse Kinematics and Foot Locking (2026).
+// The page docs/howto/feet.md has pictures. The pose has the time and the support (swivel_pose). Source: our own, after
+// D. Holden, Inverse Kinematics and Foot Locking (2026).
 typedef struct swivel_plant {
     float lock;    // it locks only within this of the animated point. A speed that is eased away adds at most as much
     float unlock;  // it is released if the animated point is further than this from it
@@ -702,11 +701,11 @@ SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field fie
 // Results depend on differences of positions only, but a float 1e7 units from the origin is good to half a unit. So
 // positions far from the origin may be given as doubles. An origin near the limb is subtracted in double before they
 // are rounded to floats. The positions of a limb (SWIVEL_TARGET, SWIVEL_POLE unless a direction,
-// SWIVEL_SHOULDER_POSITION) must be given from the same origin. Any origin within some arm lengths of the limb will do,
-// such as the character's place. A position is rounded to 6e-8 of its distance from its origin. Rotations need no
-// origin; swivel_forward()'s positions are from it, too.
+// SWIVEL_SHOULDER_POSITION and SWIVEL_COMING) must be given from the same origin. Any origin within some arm lengths of
+// the limb will do, such as the character's place. A position is rounded to 6e-8 of its distance from its origin.
+// Rotations need no origin; swivel_forward()'s positions are from it, too.
 //
-// field is one of these three. Each limb has 3 consecutive doubles, and so has its origin; stride 0 means one origin
+// field is one of these four. Each limb has 3 consecutive doubles, and so has its origin; stride 0 means one origin
 // for all. The call subtracts the origin in double, and rounds the difference once, to the nearest float. If the data
 // of origins is null, it subtracts nothing. Poles that are directions or normals have no origin and are refused with
 // one. A difference no float holds becomes infinite, and the limb gets SWIVEL_BAD_INPUT. values and origins may overlap
@@ -824,7 +823,8 @@ typedef struct swivel_pose {
     // they come; what is bad in the pose is NaN.
     swivel_joint_values joint_rotations, joint_places;
     // Of each body, for groups WITH_PLANT or FIT: the seconds since its last solve, 1 float. It must be given where one
-    // of these is solved. 0 changes nothing that has begun to be carried. Less than 0, NaN and more than 1e15 are bad input.
+    // of these is solved. 0 changes nothing that has begun to be carried. Less than 0, NaN and more than 1e15 are bad
+    // input.
     swivel_in time;
     // What planted points stand on: a platform, a ladder, or the ground. Null position: at the world's origin. Null
     // rotation: not turned. For the ground give a position near the body, such as the origin of its tile, and change it
