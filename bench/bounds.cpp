@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The bound of the ports, measured like everything else: for an arm of P, a production limb, and two stages of a body.
+// The bound of the ports, measured like everything else: for an arm of P, a production limb, two stages of a
+// body, a planted foot, and the shift of a body.
 // One loop has its roots and divisions, another its multiplications and additions. No operation waits for another. The
 // longer time is the bound.
 #include "bench/rivals/probe.h"
@@ -31,11 +32,14 @@ void add_bounds(Suite& suite)
 {
     const OpCounts production = count_production_ops();
     const BodyOps body = count_body_ops();
+    const FeetOps feet = count_feet_ops();
     for (const std::string& isa : suite.isas) {
         add_bound("bound", suite.ops, isa);
         add_bound("bound_production", production, isa);
         add_bound("bound_forward", body.forward, isa);
         add_bound("bound_limbs", body.limbs, isa);
+        add_bound("bound_plant", feet.plant, isa);
+        add_bound("bound_fit", feet.fit, isa);
     }
 }
 

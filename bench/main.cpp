@@ -94,6 +94,7 @@ int run(int argc, char** argv)
     add_limits(suite);
     add_production(suite);
     add_bodies(suite);
+    add_feet(suite);
     add_choice(suite);
     add_frames(suite);
     add_calls(suite);

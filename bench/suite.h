@@ -61,6 +61,7 @@ void add_features(Suite& suite);
 void add_limits(Suite& suite);
 void add_production(Suite& suite);
 void add_bodies(Suite& suite);
+void add_feet(Suite& suite);
 void add_choice(Suite& suite);
 void add_frames(Suite& suite);
 void add_calls(Suite& suite);

@@ -22,6 +22,7 @@ SHARES = (5, 14, 50, 100)
 NOISE = 1.03  # ratios nearer to 1 decide nothing
 CALL_GOAL = 150  # nanoseconds that a call may take beside its kernel
 BODY_GOAL = 110  # nanoseconds of a body with AVX-512
+PLANT_GOAL, FIT_GOAL = 4.5, 2  # nanoseconds of a planted leg, and of a body's shift for two legs, with AVX-512
 LOOP = "loop_trig/*"  # a goal only where the bound of the ports allows it
 # The goals of release 0.2, as ratios of two benchmarks; the first that fits a row is its goal. They were set before that release was
 # written, on 2026-11-22, by a run of the former library on a virtual EPYC (Zen 4, g++ 12.2, one thread). With AVX-512 a plain arm took
@@ -46,6 +47,10 @@ GOALS = (
     ("frame/*/in_one", "frame_bare/*", 1.3),
     ("bodies/{best}", "bound_bodies/*", 1.5),
     ("bodies/avx512", "goal_bodies/*", 1),
+    ("plant/*", "bound_plant/*", 1.5),
+    ("plant/avx512", "goal_plant/*", 1),
+    ("fit/*", "bound_fit/*", 1.5),
+    ("fit/avx512", "goal_fit/*", 1),
     ("bodies_threads/2", "bodies_processes/2", 1.11),  # 0.9 times as fast
     # itself: at most so many times as long
     ("hard/*/one_in_64", "*", 1.3),
@@ -83,11 +88,13 @@ class Result:
         self.isas = context.get("isas", "").split()
         self.best = self.isas[0] if self.isas else ""
         self.levels = {key.removeprefix("level_of/"): isa for key, isa in context.items() if key.startswith("level_of/")}
-        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs") for isa in self.isas):
+        for bound in (f"{family}/{isa}" for family in ("bound", "bound_production", "bound_forward", "bound_limbs", "bound_plant", "bound_fit")
+                      for isa in self.isas):
             parts = [self.ns(f"{bound}/{part}") for part in ("divider", "arithmetic")]
             if all(parts):  # the least time that divider and arithmetic allow
                 self.times[bound] = max(parts)
         self.add_stages_of_bodies()
+        self.add_feet()
 
     def add_stages_of_bodies(self):
         """What a body's stages take, as differences of jobs, and the sum of what bounds them."""
@@ -101,6 +108,14 @@ class Result:
                 forward, goals = (4 * one - whole) / 3, whole - from_rows
                 self.times |= {f"body_stage/{isa}/forward": forward, f"body_stage/{isa}/goals": goals,
                                f"body_stage/{isa}/limbs": whole - forward - goals}
+
+    def add_feet(self):
+        """What plants add to a leg, and a shift to a body, as differences of jobs."""
+        for isa in self.isas:
+            goals, planted, capped, fitted = (self.ns(f"feet/{isa}/{job}") for job in ("goals", "planted", "capped", "fitted"))
+            if goals and planted and capped and fitted:
+                self.times |= {f"plant/{isa}": (planted - goals) / 2, f"cap/{isa}": (capped - planted) / 2, f"fit/{isa}": fitted - capped}
+        self.times |= {"goal_plant/avx512": PLANT_GOAL, "goal_fit/avx512": FIT_GOAL}
 
     def ns(self, name):
         return self.times.get(name)
@@ -312,6 +327,17 @@ def bodies(result):
                  ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
 
 
+def feet(result):
+    """What plants and shifts add to legs that have goals anyway."""
+    rows = []
+    for isa in result.isas:
+        for own, text in (("plant", "a planted leg"), ("fit", "a shift for two legs")):
+            for other, name in (("bound", "bound of the ports"), ("goal", "the goal")):
+                rows += row(result, [f"{text}, {ISAS[isa]}"], f"{own}/{isa}", f"{other}_{own}/{isa}", name)
+    return Table("Feet: nanoseconds more than legs with goals take",
+                 ["work", "swivel", "beside it", "its time", "ratio", "goal, at most", ""], rows)
+
+
 def threads(result):
     """How many times as fast several threads are as one."""
     rows = []
@@ -344,7 +370,7 @@ def summary(result):
 
 
 TABLES = {"rivals": rivals, "limits": limits, "itself": itself, "calls": calls, "held": held, "memory": memory, "features": features,
-          "production": production, "bodies": bodies, "threads": threads, "summary": summary}
+          "production": production, "bodies": bodies, "feet": feet, "threads": threads, "summary": summary}
 
 
 def arm(result):

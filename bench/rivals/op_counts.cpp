@@ -7,7 +7,9 @@
 
 #include "bench/rivals/bodies.h"
 #include "bench/rivals/counted.h"
+#include "core/fit.h"
 #include "core/limb.h"
+#include "core/plant.h"
 #include "core/posed_limb.h"
 #include "core/solve_arm.h"
 #include "core/space.h"
@@ -149,6 +151,43 @@ BodyOps count_body_ops()
     tally = {};
     for (const BodyChain& chain : kBodyChains) count_body_limb(frames, chain);
     ops.limbs = tally;
+    return ops;
+}
+
+FeetOps count_feet_ops()
+{
+    const auto no = [] { return Counted(0.0) < Counted(0.0); };
+    const swivel::PlantRules rules{0.12f, 0.24f, 0.06f, 0, 0.1f, 0.2f, 0.017f, 3.6f, 4, 10, 10, 0.6f, 0.8f, 0.1f, 0.1f};
+    const Rotor<Counted> foot = rotor(0.1, 0.05, -0.1, 0.98867);
+    swivel::PlantState<Counted> state{
+        vector(0.1, 0, 0.2), vector(0.01, 0, 0.02), vector(0.1, 0, 0.1), Counted(0.15), no(), no(), no(), no()};
+    FeetOps ops;
+    tally = {};
+    const swivel::Vector<Counted> place = vector(0.1, 0.9, 0.1) +
+                                          Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1)),
+                                  from = vector(1, 0, 2);
+    const swivel::PlantInput<Counted> in{place + from, no(), Counted(1.0 / 60), Counted(0.85) * Counted(1.1)};
+    const swivel::Planted<Counted> planted = swivel::plant(state, in, rules);
+    swivel::len2(planted.target - from);
+    ops.plant = tally;
+
+    tally = {};
+    swivel::ShiftSpan<Counted> span{Counted(-1.0), Counted(1.0), Counted(0.0) <= Counted(0.0)};
+    const swivel::Vector<Counted> up = swivel::turned(foot, vector(0, 1, 0));
+    for (int leg = 0; leg < 2; ++leg) {
+        const swivel::Vector<Counted> upper = vector(0.1, -0.4, 0.1), fore = vector(0, -0.4, -0.1),
+                                      from_wrist = Counted(1.1) * swivel::turned(foot, vector(0, -0.05, 0.1));
+        const Counted bones = sqrt(swivel::len2(upper)) + sqrt(swivel::len2(fore));
+        const swivel::Cap<Counted> cap{Counted(0.01), Counted(0.0), Counted(0.0), sqrt(swivel::len2(upper + fore))};
+        const Counted reach = swivel::capped_reach(cap, bones, bones).far;
+        span = span & swivel::shift_span(from_wrist + vector(0.1, 0.8, 0.1) - vector(0, 0.1, 0), up, reach);
+    }
+    const auto fitted = swivel::fitted_shift(span, Counted(0.0), Counted(0.08), Counted(0.04));
+    const auto spring =
+        swivel::sprung(swivel::Spring<Counted>{Counted(0.01), Counted(0.1)}, fitted.shift, Counted(1.0 / 60), 0.1f);
+    const swivel::Vector<Counted> shift = spring.at * up;
+    swivel::len2(shift);
+    ops.fit = tally;
     return ops;
 }
 

@@ -29,6 +29,12 @@ struct BodyOps {
     OpCounts forward, limbs;
 };
 BodyOps count_body_ops();
+// Those of a foot that stands on a support that is not turned, between two changes; and of a body's shift for two
+// capped legs.
+struct FeetOps {
+    OpCounts plant, fit;
+};
+FeetOps count_feet_ops();
 
 // The least nanoseconds an arm for a kernel with these operations. The divider works on one root or division at a time.
 // All other operations share the multipliers and adders. Comparisons, selects, loads and stores count as free.
