@@ -30,6 +30,7 @@ swivel_features random_features(Random& random, swivel_features left_out)
     if (features & SWIVEL_WITH_FIT) may(SWIVEL_WITH_COMING);
     may(SWIVEL_WITH_HAND);
     if (features & SWIVEL_WITH_HAND) may(SWIVEL_WITH_EFFECTOR);
+    if (features & SWIVEL_WITH_EFFECTOR) may(SWIVEL_HAND_YIELDS);
     if (random.below(4) == 0) return features;
     features |= SWIVEL_WITH_PLANT;
     may(SWIVEL_PLANT_BY_MOTION);

@@ -73,7 +73,7 @@ constexpr Recipe standing(const char* name, std::uint64_t seed, std::uint32_t fe
     return {Part::standing, name, seed, kPlant | features, 0, Order::zyx, Order::xzy, Form::rotations, kRoots | pose};
 }
 constexpr Recipe kStanding[] = {
-    standing("feet", 0x2b8f6b1ddc2f4a93u, kPoleIncoming | kCap | kFit | kComing, 0),
+    standing("feet", 0x2b8f6b1ddc2f4a93u, kHand | kEffector | kYields | kPoleIncoming | kCap | kFit | kComing, 0),
     standing("feet-by-motion", 0xe17c0e39a5b64d08u, kPoleIncoming | kByMotion | kCap | kFit, kFar | kSupports),
     standing("palms", 0x94d3a7f0167be25cu, kHand | kEffector | kPlantTurn | kPoleIncoming | kStep | kWeights,
              kTranslations | kSupports | kRests),

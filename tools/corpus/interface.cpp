@@ -47,6 +47,7 @@ constexpr FeatureName kFeatures[] = {
     {kCap, SWIVEL_WITH_CAP},
     {kFit, SWIVEL_WITH_FIT},
     {kComing, SWIVEL_WITH_COMING},
+    {kYields, SWIVEL_HAND_YIELDS},
 };
 
 struct FieldName {

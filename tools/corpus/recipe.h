@@ -49,6 +49,7 @@ enum Feature : std::uint32_t {
     kCap = 1u << 27,
     kFit = 1u << 28,  // and a group more, which is the shift
     kComing = 1u << 29,
+    kYields = 1u << 30,
 };
 
 // Random numbers of a field depend on its number here.
