@@ -30,15 +30,15 @@ void add_jumps(std::uint64_t seed, double per_second, Jumps& most)
     PlantedPoint<float> point(rules_of(plant));
     RandomLabels labels;
     Vector3d x[3] = {}, y[3] = {};
-    double h[3] = {}, t = 0;
+    double time[3] = {}, t = 0;
     bool was_cut = false;
     for (int n = 0; t < 10; ++n) {
         for (auto* of : {x, y}) of[0] = of[1], of[1] = of[2];
-        h[1] = h[2], h[2] = jittered(random, per_second), t += h[2];
+        time[1] = time[2], time[2] = jittered(random, per_second), t += time[2];
         x[2] = way.place(t);
-        y[2] = point.step(x[2], labels.next(random, h[2]), h[2], kLeg);
+        y[2] = point.step(x[2], labels.next(random, time[2]), time[2], kLeg);
         const auto jump = [&](const Vector3d(&of)[3]) {
-            return ((of[2] - of[1]) / h[2] - (of[1] - of[0]) / h[1]).norm();
+            return ((of[2] - of[1]) / time[2] - (of[1] - of[0]) / time[1]).norm();
         };
         if (n >= 2) most.input = std::max(most.input, jump(x));
         if (n >= 2 && !was_cut && !point.last.cut) most.target = std::max(most.target, jump(y));
