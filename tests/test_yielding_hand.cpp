@@ -13,7 +13,7 @@ namespace {
 using namespace swivel;
 using namespace swivel::test;
 
-constexpr std::uint32_t kLimbs = 64;
+constexpr std::uint32_t kYieldingLimbs = 64;
 constexpr swivel_features kHand = SWIVEL_WITH_HAND | SWIVEL_WITH_EFFECTOR;
 
 struct Goals {
@@ -24,7 +24,7 @@ struct Goals {
 Goals random_goals(Random& random)
 {
     Goals goals;
-    for (std::uint32_t n = 0; n < kLimbs; ++n) {
+    for (std::uint32_t n = 0; n < kYieldingLimbs; ++n) {
         goals.targets.push_back(floats(Vector3d(random.between(0.05, 4) * random.direction())));
         goals.poles.push_back(floats(random.direction()));
         goals.effectors.push_back(floats(Vector3d(random.between(0.05, 0.6) * random.direction())));
@@ -50,7 +50,7 @@ struct Results {
 };
 Results solved(const Goals& goals, swivel_features features)
 {
-    Crowd crowd = crowd_of(kHand | SWIVEL_WITH_REACH | features, kLimbs);
+    Crowd crowd = crowd_of(kHand | SWIVEL_WITH_REACH | features, kYieldingLimbs);
     crowd.write(SWIVEL_TARGET, 0, goals.targets);
     crowd.write(SWIVEL_POLE, 0, goals.poles);
     crowd.write(SWIVEL_EFFECTOR, 0, goals.effectors);
@@ -74,7 +74,7 @@ TEST_CASE("a hand yields where its wrist does not get to its place, and there al
         RC_ASSERT(stiff.shoulders == yielding.shoulders);
         RC_ASSERT(stiff.elbows == yielding.elbows);
         RC_ASSERT(stiff.flags == yielding.flags);
-        for (std::size_t n = 0; n < kLimbs; ++n) {
+        for (std::size_t n = 0; n < kYieldingLimbs; ++n) {
             if (yielding.flags[n] & SWIVEL_REACHED) {
                 RC_ASSERT(stiff.wrists[n] == yielding.wrists[n]);
                 continue;

@@ -15,7 +15,7 @@ namespace {
 
 struct FeatureName {
     Feature feature;
-    std::uint32_t library;
+    swivel_features library;
 };
 constexpr FeatureName kFeatures[] = {
     {kWorld, SWIVEL_WORLD},
