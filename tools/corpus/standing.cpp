@@ -33,11 +33,18 @@ void take_nearer_sign(const std::array<float, 4>& from, std::array<float, 4>& to
     for (float& x : to) x = dot < 0 ? -x : x;
 }
 
+// The number as a float holds it. g++ 12 leaves the rounding out of pairs of numbers, unless the float is volatile.
+double as_float(double x)
+{
+    const volatile float rounded = static_cast<float>(x);
+    return double{rounded};
+}
+
 Vector root_of(const Recipe& recipe, const Body& body)
 {
     const auto& [x, y, z] = body.root_position;
     if (recipe.pose & kFar) return {x, y, z};
-    return {double{static_cast<float>(x)}, double{static_cast<float>(y)}, double{static_cast<float>(z)}};
+    return {as_float(x), as_float(y), as_float(z)};
 }
 
 Vector random_vector(Random& random, double size)
@@ -173,7 +180,7 @@ Support Standing::support_of(std::uint32_t n, std::uint32_t k, double swing) con
     const Vector place = root_of(recipe_, mover.from) + mover.supports[k] + swing * mover.support_ways[k];
     Support support{{place.x, place.y, place.z}, {}};
     if (!(recipe_.pose & kFar))
-        for (double& x : support.position) x = double{static_cast<float>(x)};
+        for (double& x : support.position) x = as_float(x);
     put_between(mover.support_rotations[k][0], mover.support_rotations[k][1], swing, support.rotation.data());
     return support;
 }
