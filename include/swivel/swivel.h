@@ -335,8 +335,8 @@ typedef enum swivel_field {
     // keep poses: then the scale is NaN where the pose is bad. Frames that a limb keeps do not get it.
     SWIVEL_RECORD,
     // 11, WITH_PLANT: how the point stands, in the support's frame. Its anchor while it is locked, otherwise the last
-    // animated place, 3; the offset that fades, 3, and its velocity, 3; the seconds until it is gone; and 0 before the
-    // first solve, else 8, plus 1 if locked, 2 if the next label locks it, 4 if it was just released.
+    // animated place, 3. The offset that fades, 3, and its velocity, 3. The seconds until it is gone. Last a number: 0
+    // before the first solve, else 8, plus 1 if locked, 2 if the next label locks it, 4 if it was just released.
     SWIVEL_PLANT,
     // 10, WITH_PLANT_TURN: the same of the rotation: a quaternion, 4, then offset, 3, and velocity, 3, of the axis
     // times
