@@ -65,6 +65,10 @@ swivel_status check_plant(std::uint32_t g, const swivel_plant& plant)
                                                   {"speed[0]", plant.speed[0], kMost},
                                                   {"speed[1]", plant.speed[1], kMost}});
     if (status != SWIVEL_OK) return status;
+    if (plant.unlock < plant.lock)
+        return fail(SWIVEL_INVALID_ARGUMENT,
+                    "group %u, plant.unlock is %g, less than plant.lock, %g; let it be no less", g,
+                    double(plant.unlock), double(plant.lock));
     for (const float height : plant.height)
         if (!(std::fabs(height) <= kMost))
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u, plant.height is %g; it is -%g to %g", g, double(height),

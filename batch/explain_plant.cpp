@@ -222,12 +222,11 @@ void explain_shift(const Group& group, std::uint32_t limb, Text& text)
     text.add("The body is shifted by %.4g along up, at %.4g a second.", shift[0], shift[1]);
     const swivel_fit& fit = group.limb.fit;
     if (flags & SWIVEL_REACHED)
-        text.add(" All limbs that count reach from its goal");
+        text.add(" All limbs that count reach from where it goes.");
     else
-        text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach: its goal",
-                 double{fit.drop}, double{fit.rise});
-    if (wish[0] != 0) text.add(", the nearest to the wish of %.4g", wish[0]);
-    text.add(".");
+        text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach.", double{fit.drop},
+                 double{fit.rise});
+    if (wish[0] != 0) text.add(" The wish is %.4g.", wish[0]);
 }
 
 }  // namespace swivel

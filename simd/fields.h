@@ -173,7 +173,7 @@ constexpr FieldRow kFields[] = {
     input(SWIVEL_CLAVICLE, "clavicle", SWIVEL_WITH_CLAVICLE, "a place no further than 1e15 and a share of 0 to 1",
           {0, 0, 0, 0}),
     but_not(SWIVEL_PLANT_BY_MOTION, input(SWIVEL_CONTACT, "contact", SWIVEL_WITH_PLANT, "0 to 1", {0})),
-    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, "0 to 1 each", {0.01f, 0, 0}),
+    input(SWIVEL_CAP, "cap", SWIVEL_WITH_CAP, "0 to 1 each", {0.01f, 0.9f, 0}),
     input(SWIVEL_FIT_WEIGHT, "fit_weight", SWIVEL_WITH_FIT, "0 to 1", {1}),
     place(SWIVEL_COMING, "coming", SWIVEL_WITH_COMING, 0, {0, 0, 0}, Start::neutral),
     input(SWIVEL_COMING_TIME, "coming_time", SWIVEL_WITH_COMING, "0 to 1e15", {1e15f}),

@@ -288,7 +288,7 @@ struct StageBody<Stage::span> {
         ShiftSpan<T> is = span & asks(target, wish.weight);
         if (s.has(SWIVEL_WITH_COMING)) {
             const T near = hi(T(1) - wish.time * T(limb.per_ahead), T(0));
-            is = is & asks(wish.coming - root, wish.weight * (near * near));
+            is = is & asks(wish.coming - root, near * near);
         }
         s.require(is_posed(s) & wish.is_valid() & (len2(target) <= T(kHuge2)) & (len2(from_wrist) <= T(kHuge2)));
         const Mask<T> counts = lanes_where<T>(s.good());  // bad input asks for nothing
@@ -332,7 +332,7 @@ struct StageBody<Stage::fit> {
         const Rotor<T> root = s.body_rotor(kRootJoint + kTurnRow);
         const T length = T(limb.rest_length) * s.body_row(kRootJoint + kScaleRow);
         s.require(is_within(wish, -kHuge, kHuge) & is_within(time, 0, kHuge) & is_within(len2(root), 0.99, 1.01) &
-                  is_within(length, kTiny, kHuge));
+                  (len2(s.body_vector(kRootRow)) <= T(kHuge2)) & is_within(length, kTiny, kHuge));
         const ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
         const FittedShift<T> fitted = fitted_shift(span, wish, T(limb.fit.drop) * length, T(limb.fit.rise) * length);
         const Spring<T> was{s.io.load_result(SWIVEL_SHIFT, 0), s.io.load_result(SWIVEL_SHIFT, 1)};

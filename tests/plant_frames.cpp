@@ -42,7 +42,7 @@ swivel_plant random_plant(Random& random)
 {
     swivel_plant plant = swivel_default_plant();
     const auto number = [&](double most) { return static_cast<float>(random.between(0, most)); };
-    plant.lock = number(2), plant.unlock = number(2);
+    plant.lock = number(2), plant.unlock = plant.lock + number(2);
     plant.stop = number(0.2), plant.blend = number(0.2), plant.run = number(1);
     plant.again = number(4), plant.longest = random.below(2) ? 0.5f : 0;
     plant.speed[0] = plant.speed[1] = number(20);

@@ -219,7 +219,7 @@ void stand(const CallInputs& in, Record& to)
     swivel_group_def groups[] = {swivel_default_body_group_def(&joints), swivel_default_fit_group_def()};
     groups[0].features = SWIVEL_POLE_INCOMING | SWIVEL_WITH_HAND | SWIVEL_WITH_PLANT | SWIVEL_WITH_PLANT_TURN |
                          SWIVEL_WITH_CAP | SWIVEL_WITH_FIT;
-    groups[0].plant.lock = std::fabs(in.values[0]);
+    groups[0].plant.lock = groups[0].plant.unlock = std::fabs(in.values[0]);
     swivel_crowd_def def = swivel_default_crowd_def();
     def.groups = groups, def.group_count = 2;
     def.skeleton = &skeleton, def.body_count = 1;

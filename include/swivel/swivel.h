@@ -284,17 +284,17 @@ typedef enum swivel_field {
     SWIVEL_CONTACT,
     // 3, WITH_CAP: how far the limb may reach, in shares of both bones' length, each 0..1. It reaches as far as the
     // incoming pose has it, or least if that is more, and margin beyond. So no limb gets straighter than animated by
-    // more than that. An eased zone starts where the margin does, and is at least zone wide. The order is margin,
-    // least,
-    // zone. The start is 0.01, 0, 0.
+    // more than that. An eased zone starts where the margin does, and is at least zone wide. In the order
+    // margin, least, zone. They start as 0.01, 0.9, 0: legs that are animated bent may still stretch far enough to
+    // stand.
     SWIVEL_CAP,
-    // 1, WITH_FIT: how much the limb counts, 0..1. At 0 it does not, at 1 it must reach.
+    // 1, WITH_FIT: how much the limb's goal counts, 0..1. At 0 it does not. At 1, as at the start, it must reach.
     SWIVEL_FIT_WEIGHT,
     // 3, WITH_COMING: where the wrist or effector goes next, such as a swinging foot's next step, in the space of the
     // target.
     SWIVEL_COMING,
-    // 1, WITH_COMING: the seconds until then, 0 or more. It counts the more the nearer it is: see swivel_fit. At the
-    // start 1e15, so it does not.
+    // 1, WITH_COMING: the seconds until then, 0 or more. It counts the more the nearer it is, whatever the weight: see
+    // swivel_fit. At the start 1e15, so it does not. Write that for a foot that stands.
     SWIVEL_COMING_TIME,
     // 1, FIT: the shift that is wished for, at most 1e15 either way; 0 at the start.
     SWIVEL_SHIFT_WISH,
@@ -521,7 +521,7 @@ typedef enum swivel_on_bad_input {
 // D. Holden, Inverse Kinematics and Foot Locking (2026).
 typedef struct swivel_plant {
     float lock;    // it locks only within this of the animated point. A speed that is eased away adds at most as much
-    float unlock;  // it is released if the animated point is further than this from it
+    float unlock;  // it is released if the animated point is further than this from it; no less than lock
     float stop;    // a point that locks is at rest after this time
     float blend;   // a point that is released is with the animation again after this time
     float again;   // limb lengths a second: after a release by distance it locks anew if it is slower; 0: never so
@@ -1105,8 +1105,9 @@ SWIVEL_API float swivel_unpack_half(uint16_t word);
 // SWIVEL_PLANT_TURN, which are in the support's frame, become those of the new one. Call it between two solves, and
 // give the next pose the new support. Both supports as they are now; how they move against each other is not known
 // here, so a point that fades does so in the new one. Best change it while a foot is in the air. first is the group's
-// first limb, that is body. Positions are 3 doubles, rotations x, y, z, w as floats of any length. Null positions: the
-// origin; null rotations: not turned. Fails for groups without WITH_PLANT. No allocation.
+// first limb, that is body. Positions are 3 doubles, also where the pose's are floats. Rotations are x, y, z, w as
+// floats of any length. Null positions: the origin; null rotations: not turned. Fails for groups without WITH_PLANT. No
+// allocation.
 typedef struct swivel_supports {
     swivel_in position, rotation;
 } swivel_supports;
