@@ -62,6 +62,13 @@ private:
     }
 };
 
+// Whether a limb carries anything.
+bool has_begun(const Group& group, std::uint32_t limb)
+{
+    const std::uint32_t state = field_first_row(group.features, SWIVEL_PLANT) + 10;
+    return group.results[row_offset(limb, group.result_row_count, state)] != 0;
+}
+
 swivel_status check_supports(std::uint32_t limb_count, const swivel_supports& supports)
 {
     struct Values {
@@ -109,6 +116,7 @@ swivel_status swivel_change_support(swivel_crowd* crowd, uint32_t group, uint32_
             return sandwich(~is.rotation, sandwich(was.rotation, v) + (was.position - is.position));
         };
         const std::uint32_t limb = first + n;
+        if (!has_begun(of, limb)) continue;
         Carried(of, limb, SWIVEL_PLANT, 0).change(place);
         Carried(of, limb, SWIVEL_PLANT, 3).change(along);
         Carried(of, limb, SWIVEL_PLANT, 6).change(along);

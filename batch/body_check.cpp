@@ -85,20 +85,20 @@ swivel_status check_fit(std::uint32_t g, const swivel_fit& fit)
 // Limbs that are to fit and what shifts the body for them go together.
 swivel_status check_fits(const swivel_crowd_def& def)
 {
-    std::uint32_t shifts = 0, limbs = 0, last = 0;
+    std::uint32_t shifts = 0, limbs = 0, shift = 0, limb = 0;  // how many, and the last of each
     for (std::uint32_t g = 0; g < def.group_count; ++g) {
         const swivel_features features = group_at(def, g).features;
         if (features & SWIVEL_FIT && ++shifts > 1)
             return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, and group %u too; a body has one shift", g,
-                        last);
-        if (features & (SWIVEL_FIT | SWIVEL_WITH_FIT)) last = g;
-        limbs += (features & SWIVEL_WITH_FIT) != 0;
+                        shift);
+        if (features & SWIVEL_FIT) shift = g;
+        if (features & SWIVEL_WITH_FIT) limb = g, ++limbs;
     }
     if (shifts == 1 && limbs == 0)
         return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_FIT, but no limb is SWIVEL_WITH_FIT; add it to one",
-                    last);
+                    shift);
     if (shifts == 0 && limbs > 0)
-        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_FIT, but no group is SWIVEL_FIT; add one", last);
+        return fail(SWIVEL_INVALID_ARGUMENT, "group %u is SWIVEL_WITH_FIT, but no group is SWIVEL_FIT; add one", limb);
     const double length2 =
         double(def.up[0]) * def.up[0] + double(def.up[1]) * def.up[1] + double(def.up[2]) * def.up[2];
     if (!(length2 >= kTiny2 && length2 <= kHuge2))

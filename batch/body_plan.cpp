@@ -191,7 +191,8 @@ void plan_plant(const swivel_crowd_def& def, const swivel_group_def& group, Body
     const Vector<double> up = normalise(vector<double>(def.up[0], def.up[1], def.up[2]));
     for (std::size_t c = 0; c < 3; ++c) limb.up[c] = static_cast<float>(up.c[c]);
     limb.rules = plant_rules(group.plant);
-    limb.fit = group.fit;
+    limb.drop = group.fit.drop, limb.rise = group.fit.rise;
+    limb.spring = spring_rule(group.fit.half);
     if (group.features & SWIVEL_WITH_COMING) {
         const float ahead = first_with(def, SWIVEL_FIT).fit.ahead;
         limb.per_ahead = static_cast<float>(std::min(1 / double(ahead), kLongest));

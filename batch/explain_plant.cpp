@@ -88,7 +88,8 @@ struct Planted {
         offset = plant.length(3, 3);
         left = plant[9];
         is_moving = is_fading() && plant.length(3, 6) > 0;
-        bits = static_cast<unsigned>(plant[10]);
+        const double number = plant[10];  // anybody may have written it
+        bits = number >= 0 && number < 16 ? static_cast<unsigned>(number) : 0;
     }
     bool is(Bit bit) const { return bits & bit; }
     bool is_fading() const { return left > kShortestTime; }
@@ -130,9 +131,10 @@ struct PlantedLimb {
     {
         if (by_distance)
             text.add(
-                "It broke away, though in contact: the animated point is %.4g from where it stood, %.3g limb lengths, "
-                "and may be no further than unlock, %.3g.",
-                state.offset, share(state.offset), double{rules.unlock});
+                "It broke away, though in contact: the animated point was further from where it was locked than "
+                "unlock, "
+                "%.3g limb lengths. It is %.4g from where the point is now.",
+                double{rules.unlock}, state.offset);
         else
             text.add("It was just released, because its contact ended: the animated point is %.4g from it.",
                      state.offset);
@@ -220,12 +222,11 @@ void explain_shift(const Group& group, std::uint32_t limb, Text& text)
             "The shift stays as it was.");
     if (shift[2] == 0) return text.add("It was reset: the next solve shifts the body at once.");
     text.add("The body is shifted by %.4g along up, at %.4g a second.", shift[0], shift[1]);
-    const swivel_fit& fit = group.limb.fit;
     if (flags & SWIVEL_REACHED)
         text.add(" All limbs that count reach from where it goes.");
     else
-        text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach.", double{fit.drop},
-                 double{fit.rise});
+        text.add(" No shift from %.3g limb lengths down to %.3g up lets all limbs that count reach.",
+                 double{group.limb.drop}, double{group.limb.rise});
     if (wish[0] != 0) text.add(" The wish is %.4g.", wish[0]);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/arm.h"
+#include "core/plant_rules.h"
 
 namespace swivel::inline SWIVEL_ISA {
 
@@ -64,15 +65,12 @@ SWIVEL_INLINE constexpr FittedShift<T> fitted_shift(const ShiftSpan<T>& span, co
     return {shift, all_reach};
 }
 
-inline constexpr double kShortestHalf = 1e-4;  // s
-
 // A critically damped spring.
 template <class T>
 struct Spring {
     T at, rate;
 };
 // exp(-x) for x from 0 to kSettled: (1 + y + y^2/2 + y^3/6 + y^4/24)^-4 with y = x/4.
-inline constexpr double kSettled = 60;  // beyond it a spring rests, but for rounding
 template <class T>
 SWIVEL_INLINE constexpr T falling(const T& x)
 {
@@ -80,12 +78,10 @@ SWIVEL_INLINE constexpr T falling(const T& x)
     const T e = T(1) / (T(1) + y * (T(1) + y * (T(0.5) + y * (T(1.0 / 6) + y * T(1.0 / 24)))));
     return (e * e) * (e * e);
 }
-// half: the time in which half of a distance from rest is made up.
 template <class T>
-SWIVEL_INLINE constexpr Spring<T> sprung(const Spring<T>& s, const T& goal, const T& time, float half)
+SWIVEL_INLINE constexpr Spring<T> sprung(const Spring<T>& s, const T& goal, const T& time, const SpringRule& rule)
 {
-    const double per_time = 1.678347 / (half > kShortestHalf ? double(half) : kShortestHalf);  // (1 + x) exp(-x) = 1/2
-    const T stiffness = T(per_time), t = lo(time, T(kSettled / per_time));
+    const T stiffness = T(rule.stiffness), t = lo(time, T(rule.longest));
     const T share = falling(stiffness * t), way = s.at - goal, push = s.rate + stiffness * way;
     return {goal + (way + push * t) * share, (s.rate - stiffness * push * t) * share};
 }

@@ -39,8 +39,9 @@ SWIVEL_INLINE constexpr T incoming_reach(const Rotor<T>& elbow, const ArmGoal<T>
     return sqrt(len2(Vector<T>(arm.upper * e3 + arm.fore * sandwich(elbow, e3))));
 }
 
-// The farthest that a cap lets a limb reach, and how wide the eased zone before it is. The zone begins where the
-// incoming limb is, so a target no farther than that is met. most: what the bones allow. length: of both bones.
+// The farthest that a cap lets a limb reach, and how wide the eased zone before it is. Where the zone is no
+// wider than the margin, it begins where the incoming limb is, so a target no farther than that is met. most: what the
+// bones allow. length: of both bones.
 template <class T>
 struct CappedReach {
     T far, zone;

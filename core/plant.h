@@ -54,14 +54,15 @@ SWIVEL_INLINE constexpr Vector<T> at_most(const Vector<T>& v, const T& most, con
     return select(is_longer, (most / sqrt(select(is_longer, length2, T(1)))) * v, v);
 }
 
-// A step of the cubic that brings both to zero in the time that is left.
+// A step of the cubic that brings both to zero in the time that is left. Where time stands still no bit changes.
 template <class T>
 SWIVEL_INLINE constexpr void fade(Vector<T>& offset, Vector<T>& velocity, const PlantStep<T>& step)
 {
     const T u = step.share, rest = T(1) - u;
     const Vector<T> to = (rest * rest) * ((T(1) + u + u) * offset + (u * step.left) * velocity);
-    velocity = rest * ((T(1) - T(3) * u) * velocity - (T(6) * u * step.per_left) * offset);
-    offset = to;
+    const Vector<T> fast = rest * ((T(1) - T(3) * u) * velocity - (T(6) * u * step.per_left) * offset);
+    velocity = select(step.moves, fast, velocity);
+    offset = select(step.moves, to, offset);
 }
 
 // A point that was not stepped for too long starts anew.

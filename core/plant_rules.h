@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the limbs of a group that plants share, made from its swivel_plant.
+// What the limbs of a group that plants share, made from its swivel_plant; and how the shift of a body is eased.
 #pragma once
 
 namespace swivel {
@@ -15,5 +15,18 @@ struct PlantRules {
     float speed_on, speed_off, height_on, height_off;
 };
 inline constexpr double kShortestTime = 1e-6;  // s: a shorter one to stop or to fade is none
+
+inline constexpr double kShortestHalf = 1e-4;  // s
+inline constexpr double kSettled = 60;         // stiffness times time, after which a spring rests, but for rounding
+// Constants of a spring that makes up half of a distance from rest in the time `half`: its stiffness, 1/s, and the
+// longest step, after which it rests.
+struct SpringRule {
+    float stiffness, longest;
+};
+constexpr SpringRule spring_rule(float half)
+{
+    const double stiffness = 1.678347 / (half > kShortestHalf ? double(half) : kShortestHalf);  // (1 + x) exp(-x) = 1/2
+    return {static_cast<float>(stiffness), static_cast<float>(kSettled / stiffness)};
+}
 
 }  // namespace swivel

@@ -44,7 +44,7 @@ SWIVEL_INLINE constexpr Rotor<T> plant_turn(TurnState<T>& s, const PlantStep<T>&
     velocity = select(step.fades, at_most(velocity - speed, T(rules.turn_out), step.fades, cut), velocity);
     fade(offset, velocity, step);
     const Rotor<T> target = unit_rotation(from_half_tangent(offset) * select(was_locked, mark, is));
-    // Locked ahead by at most 19 degrees.
+    // Locked ahead by at most 37 degrees, at run 1.
     const Vector<T> entry = select(step.fresh, none, at_most(speed + velocity, T(rules.turn_in), step.locks, cut));
     const Vector<T> ahead = T(rules.ahead) * entry;
     s.mark = select(step.locks, unit_rotation(from_half_tangent(ahead) * target),

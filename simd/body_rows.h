@@ -91,7 +91,8 @@ struct BodyLimb {
     float rest_length;   // of both bones at rest, where rules have shares of it; of a shift of the first limb's
     float per_ahead;     // 1/s, of the crowd's fit
     PlantRules rules;    // where it is planted
-    swivel_fit fit;      // where it is a shift
+    float drop, rise;    // where it is a shift: in limb lengths
+    SpringRule spring;   // the same
 
     // The rows of what carries the arm frame to the parents of elbow and wrist.
     std::uint32_t elbow_parent_row() const

@@ -126,8 +126,8 @@ SWIVEL_INLINE AnimatedHand<typename S::T> animated_hand(const S& s)
         is.point =
             is.point + s.body_row(limb.parent + kScaleRow) * turned(is.rotation, s.io.load_vector(SWIVEL_EFFECTOR));
     const Vector<T> target = s.io.load_vector(SWIVEL_TARGET);
-    const T sum = target.template at<kE1>() + target.template at<kE2>() + target.template at<kE3>();
-    if (const Mask<T> is_given = sum == sum; any(is_given))
+    const T distance2 = len2(target);
+    if (const Mask<T> is_given = distance2 == distance2; any(is_given))
         is.point = select(is_given, target - s.body_vector(kRootRow), is.point);
     if (s.has(SWIVEL_WITH_HAND)) {
         const Rotor<T> hand = s.io.load_rotor(SWIVEL_HAND);
@@ -285,7 +285,8 @@ struct StageBody<Stage::span> {
             return counted(shift_span(shoulder + from_wrist - place, up, reach), share);
         };
         ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
-        ShiftSpan<T> is = span & asks(target, wish.weight);
+        const T weight = s.has(SWIVEL_WITH_WEIGHTS) ? wish.weight * s.io.load(SWIVEL_WEIGHTS, 0) : wish.weight;
+        ShiftSpan<T> is = span & asks(target, weight);
         if (s.has(SWIVEL_WITH_COMING)) {
             const T near = hi(T(1) - wish.time * T(limb.per_ahead), T(0));
             is = is & asks(wish.coming - root, near * near);
@@ -334,10 +335,11 @@ struct StageBody<Stage::fit> {
         s.require(is_within(wish, -kHuge, kHuge) & is_within(time, 0, kHuge) & is_within(len2(root), 0.99, 1.01) &
                   (len2(s.body_vector(kRootRow)) <= T(kHuge2)) & is_within(length, kTiny, kHuge));
         const ShiftSpan<T> span{s.body_row(kSpanRow), s.body_row(kSpanRow + 1), s.body_row(kSpanRow + 2) > T(0.5)};
-        const FittedShift<T> fitted = fitted_shift(span, wish, T(limb.fit.drop) * length, T(limb.fit.rise) * length);
+        const FittedShift<T> fitted = fitted_shift(span, wish, T(limb.drop) * length, T(limb.rise) * length);
         const Spring<T> was{s.io.load_result(SWIVEL_SHIFT, 0), s.io.load_result(SWIVEL_SHIFT, 1)};
-        const Mask<T> begun = s.io.load_result(SWIVEL_SHIFT, 2) > T(0.5), stands = time == T(0);
-        const Spring<T> next = sprung(was, fitted.shift, time, limb.fit.half);
+        const Mask<T> is_number = (was.at == was.at) & (was.rate == was.rate), stands = time == T(0),
+                      begun = (s.io.load_result(SWIVEL_SHIFT, 2) > T(0.5)) & is_number;
+        const Spring<T> next = sprung(was, fitted.shift, time, limb.spring);
         const T at = select(begun, select(stands, was.at, next.at), fitted.shift),
                 rate = select(begun, select(stands, was.rate, next.rate), T(0));
         s.require(is_within(at, -kHuge, kHuge) & (rate == rate));
@@ -346,15 +348,17 @@ struct StageBody<Stage::fit> {
         out.store(SWIVEL_SHIFT, 0, at);
         out.store(SWIVEL_SHIFT, 1, rate);
         out.store(SWIVEL_SHIFT, 2, T(1));
-        Rows<T, kTold> all = s.io;
+        Rows<T, kTold> all = s.io, cleared = s.io;
         all.chosen = s.chosen() == S::kEvery ? kEveryLane : s.chosen();
+        cleared.chosen = s.strip.run.keeps ? 0 : s.chosen() & ~s.good();
+        if (cleared.chosen != 0) cleared.store_vector(SWIVEL_SHIFT, vector(T(0), T(0), T(0)));
         const Mask<T> valid = lanes_where<T>(s.good());
         all.store(
             SWIVEL_FLAGS, 0,
             select(valid,
                    bits_where(fitted.all_reach, SWIVEL_REACHED) | bits_where(!fitted.all_reach, SWIVEL_CLAMPED_FAR),
                    bits<T>(SWIVEL_BAD_INPUT)));
-        const Vector<T> shift = select(valid, at, was.at) * up_of(s);
+        const Vector<T> shift = select(valid, at, select(begun, was.at, T(0))) * up_of(s);
         s.set_body_vector(kShiftedRow, shift);
         s.set_body_vector(kRootRow, s.body_vector(kRootRow) + shift);
     }

@@ -53,8 +53,8 @@ inline constexpr swivel_features kLineFeatures = SWIVEL_WITH_SHOULDER_CONE | SWI
 inline constexpr swivel_features kBoxFeatures = SWIVEL_WITH_SHOULDER_BOX | SWIVEL_WITH_WRIST_BOX;
 
 // What moves a limb even where its weights ask for nothing.
-inline constexpr swivel_features kBoundingFeatures =
-    kLineFeatures | kBoxFeatures | SWIVEL_WITH_FLEXION_LIMIT | SWIVEL_WITH_REACH | SWIVEL_WITH_MOST_SWIVEL;
+inline constexpr swivel_features kBoundingFeatures = kLineFeatures | kBoxFeatures | SWIVEL_WITH_FLEXION_LIMIT |
+                                                     SWIVEL_WITH_REACH | SWIVEL_WITH_CAP | SWIVEL_WITH_MOST_SWIVEL;
 
 // All groups of a body prepare before the first is solved.
 enum class Pass : std::uint8_t { prepare, solve };

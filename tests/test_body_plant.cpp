@@ -93,7 +93,7 @@ TEST_CASE("a planted limb is where it is sent, and stands still on its support")
                 const Vector3d stands = stage.on_support(n, mark_of(crowd, g, n));
                 const double off = 2e-7 * (stage.roots[n] - stage.support_place(n)).norm();
                 REQUIRE((point + stage.roots[n] - stands).norm() <= bound + off);
-                if (turns && (bits[10] != 0)) {
+                if (turns) {
                     const auto turn = value_of<std::array<float, 10>>(crowd, SWIVEL_PLANT_TURN, g, n);
                     const Quaterniond mark = quat({turn[0], turn[1], turn[2], turn[3]});
                     REQUIRE(hand.angularDistance(quat(stage.support_turns[n]).normalized() * mark) <= 3e-6);

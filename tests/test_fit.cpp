@@ -156,8 +156,8 @@ TEST_CASE("a shift is eased as a critically damped spring")
             const double time = static_cast<float>(random.between(0.7, 1) / per_second);
             t += time;
             want = exact(want, 1, time, 0.1);
-            is = sprung(is, 1.0, time, 0.1f);
-            rounded = sprung(rounded, 1.0f, static_cast<float>(time), 0.1f);
+            is = sprung(is, 1.0, time, spring_rule(0.1f));
+            rounded = sprung(rounded, 1.0f, static_cast<float>(time), spring_rule(0.1f));
             error = std::max(error, std::fabs(is.at - want.at));
             float_error = std::max(float_error, std::fabs(double{rounded.at} - want.at));
             REQUIRE((is.at >= last && is.at <= 1 + 1e-15 && is.rate >= -1e-15));
@@ -176,7 +176,7 @@ TEST_CASE("no step is so long that the spring overshoots")
     for (const float half : {0.0f, 1e-3f, 0.1f, 1000.0f})
         for (const float goal : {1.0f, 2e15f})
             for (double time = 1e-6; time <= 1e15; time *= 1.7) {
-                const Spring<float> is = sprung(Spring<float>{0, 0}, goal, static_cast<float>(time), half);
+                const Spring<float> is = sprung(Spring<float>{0, 0}, goal, static_cast<float>(time), spring_rule(half));
                 INFO("half " << half << ", time " << time);
                 REQUIRE((is.at >= -5e-7f * goal && is.at <= goal && is.rate >= 0));
                 REQUIRE((time < 100 * std::max(double{half}, kShortestHalf) || is.at == goal));

@@ -121,6 +121,8 @@ bool is_either(const Rotor<float>& a, const Rotor<float>& b)
 // Limbs that the corpus does not have.
 constexpr corpus::Recipe kCapped[] = {
     {corpus::Part::limbs, "cap", 0x3b1f6f3a51c0d9e7u, corpus::kIncoming | corpus::kCap},
+    {corpus::Part::limbs, "yields", 0x51d7c0a2e94b83f6u,
+     corpus::kHand | corpus::kEffector | corpus::kReach | corpus::kYields},
     {corpus::Part::limbs, "cap-limits", 0x8e5c02d74fa9b316u,
      corpus::kIncoming | corpus::kHand | corpus::kWeights | corpus::kFlexion | corpus::kStep | corpus::kCap}};
 

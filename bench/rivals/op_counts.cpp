@@ -183,8 +183,8 @@ FeetOps count_feet_ops()
         span = span & swivel::shift_span(from_wrist + vector(0.1, 0.8, 0.1) - vector(0, 0.1, 0), up, reach);
     }
     const auto fitted = swivel::fitted_shift(span, Counted(0.0), Counted(0.08), Counted(0.04));
-    const auto spring =
-        swivel::sprung(swivel::Spring<Counted>{Counted(0.01), Counted(0.1)}, fitted.shift, Counted(1.0 / 60), 0.1f);
+    const auto spring = swivel::sprung(swivel::Spring<Counted>{Counted(0.01), Counted(0.1)}, fitted.shift,
+                                       Counted(1.0 / 60), swivel::spring_rule(0.1f));
     const swivel::Vector<Counted> shift = spring.at * up;
     swivel::len2(shift);
     ops.fit = tally;

@@ -419,5 +419,5 @@ TEST_CASE("docs: why a foot slid")
     }
     REQUIRE(log.size() == 6);  // both feet of three
     CHECK(
-        log[0].starts_with("It broke away, though in contact: the animated point is"));
+        log[0].starts_with("It broke away, though in contact: the animated point was further"));
 }

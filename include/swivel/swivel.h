@@ -284,9 +284,9 @@ typedef enum swivel_field {
     SWIVEL_CONTACT,
     // 3, WITH_CAP: how far the limb may reach, in shares of both bones' length, each 0..1. It reaches as far as the
     // incoming pose has it, or least if that is more, and margin beyond. So no limb gets straighter than animated by
-    // more than that. An eased zone starts where the margin does, and is at least zone wide. In the order
-    // margin, least, zone. They start as 0.01, 0.9, 0: legs that are animated bent may still stretch far enough to
-    // stand.
+    // more than that. An eased zone as wide as the margin, or zone if that is more, lies before the
+    // end. So a zone wider than the margin eases what the incoming pose reaches, too. In the order margin, least, zone.
+    // They start as 0.01, 0.9, 0: legs that are animated bent may still stretch far enough to stand.
     SWIVEL_CAP,
     // 1, WITH_FIT: how much the limb's goal counts, 0..1. At 0 it does not. At 1, as at the start, it must reach.
     SWIVEL_FIT_WEIGHT,
@@ -339,14 +339,12 @@ typedef enum swivel_field {
     // before the first solve, else 8, plus 1 if locked, 2 if the next label locks it, 4 if it was just released.
     SWIVEL_PLANT,
     // 10, WITH_PLANT_TURN: the same of the rotation: a quaternion, 4, then offset, 3, and velocity, 3, of the axis
-    // times
-    // the tangent of half the angle.
+    // times the tangent of half the angle.
     SWIVEL_PLANT_TURN,
     // 4, PLANT_BY_MOTION: the point's last animated place in the support's frame, 3, and 1 if it was in contact.
     SWIVEL_MOTION,
     // 7, WITH_PLANT and WITH_RECORD: where the point was sent, 3, in the space of the target, and the hand's rotation
-    // in
-    // the world, 4.
+    // in the world, 4.
     SWIVEL_GOAL,
     // 3, FIT: the shift of the body along the crowd's axis `up`, in the world's unit; its rate a second; and 1 once it
     // has begun.
@@ -539,11 +537,14 @@ static inline swivel_plant swivel_default_plant(void)
 }
 
 // How a group with SWIVEL_FIT shifts a body along the crowd's axis `up`, such as the pelvis of a character, so that its
-// limbs WITH_FIT reach. The shift is the nearest to the wish from which all do. Where there is none, all are as far out
-// of reach. It is eased by a critically damped spring. The group's flags are REACHED where some shift within drop
-// and rise lets all limbs that count reach, and CLAMPED_FAR where none does. Limbs are solved for a root that is
-// shifted. The result SWIVEL_SHIFT says by how much: add it to the root's place along `up`, or to that of the pelvis.
-// Places of joints are from the shifted root. Limbs are of two bones; legs of more are not fitted.
+// limbs WITH_FIT reach. The shift is the nearest to the wish from which all do. Where there is none, it is the middle
+// between those that conflict. It is eased by a critically damped spring. The group's flags are REACHED where some
+// shift within drop and rise lets all limbs that count reach, and CLAMPED_FAR where none does. Limbs are solved for a
+// root that is shifted. The result SWIVEL_SHIFT says by how much: add it to the root's place along `up`, or to that of
+// the pelvis. Places of joints are from the shifted root. Solve the group together with all limbs of its bodies: a job
+// that leaves it out solves them for a root that is not shifted, and one that leaves limbs out does not know what they
+// ask for. What counts is the reach of bones and cap; a flexion limit narrower than that may still keep a limb short.
+// Limbs are of two bones; legs of more are not fitted.
 typedef struct swivel_fit {
     float drop, rise;  // the most down and up, in limb lengths of the first group WITH_FIT: see swivel_plant
     float half;        // s: the time in which about half of a distance is made up
@@ -690,7 +691,8 @@ SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group);
 
 // swivel_write() copies a field of limb_count limbs of one group from the caller's strided data; swivel_read() copies
 // it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write
-// takes input fields and those that are carried, to set back what was read before. read takes any. Values must not
+// takes input fields and those that are carried, to set back what was read before; a NaN there stays until
+// swivel_reset(). read takes any. Values must not
 // overlap the crowd's own memory. Copying all fields takes up to about as long as a solve, less while the values are in
 // cache. Writing to rows needs no copy, and a solve with frames fetches each value once.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
