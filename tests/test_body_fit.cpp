@@ -254,7 +254,7 @@ TEST_CASE("a coming target is prepared for the nearer it is")
     std::vector<double> last(stage.bodies.body_count);
     int shifted_count = 0;
     for (const float time : {0.31f, 0.3f, 0.2f, 0.1f, 0.0f}) {
-        for (std::uint32_t g = 1; g <= 3; ++g) crowd.write_all(SWIVEL_COMING_TIME, g, time);
+        for (std::uint32_t g = 1; g <= 3; ++g) crowd.write_all(SWIVEL_COMING_TIME, g, g == 1 ? time : 1e15f);
         check(swivel_reset(crowd.get(), 0, 0, stage.bodies.body_count));
         stage.solve(crowd, 0);
         const double near = std::max(0.0, 1 - double{time} / stage.fit.ahead);

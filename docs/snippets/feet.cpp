@@ -418,6 +418,6 @@ TEST_CASE("docs: why a foot slid")
         // [end]
     }
     REQUIRE(log.size() == 6);  // both feet of three
-    CHECK(
-        log[0].starts_with("It broke away, though in contact: the animated point was further"));
+    CHECK(log[0].starts_with(
+        "It broke away, though in contact: the animated point was further"));
 }

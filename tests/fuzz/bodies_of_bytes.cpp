@@ -65,6 +65,7 @@ void BodyDef::take_constants(Bytes& bytes)
                        number(2),
                        {number(4), number(4)},
                        {number(2) - 1, number(2) - 1}};
+        group.plant.unlock += group.plant.lock;  // which it is no less than
         group.fit = {number(1), number(1), number(0.4f), number(1)};
     }
     for (float& x : up) x = number(2) - 1;
