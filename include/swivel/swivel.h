@@ -541,10 +541,10 @@ static inline swivel_plant swivel_default_plant(void)
 // between those that conflict. It is eased by a critically damped spring. The group's flags are REACHED where some
 // shift within drop and rise lets all limbs that count reach, and CLAMPED_FAR where none does. Limbs are solved for a
 // root that is shifted. The result SWIVEL_SHIFT says by how much: add it to the root's place along `up`, or to that of
-// the pelvis. Places of joints are from the shifted root. Solve the group together with all limbs of its bodies: a job
-// that leaves it out solves them for a root that is not shifted, and one that leaves limbs out does not know what they
-// ask for. What counts is the reach of bones and cap; a flexion limit narrower than that may still keep a limb short.
-// Limbs are of two bones; legs of more are not fitted.
+// the pelvis. Places of joints are from the shifted root. Solve the group together with all limbs of its bodies. A job
+// without the group solves them for a root that is not shifted. A job without some limbs does not know what these ask
+// for. What counts is the reach of bones and cap; a flexion limit narrower than that may still keep a limb short. Limbs
+// are of two bones; legs of more are not fitted.
 typedef struct swivel_fit {
     float drop, rise;  // the most down and up, in limb lengths of the first group WITH_FIT: see swivel_plant
     float half;        // s: the time in which about half of a distance is made up
@@ -690,11 +690,11 @@ SWIVEL_API swivel_rows swivel_input_rows(swivel_crowd* crowd, uint32_t group);
 SWIVEL_API swivel_rows swivel_result_rows(swivel_crowd* crowd, uint32_t group);
 
 // swivel_write() copies a field of limb_count limbs of one group from the caller's strided data; swivel_read() copies
-// it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group. write
-// takes input fields and those that are carried, to set back what was read before; a NaN there stays until
-// swivel_reset(). read takes any. Values must not
-// overlap the crowd's own memory. Copying all fields takes up to about as long as a solve, less while the values are in
-// cache. Writing to rows needs no copy, and a solve with frames fetches each value once.
+// it back. Each limb has consecutive floats, a uint32_t for SWIVEL_FLAGS. first is counted within the group.
+// swivel_write() takes inputs, and what is carried, so that a saved state can be set back. A NaN in what is carried
+// stays until swivel_reset(). swivel_read() takes any field. Values must not overlap the crowd's own memory. Copying
+// all fields takes up to about as long as a solve, less while the values are in cache. Writing to rows needs no copy,
+// and a solve with frames fetches each value once.
 SWIVEL_API swivel_status swivel_write(swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
                                       uint32_t limb_count, swivel_in values);
 SWIVEL_API swivel_status swivel_read(const swivel_crowd* crowd, swivel_field field, uint32_t group, uint32_t first,
